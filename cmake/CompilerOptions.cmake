@@ -1,0 +1,31 @@
+# One place for language level, warnings, sanitizers and the flags that keep results reproducible.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+find_program(PLUMBLINE_CCACHE ccache)
+if(PLUMBLINE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${PLUMBLINE_CCACHE}")
+endif()
+
+# Interface target: every own target links it. No -ffast-math (it breaks Eigen 3.4 with GCC 12), no
+# contraction to FMA (Debug and Release agree), 16-byte Eigen alignment (ABI of the system libraries).
+add_library(plumbline_flags INTERFACE)
+target_compile_options(plumbline_flags INTERFACE -ffp-contract=off)
+target_compile_definitions(plumbline_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+if(PLUMBLINE_MARCH)
+  target_compile_options(plumbline_flags INTERFACE -march=${PLUMBLINE_MARCH})
+endif()
+if(PLUMBLINE_SANITIZE)
+  target_compile_options(plumbline_flags INTERFACE -fsanitize=${PLUMBLINE_SANITIZE}
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(plumbline_flags INTERFACE -fsanitize=${PLUMBLINE_SANITIZE})
+endif()
+
+add_library(plumbline_warnings INTERFACE)
+target_compile_options(plumbline_warnings INTERFACE
+                       -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Woverloaded-virtual)
+if(PLUMBLINE_WERROR)
+  target_compile_options(plumbline_warnings INTERFACE -Werror)
+endif()

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+namespace plumbline {
+
+// A number that names one object of one kind; ids of different kinds do not mix. Ordered, so that
+// containers keyed by id iterate in the same order in every run.
+template <class Tag>
+struct Id {
+  std::int64_t value = -1;
+
+  friend auto operator<=>(const Id&, const Id&) = default;
+  bool valid() const { return value >= 0; }
+};
+
+using FrameId = Id<struct FrameTag>;        // index of an input frame
+using KeyFrameId = Id<struct KeyFrameTag>;  // order of creation
+using PointId = Id<struct PointTag>;
+using LineId = Id<struct LineTag>;
+using MapId = Id<struct MapTag>;
+
+}  // namespace plumbline
+
+template <class Tag>
+struct std::hash<plumbline::Id<Tag>> {
+  std::size_t operator()(const plumbline::Id<Tag>& id) const noexcept {
+    return std::hash<std::int64_t>()(id.value);
+  }
+};

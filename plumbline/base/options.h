@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <type_traits>
+
+namespace plumbline {
+
+// Options are plain structs. Beside each struct stands one function template
+//
+//   template <class Visitor>
+//   void VisitFields(Visitor&& visit, LocalBaOptions& o) {
+//     visit("max_iterations", o.max_iterations, "iterations per solve", Range{1, 1000});
+//     visit("huber_px", o.huber_px, "Huber threshold of a residual [px]", Range{0, 100});
+//   }
+//
+// which is the single source of the option's key, help text and allowed range: YAML reading, --set,
+// `plumbline config` and checks all come from it (options_io.h). A nested group is visited as
+// visit("ba", o.ba, "local bundle adjustment"). Field types: bool, int, double, std::string, enums.
+// For an enum E, a function found by ADL lists the names in the order shown to users:
+//
+//   constexpr auto EnumNames(std::type_identity<E>) {
+//     return std::array{std::pair{E::kFirst, "first"}, std::pair{E::kSecond, "second"}};
+//   }
+
+// Closed interval of allowed values.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+
+struct FieldProbe {
+  template <class... Args>
+  void operator()(Args&&...) const {}
+};
+
+template <class T>
+concept OptionGroup = requires(T& t, FieldProbe probe) { VisitFields(probe, t); };
+
+}  // namespace plumbline

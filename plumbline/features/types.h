@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/segment.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A 256-bit binary descriptor: ORB for points, LBD for lines.
+using Descriptor = std::array<std::uint64_t, 4>;
+
+inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
+  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
+         std::popcount(a[3] ^ b[3]);
+}
+
+// A corner in the rectified image. Position in pixels of the full-size image whatever the octave.
+struct PointFeature {
+  Eigen::Vector2d px = Eigen::Vector2d::Zero();
+  double sigma_px = 1;  // standard deviation of each coordinate (grows with the octave)
+  double angle = 0;     // orientation, radians
+  double response = 0;
+  int octave = 0;
+  Descriptor descriptor{};
+};
+
+// A straight edge in the rectified image, directed so that the brighter side is on its left in image
+// coordinates seen with y down (the same physical edge keeps its direction from image to image).
+struct LineFeature {
+  Segment2 segment;
+  double sigma_px = 1;  // standard deviation of each end point across the line
+  double response = 0;  // mean gradient magnitude along the line
+  int octave = 0;
+  Descriptor descriptor{};
+};
+
+// The same line in the right image (real, or virtual from a depth image), directed as the left one.
+struct RightLine {
+  Segment2 segment;
+  double sigma_px = 1;  // of each end point across the line
+};
+
+// Everything measured in one rectified frame. The vectors of one kind have equal length.
+struct Features {
+  std::vector<PointFeature> points;
+  std::vector<std::optional<Disparity>> point_disparity;
+  std::vector<LineFeature> lines;
+  std::vector<std::optional<RightLine>> line_right;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// left.x - right.x of a point in a rectified pair, measured in the right image or computed from a depth
+// image, with its standard deviation.
+struct Disparity {
+  double px = 0;
+  double sigma_px = 1;
+};
+
+// The camera that all stages behind rectification see: an ideal pinhole, and beside it a second,
+// equal one displaced by `baseline` along +x (right camera of a rectified pair). For RGB-D images the
+// right camera is virtual: depth z is carried as the disparity fx * baseline / z.
+//
+// Camera frame: x right, y down, z forward. Pixel centres at integer coordinates. Lengths in metres.
+struct RectifiedCamera {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  double baseline = 0;  // 0: monocular
+  int width = 0, height = 0;
+
+  // Pixel of a point with z > 0 (not checked).
+  Eigen::Vector2d Project(const Eigen::Vector3d& p) const {
+    return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
+  }
+  // Ray through a pixel, z = 1.
+  Eigen::Vector3d Unproject(const Eigen::Vector2d& px) const {
+    return {(px.x() - cx) / fx, (px.y() - cy) / fy, 1.0};
+  }
+  double DisparityFromDepth(double z) const { return fx * baseline / z; }
+  double DepthFromDisparity(double disparity) const { return fx * baseline / disparity; }
+  bool Contains(const Eigen::Vector2d& px, double border = 0) const {
+    return px.x() >= border && px.y() >= border && px.x() <= width - 1 - border &&
+           px.y() <= height - 1 - border;
+  }
+  // Image line of a Plücker moment in the camera frame, l = (K-line matrix of eq. 8) m, not scaled.
+  Eigen::Vector3d ProjectMoment(const Eigen::Vector3d& m) const {
+    return {fy * m.x(), fx * m.y(), -fy * cx * m.x() - fx * cy * m.y() + fx * fy * m.z()};
+  }
+};
+
+}  // namespace plumbline

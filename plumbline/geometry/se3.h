@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+// [v]x, the matrix with [v]x w = v x w.
+inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+// Rotation by the angle |w| (radians) about the axis w. Accurate for all |w|, also near 0.
+Eigen::Quaterniond ExpSo3(const Eigen::Vector3d& w);
+
+// Inverse of ExpSo3 with |result| <= pi.
+Eigen::Vector3d LogSo3(const Eigen::Quaterniond& q);
+
+// Left Jacobian of SO(3): Exp(w + dw) = Exp(LeftJacobianSo3(w) dw) Exp(w) to first order.
+Eigen::Matrix3d LeftJacobianSo3(const Eigen::Vector3d& w);
+Eigen::Matrix3d InverseLeftJacobianSo3(const Eigen::Vector3d& w);
+
+// A rigid motion b_from_a: p_b = rotation * p_a + translation. The seven numbers are contiguous in
+// memory: [qx qy qz qw tx ty tz], starting at rotation.coeffs().data().
+//
+// Perturbations are from the left with the rotation first: exp([w, v]) * T (errata E1, eq. 20).
+struct Rigid3 {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return rotation * point + translation;
+  }
+  Rigid3 operator*(const Rigid3& a_from_x) const {
+    return {(rotation * a_from_x.rotation).normalized(),
+            rotation * a_from_x.translation + translation};
+  }
+  Eigen::Matrix4d Matrix() const;
+};
+
+inline Rigid3 Inverse(const Rigid3& b_from_a) {
+  const Eigen::Quaterniond inverse = b_from_a.rotation.conjugate();
+  return {inverse, -(inverse * b_from_a.translation)};
+}
+
+// Exponential map of se(3); tangent = [rotation(3), translation(3)].
+Rigid3 ExpSe3(const Vector6d& tangent);
+Vector6d LogSe3(const Rigid3& motion);
+
+// exp(tangent) * motion, the update of all pose optimization here.
+inline Rigid3 RetractLeft(const Rigid3& motion, const Vector6d& tangent) {
+  return ExpSe3(tangent) * motion;
+}
+
+// Left Jacobian of SE(3) for tangent = [rotation, translation], and its inverse.
+Matrix6d LeftJacobianSe3(const Vector6d& tangent);
+Matrix6d InverseLeftJacobianSe3(const Vector6d& tangent);
+
+// Adjoint: T exp(x) T^-1 = exp(Adjoint(T) x).
+Matrix6d Adjoint(const Rigid3& motion);
+
+// The motion a fraction s in [0, 1] of the way from a to b: slerp of the rotation, straight line of
+// the translation.
+Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s);
+
+// Angle of the rotation between two orientations, radians in [0, pi].
+double AngularDistance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);
+
+}  // namespace plumbline

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A straight piece of a line with two end points. Segment2: pixels; Segment3: metres.
+template <int kDim>
+struct Segment {
+  using Vector = Eigen::Matrix<double, kDim, 1>;
+  Vector start = Vector::Zero();
+  Vector end = Vector::Zero();
+
+  double Length() const { return (end - start).norm(); }
+  Vector Direction() const { return (end - start).normalized(); }
+  Vector Midpoint() const { return 0.5 * (start + end); }
+  Segment Reversed() const { return {end, start}; }
+};
+
+using Segment2 = Segment<2>;
+using Segment3 = Segment<3>;
+
+// The infinite image line through a segment, l = (a, b, c) with a^2 + b^2 = 1, so that
+// l . (x, y, 1) is the signed distance of a pixel from the line. (a, b) is the direction turned by
+// +90 degrees in image coordinates (x right, y down). Undefined for a segment of zero length.
+Eigen::Vector3d LineThrough(const Segment2& segment);
+
+// Signed distance of a pixel from a line l scaled to a^2 + b^2 = 1.
+inline double LineDistance(const Eigen::Vector3d& line, const Eigen::Vector2d& px) {
+  return line.x() * px.x() + line.y() * px.y() + line.z();
+}
+
+// Unsigned angle between two undirected image lines, radians in [0, pi/2].
+double UndirectedAngle(const Eigen::Vector2d& direction1, const Eigen::Vector2d& direction2);
+
+// Length of the part of `reference` that the orthogonal projection of `other` onto it covers,
+// divided by the length of the shorter of the two; 0 when disjoint, up to 1.
+double OverlapRatio(const Segment2& reference, const Segment2& other);
+
+}  // namespace plumbline

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+// An image of one channel, rows top to bottom without padding. A value: copies copy the pixels.
+template <class T>
+class Image {
+ public:
+  Image() = default;
+  Image(int width, int height, T fill = T{})
+      : width_(width),
+        height_(height),
+        pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool empty() const { return pixels_.empty(); }
+  T* data() { return pixels_.data(); }
+  const T* data() const { return pixels_.data(); }
+  T* row(int y) { return pixels_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
+  const T* row(int y) const { return pixels_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
+  T& at(int x, int y) { return row(y)[x]; }
+  const T& at(int x, int y) const { return row(y)[x]; }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> pixels_;
+};
+
+using GrayImage = Image<std::uint8_t>;
+using DepthImage = Image<float>;  // metres along z; 0 where there is no measurement
+
+// What the sensors delivered at one instant, as decoded, before rectification.
+struct SensorFrame {
+  std::int64_t stamp_ns = 0;
+  GrayImage left;
+  std::optional<GrayImage> right;   // stereo
+  std::optional<DepthImage> depth;  // RGB-D, registered to `left`
+};
+
+}  // namespace plumbline

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/geometry/segment.h"
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A pixel measurement of a point in the left camera, with its disparity where one was measured.
+// Residual (px - projection) / sigma_px and, as a third row, (disparity - predicted) / its sigma: the
+// disparity, not the right column, because its error is independent of the left column's.
+struct PointMeasurement {
+  Eigen::Vector2d px = Eigen::Vector2d::Zero();
+  double sigma_px = 1;
+  std::optional<Disparity> disparity;
+};
+
+// A segment measured in the left or right camera. Residual: signed distances of its two end points
+// from the projected infinite line (eq. 13), weighted by the inverse of `covariance` (2 x 2, px^2).
+// Two measurements of one line in the two cameras of a pair are two LineMeasurements.
+struct LineMeasurement {
+  Segment2 segment;
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  bool in_right_camera = false;
+};
+
+// Bundle adjustment as plain data: nothing here knows the map.
+struct BaProblem {
+  struct Pose {
+    Rigid3 cam_from_world;
+    bool fixed = false;
+  };
+  struct PointObservation {
+    int pose = 0;
+    int point = 0;
+    PointMeasurement measurement;
+  };
+  struct LineObservation {
+    int pose = 0;
+    int line = 0;
+    LineMeasurement measurement;
+  };
+
+  RectifiedCamera camera;
+  std::vector<Pose> poses;
+  std::vector<Eigen::Vector3d> points;  // in the world
+  std::vector<OrthonormalLine> lines;   // in the world
+  std::vector<PointObservation> point_observations;
+  std::vector<LineObservation> line_observations;
+};
+
+// Camera pose from landmarks that stay fixed.
+struct PoseProblem {
+  struct PointMatch {
+    Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
+    PointMeasurement measurement;
+  };
+  struct LineMatch {
+    PluckerLine line_in_world;
+    LineMeasurement measurement;
+    int group = 0;  // measurements of one landmark share a group and are kept or rejected together
+  };
+
+  RectifiedCamera camera;
+  Rigid3 cam_from_world;  // initial
+  std::vector<PointMatch> points;
+  std::vector<LineMatch> lines;
+};
+
+}  // namespace plumbline
