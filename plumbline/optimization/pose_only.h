@@ -11,12 +11,12 @@
 namespace plumbline {
 
 struct PoseOnlyOptions {
-  int rounds = 4;                // of solve, then classify inliers anew among all matches
-  int robust_rounds = 2;         // the first of them use the Huber loss, the others squares
-  int max_iterations = 10;       // per round
-  double step_tolerance = 1e-6;  // a round ends when the step is shorter [rad, relative metres]
-  double cost_tolerance = 1e-5;  // ... or lowers the cost by less than this part of it
-  double huber_point = 2.4477;   // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
+  int rounds = 4;                     // of solve, then classify inliers anew among all matches
+  int robust_rounds = 2;              // the first of them use the Huber loss, the others squares
+  int max_iterations = 10;            // per round
+  double decrement_tolerance = 1e-4;  // a round ends when a step would lower the cost by less ...
+  double cost_tolerance = 1e-5;       // ... or lowered it by less than this part of it
+  double huber_point = 2.4477;        // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
   double huber_disparity = 2.7955;
   double huber_line = 2.4477;
   double gate_scale = 1;  // multiplies the 95 % limits of chi2 that part inliers from outliers
@@ -27,7 +27,10 @@ void VisitFields(Visitor&& visit, PoseOnlyOptions& o) {
   visit("rounds", o.rounds, "rounds of solving and classifying the matches", Range{1, 20});
   visit("robust_rounds", o.robust_rounds, "first rounds with the Huber loss", Range{0, 20});
   visit("max_iterations", o.max_iterations, "iterations per round", Range{1, 1000});
-  visit("step_tolerance", o.step_tolerance, "length of the step that ends a round", Range{0, 1});
+  visit("decrement_tolerance",
+        o.decrement_tolerance,
+        "decrease of the cost a step must promise [sigma^2]",
+        Range{0, 1});
   visit("cost_tolerance", o.cost_tolerance, "relative decrease that ends a round", Range{0, 1});
   visit("huber_point", o.huber_point, "Huber threshold of a point [sigma]", Range{0.1, 100});
   visit("huber_disparity",
