@@ -74,7 +74,8 @@ struct BaResult {
   std::vector<bool> line_inliers;
   std::vector<double> point_chi2;
   std::vector<double> line_chi2;
-  // Half the sum of the loss over the observations in use: all at first, those kept in the end.
+  // Half the sum of the loss over the observations in use: at the start of the first round, where
+  // all in front of the camera are, and at the end of the last.
   double initial_cost = 0;
   double final_cost = 0;
   int iterations = 0;
