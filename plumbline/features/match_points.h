@@ -35,6 +35,7 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
 
 struct StereoPointOptions {
   int max_distance = 75;
+  double ratio = 0.9;           // best / second best that is somewhere else; 1: no test
   double row_band_px = 2;       // allowed row difference, times the scale of the octave
   double min_depth_m = 0.25;    // gives the largest disparity
   int window_px = 5;            // half width of the correlation window on the level image
@@ -79,6 +80,7 @@ void VisitFields(Visitor&& visit, PointMatchOptions& o) {
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoPointOptions& o) {
   visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
+  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
   visit("row_band_px", o.row_band_px, "allowed row difference at octave 0 [px]", Range{0.5, 20});
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
   visit("window_px", o.window_px, "half width of the correlation window [px]", Range{2, 15});

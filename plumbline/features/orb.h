@@ -24,8 +24,8 @@ struct OrbOptions {
 // Corners with binary descriptors, spread evenly over the image and the levels of its pyramid.
 //
 // FAST corners (Rosten and Drummond 2006) on each level, with a lower threshold in cells that have
-// none; each level keeps a share of `count` that falls with its area, taken in turns from a grid so
-// that no textured spot takes all. Orientation by the intensity centroid and the steered BRIEF
+// none; each level keeps a share of `count` that falls with its width, taken in turns from a grid
+// so that no textured spot takes all. Orientation by the intensity centroid and the steered BRIEF
 // pattern of ORB (Rublee et al., ICCV 2011), 256 bits. With `subpixel` a corner moves to the
 // least-squares meeting point of the edges around it (Förstner), at most one level pixel.
 //
