@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 namespace plumbline {

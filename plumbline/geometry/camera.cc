@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/LU>
+
 namespace plumbline {
 namespace {
 

@@ -58,6 +58,7 @@ struct DatasetInfo {
   std::vector<SensorKind> available;        // what the data offers, richest first
   std::vector<std::int64_t> stamps_ns;      // one per frame, strictly increasing
   Calibration calibration;                  // `right` and `depth_factor` only where used
+  bool has_calibration = true;              // false only with DatasetOptions::allow_missing_camera
   std::optional<GroundTruth> ground_truth;  // nullopt: none is delivered
   std::vector<std::string> notes;           // what is missing or left out, one sentence each
 };
@@ -90,6 +91,9 @@ struct DatasetOptions {
   // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1"; takes the
   // place of the calibration found with the data.
   std::optional<std::string> camera;
+  // Open the data even where there is no calibration, to look at it. `calibration` is a placeholder
+  // then. Off: InputError.
+  bool allow_missing_camera = false;
 };
 
 // Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and

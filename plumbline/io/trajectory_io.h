@@ -32,6 +32,9 @@ LoadedTrajectory ReadTrajectory(const std::filesystem::path& path);
 Trajectory ReadKittiPoses(const std::filesystem::path& path,
                           const std::vector<std::int64_t>& stamps_ns);
 
+// The times of a KITTI times.txt, seconds, one a row. Errors as above.
+std::vector<std::int64_t> ReadKittiTimes(const std::filesystem::path& path);
+
 // TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. No header.
 std::string FormatTum(const Trajectory& trajectory);
 void WriteTum(const std::filesystem::path& path, const Trajectory& trajectory);
