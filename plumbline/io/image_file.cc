@@ -33,8 +33,11 @@ std::uint32_t LittleEndian32(Bytes bytes, std::size_t at) {
 }
 
 bool HasText(Bytes bytes, std::size_t at, std::string_view text) {
-  return bytes.size() >= at + text.size() &&
-         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+  if (bytes.size() < at + text.size()) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (bytes[at + i] != static_cast<std::uint8_t>(text[i])) return false;
+  }
+  return true;
 }
 
 // Chunks of length, type, data, CRC up to IEND.
@@ -44,7 +47,7 @@ std::optional<std::string> PngDamage(Bytes bytes) {
     const std::size_t length = BigEndian32(bytes, at);
     if (length > bytes.size() - at - 12) break;
     if (Crc32(bytes.subspan(at + 4, length + 4)) != BigEndian32(bytes, at + 8 + length)) {
-      return "the file is damaged (checksum of a part)";
+      return "the file is damaged or cut short (wrong checksum)";
     }
     if (HasText(bytes, at + 4, "IEND")) return std::nullopt;
     at += length + 12;
