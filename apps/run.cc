@@ -3,6 +3,7 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "plumbline/base/options_io.h"
+#include "plumbline/image/box_filter.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/report/overlay.h"
@@ -168,6 +169,14 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   if (format && *format != "auto") options.format = ParseChoice<DatasetFormat>("--format", *format);
   options.camera = line.Value("--camera");
   return options;
+}
+
+// Every image of the frame through the box filter of --blur (0: as it is). Depth stays.
+SensorFrame Blurred(SensorFrame frame, int size) {
+  if (size <= 1) return frame;
+  frame.left = BoxFiltered(frame.left, size);
+  if (frame.right) frame.right = BoxFiltered(*frame.right, size);
+  return frame;
 }
 
 void ProcessFrames(const Dataset& dataset,
