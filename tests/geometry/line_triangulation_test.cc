@@ -125,7 +125,7 @@ TEST(TriangulateLine, ErrorsFollowTheCovariance) {
     const Segment3 truth = LineInView(rng);
     auto views = ViewsOf(truth, CamerasNear(rng, 4));
     for (LineView& view : views) {
-      view.sigma_px = 0.3;
+      view.sigma_px = 0.1;
       AddNoise(rng, view);
     }
     const auto result =
