@@ -33,8 +33,9 @@ struct PointFeature {
   Descriptor descriptor{};
 };
 
-// A straight edge in the rectified image, directed so that the brighter side is on its left in image
-// coordinates seen with y down (the same physical edge keeps its direction from image to image).
+// A straight edge in the rectified image, directed so that the brighter side is on its left in
+// image coordinates seen with y down (the same physical edge keeps its direction from image to
+// image).
 struct LineFeature {
   Segment2 segment;
   double sigma_px = 1;  // standard deviation of each end point across the line

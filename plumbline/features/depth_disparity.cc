@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/depth_disparity.h"
+
+#include "plumbline/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plumbline {
+namespace {
+
+class DepthModel {
+ public:
+  DepthModel(const RectifiedCamera& camera, const DepthDisparityOptions& options)
+      : camera_(camera), options_(options) {}
+
+  bool InRange(double z) const { return z >= options_.min_depth_m && z <= options_.max_depth_m; }
+
+  double DisparitySigma(double z) const {
+    const double sigma_z = options_.depth_sigma_a + options_.depth_sigma_b * (z - 0.4) * (z - 0.4);
+    return camera_.fx * camera_.baseline / (z * z) * sigma_z;
+  }
+
+ private:
+  const RectifiedCamera& camera_;
+  const DepthDisparityOptions& options_;
+};
+
+struct DepthSample {
+  double z = 0;
+  double spread = 0;  // largest minus smallest valid depth of the neighbourhood
+};
+
+// Depth of the nearest pixel, with the spread over its 3x3 neighbourhood; nullopt where the pixel
+// or more than half of its neighbours have no depth.
+std::optional<DepthSample> SampleDepth(const DepthImage& depth, const Eigen::Vector2d& px) {
+  if (!(px.x() >= 0 && px.y() >= 0 && px.x() <= depth.width() - 1 &&
+        px.y() <= depth.height() - 1)) {
+    return std::nullopt;
+  }
+  const int x = static_cast<int>(std::lround(px.x()));
+  const int y = static_cast<int>(std::lround(px.y()));
+  std::array<float, 9> values{};
+  int count = 0;
+  int looked = 0;
+  for (int v = std::max(0, y - 1); v <= std::min(depth.height() - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(depth.width() - 1, x + 1); ++u) {
+      const float z = depth.at(u, v);
+      ++looked;
+      if (z > 0) values[static_cast<std::size_t>(count++)] = z;
+    }
+  }
+  if (2 * count <= looked) return std::nullopt;
+  const auto end = values.begin() + count;
+  const auto [low, high] = std::minmax_element(values.begin(), end);
+  const float spread = *high - *low;
+  std::nth_element(values.begin(), values.begin() + count / 2, end);
+  const float own = depth.at(x, y);
+  const float z = own > 0 ? own : values[static_cast<std::size_t>(count / 2)];
+  return DepthSample{static_cast<double>(z), static_cast<double>(spread)};
+}
+
+struct LinePoint {
+  double t = 0;  // 0 at the start, 1 at the end of the line
+  double disparity = 0;
+  double sigma = 0;
+};
+
+struct DisparityFit {
+  double start = 0;
+  double end = 0;
+  double sigma = 0;  // of either
+  int inliers = 0;
+
+  double At(double t) const { return (1 - t) * start + t * end; }
+};
+
+bool Fits(const DisparityFit& fit, const LinePoint& p) {
+  constexpr double kGate = 3;
+  return std::abs(p.disparity - fit.At(p.t)) <= kGate * p.sigma;
+}
+
+// Least squares over the points that fit `guess`.
+std::optional<DisparityFit> Polish(const std::vector<LinePoint>& points,
+                                   const DisparityFit& guess) {
+  double s0 = 0;
+  double s1 = 0;
+  double s2 = 0;
+  double d0 = 0;
+  double d1 = 0;
+  double sigma = 0;
+  DisparityFit fit;
+  for (const LinePoint& p : points) {
+    if (!Fits(guess, p)) continue;
+    const double w = 1 / (p.sigma * p.sigma);
+    s0 += w;
+    s1 += w * p.t;
+    s2 += w * p.t * p.t;
+    d0 += w * p.disparity;
+    d1 += w * p.t * p.disparity;
+    sigma += p.sigma;
+    ++fit.inliers;
+  }
+  const double determinant = s0 * s2 - s1 * s1;
+  if (fit.inliers < 3 || determinant <= 1e-9 * s0 * s0) return std::nullopt;
+  fit.start = (s2 * d0 - s1 * d1) / determinant;
+  fit.end = fit.start + (s0 * d1 - s1 * d0) / determinant;
+  // Depth errors of neighbouring pixels are alike: averaging takes off half of them at most.
+  fit.sigma =
+      std::max(0.5 * sigma / fit.inliers, std::sqrt(std::max(s2, s0 - 2 * s1 + s2) / determinant));
+  return fit;
+}
+
+// The straight course of disparity that most points share; every pair far enough apart is tried.
+std::optional<DisparityFit> FitDisparity(const std::vector<LinePoint>& points, int min_inliers) {
+  constexpr double kMinSpan = 0.4;
+  constexpr std::size_t kMaxTried = 12;
+  DisparityFit best;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kMaxTried);
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    for (std::size_t j = i + 1; j < points.size(); j += stride) {
+      const LinePoint& a = points[i];
+      const LinePoint& b = points[j];
+      if (b.t - a.t < kMinSpan) continue;
+      const double slope = (b.disparity - a.disparity) / (b.t - a.t);
+      DisparityFit fit{a.disparity - slope * a.t, a.disparity + slope * (1 - a.t), 0, 0};
+      for (const LinePoint& p : points) fit.inliers += Fits(fit, p) ? 1 : 0;
+      if (fit.inliers > best.inliers) best = fit;
+    }
+  }
+  if (best.inliers < min_inliers) return std::nullopt;
+  const std::optional<DisparityFit> fit = Polish(points, best);
+  if (!fit || fit->inliers < min_inliers || fit->start <= 0 || fit->end <= 0) return std::nullopt;
+  return fit;
+}
+
+// Fit to the depths on a copy of the segment moved sideways.
+std::optional<DisparityFit> FitTrack(const RectifiedCamera& camera,
+                                     const DepthImage& depth,
+                                     const Segment2& segment,
+                                     double side,
+                                     const DepthDisparityOptions& options) {
+  const DepthModel model(camera, options);
+  const Eigen::Vector2d direction = segment.Direction();
+  const Eigen::Vector2d offset = side * Eigen::Vector2d(-direction.y(), direction.x());
+  std::vector<LinePoint> points;
+  for (int i = 0; i < options.line_samples; ++i) {
+    const double t = (i + 0.5) / options.line_samples;
+    const Eigen::Vector2d px = segment.start + t * (segment.end - segment.start) + offset;
+    const std::optional<DepthSample> sample = SampleDepth(depth, px);
+    if (!sample || !model.InRange(sample->z)) continue;
+    if (sample->spread > options.max_relative_step * sample->z) continue;
+    points.push_back({t, camera.DisparityFromDepth(sample->z), model.DisparitySigma(sample->z)});
+  }
+  const int needed =
+      std::max(4, static_cast<int>(std::ceil(options.min_line_inliers * options.line_samples)));
+  if (static_cast<int>(points.size()) < needed) return std::nullopt;
+  return FitDisparity(points, needed);
+}
+
+// Of the tracks on the line and beside it, the one on the nearest surface.
+std::optional<DisparityFit> NearestTrack(const RectifiedCamera& camera,
+                                         const DepthImage& depth,
+                                         const Segment2& segment,
+                                         const DepthDisparityOptions& options) {
+  std::optional<DisparityFit> best;
+  for (const double side : {0.0, options.line_side_px, -options.line_side_px}) {
+    const std::optional<DisparityFit> fit = FitTrack(camera, depth, segment, side, options);
+    if (!fit) continue;
+    // The line itself is preferred unless a side is nearer for certain.
+    constexpr double kCertain = 4;
+    if (!best || fit->At(0.5) > best->At(0.5) + kCertain * std::max(best->sigma, fit->sigma)) {
+      best = fit;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& camera,
+                                                       const DepthImage& depth,
+                                                       const std::vector<PointFeature>& points,
+                                                       const DepthDisparityOptions& options) {
+  PLUMBLINE_CHECK(camera.baseline > 0, "depth needs a virtual baseline");
+  const DepthModel model(camera, options);
+  std::vector<std::optional<Disparity>> result;
+  result.reserve(points.size());
+  for (const PointFeature& point : points) {
+    result.emplace_back();
+    const std::optional<DepthSample> sample = SampleDepth(depth, point.px);
+    if (!sample || !model.InRange(sample->z)) continue;
+    if (sample->spread > options.max_relative_step * sample->z) continue;
+    const double disparity = camera.DisparityFromDepth(sample->z);
+    // The spread covers two pixels: what the depth changes over a misregistration.
+    const double slope = disparity * 0.5 * sample->spread / sample->z * options.pixel_sigma_px;
+    result.back() = Disparity{disparity, std::hypot(model.DisparitySigma(sample->z), slope)};
+  }
+  return result;
+}
+
+std::vector<std::optional<RightLine>> VirtualRightLines(const RectifiedCamera& camera,
+                                                        const DepthImage& depth,
+                                                        const std::vector<LineFeature>& lines,
+                                                        const DepthDisparityOptions& options) {
+  PLUMBLINE_CHECK(camera.baseline > 0, "depth needs a virtual baseline");
+  std::vector<std::optional<RightLine>> result;
+  result.reserve(lines.size());
+  for (const LineFeature& line : lines) {
+    result.emplace_back();
+    if (!(line.segment.Length() > 0)) continue;
+    const std::optional<DisparityFit> fit = NearestTrack(camera, depth, line.segment, options);
+    if (!fit) continue;
+    RightLine right;
+    right.segment.start = line.segment.start - Eigen::Vector2d(fit->start, 0);
+    right.segment.end = line.segment.end - Eigen::Vector2d(fit->end, 0);
+    // Disparity noise counts by its part across the line.
+    const double across = std::abs(line.segment.Direction().y()) * fit->sigma;
+    right.sigma_px = std::hypot(line.sigma_px, across);
+    result.back() = right;
+  }
+  return result;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/features/depth_disparity.h"
+#include "plumbline/features/line_detection.h"
+#include "plumbline/features/match_lines.h"
+#include "plumbline/features/match_points.h"
+#include "plumbline/features/orb.h"
+#include "plumbline/features/types.h"
+#include "plumbline/features/valid_region.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/image/image.h"
+
+namespace plumbline {
+
+struct FeatureOptions {
+  bool points = true;
+  int point_count = 1000;
+  bool lines = true;
+  int line_count = 200;
+  LineDetector line_detector = LineDetector::kLsd;
+  bool parallel = true;  // left and right image in two threads; same result
+  OrbOptions orb;
+  LineDetectionOptions line;
+  StereoPointOptions stereo_points;
+  StereoLineOptions stereo_lines;
+  DepthDisparityOptions depth;
+};
+
+// Views of one rectified frame; the caller keeps the images alive. `left` is required; at most one
+// of `right` and `depth` is used (right first). Valid regions may be null: all pixels are real.
+struct FeatureInput {
+  const GrayImage* left = nullptr;
+  const GrayImage* right = nullptr;
+  const DepthImage* depth = nullptr;
+  const ValidRegion* left_valid = nullptr;
+  const ValidRegion* right_valid = nullptr;
+};
+
+// Everything measured in one frame: points and lines of the left image, and for stereo and RGB-D
+// their disparities and right lines (see Features). Images must have the size of the camera
+// (BugError otherwise). Same input, same bytes.
+Features ExtractFeatures(const RectifiedCamera& camera,
+                         const FeatureInput& input,
+                         const FeatureOptions& options);
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, FeatureOptions& o) {
+  visit("points", o.points, "use points");
+  visit("point_count", o.point_count, "points per image", Range{0, 20000});
+  visit("lines", o.lines, "use lines");
+  visit("line_count", o.line_count, "lines per image", Range{0, 5000});
+  visit("line_detector", o.line_detector, "detector of line segments");
+  visit("parallel", o.parallel, "left and right image in two threads");
+  visit("orb", o.orb, "corners and their descriptors");
+  visit("line", o.line, "line segments");
+  visit("stereo_points", o.stereo_points, "matching of points between left and right");
+  visit("stereo_lines", o.stereo_lines, "matching of lines between left and right");
+  visit("depth", o.depth, "disparities from depth images");
+}
+
+}  // namespace plumbline

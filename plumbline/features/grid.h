@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Finds the positions in a pixel window without looking at all of them: an index over square cells.
+// Positions outside the image are clamped to the border cells and still found by exact distance.
+class PointGrid {
+ public:
+  PointGrid() = default;
+  // Cost: O(n). `cell_px` about the usual radius of a query is best.
+  PointGrid(const std::vector<Eigen::Vector2d>& positions, int width, int height, int cell_px = 32);
+
+  // Indices, ascending, of the positions with |dx| <= radius.x and |dy| <= radius.y.
+  std::vector<int> InWindow(const Eigen::Vector2d& center, const Eigen::Vector2d& radius) const;
+  std::vector<int> InWindow(const Eigen::Vector2d& center, double radius) const {
+    return InWindow(center, Eigen::Vector2d(radius, radius));
+  }
+  // As InWindow, but into a vector that is reused (cleared first) to save allocations.
+  void InWindow(const Eigen::Vector2d& center,
+                const Eigen::Vector2d& radius,
+                std::vector<int>* out) const;
+
+  bool empty() const { return positions_.empty(); }
+
+ private:
+  int CellX(double x) const;
+  int CellY(double y) const;
+
+  std::vector<Eigen::Vector2d> positions_;
+  std::vector<int> cell_begin_;  // first entry of each cell in items_, row by row; one past the end
+  std::vector<int> items_;       // indices into positions_, by cell, ascending inside a cell
+  int cell_px_ = 32;
+  int columns_ = 0;
+  int rows_ = 0;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/match_lines.h"
+
+#include "plumbline/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace plumbline {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Whether both are pieces of one edge: then the one must not spoil the ratio test of the other.
+bool Collinear(const Segment2& a, const Segment2& b) {
+  constexpr double kMaxOffsetPx = 3;
+  constexpr double kMinCosine = 0.998;
+  if (std::abs(a.Direction().dot(b.Direction())) < kMinCosine) return false;
+  return std::abs(LineDistance(LineThrough(a), b.Midpoint())) < kMaxOffsetPx;
+}
+
+struct Pairing {
+  int max_distance = 256;
+  double ratio = 1;
+  bool mutual = true;
+};
+
+// Best of each row of the table of distances (`none` where not allowed); ratio and mutual tests.
+class DistanceTable {
+ public:
+  DistanceTable(std::size_t rows, std::size_t columns)
+      : rows_(rows), columns_(columns), distance_(rows * columns, kNone) {}
+
+  void Set(std::size_t row, std::size_t column, int distance) {
+    distance_[row * columns_ + column] = distance;
+  }
+
+  std::vector<LineMatch> Match(const std::vector<LineFeature>& b, const Pairing& pairing) const {
+    std::vector<LineMatch> matches;
+    std::vector<int> owner(columns_, -1);
+    for (std::size_t row = 0; row < rows_; ++row) {
+      const int column = BestColumn(row);
+      if (column < 0) continue;
+      const auto c = static_cast<std::size_t>(column);
+      const int distance = At(row, c);
+      if (distance > pairing.max_distance || Ambiguous(row, c, b, pairing.ratio)) continue;
+      if (pairing.mutual && BestRow(c) != static_cast<int>(row)) continue;
+      if (owner[c] >= 0) {  // only without the mutual test
+        LineMatch& earlier = matches[static_cast<std::size_t>(owner[c])];
+        if (distance >= earlier.distance) continue;
+        earlier.a = -1;
+      }
+      owner[c] = static_cast<int>(matches.size());
+      matches.push_back({static_cast<int>(row), column, distance});
+    }
+    std::erase_if(matches, [](const LineMatch& m) { return m.a < 0; });
+    return matches;
+  }
+
+ private:
+  static constexpr int kNone = 1000;
+
+  int At(std::size_t row, std::size_t column) const { return distance_[row * columns_ + column]; }
+
+  int BestColumn(std::size_t row) const {
+    int best = -1;
+    int distance = kNone;
+    for (std::size_t column = 0; column < columns_; ++column) {
+      if (At(row, column) >= distance) continue;
+      distance = At(row, column);
+      best = static_cast<int>(column);
+    }
+    return best;
+  }
+
+  int BestRow(std::size_t column) const {
+    int best = -1;
+    int distance = kNone;
+    for (std::size_t row = 0; row < rows_; ++row) {
+      if (At(row, column) >= distance) continue;
+      distance = At(row, column);
+      best = static_cast<int>(row);
+    }
+    return best;
+  }
+
+  bool Ambiguous(std::size_t row,
+                 std::size_t best,
+                 const std::vector<LineFeature>& b,
+                 double ratio) const {
+    if (ratio >= 1) return false;
+    for (std::size_t column = 0; column < columns_; ++column) {
+      if (column == best || At(row, column) == kNone) continue;
+      if (At(row, best) < ratio * At(row, column)) continue;
+      if (!Collinear(b[best].segment, b[column].segment)) return true;
+    }
+    return false;
+  }
+
+  std::size_t rows_;
+  std::size_t columns_;
+  std::vector<int> distance_;
+};
+
+double FlatSine(double flat_angle_deg) { return std::sin(flat_angle_deg * kDegree); }
+
+double RowSine(const Segment2& segment) { return std::abs(segment.Direction().y()); }
+
+// x of the infinite line through the segment at a row.
+double XAtRow(const Segment2& segment, double row) {
+  const Eigen::Vector2d d = segment.end - segment.start;
+  return segment.start.x() + (row - segment.start.y()) / d.y() * d.x();
+}
+
+// Common part of two intervals divided by the shorter one.
+double IntervalOverlap(double a0, double a1, double b0, double b1) {
+  if (a0 > a1) std::swap(a0, a1);
+  if (b0 > b1) std::swap(b0, b1);
+  const double shorter = std::min(a1 - a0, b1 - b0);
+  if (shorter <= 0) return 0;
+  return std::max(0.0, std::min(a1, b1) - std::max(a0, b0)) / shorter;
+}
+
+bool SteepCompatible(const Segment2& left,
+                     const Segment2& right,
+                     double max_disparity,
+                     const StereoLineOptions& options) {
+  if (IntervalOverlap(left.start.y(), left.end.y(), right.start.y(), right.end.y()) <
+      options.min_overlap) {
+    return false;
+  }
+  const double top =
+      std::max(std::min(left.start.y(), left.end.y()), std::min(right.start.y(), right.end.y()));
+  const double bottom =
+      std::min(std::max(left.start.y(), left.end.y()), std::max(right.start.y(), right.end.y()));
+  constexpr double kNoisePx = 1;
+  for (const double row : {top, bottom}) {
+    const double disparity = XAtRow(left, row) - XAtRow(right, row);
+    if (disparity < -kNoisePx || disparity > max_disparity) return false;
+  }
+  return true;
+}
+
+// Some disparity of the allowed range must bring one line onto the other.
+bool FlatCompatible(const Segment2& left,
+                    const Segment2& right,
+                    double max_disparity,
+                    const StereoLineOptions& options) {
+  const double shift = std::clamp(left.Midpoint().x() - right.Midpoint().x(), 0.0, max_disparity);
+  if (IntervalOverlap(
+          left.start.x(), left.end.x(), right.start.x() + shift, right.end.x() + shift) <
+      options.min_overlap) {
+    return false;
+  }
+  const Eigen::Vector3d line = LineThrough(left);
+  const double near = LineDistance(line, right.Midpoint());
+  const double far = near + line.x() * max_disparity;
+  return std::min(near, far) <= options.max_row_error_px &&
+         std::max(near, far) >= -options.max_row_error_px;
+}
+
+}  // namespace
+
+bool LinesCompatible(const Segment2& a, const Segment2& b, const LineMatchOptions& options) {
+  const double a_length = a.Length();
+  const double b_length = b.Length();
+  if (!(a_length > 0) || !(b_length > 0)) return false;
+  if (std::min(a_length, b_length) < options.min_length_ratio * std::max(a_length, b_length)) {
+    return false;
+  }
+  const double cosine = a.Direction().dot(b.Direction());
+  if (cosine < std::cos(options.max_angle_deg * kDegree)) return false;
+  if (std::abs(LineDistance(LineThrough(a), b.Midpoint())) > options.max_offset_px ||
+      std::abs(LineDistance(LineThrough(b), a.Midpoint())) > options.max_offset_px) {
+    return false;
+  }
+  if (options.max_shift_px <= 0) return true;
+  return (a.Midpoint() - b.Midpoint()).norm() - 0.5 * (a_length + b_length) <= options.max_shift_px;
+}
+
+std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
+                                  const std::vector<LineFeature>& b,
+                                  const LineMatchOptions& options) {
+  DistanceTable table(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      if (!LinesCompatible(a[i].segment, b[j].segment, options)) continue;
+      table.Set(i, j, HammingDistance(a[i].descriptor, b[j].descriptor));
+    }
+  }
+  return table.Match(b, {options.max_distance, options.ratio, options.mutual});
+}
+
+std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
+                                                       const std::vector<LineFeature>& left,
+                                                       const std::vector<LineFeature>& right,
+                                                       const StereoLineOptions& options) {
+  PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
+  const double max_disparity = camera.DisparityFromDepth(options.min_depth_m);
+  const double min_cosine = std::cos(options.max_angle_deg * kDegree);
+  const double flat = FlatSine(options.flat_angle_deg);
+  DistanceTable table(left.size(), right.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const Segment2& l = left[i].segment;
+    for (std::size_t j = 0; j < right.size(); ++j) {
+      const Segment2& r = right[j].segment;
+      if (l.Direction().dot(r.Direction()) < min_cosine) continue;
+      const bool compatible = std::min(RowSine(l), RowSine(r)) < flat
+                                  ? FlatCompatible(l, r, max_disparity, options)
+                                  : SteepCompatible(l, r, max_disparity, options);
+      if (compatible) table.Set(i, j, HammingDistance(left[i].descriptor, right[j].descriptor));
+    }
+  }
+  std::vector<std::optional<RightLine>> result(left.size());
+  for (const LineMatch& m : table.Match(right, {options.max_distance, options.ratio, true})) {
+    const LineFeature& r = right[static_cast<std::size_t>(m.b)];
+    result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, r.sigma_px};
+  }
+  return result;
+}
+
+std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
+                                                   const RightLine& right,
+                                                   double flat_angle_deg) {
+  const double left_sine = RowSine(left.segment);
+  const double right_sine = RowSine(right.segment);
+  if (!(std::min(left_sine, right_sine) >= FlatSine(flat_angle_deg)) || !(right_sine > 0)) {
+    return std::nullopt;
+  }
+  const double height = right.segment.end.y() - right.segment.start.y();
+  const auto at = [&](const Eigen::Vector2d& end) {
+    // The noise of the right line between and beyond its ends, which are independent.
+    const double t = (end.y() - right.segment.start.y()) / height;
+    const double across = right.sigma_px * std::sqrt((1 - t) * (1 - t) + t * t);
+    return Disparity{end.x() - XAtRow(right.segment, end.y()),
+                     std::hypot(left.sigma_px / left_sine, across / right_sine)};
+  };
+  const LineEndDisparity result{at(left.segment.start), at(left.segment.end)};
+  if (result.start.px <= 0 || result.end.px <= 0) return std::nullopt;
+  return result;
+}
+
+}  // namespace plumbline

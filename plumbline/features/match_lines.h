@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/features/types.h"
+
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+struct LineMatch {
+  int a = -1;  // index into the first set
+  int b = -1;  // index into the second set
+  int distance = 256;
+};
+
+struct LineMatchOptions {
+  int max_distance = 80;      // Hamming, of 256 bits
+  double ratio = 0.9;         // best / second best must be below; 1: no test
+  bool mutual = true;         // a must also be the best of b
+  double max_angle_deg = 20;  // difference of the directions (lines are directed: up to 180)
+  double max_offset_px = 80;  // distance of the midpoint of one from the line of the other
+  double max_shift_px = 120;  // distance of the midpoints minus half of both lengths; 0: no test
+  double min_length_ratio = 0.3;
+};
+
+// Whether a and b may be the same line by their places in two images of near viewpoints.
+bool LinesCompatible(const Segment2& a, const Segment2& b, const LineMatchOptions& options);
+
+// Pairs of lines with like descriptors and compatible places in two images, at most one pair for
+// each line. Ties go to the lower index; result ordered by `a`. Cost: O(|a| |b|).
+std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
+                                  const std::vector<LineFeature>& b,
+                                  const LineMatchOptions& options);
+
+struct StereoLineOptions {
+  int max_distance = 80;
+  double ratio = 0.9;
+  double max_angle_deg = 30;
+  double min_overlap = 0.5;     // common rows (columns for flat lines) / the shorter of the two
+  double min_depth_m = 0.25;    // gives the largest disparity
+  double flat_angle_deg = 5;    // lines flatter than this against the rows give no depth
+  double max_row_error_px = 2;  // flat lines: distance across
+};
+
+// The same line in the right image of a rectified pair for each left line, or nullopt.
+//
+// Both lines run the same way (bright side), overlap in rows, and the disparities at both ends of
+// the common rows lie in [0, fx * baseline / min_depth]; the nearest descriptor wins, both ways. A
+// line flatter than flat_angle is matched by its place across the rows alone: such a RightLine
+// constrains the line's plane, but LineEndDisparities gives nullopt for it.
+std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
+                                                       const std::vector<LineFeature>& left,
+                                                       const std::vector<LineFeature>& right,
+                                                       const StereoLineOptions& options);
+
+struct LineEndDisparity {
+  Disparity start, end;
+};
+
+// Disparities of the end points of a left line: where the rows through them meet the (infinite)
+// right line. sigma_px is the across-line noise of both lines divided by the sine of the angle
+// between line and row. nullopt when that angle is below `flat_angle_deg` or a disparity is not
+// positive.
+std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
+                                                   const RightLine& right,
+                                                   double flat_angle_deg = 5);
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LineMatchOptions& o) {
+  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
+  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
+  visit("mutual", o.mutual, "require both to be each other's best match");
+  visit("max_angle_deg", o.max_angle_deg, "largest difference of directions [deg]", Range{0, 180});
+  visit("max_offset_px", o.max_offset_px, "largest distance across the line [px]", Range{0, 10000});
+  visit("max_shift_px",
+        o.max_shift_px,
+        "largest gap between the midpoints, 0: no test [px]",
+        Range{0, 10000});
+  visit("min_length_ratio", o.min_length_ratio, "smallest ratio of lengths", Range{0, 1});
+}
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, StereoLineOptions& o) {
+  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
+  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
+  visit("max_angle_deg", o.max_angle_deg, "largest difference of directions [deg]", Range{0, 90});
+  visit("min_overlap", o.min_overlap, "smallest common part of the two lines", Range{0, 1});
+  visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
+  visit("flat_angle_deg",
+        o.flat_angle_deg,
+        "angle to the rows below which a line has no depth [deg]",
+        Range{0, 45});
+  visit("max_row_error_px",
+        o.max_row_error_px,
+        "flat lines: largest distance across [px]",
+        Range{0.1, 20});
+}
+
+}  // namespace plumbline

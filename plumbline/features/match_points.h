@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/features/types.h"
+#include "plumbline/image/image.h"
+#include "plumbline/image/pyramid.h"
+
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+struct PointMatch {
+  int a = -1;  // index into the first set
+  int b = -1;  // index into the second set
+  int distance = 256;
+};
+
+struct PointMatchOptions {
+  int max_distance = 64;     // Hamming, of 256 bits
+  double ratio = 0.8;        // best / second best must be below; 1: no test
+  bool mutual = true;        // a must also be the best of b
+  double radius_px = 0;      // search window around the same position, half width; 0: everywhere
+  int max_octave_step = 8;   // largest difference of octaves
+  double max_angle_deg = 0;  // largest difference of orientations; 0: no test
+};
+
+// Pairs of points with like descriptors in two images, at most one pair for each point.
+// Ties go to the lower index; result ordered by `a`. Cost: O(|a| |b|) without a window.
+std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
+                                    const std::vector<PointFeature>& b,
+                                    const PointMatchOptions& options);
+
+struct StereoPointOptions {
+  int max_distance = 75;
+  double ratio = 0.9;           // best / second best that is somewhere else; 1: no test
+  double row_band_px = 2;       // allowed row difference, times the scale of the octave
+  double min_depth_m = 0.25;    // gives the largest disparity
+  int window_px = 5;            // half width of the correlation window on the level image
+  int search_px = 5;            // half width of the correlation search on the level image
+  double max_sad_factor = 2.1;  // matches with a residual above this times the median are dropped
+  double min_sigma_px = 0.12;   // floor of the disparity's deviation on the level image
+};
+
+struct StereoView {
+  const std::vector<PointFeature>& points;
+  const ImagePyramid& pyramid;
+};
+
+// Disparity of each left point of a rectified pair, nullopt where no right point matches.
+//
+// Candidates share the row band and the octave +-1; the best by descriptor is refined by
+// correlation on the level image and a Gauss-Newton step for the sub-pixel shift, with the mean
+// brightness of the window free. sigma_px comes from the curvature and the residual of that
+// correlation. Matches whose residual is far above the median are dropped, and a right point that
+// would serve twice keeps the closer one. Disparities are 0 < d <= fx * baseline / min_depth.
+std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
+                                                        const StereoView& left,
+                                                        const StereoView& right,
+                                                        const StereoPointOptions& options);
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, PointMatchOptions& o) {
+  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
+  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
+  visit("mutual", o.mutual, "require both to be each other's best match");
+  visit("radius_px",
+        o.radius_px,
+        "half width of the search window, 0: whole image [px]",
+        Range{0, 10000});
+  visit("max_octave_step", o.max_octave_step, "largest difference of octaves", Range{0, 32});
+  visit("max_angle_deg",
+        o.max_angle_deg,
+        "largest difference of orientations, 0: no test [deg]",
+        Range{0, 180});
+}
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, StereoPointOptions& o) {
+  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
+  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
+  visit("row_band_px", o.row_band_px, "allowed row difference at octave 0 [px]", Range{0.5, 20});
+  visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
+  visit("window_px", o.window_px, "half width of the correlation window [px]", Range{2, 15});
+  visit("search_px", o.search_px, "half width of the correlation search [px]", Range{1, 20});
+  visit("max_sad_factor",
+        o.max_sad_factor,
+        "residual limit as a multiple of the median",
+        Range{1, 100});
+  visit("min_sigma_px",
+        o.min_sigma_px,
+        "floor of the deviation of a disparity at octave 0 [px]",
+        Range{0.01, 5});
+}
+
+}  // namespace plumbline

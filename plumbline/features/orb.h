@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/features/types.h"
+#include "plumbline/features/valid_region.h"
+#include "plumbline/image/pyramid.h"
+
+#include <vector>
+
+namespace plumbline {
+
+struct OrbOptions {
+  int levels = 8;
+  double scale_factor = 1.2;
+  int fast_threshold = 20;     // grey levels
+  int fast_min_threshold = 7;  // used in cells where the first finds nothing
+  int cell_px = 35;            // side of these cells on a level
+  bool subpixel = true;
+  double sigma_px = 1;  // of a corner at octave 0
+};
+
+// Corners with binary descriptors, spread evenly over the image and the levels of its pyramid.
+//
+// FAST corners (Rosten and Drummond 2006) on each level, with a lower threshold in cells that have
+// none; each level keeps a share of `count` that falls with its width, taken in turns from a grid
+// so that no textured spot takes all. Orientation by the intensity centroid and the steered BRIEF
+// pattern of ORB (Rublee et al., ICCV 2011), 256 bits. With `subpixel` a corner moves to the
+// least-squares meeting point of the edges around it (Förstner), at most one level pixel.
+//
+// `pyramid` must have been built with the levels and the factor of the options (BuildOrbPyramid).
+// Corners closer to an invalid pixel or to the border than the patch (19 level pixels) are left
+// out. Result: position and sigma (sigma_px * scale of the octave) in pixels of the full image,
+// ordered by octave, then as selected. Cost: about 6 ms for 752x480 and 1000 points.
+std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
+                                     const ValidRegion& valid,
+                                     int count,
+                                     const OrbOptions& options);
+
+ImagePyramid BuildOrbPyramid(const GrayImage& image, const OrbOptions& options);
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, OrbOptions& o) {
+  visit("levels", o.levels, "levels of the scale pyramid", Range{1, 16});
+  visit("scale_factor", o.scale_factor, "size ratio of successive levels", Range{1.05, 2});
+  visit("fast_threshold", o.fast_threshold, "contrast of a corner [grey levels]", Range{1, 255});
+  visit("fast_min_threshold",
+        o.fast_min_threshold,
+        "contrast where there is none above the first "
+        "[grey levels]",
+        Range{1, 255});
+  visit("cell_px", o.cell_px, "side of the cells with their own threshold [px]", Range{8, 500});
+  visit("subpixel", o.subpixel, "refine corners below the pixel");
+  visit("sigma_px", o.sigma_px, "deviation of a corner at octave 0 [px]", Range{0.05, 10});
+}
+
+}  // namespace plumbline

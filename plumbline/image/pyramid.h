@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/image.h"
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+struct PyramidLevel {
+  GrayImage image;
+  // Full-size pixels per level pixel along x and y, from the real sizes (these are rounded).
+  Eigen::Vector2d scale = Eigen::Vector2d::Ones();
+
+  // Pixel centres are at integers: full = (level + 0.5) * scale - 0.5.
+  Eigen::Vector2d ToFull(const Eigen::Vector2d& px) const {
+    return (px.array() + 0.5) * scale.array() - 0.5;
+  }
+  Eigen::Vector2d FromFull(const Eigen::Vector2d& px) const {
+    return (px.array() + 0.5) / scale.array() - 0.5;
+  }
+};
+
+// An image and smaller copies of it; level 0 has full size.
+using ImagePyramid = std::vector<PyramidLevel>;
+
+// Each level is the level below resized (bilinear) so that level k is `factor`^k times smaller than
+// level 0. Stops early before a side would be shorter than `min_side` pixels; level 0 is always
+// there.
+ImagePyramid BuildPyramid(const GrayImage& image, int levels, double factor, int min_side = 40);
+
+}  // namespace plumbline
