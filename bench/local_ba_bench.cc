@@ -30,9 +30,8 @@ const HuberThresholds kHuber{
 void Report(benchmark::State& state, double cost, int iterations) {
   state.counters["cost"] = cost;
   state.counters["iterations"] = iterations;
-  state.counters["ms_per_iteration"] = benchmark::Counter(
-      iterations * 1e-3,
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_iteration"] = benchmark::Counter(
+      iterations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void RunOurs(benchmark::State& state, const LocalBaOptions& options) {

@@ -82,7 +82,8 @@ class SchurSolver {
  private:
   // Block (row, column) of the sum of Z Z^T, row >= column.
   Matrix6d& Block(int row, int column) {
-    return complement_[static_cast<std::size_t>(row * (row + 1) / 2 + column)];
+    const auto r = static_cast<std::size_t>(row);
+    return complement_[r * (r + 1) / 2 + static_cast<std::size_t>(column)];
   }
 
   int free_poses_;
