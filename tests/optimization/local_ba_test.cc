@@ -13,6 +13,8 @@
 namespace plumbline {
 namespace {
 
+static_assert(OptionGroup<LocalBaOptions>);
+
 using testing::BaScene;
 using testing::MakeBaScene;
 
