@@ -93,8 +93,9 @@ Eigen::Matrix3d TranslationBlock(const Eigen::Vector3d& w, const Eigen::Vector3d
   const Eigen::Matrix3d V = Skew(v);
   const Eigen::Matrix3d WV = W * V;
   const Eigen::Matrix3d VW = V * W;
-  const Eigen::Matrix3d WVW = WV * W;
-  return 0.5 * V + a * (WV + VW + WVW) + b * (W * WV + VW * W - 3 * WVW) + c * (WVW * W + W * WVW);
+  const Eigen::Matrix3d WV_w = WV * W;
+  return 0.5 * V + a * (WV + VW + WV_w) + b * (W * WV + VW * W - 3 * WV_w) +
+         c * (WV_w * W + W * WV_w);
 }
 
 Matrix6d BlockLowerTriangular(const Eigen::Matrix3d& diagonal, const Eigen::Matrix3d& lower) {
