@@ -13,5 +13,6 @@ namespace plumbline {
 // main.cc.
 int ConfigCommand(std::span<const std::string> arguments);
 int InfoCommand(std::span<const std::string> arguments);
+int RunCommand(std::span<const std::string> arguments);
 
 }  // namespace plumbline

@@ -4,6 +4,7 @@
 #include "plumbline/base/nearest_name.h"
 
 #include "apps/commands.h"
+
 #include <array>
 #include <exception>
 #include <iomanip>
@@ -24,6 +25,7 @@ struct Command {
 };
 
 constexpr std::array kCommands = {
+    Command{"run", RunCommand, "track the camera through a sequence and map what it sees"},
     Command{"info", InfoCommand, "what is at a path: format, sensors, frames, calibration"},
     Command{"config", ConfigCommand, "all options with values and help, as a config file"},
 };
