@@ -50,22 +50,25 @@ TEST(AlignPoints, RecoversAnExactMotion) {
 
 TEST(AlignPoints, PlanarPointsGetARotationNotAMirror) {
   Rng rng(2);
-  const Points source = RandomPoints(rng, 20, {2, 1, 0});
-  const Similarity3 truth = ToSimilarity(RandomRigid(rng));
-  const auto result = AlignPoints(source, Moved(truth, source), AlignmentScale::kFree);
-  ASSERT_TRUE(result);
-  EXPECT_LT(Difference(result->target_from_source, truth), 1e-11);
+  for (int i = 0; i < 20; ++i) {
+    const Points source = RandomPoints(rng, 20, {2, 1, 0});
+    const Similarity3 truth = ToSimilarity(RandomRigid(rng));
+    const auto result = AlignPoints(source, Moved(truth, source), AlignmentScale::kFree);
+    ASSERT_TRUE(result);
+    EXPECT_LT(Difference(result->target_from_source, truth), 1e-11);
+  }
 }
 
-TEST(AlignPoints, MirroredPointsStillGetARotation) {
+// No rotation makes a mirror image fit; the best one turns the flattest direction over.
+TEST(AlignPoints, MirroredPointsGetTheBestRotation) {
   Rng rng(3);
-  const Points source = RandomPoints(rng, 20);
+  const Points source = RandomPoints(rng, 200, {2, 1, 0.1});
   Points mirrored = source;
-  for (Eigen::Vector3d& p : mirrored) p.x() = -p.x();
+  for (Eigen::Vector3d& p : mirrored) p.z() = -p.z();
   const auto result = AlignPoints(source, mirrored, AlignmentScale::kFixed);
   ASSERT_TRUE(result);
-  EXPECT_NEAR(result->target_from_source.rotation.toRotationMatrix().determinant(), 1, 1e-12);
-  EXPECT_GT(result->rmse, 0.1);
+  EXPECT_LT(LogSo3(result->target_from_source.rotation).norm(), 0.1);
+  EXPECT_NEAR(result->rmse, 0.2, 0.04);
 }
 
 TEST(AlignPoints, MinimisesTheSumOfSquares) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/triangulation.h"
 
+#include "tests/support/jacobian.h"
 #include "tests/support/random_geometry.h"
 #include <cmath>
 #include <vector>
@@ -138,6 +139,40 @@ TEST(TriangulatePoint, ErrorsFollowTheCovariance) {
   }
   EXPECT_NEAR(sum / kCount, 3, 0.2);
   EXPECT_NEAR(chi2 / kCount, 1, 0.06);
+}
+
+// Sum of squared residuals over their variances, written out again.
+double Chi2(const std::vector<PointView>& views, const Eigen::Vector3d& point) {
+  const RectifiedCamera camera = TestCamera();
+  double sum = 0;
+  for (const PointView& view : views) {
+    const Eigen::Vector3d p = view.cam_from_world * point;
+    sum += ((camera.Project(p) - view.px) / view.sigma_px).squaredNorm();
+    if (view.disparity) {
+      const double error = camera.DisparityFromDepth(p.z()) - view.disparity->px;
+      sum += std::pow(error / view.disparity->sigma_px, 2);
+    }
+  }
+  return sum;
+}
+
+TEST(TriangulatePoint, EndsAtTheLeastSquares) {
+  Rng rng(9);
+  using Value = Eigen::Matrix<double, 1, 1>;
+  for (int i = 0; i < 20; ++i) {
+    std::vector<PointView> views = ViewsOf({0.3, -0.2, 0.4}, LookingAtTheOrigin(3, 0.1), true);
+    for (PointView& view : views) view.disparity->sigma_px = 0.3;
+    AddNoise(rng, views);
+    const auto result = TriangulatePoint(TestCamera(), views, {.max_iterations = 20});
+    ASSERT_TRUE(result);
+    const Eigen::Vector3d& point = result->point.position;
+    EXPECT_NEAR(result->chi2, Chi2(views, point), 1e-9);
+    const Eigen::RowVector3d slope =
+        NumericJacobian([&](const Eigen::Vector3d& x) { return Value(Chi2(views, x)); }, point);
+    // In units of the standard deviations.
+    const double change = std::sqrt(slope.dot(slope * result->point.covariance));
+    EXPECT_LT(change, 1e-3);
+  }
 }
 
 TEST(TriangulatePoint, MeasuresTheParallax) {
