@@ -4,7 +4,6 @@
 #include "plumbline/base/nearest_name.h"
 
 #include "apps/commands.h"
-
 #include <array>
 #include <exception>
 #include <iomanip>

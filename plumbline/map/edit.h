@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// The changes a map can undergo. Each algorithm reads a Map and returns an Edit; Map::Apply is the one
-// place where a map changes.
+// The changes a map can undergo. Each algorithm reads a Map and returns an Edit; Map::Apply is the
+// one place where a map changes.
 namespace edit {
 
 // The keyframe with its matches; matches of landmarks that were merged or removed meanwhile follow

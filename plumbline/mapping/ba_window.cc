@@ -112,7 +112,8 @@ class WindowBuilder {
         window_.problem.point_observations.push_back(
             {pose->second,
              index,
-             MeasurePoint(map_.Find(keyframe)->frame.features(), static_cast<std::size_t>(feature))});
+             MeasurePoint(map_.Find(keyframe)->frame.features(),
+                          static_cast<std::size_t>(feature))});
       }
     }
   }
@@ -146,8 +147,8 @@ class WindowBuilder {
     }
   }
 
-  // Wide angle between the interpretation planes of the first view and another (left images), or ends
-  // that the information fixes.
+  // Wide angle between the interpretation planes of the first view and another (left images), or
+  // ends that the information fixes.
   bool WellConditioned(const MapLine& line) const {
     const double limit = std::cos(options_.min_line_plane_angle_deg * std::numbers::pi / 180);
     std::optional<Eigen::Vector3d> first;
@@ -215,8 +216,7 @@ MapEdit ToEdit(const Map& map,
   MapEdit edit;
   for (std::size_t k = 0; k < window.keyframes.size(); ++k) {
     if (window.problem.poses[k].fixed) continue;
-    edit.push_back(
-        edit::SetPose{window.keyframes[k], result.poses[k] * window.window_from_world});
+    edit.push_back(edit::SetPose{window.keyframes[k], result.poses[k] * window.window_from_world});
   }
   const Rigid3 world_from_window = Inverse(window.window_from_world);
   for (std::size_t k = 0; k < window.points.size(); ++k) {
