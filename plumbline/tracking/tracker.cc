@@ -293,7 +293,7 @@ PoseEstimate Tracker::WithLocalMap(const Frame& frame,
       MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
-  const PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
+  PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
   Score(expected, association);
   return estimate;
 }
