@@ -22,7 +22,7 @@ class WindowBuilder {
                 const ImagingModel& imaging,
                 LineWeighting weighting,
                 const BaWindowOptions& options)
-      : map_(map), imaging_(imaging), weighting_(weighting), options_(options) {
+      : map_(map), weighting_(weighting), options_(options) {
     window_.problem.camera = imaging.camera;
   }
 
@@ -78,6 +78,7 @@ class WindowBuilder {
     for (const PointId id : points_) count(map_.Find(id)->observations);
     for (const LineId id : lines_) count(map_.Find(id)->observations);
     std::vector<CovisibleKeyFrame> others;
+    others.reserve(shared.size());
     for (const auto& [id, n] : shared) others.push_back({id, n});
     std::sort(others.begin(), others.end(), [](const auto& a, const auto& b) {
       return a.shared != b.shared ? a.shared > b.shared : a.id > b.id;
@@ -168,7 +169,6 @@ class WindowBuilder {
   }
 
   const Map& map_;
-  const ImagingModel& imaging_;
   LineWeighting weighting_;
   const BaWindowOptions& options_;
   BaWindow window_;
