@@ -19,8 +19,7 @@ std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
                                      const std::vector<Candidate>& candidates) {
   std::vector<LandmarkId> ids(match_of_feature.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (match_of_feature[i] >= 0)
-      ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
+    if (match_of_feature[i] >= 0) ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
   }
   return ids;
 }
@@ -54,9 +53,7 @@ void ScoreKind(const std::vector<int>& expected,
 }
 
 template <class LandmarkId, class Landmark>
-int CountWellObserved(const std::vector<LandmarkId>& ids,
-                      const MapSnapshot& snapshot,
-                      const Landmark*) {
+int CountWellObserved(const std::vector<LandmarkId>& ids, const MapSnapshot& snapshot, const Landmark*) {
   return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](LandmarkId id) {
     const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
     return landmark != nullptr && landmark->observation_count >= kWellObserved;
@@ -65,9 +62,7 @@ int CountWellObserved(const std::vector<LandmarkId>& ids,
 
 // Newest model of a candidate that the map has, or the one it had.
 template <class Candidate>
-void AddRefreshed(const Candidate& candidate,
-                  const MapSnapshot& snapshot,
-                  std::vector<Candidate>& out) {
+void AddRefreshed(const Candidate& candidate, const MapSnapshot& snapshot, std::vector<Candidate>& out) {
   const auto* landmark = candidate.id.valid() ? snapshot.Find(candidate.id) : nullptr;
   if (landmark != nullptr) {
     out.push_back({candidate.id, *landmark});
@@ -202,8 +197,8 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame
     const int match = before.point_of_feature[i];
     if (match >= 0 && before.points[static_cast<std::size_t>(match)].id.valid()) {
       AddRefreshed(before.points[static_cast<std::size_t>(match)], snapshot, result.points);
-    } else if (const auto point =
-                   PointFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    } else if (const auto point = PointFromFrame(
+                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
       result.points.push_back({PointId{}, *point});
     }
   }
@@ -211,8 +206,8 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame
     const int match = before.line_of_feature[i];
     if (match >= 0 && before.lines[static_cast<std::size_t>(match)].id.valid()) {
       AddRefreshed(before.lines[static_cast<std::size_t>(match)], snapshot, result.lines);
-    } else if (const auto line =
-                   LineFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    } else if (const auto line = LineFromFrame(
+                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
       result.lines.push_back({LineId{}, *line});
     }
   }
@@ -289,11 +284,11 @@ PoseEstimate Tracker::WithLocalMap(const Frame& frame,
                                    FrameCounts& counts) {
   AddRest(snapshot.points, association.points);
   AddRest(snapshot.lines, association.lines);
-  const ExpectedLandmarks expected =
-      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+  const ExpectedLandmarks expected = MatchCandidates(
+      imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
-  PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
+  const PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
   Score(expected, association);
   return estimate;
 }
