@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
