@@ -8,8 +8,8 @@
 
 namespace plumbline {
 
-// Writes a figure as .svg or .png, by the extension of the file; InputError for any other, and where
-// the file cannot be written.
+// Writes a figure as .svg or .png, by the extension of the file; InputError for any other, and
+// where the file cannot be written.
 void WriteFigure(const std::filesystem::path& path, const Figure& figure);
 
 }  // namespace plumbline

@@ -22,8 +22,8 @@ struct ReferenceTrajectory {
   std::filesystem::path path;         // the file that was read
 };
 
-// Reads ground truth from a file (TUM form, EuRoC csv, KITTI poses) or from the folder of a data set
-// that has it.
+// Reads ground truth from a file (TUM form, EuRoC csv, KITTI poses) or from the folder of a data
+// set that has it.
 //
 // `frame` says what the poses are about; nullopt: the body for EuRoC, else the camera. Poses of a
 // body are converted with cam0/sensor.yaml of the same recording. Throws InputError where there is

@@ -41,8 +41,8 @@ Matrix6d LineMotion(const Rigid3& b_from_a) {
 }
 
 struct NormalEquations {
-  Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d g = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
   double chi2 = 0;
   double worst = 0;  // largest |residual| / sigma
 };
@@ -68,8 +68,8 @@ void AddView(const RectifiedCamera& camera,
     J_distance.head<2>() -= distance / (length * length) * l.head<2>().transpose();
     const Eigen::RowVector4d J = J_distance * J_l / view.sigma_px;
     const double residual = distance / view.sigma_px;
-    equations.H += J.transpose() * J;
-    equations.g += residual * J.transpose();
+    equations.information += J.transpose() * J;
+    equations.gradient += residual * J.transpose();
     equations.chi2 += residual * residual;
     // Written so that NaN is kept.
     if (!(std::abs(residual) <= equations.worst)) equations.worst = std::abs(residual);
@@ -108,7 +108,7 @@ std::optional<PluckerLine> LinearLine(const RectifiedCamera& camera,
                                       std::span<const LineView> views,
                                       const std::vector<Eigen::Vector4d>& planes,
                                       const PlanePair& pair) {
-  const auto pair_line = LineFromPlanes(planes[pair.first], planes[pair.second]);
+  auto pair_line = LineFromPlanes(planes[pair.first], planes[pair.second]);
   if (!pair_line || planes.size() == 2) return pair_line;
   const LineView& view = views[pair.first];
   const Eigen::Vector3d centre = Inverse(view.cam_from_world).translation;
@@ -138,7 +138,7 @@ OrthonormalLine Refine(const RectifiedCamera& camera,
                        int max_iterations) {
   NormalEquations equations = Linearize(camera, views, line);
   for (int i = 0; i < max_iterations; ++i) {
-    const Eigen::Vector4d step = equations.H.ldlt().solve(equations.g);
+    const Eigen::Vector4d step = equations.information.ldlt().solve(equations.gradient);
     const OrthonormalLine trial = Retract(line, -step);
     const NormalEquations trial_equations = Linearize(camera, views, trial);
     if (!(trial_equations.chi2 < equations.chi2)) break;
@@ -218,7 +218,7 @@ Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
   const PluckerLine line = Transform(world_from_local, *directed);
   const NormalEquations equations = Linearize(camera, views, ToOrthonormal(line));
   if (!(equations.worst <= options.max_residual_sigma)) return kInconsistentViews;
-  const Eigen::LLT<Eigen::Matrix4d> factor(equations.H);
+  const Eigen::LLT<Eigen::Matrix4d> factor(equations.information);
   if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-15)) return kSingular;
   TriangulatedLine result;
   result.estimate = {line, factor.solve(Eigen::Matrix4d::Identity())};

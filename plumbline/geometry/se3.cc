@@ -54,8 +54,8 @@ Eigen::Matrix3d InverseLeftJacobianSo3(const Eigen::Vector3d& w) {
   const double t = w.norm();
   const Eigen::Matrix3d W = Skew(w);
   const double t2 = t * t;
-  const double b =
-      t < 1e-3 ? 1.0 / 12 + t2 / 720 : 1 / t2 - (1 + std::cos(t)) / (2 * t * std::sin(t));
+  // By the half angle: the form with (1 + cos t) / sin t is 0 / 0 at pi.
+  const double b = t < 1e-3 ? 1.0 / 12 + t2 / 720 : (1 - 0.5 * t / std::tan(0.5 * t)) / t2;
   return Eigen::Matrix3d::Identity() - 0.5 * W + b * W * W;
 }
 
@@ -93,8 +93,9 @@ Eigen::Matrix3d TranslationBlock(const Eigen::Vector3d& w, const Eigen::Vector3d
   const Eigen::Matrix3d V = Skew(v);
   const Eigen::Matrix3d WV = W * V;
   const Eigen::Matrix3d VW = V * W;
-  const Eigen::Matrix3d WVW = WV * W;
-  return 0.5 * V + a * (WV + VW + WVW) + b * (W * WV + VW * W - 3 * WVW) + c * (WVW * W + W * WVW);
+  const Eigen::Matrix3d WV_w = WV * W;
+  return 0.5 * V + a * (WV + VW + WV_w) + b * (W * WV + VW * W - 3 * WV_w) +
+         c * (WV_w * W + W * WV_w);
 }
 
 Matrix6d BlockLowerTriangular(const Eigen::Matrix3d& diagonal, const Eigen::Matrix3d& lower) {

@@ -65,15 +65,15 @@ std::optional<Eigen::Vector3d> LinearPoint(const RectifiedCamera& camera,
 }
 
 struct NormalEquations {
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double chi2 = 0;
   int residuals = 0;
 
   void Add(double residual, const Row& J, double sigma) {
     const double weight = 1 / (sigma * sigma);
-    H += weight * J.transpose() * J;
-    g += weight * residual * J.transpose();
+    information += weight * J.transpose() * J;
+    gradient += weight * residual * J.transpose();
     chi2 += weight * residual * residual;
     ++residuals;
   }
@@ -139,7 +139,7 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
   std::optional<NormalEquations> equations = Linearize(camera, views, point);
   if (!equations) return kBehindCamera;
   for (int i = 0; i < options.max_iterations; ++i) {
-    const Eigen::Vector3d step = equations->H.ldlt().solve(equations->g);
+    const Eigen::Vector3d step = equations->information.ldlt().solve(equations->gradient);
     const Eigen::Vector3d trial = point - step;
     std::optional<NormalEquations> trial_equations = Linearize(camera, views, trial);
     // Also ends where the step is not finite.
@@ -151,7 +151,7 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
   TriangulatedPoint result;
   result.parallax = LargestParallax(centres, point);
   if (!(result.parallax >= options.min_parallax)) return kSmallParallax;
-  const Eigen::LLT<Eigen::Matrix3d> factor(equations->H);
+  const Eigen::LLT<Eigen::Matrix3d> factor(equations->information);
   if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-15)) return kSingular;
   result.point = {point, factor.solve(Eigen::Matrix3d::Identity())};
   result.chi2 = equations->chi2;

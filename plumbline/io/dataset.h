@@ -86,11 +86,11 @@ class Dataset {
 };
 
 struct DatasetOptions {
-  std::optional<SensorKind> sensor;     // nullopt: the richest the data offers
-  std::optional<DatasetFormat> format;  // nullopt: found out from the folder
+  std::optional<SensorKind> sensor = std::nullopt;     // nullopt: the richest the data offers
+  std::optional<DatasetFormat> format = std::nullopt;  // nullopt: found out from the folder
   // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1"; takes the
   // place of the calibration found with the data.
-  std::optional<std::string> camera;
+  std::optional<std::string> camera = std::nullopt;
   // Open the data even where there is no calibration, to look at it. `calibration` is a placeholder
   // then. Off: InputError.
   bool allow_missing_camera = false;

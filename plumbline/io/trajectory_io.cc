@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <system_error>
 
 #include <Eigen/LU>
 #include <fmt/core.h>
@@ -129,7 +130,13 @@ std::string Fixed(double value) {
 LoadedTrajectory ReadTrajectory(const path& file) {
   const TrajectoryFormat format = FormatOf(file);
   if (format != TrajectoryFormat::kKitti) return {format, ReadStamped(file, format)};
-  return {format, ReadKittiPoses(file, ReadKittiTimes(file.parent_path() / "times.txt"))};
+  path times = file.parent_path() / "times.txt";
+  const path distributed = file.parent_path() / ".." / "sequences" / file.stem() / "times.txt";
+  std::error_code error;
+  if (!std::filesystem::exists(times, error) && std::filesystem::exists(distributed, error)) {
+    times = distributed;
+  }
+  return {format, ReadKittiPoses(file, ReadKittiTimes(times))};
 }
 
 Trajectory ReadKittiPoses(const path& file, const std::vector<std::int64_t>& stamps_ns) {

@@ -63,7 +63,7 @@ class PairSearch {
         b_(b),
         options_(options),
         b_from_a_(b.cam_from_world * Inverse(a.cam_from_world)),
-        F_ba_(FundamentalFromPose(camera, camera, b_from_a_)) {}
+        F_ba_(FundamentalMatrix(camera, b_from_a_)) {}
 
   // Index of the match in b, for feature i of a.
   std::optional<std::size_t> Find(std::size_t i, const std::vector<bool>& taken_in_b) {

@@ -44,14 +44,14 @@ class BaLandmarks {
                  const HuberThresholds& huber,
                  double lambda,
                  SchurSolver& solver);
-  // Moves all landmarks by the solved step to trial states; a landmark whose cost would rise more
-  // than by standing still stands still. Returns the cost under the trial poses.
+  // Moves all landmarks by the solved step to trial states. Where that does worse than standing
+  // still, the landmark is moved on its own instead. Returns the cost under the trial poses.
   double Try(const std::vector<BaPose>& trial_poses,
              const HuberThresholds& huber,
              const SchurSolver& solver);
   // The decrease of the cost that the linear model expects of the step, the landmarks' share.
   double expected_decrease() const { return expected_; }
-  // Takes the trial states over and adapts the damping of each landmark.
+  // Takes the trial states over.
   void Accept();
   // Uses the observations with chi2 within `gate_scale` times the limit at 95 %.
   void Classify(const std::vector<BaPose>& poses, double gate_scale);
@@ -66,6 +66,8 @@ class BaLandmarks {
               std::vector<bool>& inliers) const;
 
  private:
+  static constexpr double kOwnLambda = 1e-3;  // initial
+  static constexpr double kNegligible = 1e-6;
   struct Packed {
     Term term;
     int pose = 0;
@@ -76,6 +78,18 @@ class BaLandmarks {
                 const State& state,
                 const std::vector<BaPose>& poses,
                 const HuberThresholds& huber) const;
+  // Equations of one landmark; with a solver also those of the free poses and the couplings.
+  LandmarkEquations<Kind::kDof> Linearize(std::size_t i,
+                                          const State& state,
+                                          const std::vector<BaPose>& poses,
+                                          const HuberThresholds& huber,
+                                          SchurSolver* solver);
+  // Sets the trial of a landmark by a few damped steps from its state (with cost `still`) while
+  // the poses stand still. Its damping is kept from call to call.
+  void MoveAlone(std::size_t i,
+                 double still,
+                 const std::vector<BaPose>& trial_poses,
+                 const HuberThresholds& huber);
   std::span<Coupling<Kind::kDof>> Couplings(std::size_t landmark) {
     return {couplings_.data() + coupling_begin_[landmark],
             couplings_.data() + coupling_begin_[landmark + 1]};
@@ -93,8 +107,7 @@ class BaLandmarks {
   std::vector<Coupling<Kind::kDof>> couplings_;
   std::vector<EliminatedLandmark<Kind::kDof>> eliminated_;
   std::vector<double> cost_, trial_cost_;
-  std::vector<double> damping_;  // factor on lambda, >= 1
-  std::vector<char> stood_still_;
+  std::vector<double> own_lambda_;  // damping of a landmark moved on its own
   double expected_ = 0;
 };
 
@@ -141,8 +154,7 @@ BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
   eliminated_.resize(n);
   cost_.assign(n, 0);
   trial_cost_.assign(n, 0);
-  damping_.assign(n, 1);
-  stood_still_.assign(n, 0);
+  own_lambda_.assign(n, 0);
 }
 
 template <class Kind>
@@ -172,6 +184,28 @@ double BaLandmarks<Kind>::Cost(const std::vector<BaPose>& poses, const HuberThre
 }
 
 template <class Kind>
+LandmarkEquations<Kind::kDof> BaLandmarks<Kind>::Linearize(std::size_t i,
+                                                           const State& state,
+                                                           const std::vector<BaPose>& poses,
+                                                           const HuberThresholds& huber,
+                                                           SchurSolver* solver) {
+  const typename Kind::View view = Kind::MakeView(state);
+  LandmarkEquations<Kind::kDof> landmark;
+  for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+    if (!used_[k]) continue;
+    const Packed& o = observations_[k];
+    const BaPose& pose = poses[static_cast<std::size_t>(o.pose)];
+    typename Kind::Target target{landmark, nullptr, nullptr};
+    if (solver != nullptr && o.coupling >= 0) {
+      target.pose = &solver->pose(pose.free_index);
+      target.W = &couplings_[static_cast<std::size_t>(o.coupling)].W;
+    }
+    Kind::Add(camera_, pose, view, o.term, Kind::Huber(o.term, huber), target);
+  }
+  return landmark;
+}
+
+template <class Kind>
 void BaLandmarks<Kind>::Eliminate(const std::vector<BaPose>& poses,
                                   const HuberThresholds& huber,
                                   double lambda,
@@ -179,20 +213,8 @@ void BaLandmarks<Kind>::Eliminate(const std::vector<BaPose>& poses,
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const std::span<Coupling<Kind::kDof>> couplings = Couplings(i);
     for (auto& coupling : couplings) coupling.W.setZero();
-    const typename Kind::View view = Kind::MakeView(states_[i]);
-    LandmarkEquations<Kind::kDof> landmark;
-    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-      if (!used_[k]) continue;
-      const Packed& o = observations_[k];
-      const BaPose& pose = poses[static_cast<std::size_t>(o.pose)];
-      typename Kind::Target target{landmark, nullptr, nullptr};
-      if (o.coupling >= 0) {
-        target.pose = &solver.pose(pose.free_index);
-        target.W = &couplings_[static_cast<std::size_t>(o.coupling)].W;
-      }
-      Kind::Add(camera_, pose, view, o.term, Kind::Huber(o.term, huber), target);
-    }
-    eliminated_[i] = solver.Eliminate<Kind::kDof>(landmark, lambda * damping_[i], couplings);
+    const LandmarkEquations<Kind::kDof> landmark = Linearize(i, states_[i], poses, huber, &solver);
+    eliminated_[i] = solver.Eliminate<Kind::kDof>(landmark, lambda + own_lambda_[i], couplings);
   }
 }
 
@@ -204,7 +226,6 @@ double BaLandmarks<Kind>::Try(const std::vector<BaPose>& trial_poses,
   expected_ = 0;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const auto& eliminated = eliminated_[i];
-    stood_still_[i] = 0;
     trial_[i] = states_[i];
     if (eliminated.regular) {
       const auto step = solver.LandmarkStep<Kind::kDof>(eliminated, Couplings(i));
@@ -217,27 +238,48 @@ double BaLandmarks<Kind>::Try(const std::vector<BaPose>& trial_poses,
     if (eliminated.regular && !(trial_cost_[i] <= cost_[i])) {
       const double still = CostOf(i, states_[i], trial_poses, huber);
       if (!(trial_cost_[i] <= still)) {
-        trial_[i] = states_[i];
-        trial_cost_[i] = still;
-        stood_still_[i] = 1;
+        MoveAlone(i, still, trial_poses, huber);
+        sum += trial_cost_[i];
+        continue;
       }
     }
+    own_lambda_[i] = own_lambda_[i] < kNegligible ? 0 : 0.1 * own_lambda_[i];
     sum += trial_cost_[i];
   }
   return sum;
 }
 
 template <class Kind>
+void BaLandmarks<Kind>::MoveAlone(std::size_t i,
+                                  double still,
+                                  const std::vector<BaPose>& trial_poses,
+                                  const HuberThresholds& huber) {
+  constexpr int kSteps = 5;
+  trial_[i] = states_[i];
+  trial_cost_[i] = still;
+  if (!std::isfinite(still)) return;
+  double& lambda = own_lambda_[i];
+  lambda = std::max(lambda, kOwnLambda);
+  for (int step = 0; step < kSteps; ++step) {
+    const auto equations = Linearize(i, trial_[i], trial_poses, huber, nullptr);
+    EliminatedLandmark<Kind::kDof> factor;
+    if (!factor.Factor(equations, lambda)) return;
+    const State next = Kind::Retract(trial_[i], factor.Step());
+    const double cost = CostOf(i, next, trial_poses, huber);
+    if (cost < trial_cost_[i]) {
+      trial_[i] = next;
+      trial_cost_[i] = cost;
+      lambda = std::max(kOwnLambda, 0.1 * lambda);
+    } else {
+      lambda = std::min(1e6, 10 * lambda);
+    }
+  }
+}
+
+template <class Kind>
 void BaLandmarks<Kind>::Accept() {
-  constexpr double kRaise = 10;
-  constexpr double kMaxDamping = 1e6;
-  constexpr double kLower = 0.2;
   std::swap(states_, trial_);
   std::swap(cost_, trial_cost_);
-  for (std::size_t i = 0; i < damping_.size(); ++i) {
-    damping_[i] = stood_still_[i] ? std::min(kMaxDamping, kRaise * damping_[i])
-                                  : std::max(1.0, kLower * damping_[i]);
-  }
 }
 
 template <class Kind>

@@ -144,20 +144,23 @@ void BundleAdjuster::Accept() {
 BaTermination BundleAdjuster::Optimize(const HuberThresholds& huber) {
   cost_ = Cost(huber);
   double lambda = options_.initial_lambda;
+  // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
+  const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
   for (int i = 0; i < options_.max_iterations; ++i) {
     ++iterations_;
     double cost = std::numeric_limits<double>::infinity();
     if (ComputeStep(huber, lambda)) cost = Try(huber);
-    const double tolerance = options_.function_tolerance * cost_;
+    const double tolerance = std::max(options_.function_tolerance * cost_, rounding);
+    const bool nearly_gauss_newton = lambda <= kSmallLambda;
     if (cost <= cost_) {
       const double gain = cost_ - cost;
       Accept();
       cost_ = cost;
-      if (gain <= tolerance && lambda <= kSmallLambda) return BaTermination::kConverged;
+      if (gain <= tolerance && nearly_gauss_newton) return BaTermination::kConverged;
       if (gain > 0.5 * expected_) lambda = std::max(kMinLambda, 0.1 * lambda);
-      if (gain < 0.1 * expected_) lambda *= 4;
+      if (gain < 0.1 * expected_) lambda = std::min(kMaxLambda, 4 * lambda);
     } else {
-      if (expected_ <= tolerance && std::isfinite(cost) && lambda <= kSmallLambda) {
+      if (std::isfinite(cost) && expected_ <= tolerance && nearly_gauss_newton) {
         return BaTermination::kConverged;
       }
       lambda *= 10;

@@ -53,7 +53,7 @@ enum class BaTermination {
   kMaxIterations,  // the budget of the last round is used up
   kNoProgress,     // no step lowers the cost, whatever the damping
   kNotFinite,      // the input has NaN or infinite numbers; the result repeats the input
-  kNothingToDo,    // no free pose and no observed landmark, or no observation
+  kNothingToDo,    // no observation has a residual at the start
 };
 
 constexpr auto EnumNames(std::type_identity<BaTermination>) {

@@ -88,6 +88,8 @@ class PoseSolver {
   void EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, Equations& eq);
   // Levenberg-Marquardt from pose_; true when it met a tolerance.
   bool Optimize(const HuberThresholds& huber, int max_iterations);
+  // Makes chi2_ that of pose_ where it is not (after a rejected step).
+  void UpdateChi2();
   // Brings a far-off pose near with a Huber threshold that follows the median residual.
   void OptimizeCoarse();
   // Sets the matches in use by chi2; true when any changed.
@@ -106,6 +108,7 @@ class PoseSolver {
   std::vector<double> point_chi2_, line_chi2_, group_chi2_, group_limit_, scratch_;
   std::vector<char> point_used_, group_used_;
   Rigid3 pose_;
+  bool chi2_is_current_ = false;  // of pose_
   int iterations_ = 0;
 };
 
@@ -198,30 +201,48 @@ Equations PoseSolver::Evaluate(const Rigid3& pose, const HuberThresholds& huber)
   return eq;
 }
 
+void PoseSolver::UpdateChi2() {
+  if (chi2_is_current_) return;
+  chi2_is_current_ = true;
+  const Eigen::Matrix3d R = pose_.rotation.toRotationMatrix();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Eigen::Vector3d p = R * points_[i].in_world + pose_.translation;
+    point_chi2_[i] = PointChi2(camera_, points_[i].term, p).value_or(kInfinity);
+  }
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const Eigen::Vector3d t = pose_.translation + Eigen::Vector3d(lines_[i].term.shift, 0, 0);
+    const Eigen::Vector3d moment = R * lines_[i].moment + t.cross(R * lines_[i].direction);
+    Eigen::Vector2d r;
+    const bool valid = WhitenedLineDistances(camera_, lines_[i].term, moment, r);
+    line_chi2_[i] = valid ? r.squaredNorm() : kInfinity;
+  }
+}
+
 bool PoseSolver::Optimize(const HuberThresholds& huber, int max_iterations) {
   Equations eq = Evaluate(pose_, huber);
+  chi2_is_current_ = true;
   double lambda = 1e-5;
   for (int i = 0; i < max_iterations && lambda <= kMaxLambda; ++i) {
     ++iterations_;
     Matrix6d A = eq.H;
     A.diagonal() += lambda * eq.H.diagonal().cwiseMax(1e-12 * eq.H.diagonal().maxCoeff());
-    const Eigen::LDLT<Matrix6d, Eigen::Lower> ldlt(A);
-    const Vector6d step = -ldlt.solve(eq.g);
+    const Vector6d step = -Eigen::LDLT<Matrix6d, Eigen::Lower>(A).solve(eq.g);
     if (!step.allFinite()) return false;
     // What the linear model expects the step to gain, in units of squared sigmas.
     const double expected = -0.5 * eq.g.dot(step);
+    const bool is_small = expected <= options_.decrement_tolerance;
     const Rigid3 trial = RetractLeft(pose_, step);
     const Equations next = Evaluate(trial, huber);
-    const bool small = expected <= options_.decrement_tolerance;
-    if (next.cost <= eq.cost) {
+    chi2_is_current_ = next.cost <= eq.cost;
+    if (chi2_is_current_) {
       const double gain = eq.cost - next.cost;
+      const double tolerance = options_.cost_tolerance * eq.cost;
       pose_ = trial;
-      const double before = eq.cost;
       eq = next;
       lambda = std::max(kMinLambda, 0.1 * lambda);
-      if (small || gain <= options_.cost_tolerance * before) return true;
+      if (is_small || gain <= tolerance) return true;
     } else {
-      if (small) return true;
+      if (is_small) return true;
       lambda *= 10;
     }
   }
@@ -243,12 +264,11 @@ void PoseSolver::OptimizeCoarse() {
   constexpr double kMedianOfInliers = 1.2;
   constexpr double kCloseEnough = 2;
   constexpr int kPasses = 5;
-  Evaluate(pose_, {});
   for (int pass = 0; pass < kPasses; ++pass) {
+    UpdateChi2();
     const double scale = MedianNorm() / kMedianOfInliers;
     if (scale < kCloseEnough) return;
     Optimize(Thresholds(0.5 * scale), 3);
-    Evaluate(pose_, {});
   }
 }
 
@@ -288,7 +308,7 @@ PoseOnlyResult PoseSolver::Solve(const Rigid3& initial) {
     const bool robust = round < options_.robust_rounds;
     const bool same_loss = round > 0 && (robust || round > options_.robust_rounds);
     converged = Optimize(robust ? Thresholds(1) : HuberThresholds{}, options_.max_iterations);
-    Evaluate(pose_, {});  // chi2 at the final pose: the last trial may have been rejected
+    UpdateChi2();
     if (!Classify() && converged && same_loss && !robust) break;
   }
   const Equations eq = Evaluate(pose_, {});

@@ -63,8 +63,8 @@ PointTerm MakePointTerm(const PointMeasurement& measurement);
 // Whitened residual and the entries of its derivative with respect to the point in the camera frame
 // that are not always zero: [ux 0 uz; 0 vy vz; 0 0 dz].
 struct PointLinearization {
-  Eigen::Vector3d r;
-  double ux, uz, vy, vz, dz;
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();
+  double ux = 0, uz = 0, vy = 0, vz = 0, dz = 0;
 };
 
 // False when the point is not in front of the camera; `out` is then not set.
@@ -116,8 +116,9 @@ LineTerm MakeLineTerm(const RectifiedCamera& camera, const LineMeasurement& meas
 
 // Whitened residual and its derivative with respect to the moment in the measuring camera's frame.
 struct LineLinearization {
-  Eigen::Vector2d r;
-  Eigen::Vector3d h0, h1;  // of the first and second row
+  Eigen::Vector2d r = Eigen::Vector2d::Zero();
+  Eigen::Vector3d h0 = Eigen::Vector3d::Zero();  // of the first row
+  Eigen::Vector3d h1 = Eigen::Vector3d::Zero();  // of the second row
 };
 
 // Distances (eq. 13), whitened. `moment` in the frame of the camera that measured, of any scale.

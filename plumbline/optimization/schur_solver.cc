@@ -11,7 +11,7 @@ namespace plumbline {
 SchurSolver::SchurSolver(int free_poses)
     : free_poses_(free_poses),
       poses_(static_cast<std::size_t>(free_poses)),
-      complement_(static_cast<std::size_t>(free_poses * (free_poses + 1) / 2)),
+      complement_(poses_.size() * (poses_.size() + 1) / 2),
       complement_g_(static_cast<std::size_t>(free_poses)),
       matrix_(6 * free_poses, 6 * free_poses),
       step_(6 * free_poses) {

@@ -40,6 +40,12 @@ struct EliminatedLandmark {
   Eigen::Matrix<double, kDof, kDof> L = Eigen::Matrix<double, kDof, kDof>::Zero();
   Eigen::Matrix<double, kDof, 1> y = Eigen::Matrix<double, kDof, 1>::Zero();
   bool regular = false;  // false: held still in this step
+
+  // Sets L, y and `regular` from V + lambda diag(V) and g.
+  bool Factor(const LandmarkEquations<kDof>& equations, double lambda);
+  // -L^-T (y + x).
+  Eigen::Matrix<double, kDof, 1> Step(
+      const Eigen::Matrix<double, kDof, 1>& x = Eigen::Matrix<double, kDof, 1>::Zero()) const;
 };
 
 // Damped Gauss-Newton equations of free poses and landmarks, with the landmarks eliminated one by
@@ -76,7 +82,8 @@ class SchurSolver {
  private:
   // Block (row, column) of the sum of Z Z^T, row >= column.
   Matrix6d& Block(int row, int column) {
-    return complement_[static_cast<std::size_t>(row * (row + 1) / 2 + column)];
+    const auto r = static_cast<std::size_t>(row);
+    return complement_[r * (r + 1) / 2 + static_cast<std::size_t>(column)];
   }
 
   int free_poses_;
@@ -87,26 +94,42 @@ class SchurSolver {
   Eigen::VectorXd step_;
 };
 
-// Cholesky factor of V + lambda diag(V), lower triangle. False when it is not positive definite.
 template <int kDof>
-bool FactorDamped(const Eigen::Matrix<double, kDof, kDof>& V,
-                  double lambda,
-                  Eigen::Matrix<double, kDof, kDof>& L) {
+bool EliminatedLandmark<kDof>::Factor(const LandmarkEquations<kDof>& equations, double lambda) {
+  const auto& V = equations.V;
   const double floor = 1e-12 * V.diagonal().maxCoeff();
+  regular = false;
   for (int j = 0; j < kDof; ++j) {
     const double damped = V(j, j) + lambda * (V(j, j) > floor ? V(j, j) : floor);
     double pivot = damped;
-    for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
+    double value = equations.g(j);
+    for (int k = 0; k < j; ++k) {
+      pivot -= L(j, k) * L(j, k);
+      value -= L(j, k) * y(k);
+    }
     if (!(pivot > 1e-14 * damped)) return false;
     L(j, j) = std::sqrt(pivot);
     const double inverse = 1 / L(j, j);
+    y(j) = value * inverse;
     for (int i = j + 1; i < kDof; ++i) {
-      double value = V(i, j);
-      for (int k = 0; k < j; ++k) value -= L(i, k) * L(j, k);
-      L(i, j) = value * inverse;
+      double entry = V(i, j);
+      for (int k = 0; k < j; ++k) entry -= L(i, k) * L(j, k);
+      L(i, j) = entry * inverse;
     }
   }
+  regular = true;
   return true;
+}
+
+template <int kDof>
+Eigen::Matrix<double, kDof, 1> EliminatedLandmark<kDof>::Step(
+    const Eigen::Matrix<double, kDof, 1>& x) const {
+  Eigen::Matrix<double, kDof, 1> step = -(y + x);
+  for (int j = kDof - 1; j >= 0; --j) {
+    for (int k = j + 1; k < kDof; ++k) step(j) -= L(k, j) * step(k);
+    step(j) /= L(j, j);
+  }
+  return step;
 }
 
 template <int kDof>
@@ -114,13 +137,7 @@ EliminatedLandmark<kDof> SchurSolver::Eliminate(const LandmarkEquations<kDof>& l
                                                 double lambda,
                                                 std::span<Coupling<kDof>> couplings) {
   EliminatedLandmark<kDof> out;
-  out.regular = FactorDamped<kDof>(landmark.V, lambda, out.L);
-  if (!out.regular) return out;
-  for (int j = 0; j < kDof; ++j) {
-    double value = landmark.g(j);
-    for (int k = 0; k < j; ++k) value -= out.L(j, k) * out.y(k);
-    out.y(j) = value / out.L(j, j);
-  }
+  if (!out.Factor(landmark, lambda)) return out;
   for (Coupling<kDof>& coupling : couplings) {
     for (int j = 0; j < kDof; ++j) {
       for (int k = 0; k < j; ++k) coupling.W.col(j) -= out.L(j, k) * coupling.W.col(k);
@@ -142,15 +159,10 @@ Eigen::Matrix<double, kDof, 1> SchurSolver::LandmarkStep(
     const EliminatedLandmark<kDof>& landmark, std::span<const Coupling<kDof>> couplings) const {
   Eigen::Matrix<double, kDof, 1> x = Eigen::Matrix<double, kDof, 1>::Zero();
   if (!landmark.regular) return x;
-  x = -landmark.y;
   for (const Coupling<kDof>& coupling : couplings) {
-    x.noalias() -= coupling.W.transpose() * step_.segment<6>(6 * coupling.pose);
+    x.noalias() += coupling.W.transpose() * step_.segment<6>(6 * coupling.pose);
   }
-  for (int j = kDof - 1; j >= 0; --j) {
-    for (int k = j + 1; k < kDof; ++k) x(j) -= landmark.L(k, j) * x(k);
-    x(j) /= landmark.L(j, j);
-  }
-  return x;
+  return landmark.Step(x);
 }
 
 }  // namespace plumbline

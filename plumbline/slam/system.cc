@@ -34,14 +34,6 @@ class StageClock {
   Clock::time_point last_ = start_;
 };
 
-template <class Enum>
-std::string NameOf(Enum value) {
-  for (const auto& [candidate, name] : EnumNames(std::type_identity<Enum>{})) {
-    if (candidate == value) return name;
-  }
-  throw BugError("enum value without a name");
-}
-
 std::shared_ptr<const IndexedFeatures> Index(const RectifiedCamera& camera, Features features) {
   std::vector<Eigen::Vector2d> positions;
   positions.reserve(features.points.size());

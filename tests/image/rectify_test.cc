@@ -153,6 +153,46 @@ TEST(Rectifier, UndistortsMonoWithoutTurning) {
       1e-8);
 }
 
+TEST(Rectifier, BoundsTheFocalLengthOfAFisheye) {
+  Calibration calibration;
+  calibration.left = Camera({.fx = 190.98,
+                             .fy = 190.97,
+                             .cx = 254.93,
+                             .cy = 256.90,
+                             .width = 512,
+                             .height = 512,
+                             .model = DistortionModel::kEquidistant,
+                             .distortion = {0.00348, 0.000715, -0.00205, 0.0002}});
+  const Rectifier rectifier(calibration);
+  EXPECT_NEAR(rectifier.camera().fx, 95.4875, 1e-9);
+  EXPECT_LT(InvalidFraction(rectifier.left_mask()), 0.02);
+  const Eigen::Vector3d wide(2, 1, 1);
+  EXPECT_LT(
+      (*rectifier.RectifyLeft(*calibration.left.Project(wide)) - rectifier.camera().Project(wide))
+          .norm(),
+      1e-8);
+}
+
+// The second camera looks 40 degrees to the side: no ideal image has only real pixels.
+TEST(Rectifier, MasksWhatNoCameraSaw) {
+  Calibration calibration = EurocCalibration();
+  calibration.right_from_left.rotation = ExpSo3({0, 0.7, 0});
+  calibration.right_from_left.translation =
+      -(calibration.right_from_left.rotation * Eigen::Vector3d(0.11, 0, 0));
+  const Rectifier rectifier(calibration);
+  EXPECT_GT(InvalidFraction(rectifier.left_mask()), 0.02);
+  EXPECT_LT(InvalidFraction(rectifier.left_mask()), 0.7);
+  const RectifiedCamera& ideal = rectifier.camera();
+  const Eigen::Quaterniond left_from_rectified = rectifier.rectified_left_from_left().conjugate();
+  for (int v = 0; v < ideal.height; v += 17) {
+    for (int u = 0; u < ideal.width; u += 17) {
+      const auto raw = calibration.left.Project(left_from_rectified * ideal.Unproject({u, v}));
+      const bool seen = raw && calibration.left.Contains(*raw);
+      EXPECT_EQ(rectifier.left_mask().at(u, v) != 0, seen) << u << " " << v;
+    }
+  }
+}
+
 TEST(Rectifier, RemapsDepthByNearestNeighbour) {
   const Calibration calibration = TumCalibration();
   const Rectifier rectifier(calibration, {.virtual_baseline = 0.1});

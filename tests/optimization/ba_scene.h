@@ -13,11 +13,11 @@ struct BaSceneOptions {
   int free_poses = 10;  // the last ones
   int points = 400;
   int lines = 80;
-  int views = 6;  // consecutive poses that see a landmark
+  int weak_lines = 0;  // seen in two views only, however short and however placed
+  int views = 6;       // consecutive poses that see a landmark
   double sigma = 0;
   double outliers = 0;
-  double perturbation = 1;           // of the start: 1 means 0.01 rad, 5 cm
-  double shortest_line_angle = 0.2;  // of the line with the baseline of its views, radians
+  double perturbation = 1;  // of the start: 1 means 0.01 rad, 5 cm
 };
 
 // A bundle adjustment problem with its true answer.
@@ -35,16 +35,16 @@ inline Rigid3 SceneCamera(Random& random, int i) {
   return out;
 }
 
-// A segment ahead of the camera that is neither short in the image nor in one plane with the motion
-// (along x), where its 3D line would not be determined.
-inline Segment3 SceneSegment(Random& random, const RectifiedCamera& camera, double angle) {
+// A segment ahead of the camera. Unless weak, it is neither short in the image nor in one plane
+// with the motion (along x), where its 3D line would not be determined.
+inline Segment3 SceneSegment(Random& random, const RectifiedCamera& camera, bool weak) {
   for (;;) {
     const Segment3 segment{random.PointInView(camera), random.PointInView(camera)};
     const Eigen::Vector2d a = camera.Project(segment.start);
     const Eigen::Vector2d b = camera.Project(segment.end);
     const bool is_long = (a - b).norm() > 60;
-    const bool is_upright = std::abs(a.y() - b.y()) > std::sin(angle) * (a - b).norm();
-    if (is_long && is_upright) return segment;
+    const bool is_upright = std::abs(a.y() - b.y()) > 0.2 * (a - b).norm();
+    if (weak || (is_long && is_upright)) return segment;
   }
 }
 
@@ -123,15 +123,18 @@ inline BaScene MakeBaScene(unsigned seed, const BaSceneOptions& o) {
                            local);
     AddPointObservations(random, o, first, scene);
   }
-  for (int i = 0; i < o.lines; ++i) {
+  BaSceneOptions weak = o;
+  weak.views = 2;
+  for (int i = 0; i < o.lines + o.weak_lines; ++i) {
+    const bool is_weak = i >= o.lines;
     const int first = random.Index(starts);
     const Rigid3 world_from_cam =
         Inverse(truth.poses[static_cast<std::size_t>(first)].cam_from_world);
-    Segment3 segment = SceneSegment(random, truth.camera, o.shortest_line_angle);
+    Segment3 segment = SceneSegment(random, truth.camera, is_weak);
     segment.start = world_from_cam * (segment.start + Eigen::Vector3d(0, 0, 2));
     segment.end = world_from_cam * (segment.end + Eigen::Vector3d(0, 0, 2));
     truth.lines.push_back(ToOrthonormal(LineThroughPoints(segment.start, segment.end)));
-    AddLineObservations(random, o, first, segment, scene);
+    AddLineObservations(random, is_weak ? weak : o, first, segment, scene);
   }
   scene.problem = truth;
   Perturb(random, o.perturbation, scene.problem);

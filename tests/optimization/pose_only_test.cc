@@ -12,6 +12,8 @@
 namespace plumbline {
 namespace {
 
+static_assert(OptionGroup<PoseOnlyOptions>);
+
 using testing::MakePoseScene;
 using Scene = testing::PoseScene;
 

@@ -38,7 +38,7 @@ inline Calibration EurocCalibration() {
                               .width = 752,
                               .height = 480,
                               .model = DistortionModel::kRadTan,
-                              .distortion = {-0.28368365, 0.07451284, -0.00010473, -3.5559e-05}});
+                              .distortion = {-0.28368365, 0.07451284, -0.00010473, -3.555907e-05}});
   calibration.right_from_left = Inverse(rigid(body_from_right)) * rigid(body_from_left);
   calibration.rate_hz = 20;
   calibration.body_from_left = rigid(body_from_left);
