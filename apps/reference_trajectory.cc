@@ -24,7 +24,8 @@ fs::path GroundTruthFile(const fs::path& path) {
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
   if (!fs::is_directory(path, error)) return path;
   const fs::path euroc = fs::path("state_groundtruth_estimate0") / "data.csv";
-  for (const fs::path& name : {"mav0" / euroc, euroc, fs::path("groundtruth.txt"), fs::path("poses.txt")}) {
+  for (const fs::path& name :
+       {"mav0" / euroc, euroc, fs::path("groundtruth.txt"), fs::path("poses.txt")}) {
     if (IsFile(path / name)) return path / name;
   }
   throw InputError(path.string() +
