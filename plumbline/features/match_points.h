@@ -35,13 +35,13 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
 
 struct StereoPointOptions {
   int max_distance = 75;
-  double ratio = 0.9;           // best / second best that is somewhere else; 1: no test
-  double row_band_px = 2;       // allowed row difference, times the scale of the octave
-  double min_depth_m = 0.25;    // gives the largest disparity
-  int window_px = 5;            // half width of the correlation window on the level image
-  int search_px = 5;            // half width of the correlation search on the level image
-  double max_sad_factor = 2.1;  // matches with a residual above this times the median are dropped
-  double min_sigma_px = 0.12;   // floor of the disparity's deviation on the level image
+  double ratio = 0.9;          // best / second best that is somewhere else; 1: no test
+  double row_band_px = 2;      // allowed row difference, times the scale of the octave
+  double min_depth_m = 0.25;   // gives the largest disparity
+  int window_px = 5;           // half width of the correlation window on the level image
+  int search_px = 5;           // half width of the correlation search on the level image
+  double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
+  double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
 };
 
 struct StereoView {

@@ -12,7 +12,6 @@
 #include <numbers>
 #include <tuple>
 
-#include <Eigen/LU>
 #include <opencv2/features2d.hpp>
 
 namespace plumbline {
@@ -135,34 +134,50 @@ double CentroidAngle(const GrayImage& image, int x, int y) {
   return std::atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
 }
 
-// The point that the edges around a corner run to: minimum over q of sum (g . (p - q))^2 with
-// Gaussian weights (Förstner and Gülch 1987). Offset from the pixel centre; zero where it is not
-// well defined.
+// Place of the extreme of a parabola through three values at -1, 0, 1; 0 when it is not between.
+double ParabolaPeak(double before, double at, double after) {
+  const double curvature = before - 2 * at + after;
+  if (curvature >= 0) return 0;
+  return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+}
+
+// Sub-pixel peak of the Harris response around a corner, offset from the pixel centre.
 Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
-  constexpr int kRadius = 3;
-  constexpr std::array<double, kRadius + 1> kWeight = {1.0, 0.8, 0.41, 0.135};
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
+  constexpr int kWindow = 2;
+  constexpr int kReach = kWindow + 1;
+  constexpr int kSide = 2 * kReach + 1;
+  std::array<std::array<float, 3>, static_cast<std::size_t>(kSide * kSide)> products;
+  std::size_t k = 0;
+  for (int dy = -kReach; dy <= kReach; ++dy) {
     const std::uint8_t* above = image.row(y + dy - 1) + x;
     const std::uint8_t* row = image.row(y + dy) + x;
     const std::uint8_t* below = image.row(y + dy + 1) + x;
-    for (int dx = -kRadius; dx <= kRadius; ++dx) {
-      const Eigen::Vector2d g(row[dx + 1] - row[dx - 1], below[dx] - above[dx]);
-      const double w = kWeight[static_cast<std::size_t>(std::abs(dx))] *
-                       kWeight[static_cast<std::size_t>(std::abs(dy))];
-      const Eigen::Matrix2d gg = w * g * g.transpose();
-      normal += gg;
-      moment += gg * Eigen::Vector2d(dx, dy);
+    for (int dx = -kReach; dx <= kReach; ++dx, ++k) {
+      const auto gx = static_cast<float>(2 * (row[dx + 1] - row[dx - 1]) + above[dx + 1] -
+                                         above[dx - 1] + below[dx + 1] - below[dx - 1]);
+      const auto gy = static_cast<float>(2 * (below[dx] - above[dx]) + below[dx + 1] -
+                                         above[dx + 1] + below[dx - 1] - above[dx - 1]);
+      products[k] = {gx * gx, gx * gy, gy * gy};
     }
   }
-  const double determinant = normal.determinant();
-  const double trace = normal.trace();
-  // Flat, or an edge: the smaller eigenvalue is too small against the larger one.
-  if (determinant < 0.02 * trace * trace || trace < 1) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d offset = normal.inverse() * moment;
-  if (offset.cwiseAbs().maxCoeff() > 1) return Eigen::Vector2d::Zero();
-  return offset;
+  const auto response = [&](int sx, int sy) {
+    float xx = 0;
+    float xy = 0;
+    float yy = 0;
+    for (int v = -kWindow; v <= kWindow; ++v) {
+      for (int u = -kWindow; u <= kWindow; ++u) {
+        const auto& p =
+            products[static_cast<std::size_t>((sy + v + kReach) * kSide + sx + u + kReach)];
+        xx += p[0];
+        xy += p[1];
+        yy += p[2];
+      }
+    }
+    return static_cast<double>(xx * yy - xy * xy - 0.04F * (xx + yy) * (xx + yy));
+  };
+  const double center = response(0, 0);
+  return {ParabolaPeak(response(-1, 0), center, response(1, 0)),
+          ParabolaPeak(response(0, -1), center, response(0, 1))};
 }
 
 std::vector<Descriptor> Describe(const GrayImage& image,

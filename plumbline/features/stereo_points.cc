@@ -47,12 +47,17 @@ struct Candidate {
 
 // May these two show one point? Rows, octaves, disparity.
 struct StereoGate {
+  const ImagePyramid& pyramid;
   double max_disparity = 0;
   double row_band = 0;
 
+  double Scale(const PointFeature& point) const {
+    return pyramid[static_cast<std::size_t>(point.octave)].scale.maxCoeff();
+  }
+
   bool operator()(const PointFeature& left, const PointFeature& right) const {
     const double disparity = left.px.x() - right.px.x();
-    const double scale = std::max(left.sigma_px, right.sigma_px);
+    const double scale = std::max(Scale(left), Scale(right));
     return std::abs(left.octave - right.octave) <= 1 && disparity >= -scale &&
            disparity <= max_disparity + scale &&
            std::abs(left.px.y() - right.px.y()) <= row_band * scale;
@@ -69,7 +74,8 @@ Candidate BestRight(const PointFeature& left,
   constexpr double kMaxScaleRatio = 2;  // of neighbouring octaves
   Candidate best;
   std::vector<Candidate> all;
-  const double band = gate.row_band * kMaxScaleRatio * left.sigma_px;
+  const double scale = gate.Scale(left);
+  const double band = gate.row_band * kMaxScaleRatio * scale;
   rows.ForEach(left.px.y(), band, [&](int i) {
     const PointFeature& candidate = right[static_cast<std::size_t>(i)];
     if (!gate(left, candidate)) return;
@@ -83,7 +89,7 @@ Candidate BestRight(const PointFeature& left,
   const double place = right[static_cast<std::size_t>(best.index)].px.x();
   for (const Candidate& c : all) {
     const double apart = std::abs(right[static_cast<std::size_t>(c.index)].px.x() - place);
-    if (apart > kSamePlacePx * left.sigma_px && best.distance > options.ratio * c.distance) {
+    if (apart > kSamePlacePx * scale && best.distance > options.ratio * c.distance) {
       return {};
     }
   }
@@ -261,8 +267,10 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
                                                         const StereoView& right,
                                                         const StereoPointOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
+  PLUMBLINE_CHECK(left.pyramid.size() == right.pyramid.size(), "pyramids of one kind");
   PLUMBLINE_CHECK(options.window_px <= kMaxWindow, "size of the correlation window");
-  const StereoGate gate{camera.DisparityFromDepth(options.min_depth_m), options.row_band_px};
+  const StereoGate gate{
+      left.pyramid, camera.DisparityFromDepth(options.min_depth_m), options.row_band_px};
   const RowIndex rows(right.points);
   std::vector<Candidate> candidates(left.points.size());
   for (std::size_t i = 0; i < left.points.size(); ++i) {
@@ -275,7 +283,7 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
     if (candidates[i].index < 0) continue;
     const auto j = static_cast<std::size_t>(candidates[i].index);
     const auto octave = static_cast<std::size_t>(left.points[i].octave);
-    if (best_left[j] != static_cast<int>(i) || octave >= right.pyramid.size()) continue;
+    if (best_left[j] != static_cast<int>(i)) continue;
     const PyramidLevel& level = left.pyramid[octave];
     const PyramidLevel& other = right.pyramid[octave];
     const Eigen::Vector2i at = level.FromFull(left.points[i].px).array().round().cast<int>();
