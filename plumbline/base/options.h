@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/error.h"
+
 #include <limits>
+#include <string>
 #include <type_traits>
 
 namespace plumbline {
@@ -23,6 +26,15 @@ namespace plumbline {
 //   constexpr auto EnumNames(std::type_identity<E>) {
 //     return std::array{std::pair{E::kFirst, "first"}, std::pair{E::kSecond, "second"}};
 //   }
+
+// The name of an enumerator, as EnumNames lists it.
+template <class Enum>
+std::string NameOf(Enum value) {
+  for (const auto& [candidate, name] : EnumNames(std::type_identity<Enum>{})) {
+    if (candidate == value) return name;
+  }
+  throw BugError("enumerator without a name");
+}
 
 // Closed interval of allowed values.
 struct Range {

@@ -6,18 +6,19 @@
 
 namespace plumbline {
 
-// left.x - right.x of a point in a rectified pair, measured in the right image or computed from a depth
-// image, with its standard deviation.
+// left.x - right.x of a point in a rectified pair, measured in the right image or computed from a
+// depth image, with its standard deviation.
 struct Disparity {
   double px = 0;
   double sigma_px = 1;
 };
 
 // The camera that all stages behind rectification see: an ideal pinhole, and beside it a second,
-// equal one displaced by `baseline` along +x (right camera of a rectified pair). For RGB-D images the
-// right camera is virtual: depth z is carried as the disparity fx * baseline / z.
+// equal one displaced by `baseline` along +x (right camera of a rectified pair). For RGB-D images
+// the right camera is virtual: depth z is carried as the disparity fx * baseline / z.
 //
-// Camera frame: x right, y down, z forward. Pixel centres at integer coordinates. Lengths in metres.
+// Camera frame: x right, y down, z forward. Pixel centres at integer coordinates. Lengths in
+// metres.
 struct RectifiedCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   double baseline = 0;  // 0: monocular

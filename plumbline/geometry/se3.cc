@@ -18,7 +18,8 @@ struct Coefficients {
 Coefficients CoefficientsOf(double t) {
   const double t2 = t * t;
   if (t < 1e-3) {
-    return {1 - t2 / 6 + t2 * t2 / 120, 0.5 - t2 / 24 + t2 * t2 / 720,
+    return {1 - t2 / 6 + t2 * t2 / 120,
+            0.5 - t2 / 24 + t2 * t2 / 720,
             1.0 / 6 - t2 / 120 + t2 * t2 / 5040};
   }
   return {std::sin(t) / t, (1 - std::cos(t)) / t2, (t - std::sin(t)) / (t2 * t)};
@@ -53,8 +54,8 @@ Eigen::Matrix3d InverseLeftJacobianSo3(const Eigen::Vector3d& w) {
   const double t = w.norm();
   const Eigen::Matrix3d W = Skew(w);
   const double t2 = t * t;
-  const double b = t < 1e-3 ? 1.0 / 12 + t2 / 720
-                            : 1 / t2 - (1 + std::cos(t)) / (2 * t * std::sin(t));
+  // By the half angle: the form with (1 + cos t) / sin t is 0 / 0 at pi.
+  const double b = t < 1e-3 ? 1.0 / 12 + t2 / 720 : (1 - 0.5 * t / std::tan(0.5 * t)) / t2;
   return Eigen::Matrix3d::Identity() - 0.5 * W + b * W * W;
 }
 
@@ -84,17 +85,17 @@ Eigen::Matrix3d TranslationBlock(const Eigen::Vector3d& w, const Eigen::Vector3d
   const double t = w.norm();
   const double t2 = t * t;
   const double a = CoefficientsOf(t).cubic;
-  const double b = t < 1e-2 ? 1.0 / 24 - t2 / 720 + t2 * t2 / 40320
-                            : (t2 / 2 + std::cos(t) - 1) / (t2 * t2);
+  const double b =
+      t < 1e-2 ? 1.0 / 24 - t2 / 720 + t2 * t2 / 40320 : (t2 / 2 + std::cos(t) - 1) / (t2 * t2);
   const double c = t < 1e-2 ? 1.0 / 120 - t2 / 2520 + t2 * t2 / 120960
                             : (t - 1.5 * std::sin(t) + 0.5 * t * std::cos(t)) / (t2 * t2 * t);
   const Eigen::Matrix3d W = Skew(w);
   const Eigen::Matrix3d V = Skew(v);
   const Eigen::Matrix3d WV = W * V;
   const Eigen::Matrix3d VW = V * W;
-  const Eigen::Matrix3d WVW = WV * W;
-  return 0.5 * V + a * (WV + VW + WVW) + b * (W * WV + VW * W - 3 * WVW) +
-         c * (WVW * W + W * WVW);
+  const Eigen::Matrix3d WV_w = WV * W;
+  return 0.5 * V + a * (WV + VW + WV_w) + b * (W * WV + VW * W - 3 * WV_w) +
+         c * (WV_w * W + W * WV_w);
 }
 
 Matrix6d BlockLowerTriangular(const Eigen::Matrix3d& diagonal, const Eigen::Matrix3d& lower) {

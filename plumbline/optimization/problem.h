@@ -15,8 +15,8 @@
 namespace plumbline {
 
 // A pixel measurement of a point in the left camera, with its disparity where one was measured.
-// Residual (px - projection) / sigma_px and, as a third row, (disparity - predicted) / its sigma: the
-// disparity, not the right column, because its error is independent of the left column's.
+// Residual (px - projection) / sigma_px and, as a third row, (disparity - predicted) / its sigma:
+// the disparity, not the right column, because its error is independent of the left column's.
 struct PointMeasurement {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double sigma_px = 1;

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/command_line.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/nearest_name.h"
+
+#include <algorithm>
+
+namespace plumbline {
+namespace {
+
+const CommandOption* FindOption(const CommandSyntax& syntax, std::string_view name) {
+  const auto found = std::find_if(
+      syntax.options.begin(), syntax.options.end(), [name](const CommandOption& option) {
+        return option.name == name;
+      });
+  return found == syntax.options.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void FailUnknown(const CommandSyntax& syntax, const std::string& name) {
+  std::vector<std::string> names = {"--help"};
+  for (const CommandOption& option : syntax.options) names.push_back(option.name);
+  const std::optional<std::string> nearest = NearestName(name, names);
+  throw InputError(syntax.name + ": unknown option " + name +
+                   (nearest ? "; the nearest is " + *nearest : ""));
+}
+
+bool MayBeLeftOut(const std::string& positional) { return positional.starts_with('['); }
+
+}  // namespace
+
+CommandLine::CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments) {
+  bool options_end = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (options_end || argument.size() < 2 || argument.front() != '-') {
+      positionals_.push_back(argument);
+      continue;
+    }
+    if (argument == "--") {
+      options_end = true;
+      continue;
+    }
+    if (argument == "--help" || argument == "-h") {
+      values_["--help"].emplace_back();
+      return;
+    }
+    const std::size_t equals = argument.find('=');
+    const std::string name = argument.substr(0, equals);
+    const CommandOption* option = FindOption(syntax, name);
+    if (option == nullptr) FailUnknown(syntax, name);
+    if (option->value.empty()) {
+      if (equals != std::string::npos) throw InputError(name + ": takes no value");
+      values_[name].emplace_back();
+    } else if (equals != std::string::npos) {
+      values_[name].push_back(argument.substr(equals + 1));
+    } else {
+      if (i + 1 == arguments.size()) throw InputError(name + ": expected " + option->value);
+      values_[name].push_back(arguments[++i]);
+    }
+  }
+  const auto wanted = syntax.positionals.size();
+  const auto optional = static_cast<std::size_t>(
+      std::count_if(syntax.positionals.begin(), syntax.positionals.end(), MayBeLeftOut));
+  if (positionals_.size() > wanted) {
+    throw InputError(syntax.name + ": unexpected argument " + positionals_[wanted]);
+  }
+  if (positionals_.size() + optional < wanted) {
+    throw InputError(syntax.name + ": expected " + syntax.positionals[positionals_.size()] +
+                     "; see plumbline " + syntax.name + " --help");
+  }
+  positionals_.resize(wanted);
+}
+
+bool CommandLine::Has(std::string_view option) const { return values_.contains(option); }
+
+std::optional<std::string> CommandLine::Value(std::string_view option) const {
+  const auto found = values_.find(option);
+  if (found == values_.end()) return std::nullopt;
+  return found->second.back();
+}
+
+std::vector<std::string> CommandLine::Values(std::string_view option) const {
+  const auto found = values_.find(option);
+  return found == values_.end() ? std::vector<std::string>{} : found->second;
+}
+
+const std::string& CommandLine::Positional(std::size_t index) const {
+  PLUMBLINE_CHECK(index < positionals_.size(), "positional argument of the syntax");
+  return positionals_[index];
+}
+
+std::string HelpText(const CommandSyntax& syntax) {
+  std::string text = "plumbline " + syntax.name;
+  for (const std::string& positional : syntax.positionals) text += " " + positional;
+  text += syntax.options.empty() ? "\n" : " [options]\n";
+  text += syntax.summary + "\n";
+  if (syntax.options.empty()) return text;
+  text += "\n";
+  std::size_t widest = 0;
+  const auto left = [](const CommandOption& option) {
+    return option.name + (option.value.empty() ? "" : " " + option.value);
+  };
+  for (const CommandOption& option : syntax.options) {
+    widest = std::max(widest, left(option).size());
+  }
+  for (const CommandOption& option : syntax.options) {
+    const std::string head = left(option);
+    text += "  " + head + std::string(widest + 2 - head.size(), ' ') + option.help + "\n";
+  }
+  return text;
+}
+
+void FailChoice(std::string_view option,
+                std::span<const std::string> names,
+                std::string_view found) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool last = i + 1 == names.size();
+    text += (i == 0 ? "" : last ? " or " : ", ") + names[i];
+  }
+  throw InputError(std::string(option) + ": expected " + text + ", found " + std::string(found));
+}
+
+}  // namespace plumbline

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace plumbline {
+
+// An option of a subcommand, as `plumbline SUBCOMMAND --help` lists it.
+struct CommandOption {
+  std::string name;   // "--align"
+  std::string value;  // what follows it, "none|se3|sim3"; empty for a switch
+  std::string help;
+};
+
+// What a subcommand takes.
+struct CommandSyntax {
+  std::string name;                      // "evaluate"
+  std::string summary;                   // one sentence
+  std::vector<std::string> positionals;  // "REFERENCE", "ESTIMATE": all needed, in this order;
+                                         // one in brackets, "[PATH]", may be left out
+  std::vector<CommandOption> options;    // --help is understood always
+};
+
+// The arguments of a subcommand, taken apart: `--name value`, `--name=value`, switches and
+// positional arguments in any order; everything behind `--` is positional.
+class CommandLine {
+ public:
+  // Throws InputError for an unknown option (with the nearest one there is), a value that is
+  // missing or not wanted, or a wrong number of positional arguments. With --help among the
+  // arguments nothing else is checked.
+  CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments);
+
+  bool help() const { return Has("--help"); }
+  bool Has(std::string_view option) const;
+  // The last value given.
+  std::optional<std::string> Value(std::string_view option) const;
+  // All values given, in order, for options that may be repeated.
+  std::vector<std::string> Values(std::string_view option) const;
+  // Empty when a positional argument that may be left out is.
+  const std::string& Positional(std::size_t index) const;
+
+ private:
+  std::map<std::string, std::vector<std::string>, std::less<>> values_;
+  std::vector<std::string> positionals_;
+};
+
+// The text of --help.
+std::string HelpText(const CommandSyntax& syntax);
+
+// The enumerator with this name; InputError "--align: expected none, se3 or sim3, found se2".
+// Enum types list their names as described in base/options.h.
+[[noreturn]] void FailChoice(std::string_view option,
+                             std::span<const std::string> names,
+                             std::string_view found);
+template <class Enum>
+Enum ParseChoice(std::string_view option, std::string_view text) {
+  std::vector<std::string> names;
+  for (const auto& [value, name] : EnumNames(std::type_identity<Enum>{})) {
+    if (text == name) return value;
+    names.emplace_back(name);
+  }
+  FailChoice(option, names, text);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace plumbline {
+
+// The subcommands, one in each file of this folder. `arguments` are those behind the name of the
+// command; the result is the exit code. Bad input or usage is thrown as InputError, which main
+// prints in one line and turns into exit code 2. A new command: a file, a line here, and a row in
+// main.cc.
+int ConfigCommand(std::span<const std::string> arguments);
+int InfoCommand(std::span<const std::string> arguments);
+int RunCommand(std::span<const std::string> arguments);
+
+}  // namespace plumbline

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/options_io.h"
+#include "plumbline/slam/options.h"
+
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include <iostream>
+#include <span>
+#include <string>
+
+namespace plumbline {
+namespace {
+
+CommandSyntax Syntax() {
+  return {"config",
+          "Prints all options of a run with their values, units and ranges. The output is a valid\n"
+          "config file.",
+          {},
+          {{"--config", "FILE", "read options from a YAML file; may be repeated, later files win"},
+           {"--set", "KEY=VALUE", "set one option, after all files; may be repeated"}}};
+}
+
+}  // namespace
+
+int ConfigCommand(std::span<const std::string> arguments) {
+  const CommandLine line(Syntax(), arguments);
+  if (line.help()) {
+    std::cout << HelpText(Syntax());
+    return 0;
+  }
+  SlamOptions options;
+  OptionTable table(options);
+  for (const std::string& file : line.Values("--config")) table.LoadFile(file);
+  for (const std::string& setting : line.Values("--set")) table.Set(setting);
+  std::cout << table.Dump();
+  return 0;
+}
+
+}  // namespace plumbline

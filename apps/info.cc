@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/dataset.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+namespace plumbline {
+namespace {
+
+CommandSyntax Syntax() {
+  return {"info",
+          "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
+          {"PATH"},
+          {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
+           {"--format", "auto|euroc|tum|kitti|images", "how the data is stored (auto)"},
+           {"--camera", "FILE", "camera file or name of a built-in camera"},
+           {"--check", "", "decode every image and name those that cannot be used"}}};
+}
+
+template <class Enum>
+std::string NameOf(Enum value) {
+  for (const auto& [enumerator, name] : EnumNames(std::type_identity<Enum>{})) {
+    if (enumerator == value) return name;
+  }
+  return "?";
+}
+
+void Row(const std::string& name, const std::string& text) {
+  std::cout << fmt::format("{:<13} {}\n", name, text);
+}
+
+void PrintTimes(const DatasetInfo& info) {
+  constexpr double kNanoseconds = 1e9;
+  const std::vector<std::int64_t>& stamps = info.stamps_ns;
+  Row("frames", std::to_string(stamps.size()));
+  Row("time", FormatStamp(stamps.front()) + " to " + FormatStamp(stamps.back()) + " s");
+  std::vector<std::int64_t> intervals;
+  for (std::size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
+  std::string rate;
+  if (!intervals.empty()) {
+    std::sort(intervals.begin(), intervals.end());
+    const std::int64_t median = intervals[intervals.size() / 2];
+    rate = fmt::format("{:.4g} Hz", kNanoseconds / static_cast<double>(median));
+    const auto gaps = std::count_if(intervals.begin(), intervals.end(), [&](std::int64_t d) {
+      return d > median + median / 2;
+    });
+    if (gaps > 0) {
+      rate += fmt::format("; {} gaps above 1.5 intervals, the longest {:.3f} s",
+                          gaps,
+                          static_cast<double>(intervals.back()) / kNanoseconds);
+    }
+  }
+  if (info.calibration.rate_hz) {
+    rate += fmt::format("{}nominal {:.4g} Hz", rate.empty() ? "" : "; ", *info.calibration.rate_hz);
+  }
+  if (!rate.empty()) Row("rate", rate);
+}
+
+std::string Describe(const Camera& camera, bool rectified) {
+  const CameraIntrinsics& k = camera.intrinsics();
+  std::string model = rectified ? "rectified" : "no distortion";
+  if (k.model == DistortionModel::kRadTan) model = "radtan distortion";
+  if (k.model == DistortionModel::kEquidistant) model = "equidistant distortion";
+  return fmt::format("{}x{}, fx {:.6g} fy {:.6g} cx {:.6g} cy {:.6g}, {}",
+                     k.width,
+                     k.height,
+                     k.fx,
+                     k.fy,
+                     k.cx,
+                     k.cy,
+                     model);
+}
+
+void PrintCalibration(const DatasetInfo& info) {
+  const Calibration& c = info.calibration;
+  if (!info.has_calibration) {
+    Row("camera", "missing: give --camera FILE, or put a camera.yaml into the folder");
+    return;
+  }
+  Row("camera", Describe(c.left, c.rectified));
+  if (c.right) {
+    Row("right camera", Describe(*c.right, c.rectified));
+    Row("baseline", fmt::format("{:.4f} m", c.right_from_left.translation.norm()));
+  }
+  if (c.depth_factor) Row("depth", fmt::format("{:g} per metre", *c.depth_factor));
+}
+
+void PrintGroundTruth(const DatasetInfo& info) {
+  if (!info.ground_truth) {
+    Row("ground truth", "none");
+    return;
+  }
+  constexpr std::int64_t kMaxGapNs = 100'000'000;
+  const GroundTruth& truth = *info.ground_truth;
+  const auto covered =
+      std::count_if(info.stamps_ns.begin(), info.stamps_ns.end(), [&](std::int64_t stamp) {
+        return InterpolateAt(truth.poses, stamp, kMaxGapNs).has_value();
+      });
+  const bool body = truth.frame == GroundTruth::Frame::kBody;
+  Row("ground truth",
+      fmt::format("{} poses of the {}, at {} of {} frames; {}",
+                  truth.poses.size(),
+                  body ? "body" : "camera",
+                  covered,
+                  info.stamps_ns.size(),
+                  truth.path.string()));
+}
+
+void CheckImages(const Dataset& dataset) {
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < dataset.size(); ++i) {
+    const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
+    if (frame) continue;
+    ++bad;
+    Row("bad image",
+        fmt::format("frame {}: {}: {}", i, frame.error().path.string(), frame.error().why));
+  }
+  Row("checked", fmt::format("{} of {} frames can be used", dataset.size() - bad, dataset.size()));
+}
+
+}  // namespace
+
+int InfoCommand(std::span<const std::string> arguments) {
+  const CommandLine line(Syntax(), arguments);
+  if (line.help()) {
+    std::cout << HelpText(Syntax());
+    return 0;
+  }
+  DatasetOptions options;
+  options.allow_missing_camera = true;
+  options.camera = line.Value("--camera");
+  if (const auto text = line.Value("--sensor")) {
+    options.sensor = ParseChoice<SensorKind>("--sensor", *text);
+  }
+  if (const auto text = line.Value("--format"); text && *text != "auto") {
+    options.format = ParseChoice<DatasetFormat>("--format", *text);
+  }
+  const std::unique_ptr<Dataset> dataset = OpenDataset(line.Positional(0), options);
+  const DatasetInfo& info = dataset->info();
+  Row("name", info.name);
+  Row("format", NameOf(info.format));
+  std::vector<std::string> sensors;
+  for (const SensorKind kind : info.available) sensors.push_back(NameOf(kind));
+  Row("sensors", fmt::format("{} (shown: {})", fmt::join(sensors, ", "), NameOf(info.sensor)));
+  PrintTimes(info);
+  PrintCalibration(info);
+  PrintGroundTruth(info);
+  for (const std::string& note : info.notes) Row("note", note);
+  if (line.Has("--check")) CheckImages(*dataset);
+  return 0;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+#include "plumbline/base/nearest_name.h"
+
+#include "apps/commands.h"
+
+#include <array>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+struct Command {
+  std::string_view name;
+  int (*run)(std::span<const std::string> arguments);
+  std::string_view help;
+};
+
+constexpr std::array kCommands = {
+    Command{"run", RunCommand, "track the camera through a sequence and map what it sees"},
+    Command{"info", InfoCommand, "what is at a path: format, sensors, frames, calibration"},
+    Command{"config", ConfigCommand, "all options with values and help, as a config file"},
+};
+
+const Command& FindCommand(const std::string& name) {
+  std::vector<std::string> names = {"help"};
+  for (const Command& command : kCommands) {
+    if (command.name == name) return command;
+    names.emplace_back(command.name);
+  }
+  const std::optional<std::string> nearest = NearestName(name, names);
+  throw InputError("unknown command '" + name + "'" +
+                   (nearest ? "; did you mean '" + *nearest + "'?" : "; see plumbline help"));
+}
+
+void PrintHelp(std::ostream& out) {
+  out << "plumbline " PLUMBLINE_VERSION ": visual SLAM with points and straight lines\n\n"
+      << "usage: plumbline COMMAND [arguments]\n\n";
+  for (const Command& command : kCommands) {
+    out << "  " << std::left << std::setw(10) << command.name << command.help << "\n";
+  }
+  out << "  " << std::setw(10) << "help"
+      << "this text; `plumbline COMMAND --help` for a command\n";
+}
+
+int Dispatch(std::span<const std::string> arguments) {
+  if (arguments.empty()) {
+    PrintHelp(std::cerr);
+    return 2;
+  }
+  const std::string& name = arguments.front();
+  if (name == "--version") {
+    std::cout << "plumbline " PLUMBLINE_VERSION "\n";
+    return 0;
+  }
+  if (name != "help" && name != "--help" && name != "-h") {
+    return FindCommand(name).run(arguments.subspan(1));
+  }
+  if (arguments.size() == 1) {
+    PrintHelp(std::cout);
+    return 0;
+  }
+  const std::vector<std::string> help = {"--help"};
+  return FindCommand(arguments[1]).run(help);
+}
+
+}  // namespace
+}  // namespace plumbline
+
+int main(int argc, char** argv) {
+  try {
+    const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+    return plumbline::Dispatch(arguments);
+  } catch (const plumbline::InputError& error) {
+    std::cerr << "plumbline: " << error.what() << "\n";
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "plumbline: internal error: " << error.what() << "\n";
+    return 1;
+  }
+}

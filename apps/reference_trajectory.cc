@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/reference_trajectory.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/text_rows.h"
+
+#include <system_error>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+fs::path GroundTruthFile(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
+  if (!fs::is_directory(path, error)) return path;
+  const fs::path euroc = fs::path("state_groundtruth_estimate0") / "data.csv";
+  for (const fs::path& name : {"mav0" / euroc, euroc, fs::path("groundtruth.txt"), fs::path("poses.txt")}) {
+    if (IsFile(path / name)) return path / name;
+  }
+  throw InputError(path.string() +
+                   ": expected ground truth (mav0/state_groundtruth_estimate0/data.csv, "
+                   "groundtruth.txt or poses.txt), found none");
+}
+
+std::optional<std::size_t> RowsWithNumbers(const fs::path& path, char separator) {
+  if (!IsFile(path)) return std::nullopt;
+  std::size_t count = 0;
+  for (const TextRow& row : ReadRows(path, separator)) {
+    if (!row.fields.empty() && ParseNumber(row.fields.front())) ++count;
+  }
+  return count;
+}
+
+std::optional<std::size_t> FramesBeside(const ReferenceTrajectory& reference) {
+  const fs::path folder = reference.path.parent_path();
+  switch (reference.format) {
+    case TrajectoryFormat::kEuroc:
+      return RowsWithNumbers(folder.parent_path() / "cam0" / "data.csv", ',');
+    case TrajectoryFormat::kTum:
+      return RowsWithNumbers(folder / "rgb.txt", ' ');
+    case TrajectoryFormat::kKitti:
+      return reference.poses.size();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ReferenceTrajectory LoadReference(const fs::path& path, std::optional<ReferenceFrame> frame) {
+  ReferenceTrajectory reference;
+  reference.path = fs::absolute(GroundTruthFile(path));
+  LoadedTrajectory loaded = ReadTrajectory(GroundTruthFile(path));
+  reference.format = loaded.format;
+  reference.poses = std::move(loaded.poses);
+  reference.frames = FramesBeside(reference);
+  const bool euroc = reference.format == TrajectoryFormat::kEuroc;
+  if (frame.value_or(euroc ? ReferenceFrame::kBody : ReferenceFrame::kCamera) ==
+      ReferenceFrame::kCamera) {
+    return reference;
+  }
+  const fs::path sensor = reference.path.parent_path().parent_path() / "cam0" / "sensor.yaml";
+  if (!IsFile(sensor)) {
+    throw InputError(path.string() + ": expected " + sensor.string() +
+                     " to convert the poses of the body to the camera, found no such file "
+                     "(--reference-frame camera takes them as they are)");
+  }
+  reference.poses = OfCamera(reference.poses, ReadEurocSensor(sensor).body_from_camera);
+  reference.converted_from_body = true;
+  return reference;
+}
+
+std::optional<std::size_t> FramesOfRun(const fs::path& trajectory) {
+  return RowsWithNumbers(fs::absolute(trajectory).parent_path() / "frames.csv", ',');
+}
+
+}  // namespace plumbline

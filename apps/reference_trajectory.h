@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/trajectory.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+namespace plumbline {
+
+// What the poses of a reference file are about.
+enum class ReferenceFrame { kCamera, kBody };
+
+struct ReferenceTrajectory {
+  Trajectory poses;  // of the left camera
+  TrajectoryFormat format = TrajectoryFormat::kTum;
+  bool converted_from_body = false;
+  std::optional<std::size_t> frames;  // images of the sequence beside it, where they are listed
+  std::filesystem::path path;         // the file that was read
+};
+
+// Reads ground truth from a file (TUM form, EuRoC csv, KITTI poses) or from the folder of a data
+// set that has it.
+//
+// `frame` says what the poses are about; nullopt: the body for EuRoC, else the camera. Poses of a
+// body are converted with cam0/sensor.yaml of the same recording. Throws InputError where there is
+// no ground truth, or a body without that file.
+ReferenceTrajectory LoadReference(const std::filesystem::path& path,
+                                  std::optional<ReferenceFrame> frame);
+
+// Number of frames a run was given, from the frames.csv beside its trajectory; nullopt without one.
+std::optional<std::size_t> FramesOfRun(const std::filesystem::path& trajectory);
+
+}  // namespace plumbline

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/association/line_information.h"
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/optimization/residuals.h"
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace plumbline {
+
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PluckerLine& line) {
+  const OrthonormalLine orthonormal = ToOrthonormal(line);
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  const auto add = [&](const LineMeasurement& measurement) {
+    const auto residual = EvaluateLine(camera, frame.cam_from_world, orthonormal, measurement);
+    if (residual) information += residual->J_line.transpose() * residual->J_line;
+  };
+  add(MeasureLeftLine(frame.features(), i, LineWeighting::kCovariance));
+  if (const auto right = MeasureRightLine(frame.features(), i, LineWeighting::kCovariance)) {
+    add(*right);
+  }
+  return information;
+}
+
+double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t) {
+  const Eigen::LLT<Eigen::Matrix4d> factor(information);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  // The moment about a point P of the line is m - P x d = 0; a shift x of the line across itself
+  // makes it x X d, so x = d X (dm - P X dd), per unit of direction.
+  const OrthonormalLine orthonormal = ToOrthonormal(line);
+  const Eigen::Matrix<double, 6, 4> J = HomogeneousJacobian(orthonormal);
+  const Eigen::Matrix<double, 3, 4> moment_about_p =
+      (J.topRows<3>() - Skew(line.PointAt(t)) * J.bottomRows<3>()) / orthonormal.w.y();
+  const Eigen::Matrix<double, 3, 4> J_shift = Skew(line.direction) * moment_about_p;
+  const Eigen::Matrix3d covariance = J_shift * factor.solve(J_shift.transpose());
+  const double variance =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
+          .eigenvalues()(2);
+  return std::isfinite(variance) && variance >= 0 ? std::sqrt(variance)
+                                                  : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace plumbline

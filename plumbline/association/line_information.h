@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/map/frame.h"
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// What line feature i of a frame says about a line in the world: J^T Sigma^-1 J over the residuals of
+// its left and right measurement, for the orthonormal tangent of `line`, with the pose taken as known.
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PluckerLine& line);
+
+// Standard deviation, in metres, of the line's place at parameter t (PluckerLine::PointAt), in the
+// worst direction across it. Infinite when the information leaves that direction open.
+double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t);
+
+}  // namespace plumbline

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/features/types.h"
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/problem.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+enum class LineWeighting { kNone, kScalar, kCovariance };
+enum class LineResidualKind { kObservedEnds };
+
+constexpr auto EnumNames(std::type_identity<LineWeighting>) {
+  return std::array{std::pair{LineWeighting::kNone, "none"},
+                    std::pair{LineWeighting::kScalar, "scalar"},
+                    std::pair{LineWeighting::kCovariance, "covariance"}};
+}
+constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
+  return std::array{std::pair{LineResidualKind::kObservedEnds, "observed_ends"}};
+}
+
+// How lines enter all optimization.
+struct LineOptions {
+  LineResidualKind residual = LineResidualKind::kObservedEnds;
+  LineWeighting weighting = LineWeighting::kCovariance;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LineOptions& o) {
+  visit("residual",
+        o.residual,
+        "observed_ends: distance of the measured end points from the projected line");
+  visit("weighting",
+        o.weighting,
+        "of the two residuals of a line: none (1 px each), scalar (their mean variance), covariance "
+        "(2 x 2, with the uncertainty of the 3D line in tracking)");
+}
+
+// The measurement of point feature i.
+PointMeasurement MeasurePoint(const Features& features, std::size_t i);
+
+// The measurement of line feature i in the left image, and in the right one if it was found there.
+// Covariance: sigma_px^2 at each end, independent (weighting none: 1 px^2).
+LineMeasurement MeasureLeftLine(const Features& features, std::size_t i, LineWeighting weighting);
+std::optional<LineMeasurement> MeasureRightLine(const Features& features,
+                                                std::size_t i,
+                                                LineWeighting weighting);
+
+// Adds to the covariance of a measurement what the uncertainty of the 3D line makes of it:
+// Sigma + J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
+// derivative of the two residuals by it at the given pose. For scalar weighting the mean of the two
+// variances replaces both; for none nothing changes. A singular Lambda is regularized: directions
+// without information get a standard deviation of kUnknownLineSigma.
+void AddLandmarkUncertainty(const RectifiedCamera& camera,
+                            const Rigid3& cam_from_world,
+                            const PluckerLine& line,
+                            const Eigen::Matrix4d& information,
+                            LineWeighting weighting,
+                            LineMeasurement& measurement);
+
+}  // namespace plumbline

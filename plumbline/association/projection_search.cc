@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/association/projection_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace plumbline {
+namespace {
+
+constexpr double kNearPlane = 0.05;  // metres
+constexpr double kDisparityGateSigmas = 4;
+
+double Radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+bool SeenFromNear(const Eigen::Vector3d& usual, const Eigen::Vector3d& now, double max_angle_deg) {
+  return usual.isZero() || usual.dot(now.normalized()) >= std::cos(Radians(max_angle_deg));
+}
+
+// Cuts the parameter interval [lo, hi] of p + t d to p.axis + t d.axis >= min.
+void ClipBelow(double p, double d, double min, double& lo, double& hi) {
+  if (std::abs(d) < 1e-12) {
+    if (p < min) hi = lo - 1;
+    return;
+  }
+  const double t = (min - p) / d;
+  if (d > 0) {
+    lo = std::max(lo, t);
+  } else {
+    hi = std::min(hi, t);
+  }
+}
+
+// Of the wishes (landmark, feature, distance), the most similar for each feature.
+struct Wish {
+  int landmark, feature, distance;
+};
+
+std::vector<LandmarkMatch> OneToOne(const std::vector<Wish>& wishes, std::size_t feature_count) {
+  std::vector<int> owner(feature_count, -1);
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    int& current = owner[static_cast<std::size_t>(wishes[i].feature)];
+    if (current < 0 || wishes[i].distance < wishes[static_cast<std::size_t>(current)].distance) {
+      current = static_cast<int>(i);
+    }
+  }
+  std::vector<LandmarkMatch> matches;
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    if (owner[static_cast<std::size_t>(wishes[i].feature)] == static_cast<int>(i)) {
+      matches.push_back({wishes[i].landmark, wishes[i].feature});
+    }
+  }
+  return matches;
+}
+
+// The two nearest descriptors met so far.
+struct NearestTwo {
+  int best = -1;
+  int best_distance = 257;
+  int best_octave = -1;
+  int second_distance = 257;
+  int second_octave = -1;
+
+  void Offer(int index, int distance, int octave) {
+    if (distance < best_distance) {
+      second_distance = best_distance;
+      second_octave = best_octave;
+      best = index;
+      best_distance = distance;
+      best_octave = octave;
+    } else if (distance < second_distance) {
+      second_distance = distance;
+      second_octave = octave;
+    }
+  }
+};
+
+bool DisparityAgrees(const std::optional<Disparity>& measured, double predicted, double slack_px) {
+  return !measured ||
+         std::abs(measured->px - predicted) <= slack_px + kDisparityGateSigmas * measured->sigma_px;
+}
+
+}  // namespace
+
+std::optional<ProjectedPoint> ProjectPoint(const ImagingModel& imaging,
+                                           const Rigid3& cam_from_world,
+                                           const PointModel& point,
+                                           const ProjectionSearchOptions& options) {
+  const Eigen::Vector3d p = cam_from_world * point.position;
+  if (p.z() < kNearPlane) return std::nullopt;
+  const Eigen::Vector2d px = imaging.camera.Project(p);
+  if (!imaging.camera.Contains(px)) return std::nullopt;
+  const Eigen::Vector3d now = cam_from_world.rotation.conjugate() * p;
+  if (!SeenFromNear(point.view_direction, now, options.max_view_angle_deg)) return std::nullopt;
+  double octave = point.reference_octave;
+  if (point.reference_distance > 0) {
+    octave += std::log(point.reference_distance / p.norm()) / std::log(imaging.octave_scale);
+  }
+  const int nearest_octave = std::max(0, static_cast<int>(std::lround(octave)));
+  return ProjectedPoint{px,
+                        imaging.camera.DisparityFromDepth(p.z()),
+                        nearest_octave,
+                        std::pow(imaging.octave_scale, nearest_octave),
+                        point.descriptor};
+}
+
+std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segment3& in_camera) {
+  double lo = 0;
+  double hi = 1;
+  const Eigen::Vector3d d = in_camera.end - in_camera.start;
+  ClipBelow(in_camera.start.z(), d.z(), kNearPlane, lo, hi);
+  if (lo >= hi) return std::nullopt;
+  const Eigen::Vector2d a = camera.Project(in_camera.start + lo * d);
+  const Eigen::Vector2d b = camera.Project(in_camera.start + hi * d);
+  const Eigen::Vector2d ab = b - a;
+  lo = 0;
+  hi = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double max = (axis == 0 ? camera.width : camera.height) - 1.0;
+    ClipBelow(a(axis), ab(axis), 0, lo, hi);
+    ClipBelow(-a(axis), -ab(axis), -max, lo, hi);
+  }
+  if (lo >= hi) return std::nullopt;
+  return Segment2{a + lo * ab, a + hi * ab};
+}
+
+std::optional<ProjectedLine> ProjectLine(const ImagingModel& imaging,
+                                         const Rigid3& cam_from_world,
+                                         const LineModel& line,
+                                         const ProjectionSearchOptions& options) {
+  const Segment3 world = line.Interval();
+  const Eigen::Vector3d to_middle =
+      world.Midpoint() - Inverse(cam_from_world).translation;
+  if (!SeenFromNear(line.view_direction, to_middle, options.max_view_angle_deg)) {
+    return std::nullopt;
+  }
+  const auto segment =
+      ProjectSegment(imaging.camera, {cam_from_world * world.start, cam_from_world * world.end});
+  if (!segment || segment->Length() < options.line_min_length_px) return std::nullopt;
+  return ProjectedLine{*segment, line.descriptor};
+}
+
+std::vector<LandmarkMatch> MatchProjectedPoints(
+    const IndexedFeatures& image,
+    const std::vector<std::optional<ProjectedPoint>>& landmarks,
+    const std::vector<bool>& taken,
+    const ProjectionSearchOptions& options) {
+  const Features& features = image.features;
+  std::vector<Wish> wishes;
+  std::vector<int> near;
+  for (std::size_t l = 0; l < landmarks.size(); ++l) {
+    if (!landmarks[l]) continue;
+    const ProjectedPoint& landmark = *landmarks[l];
+    const double radius = options.point_radius_px * landmark.scale;
+    image.point_grid.InWindow(landmark.px, {radius, radius}, &near);
+    NearestTwo nearest;
+    for (const int index : near) {
+      const auto i = static_cast<std::size_t>(index);
+      const PointFeature& feature = features.points[i];
+      if (taken[i] || std::abs(feature.octave - landmark.octave) > 1) continue;
+      if (!DisparityAgrees(features.point_disparity[i], landmark.disparity, radius)) continue;
+      nearest.Offer(index, HammingDistance(feature.descriptor, landmark.descriptor), feature.octave);
+    }
+    if (nearest.best < 0 || nearest.best_distance > options.point_max_distance) continue;
+    if (nearest.best_octave == nearest.second_octave &&
+        nearest.best_distance > options.point_ratio * nearest.second_distance) {
+      continue;
+    }
+    wishes.push_back({static_cast<int>(l), nearest.best, nearest.best_distance});
+  }
+  return OneToOne(wishes, features.points.size());
+}
+
+std::vector<LandmarkMatch> MatchProjectedLines(
+    const IndexedFeatures& image,
+    const std::vector<std::optional<ProjectedLine>>& landmarks,
+    const std::vector<bool>& taken,
+    const ProjectionSearchOptions& options) {
+  const std::vector<LineFeature>& lines = image.features.lines;
+  const double min_cosine = std::cos(Radians(options.line_angle_deg));
+  std::vector<Wish> wishes;
+  for (std::size_t l = 0; l < landmarks.size(); ++l) {
+    if (!landmarks[l]) continue;
+    const Segment2& predicted = landmarks[l]->segment;
+    const Eigen::Vector2d direction = predicted.Direction();
+    const Eigen::Vector3d infinite = LineThrough(predicted);
+    NearestTwo nearest;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Segment2& segment = lines[i].segment;
+      if (taken[i] || segment.Direction().dot(direction) < min_cosine) continue;
+      if (std::abs(LineDistance(infinite, segment.Midpoint())) > options.line_offset_px) continue;
+      if (OverlapRatio(predicted, segment) < 0.3) continue;
+      nearest.Offer(static_cast<int>(i),
+                    HammingDistance(lines[i].descriptor, landmarks[l]->descriptor),
+                    lines[i].octave);
+    }
+    if (nearest.best < 0 || nearest.best_distance > options.line_max_distance) continue;
+    wishes.push_back({static_cast<int>(l), nearest.best, nearest.best_distance});
+  }
+  return OneToOne(wishes, lines.size());
+}
+
+}  // namespace plumbline

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace plumbline {
+
+// Least number of single characters to insert, delete or replace to turn `a` into `b`.
+std::size_t EditDistance(std::string_view a, std::string_view b);
+
+// The candidate a user most likely meant by `name`: the one of least edit distance, the first of
+// equals; nullopt when all are too far off to be of help. For dotted names a candidate whose last
+// part is near also counts, so that `seed` finds `slam.seed`.
+std::optional<std::string> NearestName(std::string_view name,
+                                       std::span<const std::string> candidates);
+
+}  // namespace plumbline

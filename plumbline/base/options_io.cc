@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/options_io.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/nearest_name.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include <yaml-cpp/yaml.h>
+
+namespace plumbline {
+namespace {
+
+std::string Shortest(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string Join(const std::vector<std::string>& names) {
+  std::string joined;
+  for (const std::string& name : names) joined += (joined.empty() ? "" : " | ") + name;
+  return joined;
+}
+
+// Double-quoted YAML scalar.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '\n' ? std::string("\\n") : c == '\t' ? std::string("\\t") : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+std::string RangeText(const Range& range) {
+  if (std::isinf(range.max)) return "at least " + Shortest(range.min);
+  if (std::isinf(range.min)) return "at most " + Shortest(range.max);
+  return Shortest(range.min) + " to " + Shortest(range.max);
+}
+
+bool Bounded(const OptionField& field) {
+  return field.range && (!std::isinf(field.range->min) || !std::isinf(field.range->max));
+}
+
+// What is allowed, in words: "one of a | b", "a whole number, 1 to 10".
+std::string Allowed(const OptionField& field) {
+  struct Name {
+    std::string operator()(const bool*) const { return "true or false"; }
+    std::string operator()(const int*) const { return "a whole number"; }
+    std::string operator()(const std::int64_t*) const { return "a whole number"; }
+    std::string operator()(const std::uint64_t*) const { return "a whole number, at least 0"; }
+    std::string operator()(const double*) const { return "a number"; }
+    std::string operator()(const std::string*) const { return "a text"; }
+    std::string operator()(const EnumField& e) const { return "one of " + Join(e.names); }
+  };
+  std::string text = std::visit(Name{}, field.target);
+  if (Bounded(field)) text += ", " + RangeText(*field.range);
+  return text;
+}
+
+template <class T>
+std::optional<T> ParseNumber(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  T value{};
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+bool InRange(const OptionField& field, double value) {
+  return !std::isnan(value) &&
+         (!field.range || (field.range->min <= value && value <= field.range->max));
+}
+
+// Writes the value named by a text to its option; false when the text is not allowed there.
+struct Store {
+  const OptionField& field;
+  const std::string& text;
+
+  bool operator()(bool* target) const {
+    if (text != "true" && text != "false") return false;
+    *target = text == "true";
+    return true;
+  }
+  template <class T>
+  bool operator()(T* target) const {
+    const std::optional<T> value = ParseNumber<T>(text);
+    if (!value || !InRange(field, static_cast<double>(*value))) return false;
+    *target = *value;
+    return true;
+  }
+  bool operator()(std::string* target) const {
+    *target = text;
+    return true;
+  }
+  bool operator()(const EnumField& target) const {
+    const auto found = std::find(target.names.begin(), target.names.end(), text);
+    if (found == target.names.end()) return false;
+    target.set(static_cast<std::size_t>(found - target.names.begin()));
+    return true;
+  }
+};
+
+struct ToText {
+  std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
+  std::string operator()(const double* value) const { return Shortest(*value); }
+  std::string operator()(const std::string* value) const { return Quoted(*value); }
+  std::string operator()(const EnumField& value) const {
+    const std::size_t index = value.get();
+    PLUMBLINE_CHECK(index < value.names.size(), "enum value without a name");
+    return value.names[index];
+  }
+  template <class T>
+  std::string operator()(const T* value) const {
+    return std::to_string(*value);
+  }
+};
+
+std::string Comment(const OptionField& field) {
+  std::string limits;
+  if (std::holds_alternative<EnumField>(field.target)) {
+    limits = Join(std::get<EnumField>(field.target).names);
+  } else if (std::holds_alternative<bool*>(field.target)) {
+    limits = "true | false";
+  } else if (Bounded(field)) {
+    limits = RangeText(*field.range);
+  }
+  if (limits.empty()) return field.help;
+  return field.help + (field.help.empty() ? "(" : " (") + limits + ")";
+}
+
+std::string Indent(std::string_view key) {
+  return std::string(2 * static_cast<std::size_t>(std::count(key.begin(), key.end(), '.')), ' ');
+}
+
+std::string LastPart(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+struct Setting {
+  std::string key;
+  std::optional<std::string> text;  // nullopt: `key:` without a value
+  int line;
+};
+
+// The leaves of a YAML map, depth first in the order of the file, with dotted keys.
+void Flatten(const YAML::Node& map, const std::string& prefix, std::vector<Setting>& settings) {
+  for (const auto& entry : map) {
+    const YAML::Node& value = entry.second;
+    const int line = entry.first.Mark().line + 1;
+    const std::string key = prefix + (entry.first.IsScalar() ? entry.first.Scalar() : "[...]");
+    if (value.IsMap()) {
+      Flatten(value, key + ".", settings);
+    } else if (value.IsNull()) {
+      settings.push_back({key, std::nullopt, line});
+    } else {
+      settings.push_back({key, value.IsScalar() ? value.Scalar() : "[...]", line});
+    }
+  }
+}
+
+}  // namespace
+
+bool OptionTable::IsGroup(std::string_view key) const {
+  return std::any_of(
+      groups_.begin(), groups_.end(), [key](const Group& group) { return group.key == key; });
+}
+
+void OptionTable::SetField(const std::string& key,
+                           const std::string& text,
+                           const std::string& where) {
+  for (const OptionField& field : fields_) {
+    if (field.key != key) continue;
+    if (std::visit(Store{field, text}, field.target)) return;
+    throw InputError(where + ": " + key + ": expected " + Allowed(field) + ", found '" + text +
+                     "'");
+  }
+  if (IsGroup(key)) {
+    throw InputError(where + ": " + key + ": expected a group of options, found '" + text + "'");
+  }
+  const std::vector<std::string> keys = Keys();
+  const std::optional<std::string> nearest = NearestName(key, keys);
+  throw InputError(where + ": unknown option '" + key + "'" +
+                   (nearest ? "; did you mean '" + *nearest + "'?" : ""));
+}
+
+void OptionTable::LoadFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || std::filesystem::is_directory(path) || !(text << file.rdbuf())) {
+    throw InputError(path.string() + ": cannot read the options file");
+  }
+  LoadText(text.str(), path.string());
+}
+
+void OptionTable::LoadText(const std::string& text, const std::string& source) {
+  YAML::Node root;
+  try {
+    root = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw InputError(source + ":" + std::to_string(error.mark.line + 1) +
+                     ": expected YAML, found an error: " + error.msg);
+  }
+  if (!root.IsMap() && !root.IsNull()) {
+    throw InputError(source + ":1: expected options as 'key: value', found other YAML");
+  }
+  std::vector<Setting> settings;
+  Flatten(root, "", settings);
+  for (const Setting& setting : settings) {
+    const std::string where = source + ":" + std::to_string(setting.line);
+    // A group without options, e.g. all of them commented out, is allowed.
+    if (setting.text || !IsGroup(setting.key)) {
+      SetField(setting.key, setting.text.value_or(""), where);
+    }
+  }
+}
+
+void OptionTable::Set(std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    throw InputError("--set: expected KEY=VALUE, found '" + std::string(assignment) + "'");
+  }
+  SetField(std::string(assignment.substr(0, equals)),
+           std::string(assignment.substr(equals + 1)),
+           "--set " + std::string(assignment));
+}
+
+std::string OptionTable::Dump() const {
+  std::string out;
+  std::size_t group = 0;
+  for (std::size_t i = 0; i <= fields_.size(); ++i) {
+    for (; group < groups_.size() && groups_[group].first_field == i; ++group) {
+      const std::string& key = groups_[group].key;
+      if (Indent(key).empty() && !out.empty()) out += '\n';
+      out += Indent(key) + LastPart(key) + ":  # " + groups_[group].help + "\n";
+    }
+    if (i == fields_.size()) break;
+    const OptionField& field = fields_[i];
+    out += Indent(field.key) + LastPart(field.key) + ": " + std::visit(ToText{}, field.target) +
+           "  # " + Comment(field) + "\n";
+  }
+  return out;
+}
+
+std::string OptionTable::Value(std::string_view key) const {
+  for (const OptionField& field : fields_) {
+    if (field.key == key) return std::visit(ToText{}, field.target);
+  }
+  throw InputError("unknown option '" + std::string(key) + "'");
+}
+
+std::vector<std::string> OptionTable::Keys() const {
+  std::vector<std::string> keys;
+  keys.reserve(fields_.size());
+  for (const OptionField& field : fields_) keys.push_back(field.key);
+  return keys;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace plumbline {
+
+// An enum option seen as the index of one of its names.
+struct EnumField {
+  std::vector<std::string> names;
+  std::function<std::size_t()> get;
+  std::function<void(std::size_t)> set;
+};
+
+// One option: where its value lives and what may be said about it.
+struct OptionField {
+  using Target =
+      std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, EnumField>;
+
+  std::string key;  // dotted, e.g. "mapping.ba.huber_px"
+  std::string help;
+  std::optional<Range> range;
+  Target target;
+};
+
+// All options of a tree of option structs (options.h), to be read from YAML, set one by one, and
+// written back. Holds pointers into the struct it was made from, which must outlive it.
+//
+//   SlamOptions options;
+//   OptionTable table(options);
+//   table.LoadFile("euroc.yaml");
+//   table.Set("loop.enabled=false");
+//
+// Settings apply in the order of the calls; a later one replaces an earlier one. All members that
+// read settings throw InputError: an unknown key (with the nearest valid one), a value of the wrong
+// type, out of range or not among the choices; the message names file and line, the key, what is
+// allowed and what was found. Settings before the faulty one stay applied.
+class OptionTable {
+ public:
+  template <OptionGroup T>
+  explicit OptionTable(T& options) {
+    VisitFields(Collector{this, ""}, options);
+  }
+
+  // Reads a YAML file of nested groups (`ba: {huber_px: 2}`); dotted keys are accepted as well.
+  void LoadFile(const std::filesystem::path& path);
+  // The same from text; `source` stands for the file name in messages.
+  void LoadText(const std::string& text, const std::string& source);
+  // One setting "key=value".
+  void Set(std::string_view assignment);
+
+  // A YAML document of all options with help, range and choices as comments. LoadText of it gives
+  // the same values again, to the last bit.
+  std::string Dump() const;
+  // The value of one option as Dump writes it; InputError for an unknown key.
+  std::string Value(std::string_view key) const;
+  // Dotted keys of all options, in the order of the structs.
+  std::vector<std::string> Keys() const;
+  const std::vector<OptionField>& fields() const { return fields_; }
+
+ private:
+  struct Group {
+    std::string key;
+    std::string help;
+    std::size_t first_field;  // index of its first option in fields_
+  };
+
+  struct Collector {
+    OptionTable* table;
+    std::string prefix;
+
+    template <class T>
+    void operator()(std::string_view name, T& value, std::string_view help) const {
+      const std::string key = prefix + std::string(name);
+      if constexpr (OptionGroup<T>) {
+        table->groups_.push_back({key, std::string(help), table->fields_.size()});
+        VisitFields(Collector{table, key + "."}, value);
+      } else {
+        table->fields_.push_back({key, std::string(help), std::nullopt, TargetOf(value)});
+      }
+    }
+    template <class T>
+    void operator()(std::string_view name, T& value, std::string_view help, Range range) const {
+      static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>, "a range needs a number");
+      (*this)(name, value, help);
+      table->fields_.back().range = range;
+    }
+  };
+
+  template <class T>
+  static OptionField::Target TargetOf(T& value) {
+    if constexpr (std::is_enum_v<T>) {
+      EnumField field;
+      for (const auto& [enumerator, name] : EnumNames(std::type_identity<T>{})) {
+        field.names.emplace_back(name);
+      }
+      field.get = [&value] {
+        std::size_t index = 0;
+        for (const auto& [enumerator, name] : EnumNames(std::type_identity<T>{})) {
+          if (enumerator == value) break;
+          ++index;
+        }
+        return index;
+      };
+      field.set = [&value](std::size_t index) {
+        value = EnumNames(std::type_identity<T>{})[index].first;
+      };
+      return field;
+    } else {
+      return &value;
+    }
+  }
+
+  void SetField(const std::string& key, const std::string& text, const std::string& where);
+  bool IsGroup(std::string_view key) const;
+
+  std::vector<OptionField> fields_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/eval/trajectory_error.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A drawing of lines and words, to be written as SVG or painted as an image. Units: pixels, x
+// right, y down.
+struct Figure {
+  struct Color {
+    std::uint8_t r = 0, g = 0, b = 0;
+  };
+  struct Polyline {
+    std::vector<Eigen::Vector2d> points;
+    Color color;
+    double width = 1;
+  };
+  enum class Anchor { kStart, kMiddle, kEnd };
+  struct Text {
+    Eigen::Vector2d position;  // of the anchor, on the base line
+    std::string text;
+    double size = 12;  // height of the letters' em
+    Anchor anchor = Anchor::kStart;
+    Color color;
+  };
+
+  int width = 0, height = 0;
+  std::vector<Polyline> lines;
+  std::vector<Text> texts;
+};
+
+// The evaluated trajectory from above beside its reference, and below the position error over time.
+// "Above" is along the axis in which the reference moves least.
+Figure TrajectoryFigure(const TrajectoryError& error);
+
+// The figure as a self-contained SVG document, white background.
+std::string ToSvg(const Figure& figure);
+
+}  // namespace plumbline

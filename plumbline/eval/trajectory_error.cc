@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/eval/trajectory_error.h"
+
+#include "plumbline/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace plumbline {
+namespace {
+
+constexpr double kSecondsPerNanosecond = 1e-9;
+
+std::vector<EvaluatedPose> Associate(const Trajectory& reference,
+                                     const Trajectory& estimate,
+                                     const TrajectoryErrorOptions& options) {
+  std::vector<EvaluatedPose> poses;
+  for (std::size_t row = 0; row < estimate.size(); ++row) {
+    const StampedPose& pose = estimate[row];
+    std::optional<Rigid3> match;
+    if (options.association == TrajectoryAssociation::kInterpolate) {
+      match = InterpolateAt(reference, pose.stamp_ns, options.max_gap_ns);
+    } else if (const auto nearest =
+                   NearestIndex(reference, pose.stamp_ns, options.max_difference_ns)) {
+      match = reference[*nearest].world_from_camera;
+    }
+    if (match) poses.push_back({row, pose.stamp_ns, *match, pose.world_from_camera});
+  }
+  return poses;
+}
+
+// Root mean square distance from the mean.
+double Spread(std::span<const Eigen::Vector3d> points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) mean += point / static_cast<double>(points.size());
+  double sum = 0;
+  for (const Eigen::Vector3d& point : points) sum += (point - mean).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+// For positions that do not determine the rotation: that of the first pair of poses.
+Similarity3 AlignFirstPose(const std::vector<EvaluatedPose>& poses, double scale) {
+  const Rigid3& reference = poses.front().reference;
+  const Rigid3& estimate = poses.front().estimate;
+  Similarity3 result;
+  result.scale = scale;
+  result.rotation = (reference.rotation * estimate.rotation.conjugate()).normalized();
+  result.translation = reference.translation - scale * (result.rotation * estimate.translation);
+  return result;
+}
+
+void Align(TrajectoryAlignment alignment, TrajectoryError& result) {
+  if (alignment == TrajectoryAlignment::kNone) return;
+  std::vector<Eigen::Vector3d> source, target;
+  for (const EvaluatedPose& pose : result.poses) {
+    source.push_back(pose.estimate.translation);
+    target.push_back(pose.reference.translation);
+  }
+  const bool free_scale = alignment == TrajectoryAlignment::kSim3;
+  const auto aligned =
+      AlignPoints(source, target, free_scale ? AlignmentScale::kFree : AlignmentScale::kFixed);
+  if (aligned) {
+    result.reference_from_estimate = aligned->target_from_source;
+    return;
+  }
+  result.degenerate = aligned.error();
+  const double source_spread = Spread(source), target_spread = Spread(target);
+  const bool usable = free_scale && source_spread > 0 && target_spread > 0;
+  result.reference_from_estimate =
+      AlignFirstPose(result.poses, usable ? target_spread / source_spread : 1.0);
+}
+
+void ApplyAlignment(TrajectoryError& result) {
+  const Similarity3& similarity = result.reference_from_estimate;
+  std::vector<double> errors;
+  for (EvaluatedPose& pose : result.poses) {
+    pose.estimate = TransformPose(similarity, pose.estimate);
+    pose.position_error = (pose.estimate.translation - pose.reference.translation).norm();
+    pose.rotation_error = AngularDistance(pose.estimate.rotation, pose.reference.rotation);
+    errors.push_back(pose.position_error);
+  }
+  result.ate = *StatisticsOf(std::move(errors));
+}
+
+double MedianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+// Index pairs into the associated poses, a duration apart.
+std::vector<std::pair<std::size_t, std::size_t>> PairsByTime(
+    const std::vector<EvaluatedPose>& poses, std::int64_t duration_ns) {
+  constexpr std::int64_t kToleranceDivisor = 20;
+  Trajectory stamps;
+  for (const EvaluatedPose& pose : poses) stamps.push_back({pose.stamp_ns, {}});
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < poses.size(); ++a) {
+    const auto b =
+        NearestIndex(stamps, poses[a].stamp_ns + duration_ns, duration_ns / kToleranceDivisor);
+    if (b && *b > a) pairs.emplace_back(a, *b);
+  }
+  return pairs;
+}
+
+// Index pairs into the associated poses, a number of rows of the estimate apart.
+std::vector<std::pair<std::size_t, std::size_t>> PairsByRow(const std::vector<EvaluatedPose>& poses,
+                                                            const Trajectory& estimate,
+                                                            int frames) {
+  constexpr double kLongestShare = 1.5;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  if (estimate.size() < 2) return pairs;
+  std::vector<double> spacing;
+  for (std::size_t i = 1; i < estimate.size(); ++i) {
+    spacing.push_back(static_cast<double>(estimate[i].stamp_ns - estimate[i - 1].stamp_ns));
+  }
+  const double longest = kLongestShare * frames * MedianOf(std::move(spacing));
+  std::size_t b = 0;
+  for (std::size_t a = 0; a < poses.size(); ++a) {
+    const std::size_t row = poses[a].row + static_cast<std::size_t>(frames);
+    while (b < poses.size() && poses[b].row < row) ++b;
+    if (b == poses.size()) break;
+    if (poses[b].row != row) continue;
+    if (static_cast<double>(poses[b].stamp_ns - poses[a].stamp_ns) <= longest) {
+      pairs.emplace_back(a, b);
+    }
+  }
+  return pairs;
+}
+
+void CompareMotions(const Trajectory& estimate,
+                    const RelativeWindow& window,
+                    TrajectoryError& result) {
+  const std::vector<EvaluatedPose>& poses = result.poses;
+  const auto pairs = window.frames > 0 ? PairsByRow(poses, estimate, window.frames)
+                                       : PairsByTime(poses, window.duration_ns);
+  std::vector<double> translation, rotation;
+  for (const auto& [a, b] : pairs) {
+    const Rigid3 reference_motion = Inverse(poses[a].reference) * poses[b].reference;
+    const Rigid3 estimate_motion = Inverse(poses[a].estimate) * poses[b].estimate;
+    const Rigid3 error = Inverse(reference_motion) * estimate_motion;
+    const double seconds =
+        static_cast<double>(poses[b].stamp_ns - poses[a].stamp_ns) * kSecondsPerNanosecond;
+    translation.push_back(error.translation.norm() / seconds);
+    rotation.push_back(AngularDistance(error.rotation, Eigen::Quaterniond::Identity()) / seconds);
+  }
+  result.rpe = StatisticsOf(std::move(translation));
+  result.roe = StatisticsOf(std::move(rotation));
+}
+
+}  // namespace
+
+std::optional<ErrorStatistics> StatisticsOf(std::vector<double> errors) {
+  if (errors.empty()) return std::nullopt;
+  ErrorStatistics statistics;
+  statistics.count = errors.size();
+  const auto count = static_cast<double>(errors.size());
+  double squares = 0, sum = 0;
+  for (const double error : errors) {
+    squares += error * error;
+    sum += error;
+    statistics.max = std::max(statistics.max, error);
+  }
+  statistics.rmse = std::sqrt(squares / count);
+  statistics.mean = sum / count;
+  statistics.median = MedianOf(std::move(errors));
+  return statistics;
+}
+
+std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
+                                                   const Trajectory& estimate,
+                                                   const TrajectoryErrorOptions& options) {
+  PLUMBLINE_CHECK(options.window.frames > 0 || options.window.duration_ns > 0, "empty window");
+  TrajectoryError result;
+  result.estimated = estimate.size();
+  result.poses = Associate(reference, estimate, options);
+  if (result.poses.empty()) return std::nullopt;
+  Align(options.alignment, result);
+  ApplyAlignment(result);
+  CompareMotions(estimate, options.window, result);
+  return result;
+}
+
+Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera) {
+  Trajectory camera = body;
+  for (StampedPose& pose : camera) {
+    pose.world_from_camera = pose.world_from_camera * body_from_camera;
+  }
+  return camera;
+}
+
+Trajectory MirroredY(const Trajectory& trajectory) {
+  Trajectory mirrored = trajectory;
+  for (StampedPose& pose : mirrored) {
+    // M R M negates the entries of R with exactly one index y: the rotation axis keeps y and turns
+    // around in x and z.
+    Eigen::Quaterniond& q = pose.world_from_camera.rotation;
+    q.x() = -q.x();
+    q.z() = -q.z();
+    pose.world_from_camera.translation.y() = -pose.world_from_camera.translation.y();
+  }
+  return mirrored;
+}
+
+}  // namespace plumbline

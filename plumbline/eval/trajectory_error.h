@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/alignment.h"
+#include "plumbline/geometry/sim3.h"
+#include "plumbline/geometry/trajectory.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// Which free motion of the whole estimate is taken out before positions are compared.
+enum class TrajectoryAlignment {
+  kNone,  // both in the same world already
+  kSe3,   // rotation and translation
+  kSim3,  // and scale (monocular)
+};
+constexpr auto EnumNames(std::type_identity<TrajectoryAlignment>) {
+  return std::array{std::pair{TrajectoryAlignment::kNone, "none"},
+                    std::pair{TrajectoryAlignment::kSe3, "se3"},
+                    std::pair{TrajectoryAlignment::kSim3, "sim3"}};
+}
+
+// How a reference pose is found for a pose of the estimate.
+enum class TrajectoryAssociation {
+  kInterpolate,  // the reference at the very time of the estimate
+  kNearest,      // the reference pose nearest in time, as older tools do
+};
+constexpr auto EnumNames(std::type_identity<TrajectoryAssociation>) {
+  return std::array{std::pair{TrajectoryAssociation::kInterpolate, "interpolate"},
+                    std::pair{TrajectoryAssociation::kNearest, "nearest"}};
+}
+
+// Distance in time of the two poses whose relative motion is compared.
+struct RelativeWindow {
+  std::int64_t duration_ns = 3'000'000'000;  // used when frames == 0
+  int frames = 0;                            // > 0: rows of the estimate instead
+};
+
+struct TrajectoryErrorOptions {
+  TrajectoryAlignment alignment = TrajectoryAlignment::kSe3;
+  TrajectoryAssociation association = TrajectoryAssociation::kInterpolate;
+  std::int64_t max_gap_ns = 100'000'000;  // between reference poses interpolated (KITTI: 0.25 s)
+  std::int64_t max_difference_ns = 20'000'000;  // of the nearest reference pose
+  RelativeWindow window;
+};
+
+// Of a set of non-negative errors. The median of an even number is the mean of the middle two.
+struct ErrorStatistics {
+  std::size_t count = 0;
+  double rmse = 0, mean = 0, median = 0, max = 0;
+};
+
+// nullopt for no errors.
+std::optional<ErrorStatistics> StatisticsOf(std::vector<double> errors);
+
+// A pose of the estimate beside the reference at that time.
+struct EvaluatedPose {
+  std::size_t row = 0;  // in the estimate
+  std::int64_t stamp_ns = 0;
+  Rigid3 reference;           // world_from_camera
+  Rigid3 estimate;            // the same, aligned to the world of the reference
+  double position_error = 0;  // metres
+  double rotation_error = 0;  // radians
+};
+
+struct TrajectoryError {
+  std::size_t estimated = 0;                   // poses of the estimate
+  Similarity3 reference_from_estimate;         // the alignment
+  std::optional<AlignmentFailure> degenerate;  // positions do not determine the alignment
+  std::vector<EvaluatedPose> poses;            // those associated, in time order
+  ErrorStatistics ate;                         // positions after alignment, metres
+  std::optional<ErrorStatistics> rpe;  // metres per second; nullopt: no pair spans the window
+  std::optional<ErrorStatistics> roe;  // radians per second
+};
+
+// Compares an estimated trajectory with a reference.
+//
+// ATE: distances of corresponding positions after the alignment that minimises their squares
+// (Umeyama), over all associated poses. Where the positions lie on a line or in one place, the
+// first pair of poses gives the rotation instead, and the ratio of the spreads the scale (1 without
+// spread); `degenerate` says so.
+//
+// RPE and ROE (relative position and orientation error): for every pair (a, b) of associated poses
+// one window apart, E = (A_ref^-1 B_ref)^-1 (A_est^-1 B_est); |translation of E| and rotation angle
+// of E, divided by the time between a and b in the estimate. The estimate enters with the scale of
+// the alignment; rotation and translation of the alignment do not matter. Pairs:
+//   duration   b is the associated pose nearest to a's time plus the duration (the earlier of two),
+//              taken when within 5 % of the duration
+//   frames     b is so many rows of the estimate after a, taken when the time between is at
+//   most 1.5
+//              times what the median spacing of rows gives (a longer one spans lost frames)
+//
+//   reference, estimate  of the same camera, stamps ascending, metres
+//   fails    nullopt when no pose of the estimate has a reference
+//   cost     O(n log n)
+std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
+                                                   const Trajectory& estimate,
+                                                   const TrajectoryErrorOptions& options);
+
+// The trajectory of what carries the camera turned into the camera's: world_from_body *
+// body_from_camera.
+Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera);
+
+// The trajectory in the world mirrored in y, seen by a camera mirrored in y: for ground truth that
+// goes with a negative focal length fy (ICL-NUIM). M R M and M t with M = diag(1, -1, 1).
+Trajectory MirroredY(const Trajectory& trajectory);
+
+}  // namespace plumbline

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/error.h"
+#include "plumbline/geometry/sim3.h"
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+enum class AlignmentFailure {
+  kTooFewPoints,  // below three with a positive weight
+  kCoincident,    // all points of a set in one place: neither rotation nor scale
+  kCollinear,     // points on one line: the rotation about it is free
+};
+
+struct Alignment {
+  Similarity3 target_from_source;
+  double rmse = 0;  // weighted root mean square distance after alignment, metres
+};
+
+enum class AlignmentScale { kFixed, kFree };
+
+// The rigid motion (kFixed) or similarity (kFree) that minimises sum w |target - S source|^2.
+//
+// Umeyama, Least-squares estimation of transformation parameters between two point patterns, PAMI
+// 1991, eq. 40-42, with weights.
+//
+//   source, target  corresponding points, same length
+//   weights         empty (all 1) or as long as the points, >= 0
+//   fails           degenerate sets. A set counts as collinear when its second standard deviation
+//   is
+//                   below 1e-6 of its first: its rotation is then not determined
+//   cost            O(n)
+Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3d> source,
+                                                  std::span<const Eigen::Vector3d> target,
+                                                  AlignmentScale scale,
+                                                  std::span<const double> weights = {});
+
+}  // namespace plumbline

@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/geometry/line_triangulation.h"
+
+#include "plumbline/geometry/trimming.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+
+namespace plumbline {
+namespace {
+
+using Matrix46 = Eigen::Matrix<double, 4, 6>;
+
+// Share of the moment, |m| / sqrt(|m|^2 + |d|^2), below which a line counts as through the origin.
+constexpr double kThroughOrigin = 1e-9;
+
+// Left inverse of HomogeneousJacobian: its columns are orthogonal, with these squared lengths.
+Matrix46 HomogeneousJacobianInverse(const OrthonormalLine& line) {
+  const double w1 = line.w.x();
+  const double w2 = line.w.y();
+  const Eigen::Vector4d scale(1 / (w2 * w2), 1 / (w1 * w1), 1, 1);
+  return scale.asDiagonal() * HomogeneousJacobian(line).transpose();
+}
+
+double HomogeneousLength(const PluckerLine& line) { return std::hypot(line.moment.norm(), 1.0); }
+
+// (m, d) of b from (m, d) of a, eq. 9.
+Matrix6d LineMotion(const Rigid3& b_from_a) {
+  const Eigen::Matrix3d R = b_from_a.rotation.toRotationMatrix();
+  Matrix6d H = Matrix6d::Zero();
+  H.topLeftCorner<3, 3>() = R;
+  H.bottomRightCorner<3, 3>() = R;
+  H.topRightCorner<3, 3>() = Skew(b_from_a.translation) * R;
+  return H;
+}
+
+struct NormalEquations {
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
+  double chi2 = 0;
+  double worst = 0;  // largest |residual| / sigma
+};
+
+// Adds the two end point distances of a view (eq. 13, 16-18).
+void AddView(const RectifiedCamera& camera,
+             const LineView& view,
+             const OrthonormalLine& line,
+             NormalEquations& equations) {
+  const Eigen::Matrix3d R = view.cam_from_world.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 3, 6> moment_from_line;
+  moment_from_line << R, Skew(view.cam_from_world.translation) * R;
+  Eigen::Matrix3d K;  // ProjectMoment
+  for (int i = 0; i < 3; ++i) K.col(i) = camera.ProjectMoment(Eigen::Vector3d::Unit(i));
+  const Eigen::Matrix<double, 3, 6> image_from_line = K * moment_from_line;
+  const Eigen::Vector3d l = image_from_line * line.Homogeneous();
+  const Eigen::Matrix<double, 3, 4> J_l = image_from_line * HomogeneousJacobian(line);
+  const double length = l.head<2>().norm();
+  const std::array<Eigen::Vector2d, 2> ends = {view.segment.start, view.segment.end};
+  for (const Eigen::Vector2d& px : ends) {
+    const double distance = l.dot(px.homogeneous()) / length;
+    Eigen::RowVector3d J_distance = px.homogeneous().transpose() / length;
+    J_distance.head<2>() -= distance / (length * length) * l.head<2>().transpose();
+    const Eigen::RowVector4d J = J_distance * J_l / view.sigma_px;
+    const double residual = distance / view.sigma_px;
+    equations.information += J.transpose() * J;
+    equations.gradient += residual * J.transpose();
+    equations.chi2 += residual * residual;
+    // Written so that NaN is kept.
+    if (!(std::abs(residual) <= equations.worst)) equations.worst = std::abs(residual);
+  }
+}
+
+NormalEquations Linearize(const RectifiedCamera& camera,
+                          std::span<const LineView> views,
+                          const OrthonormalLine& line) {
+  NormalEquations equations;
+  for (const LineView& view : views) AddView(camera, view, line, equations);
+  return equations;
+}
+
+struct PlanePair {
+  std::size_t first = 0, second = 1;
+  double angle = 0;
+};
+
+PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
+  PlanePair widest;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    for (std::size_t j = i + 1; j < planes.size(); ++j) {
+      const Eigen::Vector3d n1 = planes[i].head<3>();
+      const Eigen::Vector3d n2 = planes[j].head<3>();
+      const double angle = std::atan2(n1.cross(n2).norm(), std::abs(n1.dot(n2)));
+      if (angle > widest.angle) widest = {i, j, angle};
+    }
+  }
+  return widest;
+}
+
+// eq. 25 about an origin on the line through the widest pair of planes, lengths in units of its
+// distance from the camera.
+std::optional<PluckerLine> LinearLine(const RectifiedCamera& camera,
+                                      std::span<const LineView> views,
+                                      const std::vector<Eigen::Vector4d>& planes,
+                                      const PlanePair& pair) {
+  auto pair_line = LineFromPlanes(planes[pair.first], planes[pair.second]);
+  if (!pair_line || planes.size() == 2) return pair_line;
+  const LineView& view = views[pair.first];
+  const Eigen::Vector3d centre = Inverse(view.cam_from_world).translation;
+  const Eigen::Vector3d origin = pair_line->PointAt(
+      TrimmedParameter(camera, view.cam_from_world, *pair_line, view.segment.Midpoint())
+          .value_or(pair_line->ParameterOf(centre)));
+  const double unit = (origin - centre).norm();
+  if (!(unit > 0)) return std::nullopt;
+  Eigen::Matrix<double, Eigen::Dynamic, 4> rows(static_cast<Eigen::Index>(planes.size()), 4);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Eigen::Vector3d normal = planes[i].head<3>();
+    const double weight = views[i].segment.Length() / views[i].sigma_px;
+    rows.row(static_cast<Eigen::Index>(i)) << weight * normal.transpose(),
+        weight * (planes[i](3) + normal.dot(origin)) / unit;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
+  const auto local = LineFromPlanes(svd.matrixV().col(0), svd.matrixV().col(1));
+  if (!local) return std::nullopt;
+  const Eigen::Vector3d point = origin + unit * local->Foot();
+  return PluckerLine{point.cross(local->direction), local->direction};
+}
+
+// Gauss-Newton as long as chi2 falls.
+OrthonormalLine Refine(const RectifiedCamera& camera,
+                       std::span<const LineView> views,
+                       OrthonormalLine line,
+                       int max_iterations) {
+  NormalEquations equations = Linearize(camera, views, line);
+  for (int i = 0; i < max_iterations; ++i) {
+    const Eigen::Vector4d step = equations.information.ldlt().solve(equations.gradient);
+    const OrthonormalLine trial = Retract(line, -step);
+    const NormalEquations trial_equations = Linearize(camera, views, trial);
+    if (!(trial_equations.chi2 < equations.chi2)) break;
+    line = trial;
+    equations = trial_equations;
+    if (step.norm() < 1e-12) break;
+  }
+  return line;
+}
+
+// Directs the line as the first segment, by where its ends lie. nullopt when one is behind a
+// camera.
+std::optional<PluckerLine> DirectAsFirst(const RectifiedCamera& camera,
+                                         std::span<const LineView> views,
+                                         PluckerLine line) {
+  bool against = false;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto interval = TrimToSegment(camera, views[i].cam_from_world, line, views[i].segment);
+    if (!interval) return std::nullopt;
+    if (i == 0) against = interval->end < interval->start;
+  }
+  if (against) line = {-line.moment, -line.direction};
+  return line;
+}
+
+}  // namespace
+
+std::optional<LineEstimate> Transform(const Rigid3& b_from_a, const LineEstimate& line_in_a) {
+  const PluckerLine line = Transform(b_from_a, line_in_a.line);
+  const OrthonormalLine a = ToOrthonormal(line_in_a.line);
+  const OrthonormalLine b = ToOrthonormal(line);
+  if (!(b.w.x() > kThroughOrigin)) return std::nullopt;
+  const double scale = HomogeneousLength(line_in_a.line) / HomogeneousLength(line);
+  const Eigen::Matrix4d J =
+      scale * HomogeneousJacobianInverse(b) * LineMotion(b_from_a) * HomogeneousJacobian(a);
+  return LineEstimate{line, J * line_in_a.covariance * J.transpose()};
+}
+
+std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera,
+                                                   const LineView& view) {
+  if (!(view.segment.Length() > 0)) return std::nullopt;
+  // Normal to the two rays, from points near the image, hence well conditioned.
+  const Eigen::Vector3d normal =
+      camera.Unproject(view.segment.start).cross(camera.Unproject(view.segment.end)).normalized();
+  Eigen::Vector4d plane;
+  plane << view.cam_from_world.rotation.conjugate() * normal,
+      normal.dot(view.cam_from_world.translation);
+  return plane;
+}
+
+Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
+    const RectifiedCamera& camera,
+    std::span<const LineView> views,
+    const LineTriangulationOptions& options) {
+  using enum LineTriangulationFailure;
+  if (views.size() < 2) return kTooFewViews;
+  // Works in the frame of the first camera: no line it sees as a line goes through that origin.
+  const Rigid3 world_from_local = Inverse(views.front().cam_from_world);
+  std::vector<LineView> local(views.begin(), views.end());
+  std::vector<Eigen::Vector4d> planes;
+  for (LineView& view : local) {
+    view.cam_from_world = view.cam_from_world * world_from_local;
+    const std::optional<Eigen::Vector4d> plane = InterpretationPlane(camera, view);
+    if (!plane) return kEmptySegment;
+    planes.push_back(*plane);
+  }
+  const PlanePair pair = WidestPair(planes);
+  if (!(pair.angle >= options.min_plane_angle)) return kParallelPlanes;
+  const std::optional<PluckerLine> linear = LinearLine(camera, local, planes, pair);
+  if (!linear) return kParallelPlanes;
+  if (!(ToOrthonormal(*linear).w.x() > kThroughOrigin)) return kSingular;
+  const PluckerLine refined =
+      ToPlucker(Refine(camera, local, ToOrthonormal(*linear), options.max_iterations));
+  const std::optional<PluckerLine> directed = DirectAsFirst(camera, local, refined);
+  if (!directed) return kBehindCamera;
+
+  const PluckerLine line = Transform(world_from_local, *directed);
+  const NormalEquations equations = Linearize(camera, views, ToOrthonormal(line));
+  if (!(equations.worst <= options.max_residual_sigma)) return kInconsistentViews;
+  const Eigen::LLT<Eigen::Matrix4d> factor(equations.information);
+  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-15)) return kSingular;
+  TriangulatedLine result;
+  result.estimate = {line, factor.solve(Eigen::Matrix4d::Identity())};
+  result.plane_angle = pair.angle;
+  result.chi2 = equations.chi2;
+  result.residuals = static_cast<int>(2 * views.size());
+  return result;
+}
+
+Expected<TriangulatedLine, LineTriangulationFailure> TriangulateStereoLine(
+    const RectifiedCamera& camera,
+    const Segment2& left,
+    double left_sigma_px,
+    const Segment2& right,
+    double right_sigma_px,
+    const LineTriangulationOptions& options) {
+  const std::array<LineView, 2> views = {
+      LineView{{}, left, left_sigma_px},
+      LineView{RightCamera(camera, Rigid3{}), right, right_sigma_px}};
+  return TriangulateLine(camera, views, options);
+}
+
+std::optional<LineEstimate> LineFromEndPoints(const PointEstimate& a, const PointEstimate& b) {
+  const double distance = (b.position - a.position).norm();
+  if (!(distance > 0)) return std::nullopt;
+  const PluckerLine line = LineThroughPoints(a.position, b.position);
+  const OrthonormalLine orthonormal = ToOrthonormal(line);
+  if (!(orthonormal.w.x() > kThroughOrigin)) return std::nullopt;
+  // (m, d) = (a x b, b - a) up to a common scale, to which the left inverse is blind.
+  const double scale = 1 / (distance * HomogeneousLength(line));
+  const Matrix46 inverse = scale * HomogeneousJacobianInverse(orthonormal);
+  const Eigen::Matrix<double, 4, 3> J_a =
+      -inverse.leftCols<3>() * Skew(b.position) - inverse.rightCols<3>();
+  const Eigen::Matrix<double, 4, 3> J_b =
+      inverse.leftCols<3>() * Skew(a.position) + inverse.rightCols<3>();
+  return LineEstimate{line,
+                      J_a * a.covariance * J_a.transpose() + J_b * b.covariance * J_b.transpose()};
+}
+
+}  // namespace plumbline

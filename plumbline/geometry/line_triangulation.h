@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/options.h"
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/segment.h"
+#include "plumbline/geometry/triangulation.h"
+
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A line with the covariance of `delta` in Retract(ToOrthonormal(line), delta). It belongs to the
+// frame of the line: near a line through the origin the tangent loses a dimension and the
+// covariance grows without bound.
+struct LineEstimate {
+  PluckerLine line;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
+
+// The line in another frame, covariance to first order. nullopt when it goes through the origin
+// there.
+std::optional<LineEstimate> Transform(const Rigid3& b_from_a, const LineEstimate& line_in_a);
+
+// A segment seen by one camera.
+struct LineView {
+  Rigid3 cam_from_world;
+  Segment2 segment;
+  double sigma_px = 1;  // of each end point across the line
+};
+
+// The pose of the right camera of a rectified pair, displaced by the baseline along +x.
+inline Rigid3 RightCamera(const RectifiedCamera& camera, const Rigid3& left_from_world) {
+  return {left_from_world.rotation,
+          left_from_world.translation - Eigen::Vector3d(camera.baseline, 0, 0)};
+}
+
+// The plane (n, d), n.X + d = 0, |n| = 1, in the world through the camera centre and a segment.
+// nullopt for a segment of zero length.
+std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera,
+                                                   const LineView& view);
+
+struct LineTriangulationOptions {
+  double min_plane_angle = 0.02;
+  double max_residual_sigma = 3;
+  int max_iterations = 6;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LineTriangulationOptions& o) {
+  visit("min_plane_angle",
+        o.min_plane_angle,
+        "smallest accepted largest angle between two interpretation planes [rad]",
+        Range{0, 1.57});
+  visit("max_residual_sigma",
+        o.max_residual_sigma,
+        "largest accepted distance of an end point from the reprojected line, in its sigmas; every "
+        "view must pass",
+        Range{0, 1e9});
+  visit("max_iterations",
+        o.max_iterations,
+        "Gauss-Newton steps after the linear solution; 0 leaves the linear one",
+        Range{0, 100});
+}
+
+enum class LineTriangulationFailure {
+  kTooFewViews,
+  kEmptySegment,       // of zero length
+  kParallelPlanes,     // all planes within min_plane_angle: the line lies in an epipolar plane
+  kBehindCamera,       // an end of a segment is not in front of its camera
+  kInconsistentViews,  // a residual above max_residual_sigma
+  kSingular,           // through the centre of the camera or the world's origin
+};
+
+struct TriangulatedLine {
+  LineEstimate estimate;   // in the world, directed as the first view's segment
+  double plane_angle = 0;  // largest angle between two interpretation planes, radians in [0, pi/2]
+  double chi2 = 0;         // sum of squared end point distances over their variances
+  int residuals = 0;       // number of them; chi2 has residuals - 4 degrees of freedom
+};
+
+// A line from its segments in two or more views.
+//
+// Linear: the two leading right singular vectors of the stacked interpretation planes are two
+// planes through the line (first paper, eq. 25, 24). Differs from the paper: rows scaled to unit
+// normals and weighted by length over sigma, origin moved to the line, since otherwise the sum that
+// the SVD minimises means nothing. Then Gauss-Newton on the distances of the measured end points
+// from the reprojected line (eq. 13), whose normal matrix gives the covariance. The paper's test
+// m.d < 0.01 is met by any two planes; the reprojection into every view stands in its place.
+//
+// O(n^2) for the angle, else O(n).
+Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
+    const RectifiedCamera& camera,
+    std::span<const LineView> views,
+    const LineTriangulationOptions& options = {});
+
+// The same for the segments of one rectified pair, in the left camera frame. Fails
+// (kParallelPlanes) for image lines close to the rows.
+Expected<TriangulatedLine, LineTriangulationFailure> TriangulateStereoLine(
+    const RectifiedCamera& camera,
+    const Segment2& left,
+    double left_sigma_px,
+    const Segment2& right,
+    double right_sigma_px,
+    const LineTriangulationOptions& options = {});
+
+// The line from a to b, its covariance propagated from those of the (independent) points. nullopt
+// for coincident points and where the line goes through the origin.
+std::optional<LineEstimate> LineFromEndPoints(const PointEstimate& a, const PointEstimate& b);
+
+}  // namespace plumbline

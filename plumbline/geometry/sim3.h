@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+using Vector7d = Eigen::Matrix<double, 7, 1>;
+using Matrix7d = Eigen::Matrix<double, 7, 7>;
+
+// A similarity b_from_a: p_b = scale * rotation * p_a + translation. Perturbations are from the
+// left, tangent = [rotation(3), translation(3), log scale].
+struct Similarity3 {
+  double scale = 1;
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return scale * (rotation * point) + translation;
+  }
+  Similarity3 operator*(const Similarity3& a_from_x) const {
+    return {scale * a_from_x.scale,
+            (rotation * a_from_x.rotation).normalized(),
+            scale * (rotation * a_from_x.translation) + translation};
+  }
+  Eigen::Matrix4d Matrix() const;
+};
+
+inline Similarity3 ToSimilarity(const Rigid3& motion) {
+  return {1.0, motion.rotation, motion.translation};
+}
+
+Similarity3 Inverse(const Similarity3& b_from_a);
+
+// The pose of a camera after its world has been transformed: world_b_from_cam without the scale
+// (the camera's own axes keep their length).
+Rigid3 TransformPose(const Similarity3& b_from_a, const Rigid3& a_from_cam);
+
+// Exponential map of sim(3) and its inverse, |rotation part| <= pi.
+Similarity3 ExpSim3(const Vector7d& tangent);
+Vector7d LogSim3(const Similarity3& similarity);
+
+inline Similarity3 RetractLeft(const Similarity3& similarity, const Vector7d& tangent) {
+  return ExpSim3(tangent) * similarity;
+}
+
+// Adjoint: S exp(x) S^-1 = exp(Adjoint(S) x).
+Matrix7d Adjoint(const Similarity3& similarity);
+
+// Left Jacobian: Exp(x + dx) = Exp(LeftJacobianSim3(x) dx) Exp(x) to first order; and its inverse,
+// the derivative of Log(exp(dx) S) at x = Log(S). By the power series in ad(x) (with the scaling
+// and doubling of matrix functions for large x), to about 1e-13.
+Matrix7d LeftJacobianSim3(const Vector7d& tangent);
+Matrix7d InverseLeftJacobianSim3(const Vector7d& tangent);
+
+}  // namespace plumbline

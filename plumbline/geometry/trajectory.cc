@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/geometry/trajectory.h"
+
+#include <algorithm>
+
+namespace plumbline {
+namespace {
+
+// First pose at or after the stamp.
+Trajectory::const_iterator LowerBound(const Trajectory& trajectory, std::int64_t stamp_ns) {
+  return std::ranges::lower_bound(trajectory, stamp_ns, {}, &StampedPose::stamp_ns);
+}
+
+}  // namespace
+
+std::optional<std::size_t> FirstOutOfOrder(const Trajectory& trajectory) {
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    if (trajectory[i].stamp_ns <= trajectory[i - 1].stamp_ns) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<Rigid3> InterpolateAt(const Trajectory& trajectory,
+                                    std::int64_t stamp_ns,
+                                    std::int64_t max_gap_ns) {
+  const auto after = LowerBound(trajectory, stamp_ns);
+  if (after == trajectory.end()) return std::nullopt;
+  if (after->stamp_ns == stamp_ns) return after->world_from_camera;
+  if (after == trajectory.begin()) return std::nullopt;
+  const auto before = std::prev(after);
+  const std::int64_t gap = after->stamp_ns - before->stamp_ns;
+  if (gap > max_gap_ns) return std::nullopt;
+  const double s = static_cast<double>(stamp_ns - before->stamp_ns) / static_cast<double>(gap);
+  return Interpolate(before->world_from_camera, after->world_from_camera, s);
+}
+
+std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
+                                        std::int64_t stamp_ns,
+                                        std::int64_t max_difference_ns) {
+  if (trajectory.empty()) return std::nullopt;
+  auto nearest = LowerBound(trajectory, stamp_ns);
+  if (nearest == trajectory.end() ||
+      (nearest != trajectory.begin() &&
+       stamp_ns - std::prev(nearest)->stamp_ns <= nearest->stamp_ns - stamp_ns)) {
+    --nearest;
+  }
+  const std::int64_t difference =
+      std::max(nearest->stamp_ns, stamp_ns) - std::min(nearest->stamp_ns, stamp_ns);
+  if (difference > max_difference_ns) return std::nullopt;
+  return static_cast<std::size_t>(nearest - trajectory.begin());
+}
+
+double PathLength(const Trajectory& trajectory) {
+  double length = 0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    length += (trajectory[i].world_from_camera.translation -
+               trajectory[i - 1].world_from_camera.translation)
+                  .norm();
+  }
+  return length;
+}
+
+}  // namespace plumbline

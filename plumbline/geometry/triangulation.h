@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/options.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/se3.h"
+
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+struct PointEstimate {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2
+};
+
+// A point from a pixel of the left camera and its disparity, in the left camera frame.
+//
+// The errors of pixel (each coordinate sigma_px) and disparity are taken as independent and
+// propagated to first order. nullopt for a disparity or baseline that is not positive.
+std::optional<PointEstimate> PointFromDisparity(const RectifiedCamera& camera,
+                                                const Eigen::Vector2d& px,
+                                                double sigma_px,
+                                                const Disparity& disparity);
+
+// The point in another frame.
+PointEstimate Transform(const Rigid3& b_from_a, const PointEstimate& point_in_a);
+
+// A point seen by one camera (or, with a disparity, by a pair).
+struct PointView {
+  Rigid3 cam_from_world;
+  Eigen::Vector2d px = Eigen::Vector2d::Zero();
+  double sigma_px = 1;
+  std::optional<Disparity> disparity;
+};
+
+struct PointTriangulationOptions {
+  double min_parallax = 0.02;
+  int max_iterations = 6;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, PointTriangulationOptions& o) {
+  visit("min_parallax",
+        o.min_parallax,
+        "smallest accepted largest angle between two viewing rays [rad]",
+        Range{0, 3.1});
+  visit("max_iterations", o.max_iterations, "Gauss-Newton steps", Range{0, 100});
+}
+
+enum class PointTriangulationFailure {
+  kTooFewViews,    // less than two rays; a view with a disparity has two
+  kSmallParallax,  // all rays within min_parallax
+  kBehindCamera,   // depth <= 0 in a view
+  kSingular,       // the measurements do not fix the point
+};
+
+struct TriangulatedPoint {
+  PointEstimate point;  // in the world
+  double parallax = 0;  // largest angle between two rays from the point, radians
+  double chi2 = 0;      // sum of squared residuals over their variances
+  int residuals = 0;    // number of them; chi2 has residuals - 3 degrees of freedom
+};
+
+// A point from two or more views: linear (DLT in the first camera's frame), then Gauss-Newton on
+// the reprojection and disparity errors, whose normal matrix gives the covariance.
+//
+// Whether chi2 is acceptable is for the caller to judge. O(n), parallax O(n^2).
+Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
+    const RectifiedCamera& camera,
+    std::span<const PointView> views,
+    const PointTriangulationOptions& options = {});
+
+}  // namespace plumbline

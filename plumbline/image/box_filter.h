@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/image.h"
+
+namespace plumbline {
+
+// Mean over a size x size window around each pixel, border pixels repeated. size >= 1; 1 changes
+// nothing.
+GrayImage BoxFiltered(const GrayImage& image, int size);
+
+}  // namespace plumbline

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/image/rectify.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/image/opencv_bridge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace plumbline {
+namespace {
+
+// Focal length of the ideal camera relative to the raw one.
+constexpr double kMinZoom = 0.5;
+constexpr double kMaxZoom = 1.3;
+// Tangent of the widest half angle that the ideal image may need (75 degrees).
+constexpr double kMaxTangent = 3.732;
+
+// Rotations of a declared-rectified pair: what rounding in a calibration file may leave.
+constexpr double kMaxRectifiedAngle = 1e-3;
+constexpr double kMaxRectifiedTilt = 0.02;
+
+struct View {
+  const Camera* camera = nullptr;
+  Eigen::Quaterniond rectified_from_raw;
+};
+
+// A rectangle on the plane z = 1 of the rectified frame.
+struct Extent {
+  double x0 = -kMaxTangent, x1 = kMaxTangent, y0 = -kMaxTangent, y1 = kMaxTangent;
+};
+
+std::optional<Eigen::Vector2d> RectifiedTangents(const View& view, const Eigen::Vector2d& raw_px) {
+  const std::optional<Eigen::Vector3d> ray = view.camera->Unproject(raw_px);
+  if (!ray) return std::nullopt;
+  const Eigen::Vector3d turned = view.rectified_from_raw * *ray;
+  if (!(turned.z() > 0)) return std::nullopt;
+  return Eigen::Vector2d(turned.head<2>() / turned.z());
+}
+
+// Shrinks the extent to one whose sides stay inside the raw image's curved border.
+void ShrinkToInside(const View& view, Extent& extent) {
+  constexpr int kSamples = 64;
+  const double right = view.camera->width() - 1;
+  const double bottom = view.camera->height() - 1;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double x = right * i / kSamples;
+    const double y = bottom * i / kSamples;
+    if (const auto p = RectifiedTangents(view, {0, y})) extent.x0 = std::max(extent.x0, p->x());
+    if (const auto p = RectifiedTangents(view, {right, y})) extent.x1 = std::min(extent.x1, p->x());
+    if (const auto p = RectifiedTangents(view, {x, 0})) extent.y0 = std::max(extent.y0, p->y());
+    if (const auto p = RectifiedTangents(view, {x, bottom}))
+      extent.y1 = std::min(extent.y1, p->y());
+  }
+}
+
+RectifiedCamera ChooseCamera(const View& left, const View* right) {
+  Extent extent;
+  ShrinkToInside(left, extent);
+  double raw_focal = 0.5 * (left.camera->intrinsics().fx + left.camera->intrinsics().fy);
+  if (right != nullptr) {
+    ShrinkToInside(*right, extent);
+    const CameraIntrinsics& in = right->camera->intrinsics();
+    raw_focal = 0.5 * raw_focal + 0.25 * (in.fx + in.fy);
+  }
+  RectifiedCamera ideal;
+  ideal.width = left.camera->width();
+  ideal.height = left.camera->height();
+  const double span_x = std::max(extent.x1 - extent.x0, 1e-6);
+  const double span_y = std::max(extent.y1 - extent.y0, 1e-6);
+  const double inside = std::max((ideal.width - 1) / span_x, (ideal.height - 1) / span_y);
+  const double focal = std::clamp(inside, kMinZoom * raw_focal, kMaxZoom * raw_focal);
+  ideal.fx = focal;
+  ideal.fy = focal;
+  ideal.cx = 0.5 * (ideal.width - 1) - 0.5 * focal * (extent.x0 + extent.x1);
+  ideal.cy = 0.5 * (ideal.height - 1) - 0.5 * focal * (extent.y0 + extent.y1);
+  return ideal;
+}
+
+RectifiedCamera IdealOf(const Camera& camera) {
+  const CameraIntrinsics& in = camera.intrinsics();
+  return {.fx = in.fx,
+          .fy = in.fy,
+          .cx = in.cx,
+          .cy = in.cy,
+          .baseline = 0,
+          .width = in.width,
+          .height = in.height};
+}
+
+bool SamePinhole(const Camera& a, const Camera& b) {
+  constexpr double kTolerance = 1e-6;  // pixels
+  const CameraIntrinsics& p = a.intrinsics();
+  const CameraIntrinsics& q = b.intrinsics();
+  return a.IsIdeal() && b.IsIdeal() && std::abs(p.fx - q.fx) < kTolerance &&
+         std::abs(p.fy - q.fy) < kTolerance && std::abs(p.cx - q.cx) < kTolerance &&
+         std::abs(p.cy - q.cy) < kTolerance;
+}
+
+// Rotation that turns x to the baseline and z to the mean optical axis, as near as that allows.
+Eigen::Quaterniond StereoRotation(const Rigid3& left_from_right) {
+  const Eigen::Vector3d x = left_from_right.translation.normalized();
+  const Eigen::Vector3d axis =
+      Eigen::Vector3d::UnitZ() + left_from_right.rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d y = axis.cross(x).normalized();
+  Eigen::Matrix3d rows;
+  rows << x.transpose(), y.transpose(), x.cross(y).transpose();
+  return Eigen::Quaterniond(rows).normalized();
+}
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void CheckPair(const Calibration& calibration) {
+  const Camera& left = calibration.left;
+  const Camera& right = *calibration.right;
+  if (left.width() != right.width() || left.height() != right.height()) {
+    throw InputError("calibration: expected a right camera of " +
+                     SizeText(left.width(), left.height()) + " pixels like the left one, found " +
+                     SizeText(right.width(), right.height()));
+  }
+  const Eigen::Vector3d centre = Inverse(calibration.right_from_left).translation;
+  // Written so that NaN fails.
+  if (!(centre.x() > 0 && centre.x() > centre.tail<2>().norm() && std::isfinite(centre.x()))) {
+    throw InputError(
+        "calibration: expected the right camera to the right (+x) of the left one, found it at (" +
+        std::to_string(centre.x()) + ", " + std::to_string(centre.y()) + ", " +
+        std::to_string(centre.z()) + ") m");
+  }
+  if (!calibration.rectified) return;
+  const double angle = LogSo3(calibration.right_from_left.rotation).norm();
+  if (angle > kMaxRectifiedAngle || centre.tail<2>().norm() > kMaxRectifiedTilt * centre.x()) {
+    throw InputError(
+        "calibration: expected a right camera displaced along x and not turned, since the images "
+        "are declared rectified, found a turn of " +
+        std::to_string(angle) + " rad and a centre at (" + std::to_string(centre.x()) + ", " +
+        std::to_string(centre.y()) + ", " + std::to_string(centre.z()) + ") m");
+  }
+}
+
+template <class T>
+void CheckSize(const Image<T>& image, const Camera& camera, const std::string& name) {
+  if (image.width() == camera.width() && image.height() == camera.height()) return;
+  throw InputError(name + " image: expected " + SizeText(camera.width(), camera.height()) +
+                   ", found " + SizeText(image.width(), image.height()));
+}
+
+struct FloatMaps {
+  cv::Mat x, y;  // raw pixel of each ideal pixel
+  GrayImage mask;
+};
+
+FloatMaps ComputeMaps(const RectifiedCamera& ideal, const View& view) {
+  constexpr float kNowhere = -10000.0F;
+  FloatMaps maps;
+  maps.x.create(ideal.height, ideal.width, CV_32FC1);
+  maps.y.create(ideal.height, ideal.width, CV_32FC1);
+  maps.mask = GrayImage(ideal.width, ideal.height);
+  const Eigen::Matrix3d raw_from_rectified = view.rectified_from_raw.conjugate().toRotationMatrix();
+  for (int v = 0; v < ideal.height; ++v) {
+    auto* row_x = maps.x.ptr<float>(v);
+    auto* row_y = maps.y.ptr<float>(v);
+    for (int u = 0; u < ideal.width; ++u) {
+      const Eigen::Vector3d ray =
+          raw_from_rectified * ideal.Unproject({static_cast<double>(u), static_cast<double>(v)});
+      const std::optional<Eigen::Vector2d> px = view.camera->Project(ray);
+      row_x[u] = px ? static_cast<float>(px->x()) : kNowhere;
+      row_y[u] = px ? static_cast<float>(px->y()) : kNowhere;
+      maps.mask.at(u, v) = px && view.camera->Contains(*px) ? 255 : 0;
+    }
+  }
+  return maps;
+}
+
+}  // namespace
+
+struct Rectifier::Maps {
+  cv::Mat linear_px, linear_fraction;
+  cv::Mat nearest_px;
+
+  Maps(const FloatMaps& maps, bool with_depth) {
+    cv::convertMaps(maps.x, maps.y, linear_px, linear_fraction, CV_16SC2, false);
+    cv::Mat unused;
+    if (with_depth) cv::convertMaps(maps.x, maps.y, nearest_px, unused, CV_16SC2, true);
+  }
+
+  GrayImage Apply(const GrayImage& raw) const {
+    GrayImage ideal(linear_px.cols, linear_px.rows);
+    cv::Mat target = AsMat(ideal);
+    cv::remap(
+        AsMat(raw), target, linear_px, linear_fraction, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    return ideal;
+  }
+
+  DepthImage Apply(const DepthImage& raw) const {
+    DepthImage ideal(nearest_px.cols, nearest_px.rows);
+    cv::Mat target = AsMat(ideal);
+    cv::remap(AsMat(raw), target, nearest_px, cv::Mat(), cv::INTER_NEAREST, cv::BORDER_CONSTANT);
+    return ideal;
+  }
+};
+
+Rectifier::~Rectifier() = default;
+Rectifier::Rectifier(Rectifier&&) noexcept = default;
+Rectifier& Rectifier::operator=(Rectifier&&) noexcept = default;
+
+Rectifier::Rectifier(const Calibration& calibration, const RectifierOptions& options)
+    : calibration_(calibration) {
+  const Camera& left = calibration_.left;
+  const bool stereo = calibration_.right.has_value();
+  const bool with_depth = calibration_.depth_factor.has_value();
+  if (calibration_.rectified && !(left.IsIdeal() && (!stereo || calibration_.right->IsIdeal()))) {
+    throw InputError(
+        "calibration: expected no lens distortion, since the images are declared rectified");
+  }
+  bool unchanged = left.IsIdeal();
+  double baseline = with_depth ? options.virtual_baseline : 0;
+  if (stereo) {
+    CheckPair(calibration_);
+    const Rigid3 left_from_right = Inverse(calibration_.right_from_left);
+    baseline = left_from_right.translation.norm();
+    if (!calibration_.rectified) {
+      rectified_left_from_left_ = StereoRotation(left_from_right);
+      rectified_right_from_right_ =
+          (rectified_left_from_left_ * left_from_right.rotation).normalized();
+    }
+    constexpr double kNoTurn = 1e-7;
+    unchanged = SamePinhole(left, *calibration_.right) &&
+                LogSo3(rectified_left_from_left_).norm() < kNoTurn &&
+                LogSo3(rectified_right_from_right_).norm() < kNoTurn;
+  }
+  const View left_view{&left, rectified_left_from_left_};
+  if (unchanged) {
+    rectified_left_from_left_.setIdentity();
+    rectified_right_from_right_.setIdentity();
+    camera_ = IdealOf(left);
+    left_mask_ = GrayImage(left.width(), left.height(), 255);
+    if (stereo) right_mask_ = left_mask_;
+  } else {
+    const View right_view{stereo ? &*calibration_.right : nullptr, rectified_right_from_right_};
+    camera_ = ChooseCamera(left_view, stereo ? &right_view : nullptr);
+    FloatMaps maps = ComputeMaps(camera_, left_view);
+    left_maps_ = std::make_unique<Maps>(maps, with_depth);
+    left_mask_ = std::move(maps.mask);
+    if (stereo) {
+      maps = ComputeMaps(camera_, right_view);
+      right_maps_ = std::make_unique<Maps>(maps, false);
+      right_mask_ = std::move(maps.mask);
+    }
+  }
+  camera_.baseline = baseline;
+}
+
+RectifiedFrame Rectifier::Apply(SensorFrame frame) const {
+  RectifiedFrame result;
+  result.stamp_ns = frame.stamp_ns;
+  CheckSize(frame.left, calibration_.left, "left");
+  result.left = left_maps_ ? left_maps_->Apply(frame.left) : std::move(frame.left);
+  if (frame.right && calibration_.right) {
+    CheckSize(*frame.right, *calibration_.right, "right");
+    result.right = right_maps_ ? right_maps_->Apply(*frame.right) : std::move(*frame.right);
+  }
+  if (frame.depth && calibration_.depth_factor) {
+    CheckSize(*frame.depth, calibration_.left, "depth");
+    result.depth = left_maps_ ? left_maps_->Apply(*frame.depth) : std::move(*frame.depth);
+  }
+  return result;
+}
+
+namespace {
+
+std::optional<Eigen::Vector2d> RectifyPixel(const View& view,
+                                            const RectifiedCamera& ideal,
+                                            const Eigen::Vector2d& raw_px) {
+  const std::optional<Eigen::Vector2d> tangents = RectifiedTangents(view, raw_px);
+  if (!tangents) return std::nullopt;
+  return ideal.Project(tangents->homogeneous());
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> Rectifier::RectifyLeft(const Eigen::Vector2d& raw_px) const {
+  return RectifyPixel({&calibration_.left, rectified_left_from_left_}, camera_, raw_px);
+}
+
+std::optional<Eigen::Vector2d> Rectifier::RectifyRight(const Eigen::Vector2d& raw_px) const {
+  if (!calibration_.right) return std::nullopt;
+  return RectifyPixel({&*calibration_.right, rectified_right_from_right_}, camera_, raw_px);
+}
+
+}  // namespace plumbline

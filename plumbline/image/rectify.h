@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/image/image.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+struct RectifierOptions {
+  double virtual_baseline = 0.08;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, RectifierOptions& o) {
+  visit("virtual_baseline",
+        o.virtual_baseline,
+        "RGB-D: distance of the virtual right camera, which turns depth into disparity [m]",
+        Range{0.001, 10});
+}
+
+// A frame as the ideal camera would have taken it.
+struct RectifiedFrame {
+  std::int64_t stamp_ns = 0;
+  GrayImage left;
+  std::optional<GrayImage> right;
+  std::optional<DepthImage> depth;
+};
+
+// Turns raw images into those of an ideal pinhole camera, stereo pairs with corresponding points in
+// the same row.
+//
+// Stereo: both images are turned so that x runs along the baseline and z along the mean of the two
+// optical axes. Mono, RGB-D: only the distortion is removed. The ideal camera has the input's size
+// and square pixels; its focal length is the smallest at which (nearly) every pixel of both images
+// comes from a real pixel, kept within 0.5 to 1.3 of the raw one. Images that need nothing are
+// handed through as they are.
+class Rectifier {
+ public:
+  // Throws InputError where the two cameras of a pair differ in size, the second one is not to the
+  // right of the first, or `rectified` is set but the numbers contradict it. O(pixels), some 10 ms.
+  explicit Rectifier(const Calibration& calibration, const RectifierOptions& options = {});
+  ~Rectifier();
+  Rectifier(Rectifier&&) noexcept;
+  Rectifier& operator=(Rectifier&&) noexcept;
+
+  // The ideal camera; its baseline is the true one (stereo), the virtual one (RGB-D) or 0 (mono).
+  const RectifiedCamera& camera() const { return camera_; }
+  // Turns directions of the left camera as delivered into its rectified frame (same centre).
+  const Eigen::Quaterniond& rectified_left_from_left() const { return rectified_left_from_left_; }
+
+  // The ideal images of a frame; pass an rvalue to save copies where nothing is to be done. Linear
+  // interpolation at 1/32 px, depth by the nearest neighbour. Pixels from beyond the raw image
+  // repeat its border (depth: 0). A right or depth image that the calibration does not know is
+  // dropped, one that is missing stays missing. Throws InputError on images of another size than
+  // calibrated. One thread may call it while others do.
+  RectifiedFrame Apply(SensorFrame frame) const;
+
+  // 255 where all of a pixel comes from real pixels, 0 where not; same size as the images. Edges
+  // along its border are not edges of the scene.
+  const GrayImage& left_mask() const { return left_mask_; }
+  const GrayImage& right_mask() const { return right_mask_; }  // empty without a right camera
+
+  // Where a raw pixel comes to lie in the ideal image, without rounding. nullopt beyond the domain
+  // of the camera model or behind the rectified image plane.
+  std::optional<Eigen::Vector2d> RectifyLeft(const Eigen::Vector2d& raw_px) const;
+  std::optional<Eigen::Vector2d> RectifyRight(const Eigen::Vector2d& raw_px) const;
+
+ private:
+  struct Maps;  // of cv::remap; null where images pass unchanged
+
+  Calibration calibration_;
+  RectifiedCamera camera_;
+  Eigen::Quaterniond rectified_left_from_left_ = Eigen::Quaterniond::Identity();
+  Eigen::Quaterniond rectified_right_from_right_ = Eigen::Quaterniond::Identity();
+  GrayImage left_mask_;
+  GrayImage right_mask_;
+  std::unique_ptr<Maps> left_maps_;
+  std::unique_ptr<Maps> right_maps_;
+};
+
+}  // namespace plumbline

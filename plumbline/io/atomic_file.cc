@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/atomic_file.h"
+
+#include "plumbline/base/error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+namespace plumbline {
+namespace {
+
+[[noreturn]] void FailWrite(const std::filesystem::path& path, const std::error_code& why) {
+  throw InputError("cannot write " + path.string() + ": " + why.message());
+}
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { (void)std::fclose(file); }
+};
+
+// The last write errors of a full disk may come as late as on closing.
+void WriteAll(const std::filesystem::path& temporary,
+              const std::filesystem::path& path,
+              std::string_view contents) {
+  errno = 0;
+  std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
+  if (!file) FailWrite(path, {errno, std::generic_category()});
+  const bool written =
+      std::fwrite(contents.data(), 1, contents.size(), file.get()) == contents.size() &&
+      std::fflush(file.get()) == 0;
+  if (!written) FailWrite(path, {errno, std::generic_category()});
+  if (std::fclose(file.release()) != 0) FailWrite(path, {errno, std::generic_category()});
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  temporary_ =
+      path_.parent_path() /
+      fmt::format(".{}.{}.tmp{}", path_.stem().string(), ::getpid(), path_.extension().string());
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!committed_) std::filesystem::remove(temporary_, ignored);
+}
+
+void AtomicFile::Commit() {
+  std::error_code error;
+  std::filesystem::rename(temporary_, path_, error);
+  if (error) FailWrite(path_, error);
+  committed_ = true;
+}
+
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents) {
+  AtomicFile file(path);
+  WriteAll(file.temporary_path(), path, contents);
+  file.Commit();
+}
+
+void MakeFolder(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw InputError("cannot make the folder " + path.string() + ": " + error.message());
+  if (!std::filesystem::is_directory(path, error)) {
+    throw InputError("cannot make the folder " + path.string() + ": a file of this name exists");
+  }
+}
+
+}  // namespace plumbline

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/dataset.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/euroc.h"
+#include "plumbline/io/image_dataset.h"
+#include "plumbline/io/image_folder.h"
+#include "plumbline/io/kitti.h"
+#include "plumbline/io/tum_rgbd.h"
+
+#include <system_error>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+DatasetFormat DetectFormat(const fs::path& path) {
+  std::error_code error;
+  const auto has = [&](const char* name) { return fs::exists(path / name, error); };
+  if (has("mav0") || has("cam0")) return DatasetFormat::kEuroc;
+  if (has("rgb.txt")) return DatasetFormat::kTum;
+  if (has("image_0") || has("calib.txt")) return DatasetFormat::kKitti;
+  if (!ListImages(path).empty()) return DatasetFormat::kImages;
+  throw InputError(path.string() +
+                   ": expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
+                   "sequence (image_0/, calib.txt) or a folder of images, found none of them");
+}
+
+}  // namespace
+
+Trajectory GroundTruth::OfCamera(const Calibration& calibration) const {
+  if (frame == Frame::kCamera) return poses;
+  PLUMBLINE_CHECK(calibration.body_from_left.has_value(),
+                  "ground truth of a body without its place");
+  Trajectory camera = poses;
+  for (StampedPose& pose : camera) {
+    pose.world_from_camera = pose.world_from_camera * *calibration.body_from_left;
+  }
+  return camera;
+}
+
+std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
+  if (!fs::is_directory(path, error)) {
+    throw InputError(path.string() + ": expected a folder, found a file");
+  }
+  switch (options.format ? *options.format : DetectFormat(path)) {
+    case DatasetFormat::kEuroc:
+      return OpenEuroc(path, options);
+    case DatasetFormat::kTum:
+      return OpenTum(path, options);
+    case DatasetFormat::kKitti:
+      return OpenKitti(path, options);
+    case DatasetFormat::kImages:
+      return OpenImageFolder(path, options);
+  }
+  throw BugError("a format without a reader");
+}
+
+}  // namespace plumbline

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/error.h"
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/geometry/trajectory.h"
+#include "plumbline/image/image.h"
+#include "plumbline/io/image_file.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+enum class SensorKind { kMono, kStereo, kRgbd };
+constexpr auto EnumNames(std::type_identity<SensorKind>) {
+  return std::array{std::pair{SensorKind::kMono, "mono"},
+                    std::pair{SensorKind::kStereo, "stereo"},
+                    std::pair{SensorKind::kRgbd, "rgbd"}};
+}
+
+enum class DatasetFormat { kEuroc, kTum, kKitti, kImages };
+constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
+  return std::array{std::pair{DatasetFormat::kEuroc, "euroc"},
+                    std::pair{DatasetFormat::kTum, "tum"},
+                    std::pair{DatasetFormat::kKitti, "kitti"},
+                    std::pair{DatasetFormat::kImages, "images"}};
+}
+
+// Reference poses as delivered with a data set, not transformed.
+struct GroundTruth {
+  // What moves: the left camera, or a body that carries it (Calibration::body_from_left).
+  enum class Frame { kCamera, kBody };
+
+  Trajectory poses;  // world_from_camera holds world_from_body where frame is kBody
+  Frame frame = Frame::kCamera;
+  std::filesystem::path path;  // the file they were read from
+
+  // The poses of the left camera, world_from_body * body_from_left.
+  Trajectory OfCamera(const Calibration& calibration) const;
+};
+
+// What is known of a recorded sequence before any image is read.
+struct DatasetInfo {
+  std::string name;  // last part of the path
+  std::filesystem::path path;
+  DatasetFormat format = DatasetFormat::kImages;
+  SensorKind sensor = SensorKind::kMono;    // as opened
+  std::vector<SensorKind> available;        // what the data offers, richest first
+  std::vector<std::int64_t> stamps_ns;      // one per frame, strictly increasing
+  Calibration calibration;                  // `right` and `depth_factor` only where used
+  bool has_calibration = true;              // false only with DatasetOptions::allow_missing_camera
+  std::optional<GroundTruth> ground_truth;  // nullopt: none is delivered
+  std::vector<std::string> notes;           // what is missing or left out, one sentence each
+};
+
+// A recorded sequence: frames in time order, read on demand.
+class Dataset {
+ public:
+  explicit Dataset(DatasetInfo info) : info_(std::move(info)) {}
+  Dataset(const Dataset&) = delete;
+  Dataset& operator=(const Dataset&) = delete;
+  virtual ~Dataset() = default;
+
+  const DatasetInfo& info() const { return info_; }
+  const Calibration& calibration() const { return info_.calibration; }
+  SensorKind sensor() const { return info_.sensor; }
+  std::size_t size() const { return info_.stamps_ns.size(); }
+  std::int64_t stamp_ns(std::size_t i) const { return info_.stamps_ns.at(i); }
+
+  // Decodes frame i < size(). Fails, for this frame only, when an image is missing, cannot be
+  // decoded or is cut short. Thread-safe. Cost: the decoding, some milliseconds an image.
+  virtual Expected<SensorFrame, ImageFailure> Read(std::size_t i) const = 0;
+
+ private:
+  DatasetInfo info_;
+};
+
+struct DatasetOptions {
+  std::optional<SensorKind> sensor = std::nullopt;     // nullopt: the richest the data offers
+  std::optional<DatasetFormat> format = std::nullopt;  // nullopt: found out from the folder
+  // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1"; takes the
+  // place of the calibration found with the data.
+  std::optional<std::string> camera = std::nullopt;
+  // Open the data even where there is no calibration, to look at it. `calibration` is a placeholder
+  // then. Off: InputError.
+  bool allow_missing_camera = false;
+};
+
+// Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and
+// calib.txt) or a folder of images, and reads its lists, calibration and ground truth, not its
+// images. Throws InputError naming file and line for what is missing or malformed, and where the
+// data does not offer the sensor asked for.
+std::unique_ptr<Dataset> OpenDataset(const std::filesystem::path& path,
+                                     const DatasetOptions& options = {});
+
+}  // namespace plumbline

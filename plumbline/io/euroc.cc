@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/euroc.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/image_dataset.h"
+#include "plumbline/io/text_rows.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool Exists(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+struct ListedImage {
+  std::int64_t stamp_ns = 0;
+  fs::path path;
+};
+
+// camN/data.csv: `nanoseconds,file name`.
+std::vector<ListedImage> ReadList(const fs::path& camera_folder) {
+  const fs::path csv = camera_folder / "data.csv";
+  std::vector<ListedImage> images;
+  for (const TextRow& row : ReadRows(csv, ',')) {
+    if (row.fields.size() != 2 || row.fields[1].empty()) {
+      FailAt(csv,
+             row.line,
+             "a time stamp and a file name",
+             std::to_string(row.fields.size()) + " columns");
+    }
+    const std::optional<std::int64_t> stamp = ParseNanoseconds(row.fields[0]);
+    if (!stamp) {
+      FailAt(csv, row.line, "a time stamp in whole nanoseconds", "'" + row.fields[0] + "'");
+    }
+    CheckStampOrder(csv,
+                    row.line,
+                    images.empty() ? std::nullopt : std::optional(images.back().stamp_ns),
+                    *stamp);
+    images.push_back({*stamp, camera_folder / "data" / row.fields[1]});
+  }
+  if (images.empty()) throw InputError(csv.string() + ": expected images, found no rows");
+  return images;
+}
+
+// Pairs of equal stamps; both lists are in time order.
+std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
+                               const std::vector<ListedImage>& right,
+                               DatasetInfo& info) {
+  std::vector<FrameFiles> files;
+  std::size_t r = 0;
+  for (const ListedImage& image : left) {
+    while (r < right.size() && right[r].stamp_ns < image.stamp_ns) ++r;
+    if (r == right.size() || right[r].stamp_ns != image.stamp_ns) continue;
+    info.stamps_ns.push_back(image.stamp_ns);
+    files.push_back({image.path, right[r].path, std::nullopt});
+  }
+  if (files.empty()) {
+    throw InputError(info.path.string() +
+                     ": expected equal time stamps in cam0/data.csv and cam1/data.csv, found none");
+  }
+  if (const std::size_t alone = left.size() - files.size(); alone > 0) {
+    info.notes.push_back(fmt::format("{} left images without a right one are left out", alone));
+  }
+  if (const std::size_t alone = right.size() - files.size(); alone > 0) {
+    info.notes.push_back(fmt::format("{} right images without a left one are left out", alone));
+  }
+  return files;
+}
+
+Calibration ReadCalibration(const fs::path& mav, const DatasetOptions& options, bool stereo) {
+  const fs::path left_file = mav / "cam0" / "sensor.yaml";
+  Calibration calibration;
+  if (options.camera) {
+    calibration = FindCamera(*options.camera);
+    if (!calibration.body_from_left && Exists(left_file)) {
+      calibration.body_from_left = ReadEurocSensor(left_file).body_from_camera;
+    }
+    if (stereo && !calibration.right) {
+      throw InputError(*options.camera + ": expected a stereo camera, found no key 'right'");
+    }
+    if (!stereo) calibration.right.reset();
+    return calibration;
+  }
+  const EurocSensor left = ReadEurocSensor(left_file);
+  calibration.left = left.camera;
+  calibration.rate_hz = left.rate_hz;
+  calibration.body_from_left = left.body_from_camera;
+  if (stereo) {
+    const EurocSensor right = ReadEurocSensor(mav / "cam1" / "sensor.yaml");
+    calibration.right = right.camera;
+    calibration.right_from_left = Inverse(right.body_from_camera) * left.body_from_camera;
+  }
+  return calibration;
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenEuroc(const fs::path& path, const DatasetOptions& options) {
+  const fs::path mav = Exists(path / "mav0") ? path / "mav0" : path;
+  if (!Exists(mav / "cam0")) {
+    throw InputError(path.string() + ": expected a EuRoC folder, found no mav0/cam0 in it");
+  }
+  std::vector<SensorKind> available = {SensorKind::kMono};
+  if (Exists(mav / "cam1" / "data.csv")) available.insert(available.begin(), SensorKind::kStereo);
+  DatasetInfo info = DescribeDataset(path, DatasetFormat::kEuroc, std::move(available), options);
+  const bool stereo = info.sensor == SensorKind::kStereo;
+  info.calibration = ReadCalibration(mav, options, stereo);
+
+  const std::vector<ListedImage> left = ReadList(mav / "cam0");
+  std::vector<FrameFiles> files;
+  if (stereo) {
+    files = PairUp(left, ReadList(mav / "cam1"), info);
+  } else {
+    for (const ListedImage& image : left) {
+      info.stamps_ns.push_back(image.stamp_ns);
+      files.push_back({image.path, std::nullopt, std::nullopt});
+    }
+  }
+  const fs::path truth = mav / "state_groundtruth_estimate0" / "data.csv";
+  if (Exists(truth)) {
+    info.ground_truth = GroundTruth{ReadTrajectory(truth).poses, GroundTruth::Frame::kBody, truth};
+    if (!info.calibration.body_from_left) {
+      throw InputError(truth.string() + ": expected body_from_left in the camera file, found none");
+    }
+  }
+  return MakeImageDataset(std::move(info), std::move(files));
+}
+
+}  // namespace plumbline

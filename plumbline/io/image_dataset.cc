@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_dataset.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/camera_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool Exists(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+template <class T>
+void CheckSize(const Image<T>& image, const Camera& camera, const fs::path& path) {
+  if (image.width() == camera.width() && image.height() == camera.height()) return;
+  throw InputError(
+      fmt::format("{}: expected an image of {}x{} pixels as in the calibration, "
+                  "found {}x{}",
+                  path.string(),
+                  camera.width(),
+                  camera.height(),
+                  image.width(),
+                  image.height()));
+}
+
+class ImageDataset : public Dataset {
+ public:
+  ImageDataset(DatasetInfo info, std::vector<FrameFiles> files)
+      : Dataset(std::move(info)), files_(std::move(files)) {}
+
+  Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
+    const FrameFiles& files = files_.at(i);
+    const bool check = info().has_calibration;
+    SensorFrame frame;
+    frame.stamp_ns = stamp_ns(i);
+    const Expected<GrayImage, ImageFailure> left = ReadGrayImage(files.left);
+    if (!left) return left.error();
+    if (check) CheckSize(*left, calibration().left, files.left);
+    frame.left = *left;
+    if (files.right) {
+      const Expected<GrayImage, ImageFailure> right = ReadGrayImage(*files.right);
+      if (!right) return right.error();
+      if (check && calibration().right) CheckSize(*right, *calibration().right, *files.right);
+      frame.right = *right;
+    }
+    if (files.depth) {
+      const double factor = calibration().depth_factor.value_or(1);
+      const Expected<DepthImage, ImageFailure> depth = ReadDepthImage(*files.depth, factor);
+      if (!depth) return depth.error();
+      if (check) CheckSize(*depth, calibration().left, *files.depth);
+      frame.depth = *depth;
+    }
+    return frame;
+  }
+
+ private:
+  std::vector<FrameFiles> files_;
+};
+
+std::string_view DigitRun(std::string_view text) {
+  const auto end = std::find_if_not(
+      text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+bool NaturalLess(std::string_view a, std::string_view b) {
+  const std::pair whole{a, b};
+  while (!a.empty() && !b.empty()) {
+    std::string_view run_a = DigitRun(a);
+    std::string_view run_b = DigitRun(b);
+    if (run_a.empty() || run_b.empty()) {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+      continue;
+    }
+    a.remove_prefix(run_a.size());
+    b.remove_prefix(run_b.size());
+    run_a.remove_prefix(std::min(run_a.find_first_not_of('0'), run_a.size()));
+    run_b.remove_prefix(std::min(run_b.find_first_not_of('0'), run_b.size()));
+    const auto key = [](std::string_view run) { return std::tuple(run.size(), run); };
+    if (run_a != run_b) return key(run_a) < key(run_b);
+  }
+  if (a.empty() != b.empty()) return a.empty();
+  return whole.first < whole.second;  // 1.png and 01.png
+}
+
+std::string NameOf(const fs::path& path) {
+  const fs::path clean = path.lexically_normal();
+  return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files) {
+  PLUMBLINE_CHECK(files.size() == info.stamps_ns.size(), "one stamp for each frame");
+  if (files.empty()) throw InputError(info.path.string() + ": expected frames, found none");
+  std::size_t missing_left = 0;
+  std::size_t missing_other = 0;
+  for (const FrameFiles& frame : files) {
+    missing_left += Exists(frame.left) ? 0 : 1;
+    missing_other += frame.right && !Exists(*frame.right) ? 1 : 0;
+    missing_other += frame.depth && !Exists(*frame.depth) ? 1 : 0;
+  }
+  if (missing_left == files.size()) {
+    throw InputError(
+        fmt::format("{}: expected images, found none of the {} listed (the first is {})",
+                    info.path.string(),
+                    files.size(),
+                    files.front().left.string()));
+  }
+  if (missing_left > 0) {
+    info.notes.push_back(fmt::format("{} of {} {}images do not exist",
+                                     missing_left,
+                                     files.size(),
+                                     info.sensor == SensorKind::kStereo ? "left " : ""));
+  }
+  if (missing_other > 0) {
+    info.notes.push_back(fmt::format("{} of {} {} images do not exist",
+                                     missing_other,
+                                     files.size(),
+                                     info.sensor == SensorKind::kStereo ? "right" : "depth"));
+  }
+  return std::make_unique<ImageDataset>(std::move(info), std::move(files));
+}
+
+DatasetInfo DescribeDataset(const fs::path& path,
+                            DatasetFormat format,
+                            std::vector<SensorKind> available,
+                            const DatasetOptions& options) {
+  DatasetInfo info;
+  info.name = NameOf(path);
+  info.path = path;
+  info.format = format;
+  info.sensor = options.sensor.value_or(available.front());
+  info.available = std::move(available);
+  if (std::find(info.available.begin(), info.available.end(), info.sensor) ==
+      info.available.end()) {
+    std::vector<std::string> names;
+    for (const SensorKind kind : info.available) names.push_back(SensorName(kind));
+    throw InputError(fmt::format("{}: expected data for {}, found data for {} only",
+                                 path.string(),
+                                 SensorName(info.sensor),
+                                 fmt::join(names, ", ")));
+  }
+  return info;
+}
+
+std::string SensorName(SensorKind sensor) {
+  for (const auto& [kind, name] : EnumNames(std::type_identity<SensorKind>{})) {
+    if (kind == sensor) return name;
+  }
+  throw BugError("a sensor without a name");
+}
+
+std::string FormatName(DatasetFormat format) {
+  for (const auto& [kind, name] : EnumNames(std::type_identity<DatasetFormat>{})) {
+    if (kind == format) return name;
+  }
+  throw BugError("a format without a name");
+}
+
+std::vector<std::string> ListImages(const fs::path& folder) {
+  constexpr std::array<std::string_view, 10> kExtensions = {
+      ".png", ".jpg", ".jpeg", ".webp", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".pnm"};
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) throw InputError(folder.string() + ": no such folder");
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    std::string extension = entry.path().extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+      return static_cast<char>(std::tolower(c));
+    });
+    if (std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end()) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
+  std::sort(names.begin(), names.end(), NaturalLess);
+  return names;
+}
+
+std::string NoCalibration(const fs::path& path) {
+  return fmt::format(
+      "{}: expected a calibration, found none: give --camera FILE, or put a "
+      "camera.yaml into the folder (built-in cameras: {})",
+      path.string(),
+      fmt::join(BuiltInCameras(), ", "));
+}
+
+}  // namespace plumbline

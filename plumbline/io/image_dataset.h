@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/io/dataset.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// The image files of one frame.
+struct FrameFiles {
+  std::filesystem::path left;
+  std::optional<std::filesystem::path> right;
+  std::optional<std::filesystem::path> depth;
+};
+
+// A data set whose frames are image files. files[i] belongs to info.stamps_ns[i]. Images listed but
+// missing become a note; InputError when there are no frames, or no left image exists at all. An
+// image of another size than the calibration's is an InputError when it is read.
+std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files);
+
+// Fills name, path, format, available and sensor: the sensor asked for, or the richest. InputError
+// when the data does not offer it.
+DatasetInfo DescribeDataset(const std::filesystem::path& path,
+                            DatasetFormat format,
+                            std::vector<SensorKind> available,
+                            const DatasetOptions& options);
+
+// Name shown to users.
+std::string SensorName(SensorKind sensor);
+std::string FormatName(DatasetFormat format);
+
+// The names of the image files in a folder, by natural order: runs of digits count as numbers, so
+// that 2.png comes before 10.png. InputError when there is no such folder.
+std::vector<std::string> ListImages(const std::filesystem::path& folder);
+
+// The message of a data set without calibration, telling what to do.
+std::string NoCalibration(const std::filesystem::path& path);
+
+}  // namespace plumbline

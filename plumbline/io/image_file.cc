@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_file.h"
+
+#include "plumbline/image/opencv_bridge.h"
+#include "plumbline/io/crc32.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace plumbline {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+constexpr std::string_view kEndsEarly = "the file ends early";
+
+std::uint32_t BigEndian32(Bytes bytes, std::size_t at) {
+  return (std::uint32_t{bytes[at]} << 24) | (std::uint32_t{bytes[at + 1]} << 16) |
+         (std::uint32_t{bytes[at + 2]} << 8) | std::uint32_t{bytes[at + 3]};
+}
+
+std::uint32_t LittleEndian32(Bytes bytes, std::size_t at) {
+  return std::uint32_t{bytes[at]} | (std::uint32_t{bytes[at + 1]} << 8) |
+         (std::uint32_t{bytes[at + 2]} << 16) | (std::uint32_t{bytes[at + 3]} << 24);
+}
+
+bool HasText(Bytes bytes, std::size_t at, std::string_view text) {
+  if (bytes.size() < at + text.size()) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (bytes[at + i] != static_cast<std::uint8_t>(text[i])) return false;
+  }
+  return true;
+}
+
+// Chunks of length, type, data, CRC up to IEND.
+std::optional<std::string> PngDamage(Bytes bytes) {
+  std::size_t at = 8;
+  while (at + 12 <= bytes.size()) {
+    const std::size_t length = BigEndian32(bytes, at);
+    if (length > bytes.size() - at - 12) break;
+    if (Crc32(bytes.subspan(at + 4, length + 4)) != BigEndian32(bytes, at + 8 + length)) {
+      return "the file is damaged or cut short (wrong checksum)";
+    }
+    if (HasText(bytes, at + 4, "IEND")) return std::nullopt;
+    at += length + 12;
+  }
+  return std::string(kEndsEarly);
+}
+
+// Marker segments with lengths up to the start of the scan, coded data, end-of-image marker.
+std::optional<std::string> JpegDamage(Bytes bytes) {
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size()) {
+    if (bytes[at] != 0xFF) return "the file is damaged (no marker where one must be)";
+    const std::uint8_t marker = bytes[at + 1];
+    if (marker == 0xFF) {  // fill byte
+      ++at;
+      continue;
+    }
+    if (marker == 0xDA) break;
+    at += 2 + (std::size_t{bytes[at + 2]} << 8) + bytes[at + 3];
+  }
+  constexpr std::array<std::uint8_t, 2> kEndOfImage = {0xFF, 0xD9};
+  if (at >= bytes.size() || std::search(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                                        bytes.end(),
+                                        kEndOfImage.begin(),
+                                        kEndOfImage.end()) == bytes.end()) {
+    return std::string(kEndsEarly);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> WebpDamage(Bytes bytes) {
+  if (std::size_t{LittleEndian32(bytes, 4)} + 8 > bytes.size()) return std::string(kEndsEarly);
+  return std::nullopt;
+}
+
+// Empty when the decoder refuses.
+cv::Mat Decode(const std::vector<std::uint8_t>& bytes, int flags) {
+  try {
+    return cv::imdecode(bytes, flags);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+Expected<cv::Mat, ImageFailure> ReadMat(const std::filesystem::path& path, int flags) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) {
+    return ImageFailure{path, std::filesystem::exists(path, error) ? "not a file" : "no such file"};
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file) return ImageFailure{path, "cannot be read"};
+  if (bytes.empty()) return ImageFailure{path, "the file is empty"};
+  if (std::optional<std::string> damage = FindDamage(bytes)) return ImageFailure{path, *damage};
+  cv::Mat mat = Decode(bytes, flags);
+  if (mat.empty()) return ImageFailure{path, "not an image this program can decode"};
+  return mat;
+}
+
+}  // namespace
+
+std::optional<std::string> FindDamage(std::span<const std::uint8_t> bytes) {
+  if (HasText(bytes, 0, "\x89PNG\r\n\x1a\n")) return PngDamage(bytes);
+  if (HasText(bytes, 0, "\xFF\xD8\xFF")) return JpegDamage(bytes);
+  if (HasText(bytes, 0, "RIFF") && HasText(bytes, 8, "WEBP")) return WebpDamage(bytes);
+  return std::nullopt;
+}
+
+Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path) {
+  // Decoders that turn colour to grey themselves round differently: take the colours.
+  const Expected<cv::Mat, ImageFailure> mat =
+      ReadMat(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (!mat) return mat.error();
+  if (mat->type() == CV_8UC1) return ToImage<std::uint8_t>(*mat);
+  if (mat->type() != CV_8UC3) return ImageFailure{path, "neither a grey nor a colour image"};
+  GrayImage gray(mat->cols, mat->rows);
+  cv::Mat out = AsMat(gray);
+  cv::cvtColor(*mat, out, cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
+Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,
+                                                  double factor) {
+  PLUMBLINE_CHECK(factor > 0, "depth factor");
+  const Expected<cv::Mat, ImageFailure> mat = ReadMat(path, cv::IMREAD_UNCHANGED);
+  if (!mat) return mat.error();
+  if (mat->type() != CV_16UC1) return ImageFailure{path, "not a 16-bit image of one channel"};
+  DepthImage depth(mat->cols, mat->rows);
+  for (int y = 0; y < mat->rows; ++y) {
+    const auto* in = mat->ptr<std::uint16_t>(y);
+    float* out = depth.row(y);
+    for (int x = 0; x < mat->cols; ++x) out[x] = static_cast<float>(in[x] / factor);
+  }
+  return depth;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_folder.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/image_dataset.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<Calibration> ReadCalibration(const fs::path& path, const DatasetOptions& options) {
+  std::error_code error;
+  if (options.camera) return FindCamera(*options.camera);
+  if (fs::exists(path / "camera.yaml", error)) return ReadCameraFile(path / "camera.yaml");
+  if (options.allow_missing_camera) return std::nullopt;
+  throw InputError(NoCalibration(path));
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenImageFolder(const fs::path& path, const DatasetOptions& options) {
+  DatasetInfo info = DescribeDataset(path, DatasetFormat::kImages, {SensorKind::kMono}, options);
+  const std::optional<Calibration> calibration = ReadCalibration(path, options);
+  info.has_calibration = calibration.has_value();
+  info.calibration = calibration.value_or(Calibration{});
+  info.calibration.right.reset();
+  info.calibration.depth_factor.reset();
+  if (!info.calibration.rate_hz) {
+    if (info.has_calibration) {
+      throw InputError(
+          path.string() +
+          ": expected rate_hz in the camera file, as images have no times; found none");
+    }
+    info.notes.emplace_back("the frame rate is not known; one image a second is assumed");
+  }
+  const double period_ns = 1e9 / info.calibration.rate_hz.value_or(1);
+  std::vector<FrameFiles> files;
+  for (const std::string& name : ListImages(path)) {
+    info.stamps_ns.push_back(std::llround(static_cast<double>(files.size()) * period_ns));
+    files.push_back({path / name, std::nullopt, std::nullopt});
+  }
+  return MakeImageDataset(std::move(info), std::move(files));
+}
+
+}  // namespace plumbline

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/kitti.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/image_dataset.h"
+#include "plumbline/io/text_rows.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using Matrix34 = Eigen::Matrix<double, 3, 4>;
+
+bool Exists(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+// One row `P0: 12 numbers` of calib.txt, an ideal pinhole; InputError otherwise.
+Matrix34 ReadProjection(const fs::path& file, const std::string& name) {
+  for (const TextRow& row : ReadRows(file, ' ')) {
+    if (row.fields[0] != name + ":") continue;
+    if (row.fields.size() != 13) {
+      FailAt(
+          file, row.line, "12 numbers after " + name + ":", std::to_string(row.fields.size() - 1));
+    }
+    Matrix34 p;
+    for (std::size_t i = 0; i < 12; ++i) {
+      p(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) =
+          NumberField(file, row, i + 1);
+    }
+    if (p(0, 0) <= 0 || p(1, 1) <= 0 || p(0, 1) != 0 || p(1, 0) != 0 ||
+        p.row(2).head<3>() != Eigen::RowVector3d(0, 0, 1)) {
+      FailAt(file, row.line, "the projection of a rectified camera", "another matrix");
+    }
+    return p;
+  }
+  throw InputError(file.string() + ": expected a row '" + name + ":', found none");
+}
+
+Camera ToCamera(const Matrix34& p, int width, int height) {
+  CameraIntrinsics k;
+  k.fx = p(0, 0);
+  k.fy = p(1, 1);
+  k.cx = p(0, 2);
+  k.cy = p(1, 2);
+  k.width = width;
+  k.height = height;
+  return Camera(k);
+}
+
+// calib.txt has no image size: it is that of the first image that can be read.
+std::pair<int, int> ImageSize(const fs::path& path, const std::vector<FrameFiles>& files) {
+  for (const FrameFiles& frame : files) {
+    const Expected<GrayImage, ImageFailure> image = ReadGrayImage(frame.left);
+    if (image) return {image->width(), image->height()};
+  }
+  throw InputError(path.string() + ": expected images in image_0, found none that can be decoded");
+}
+
+Calibration ReadCalibration(const fs::path& path,
+                            const DatasetOptions& options,
+                            const std::vector<FrameFiles>& files,
+                            bool stereo) {
+  Calibration calibration;
+  if (options.camera) {
+    calibration = FindCamera(*options.camera);
+    if (stereo && !calibration.right) {
+      throw InputError(*options.camera + ": expected a stereo camera, found no key 'right'");
+    }
+    if (!stereo) calibration.right.reset();
+    return calibration;
+  }
+  const fs::path file = path / "calib.txt";
+  const Matrix34 left = ReadProjection(file, "P0");
+  const auto [width, height] = ImageSize(path, files);
+  calibration.left = ToCamera(left, width, height);
+  calibration.rectified = true;
+  if (stereo) {
+    const Matrix34 right = ReadProjection(file, "P1");
+    calibration.right = ToCamera(right, width, height);
+    const double baseline = -right(0, 3) / right(0, 0);
+    if (!(baseline > 0) || right.leftCols<3>() != left.leftCols<3>()) {
+      throw InputError(file.string() +
+                       ": expected P1 to be P0 with a baseline above 0, found another camera");
+    }
+    calibration.right_from_left.translation.x() = -baseline;
+  }
+  return calibration;
+}
+
+// Number of the frame, from the file name, to the file.
+std::map<std::size_t, fs::path> NumberedImages(const fs::path& folder) {
+  std::map<std::size_t, fs::path> images;
+  for (const std::string& name : ListImages(folder)) {
+    const std::optional<std::int64_t> number = ParseNanoseconds(fs::path(name).stem().string());
+    if (!number) {
+      throw InputError((folder / name).string() + ": expected a number as file name (000000.png)");
+    }
+    images[static_cast<std::size_t>(*number)] = folder / name;
+  }
+  return images;
+}
+
+// The file of frame i, or where it would be.
+fs::path ImageAt(const std::map<std::size_t, fs::path>& images,
+                 const fs::path& folder,
+                 std::size_t i) {
+  const auto found = images.find(i);
+  return found != images.end() ? found->second : folder / fmt::format("{:06}.png", i);
+}
+
+std::optional<GroundTruth> ReadGroundTruth(const fs::path& path,
+                                           const std::vector<std::int64_t>& stamps_ns) {
+  const std::string sequence = fs::absolute(path / ".").lexically_normal().parent_path().filename();
+  for (const fs::path& file :
+       {path / "poses.txt", path / ".." / ".." / "poses" / (sequence + ".txt")}) {
+    if (Exists(file)) {
+      return GroundTruth{ReadKittiPoses(file, stamps_ns), GroundTruth::Frame::kCamera, file};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenKitti(const fs::path& path, const DatasetOptions& options) {
+  std::vector<SensorKind> available = {SensorKind::kMono};
+  if (Exists(path / "image_1")) available.insert(available.begin(), SensorKind::kStereo);
+  DatasetInfo info = DescribeDataset(path, DatasetFormat::kKitti, std::move(available), options);
+  const bool stereo = info.sensor == SensorKind::kStereo;
+
+  info.stamps_ns = ReadKittiTimes(path / "times.txt");
+  const std::map<std::size_t, fs::path> left = NumberedImages(path / "image_0");
+  if (left.empty()) {
+    throw InputError((path / "image_0").string() + ": expected images, found none");
+  }
+  if (left.rbegin()->first >= info.stamps_ns.size()) {
+    throw InputError(fmt::format("{}: expected a time for each image up to {}, found {} times",
+                                 (path / "times.txt").string(),
+                                 left.rbegin()->second.filename().string(),
+                                 info.stamps_ns.size()));
+  }
+  std::map<std::size_t, fs::path> right;
+  if (stereo) right = NumberedImages(path / "image_1");
+  std::vector<FrameFiles> files;
+  for (std::size_t i = 0; i < info.stamps_ns.size(); ++i) {
+    FrameFiles frame{ImageAt(left, path / "image_0", i), std::nullopt, std::nullopt};
+    if (stereo) frame.right = ImageAt(right, path / "image_1", i);
+    files.push_back(std::move(frame));
+  }
+  info.calibration = ReadCalibration(path, options, files, stereo);
+  info.ground_truth = ReadGroundTruth(path, info.stamps_ns);
+  return MakeImageDataset(std::move(info), std::move(files));
+}
+
+}  // namespace plumbline

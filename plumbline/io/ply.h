@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+
+#include <filesystem>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Writes points and line segments as an ASCII PLY file: the points grey, then the two ends of each
+// segment in orange, joined by an `edge` element. Coordinates in metres, 6 decimals. The same input
+// gives the same bytes. Throws InputError when the file cannot be written.
+void WritePly(const std::filesystem::path& path,
+              std::span<const Eigen::Vector3d> points,
+              std::span<const Segment3> segments);
+
+// Writes line segments as a Wavefront OBJ file of `l` elements. Otherwise as WritePly.
+void WriteObjLines(const std::filesystem::path& path, std::span<const Segment3> segments);
+
+}  // namespace plumbline

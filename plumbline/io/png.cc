@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/png.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/image/opencv_bridge.h"
+#include "plumbline/io/atomic_file.h"
+
+#include <cmath>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace plumbline {
+namespace {
+
+// OpenCV draws with fixed-point coordinates; 4 fractional bits.
+constexpr int kShift = 4;
+
+cv::Point FixedPoint(const Eigen::Vector2d& px) {
+  const double scale = 1 << kShift;
+  return {static_cast<int>(std::lround(px.x() * scale)),
+          static_cast<int>(std::lround(px.y() * scale))};
+}
+
+cv::Scalar Bgr(const Color& color) { return {double(color.b), double(color.g), double(color.r)}; }
+
+bool Drawable(const Eigen::Vector2d& px) {
+  return px.allFinite() && px.cwiseAbs().maxCoeff() < 1e6;
+}
+
+std::string Encode(const cv::Mat& mat) {
+  std::vector<std::uint8_t> bytes;
+  PLUMBLINE_CHECK(cv::imencode(".png", mat, bytes), "encoding a PNG image");
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay) {
+  PLUMBLINE_CHECK(!image.empty(), "an image without pixels");
+  cv::Mat canvas;
+  cv::cvtColor(AsMat(image), canvas, cv::COLOR_GRAY2BGR);
+  for (const OverlaySegment& drawn : overlay.segments) {
+    if (!Drawable(drawn.segment.start) || !Drawable(drawn.segment.end)) continue;
+    cv::line(canvas,
+             FixedPoint(drawn.segment.start),
+             FixedPoint(drawn.segment.end),
+             Bgr(drawn.color),
+             1,
+             cv::LINE_AA,
+             kShift);
+  }
+  for (const OverlayPoint& drawn : overlay.points) {
+    if (!Drawable(drawn.px)) continue;
+    const int radius = 2 << kShift;
+    cv::circle(canvas, FixedPoint(drawn.px), radius, Bgr(drawn.color), 1, cv::LINE_AA, kShift);
+  }
+  return Encode(canvas);
+}
+
+void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image) {
+  PLUMBLINE_CHECK(!image.empty(), "an image without pixels");
+  WriteFileAtomically(path, Encode(AsMat(image)));
+}
+
+void WriteOverlayPng(const std::filesystem::path& path,
+                     const GrayImage& image,
+                     const Overlay& overlay) {
+  WriteFileAtomically(path, EncodeOverlayPng(image, overlay));
+}
+
+}  // namespace plumbline

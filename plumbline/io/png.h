@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+#include "plumbline/image/image.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+struct Color {
+  std::uint8_t r = 0, g = 0, b = 0;
+};
+
+struct OverlayPoint {
+  Eigen::Vector2d px;
+  Color color{0, 220, 0};
+};
+
+struct OverlaySegment {
+  Segment2 segment;
+  Color color{255, 140, 0};
+};
+
+// Features to draw on an image. Positions in pixels of the image, centres at integers.
+struct Overlay {
+  std::vector<OverlayPoint> points;
+  std::vector<OverlaySegment> segments;
+};
+
+// The image with the overlay, as the bytes of a PNG file (segments below points, antialiased).
+std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay);
+
+// Writes a grey image, or one with an overlay, as PNG. Throws InputError when it cannot be written.
+void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image);
+void WriteOverlayPng(const std::filesystem::path& path,
+                     const GrayImage& image,
+                     const Overlay& overlay);
+
+}  // namespace plumbline

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/text_rows.h"
+
+#include "plumbline/base/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace plumbline {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+std::string_view Trim(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string> Split(std::string_view text, char separator) {
+  std::vector<std::string> fields;
+  while (true) {
+    const std::size_t end = separator == ' ' ? text.find_first_of(kBlanks) : text.find(separator);
+    fields.emplace_back(Trim(text.substr(0, end)));
+    if (end == std::string_view::npos) return fields;
+    text.remove_prefix(end + 1);
+    if (separator == ' ') text = Trim(text);
+  }
+}
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+}  // namespace
+
+std::string ReadTextFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw InputError(path.string() + ": no such file");
+  }
+  if (std::filesystem::is_directory(path, error)) {
+    throw InputError(path.string() + ": expected a file, found a folder");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (file.bad() || !text || !file.is_open()) {
+    throw InputError(path.string() + ": cannot be read");
+  }
+  return std::move(text).str();
+}
+
+std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator) {
+  const std::string text = ReadTextFile(path);
+  std::string_view rest = text;
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // byte order mark
+  std::vector<TextRow> rows;
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view content = Trim(rest.substr(0, end));
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    if (content.empty() || content.front() == '#') continue;
+    rows.push_back({line, Split(content, separator)});
+  }
+  return rows;
+}
+
+void FailAt(const std::filesystem::path& path,
+            int line,
+            std::string_view expected,
+            std::string_view found) {
+  std::string message = path.string() + ":" + std::to_string(line) + ": expected ";
+  message += expected;
+  message += ", found ";
+  message += found;
+  throw InputError(message);
+}
+
+void CheckStampOrder(const std::filesystem::path& path,
+                     int line,
+                     std::optional<std::int64_t> previous,
+                     std::int64_t stamp_ns) {
+  if (!previous || *previous < stamp_ns) return;
+  FailAt(path,
+         line,
+         "time stamps that increase",
+         *previous == stamp_ns ? "the same time stamp again" : "one that goes back");
+}
+
+std::optional<double> ParseNumber(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
+  if (!std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+double NumberField(const std::filesystem::path& path, const TextRow& row, std::size_t field) {
+  const std::optional<double> value = ParseNumber(row.fields.at(field));
+  if (!value) {
+    FailAt(path,
+           row.line,
+           "a number in column " + std::to_string(field + 1),
+           "'" + row.fields[field] + "'");
+  }
+  return *value;
+}
+
+std::optional<std::int64_t> ParseSeconds(std::string_view text) {
+  std::string digits;
+  std::ptrdiff_t point = -1;  // how many digits stand before the decimal point
+  std::size_t i = 0;
+  if (text.starts_with('+')) ++i;
+  for (; i < text.size() && (IsDigit(text[i]) || (text[i] == '.' && point < 0)); ++i) {
+    if (text[i] == '.') {
+      point = std::ssize(digits);
+    } else {
+      digits += text[i];
+    }
+  }
+  if (digits.empty()) return std::nullopt;
+  if (point < 0) point = std::ssize(digits);
+  if (i < text.size()) {
+    if (text[i] != 'e' && text[i] != 'E') return std::nullopt;
+    std::string_view exponent_text = text.substr(i + 1);
+    if (exponent_text.starts_with('+')) exponent_text.remove_prefix(1);
+    int exponent = 0;
+    const char* end = exponent_text.data() + exponent_text.size();
+    const auto result = std::from_chars(exponent_text.data(), end, exponent);
+    if (result.ec != std::errc() || result.ptr != end || std::abs(exponent) > 40) {
+      return std::nullopt;
+    }
+    point += exponent;
+  }
+  point += 9;  // seconds to nanoseconds
+  if (point < 0) return 0;
+  const auto count = static_cast<std::size_t>(point);
+  const bool round_up = count < digits.size() && digits[count] >= '5';
+  digits.resize(count, '0');
+  if (digits.empty()) return round_up ? 1 : 0;
+  std::optional<std::int64_t> whole = ParseNanoseconds(digits);
+  if (whole && round_up) ++*whole;
+  return whole;
+}
+
+std::optional<std::int64_t> ParseNanoseconds(std::string_view text) {
+  std::int64_t value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || value < 0) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumbline {
+
+// One row of a text table, cut into fields without surrounding blanks.
+struct TextRow {
+  int line = 0;  // from 1
+  std::vector<std::string> fields;
+};
+
+// The whole contents of a file. InputError "path: ..." when it is missing or cannot be read.
+std::string ReadTextFile(const std::filesystem::path& path);
+
+// The rows of a text file without empty lines and comments (from '#' at the start of a line).
+// Fields end at `separator`, or at any run of blanks where that is ' '. Line ends may be CR LF.
+std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator);
+
+// Throws InputError "path:line: expected ..., found ...".
+[[noreturn]] void FailAt(const std::filesystem::path& path,
+                         int line,
+                         std::string_view expected,
+                         std::string_view found);
+
+// FailAt unless stamp_ns is above `previous`, where there is a previous row.
+void CheckStampOrder(const std::filesystem::path& path,
+                     int line,
+                     std::optional<std::int64_t> previous,
+                     std::int64_t stamp_ns);
+
+// A finite number, the whole text.
+std::optional<double> ParseNumber(std::string_view text);
+// FailAt unless the field of the row is a finite number. `what` names it: "the x position".
+double NumberField(const std::filesystem::path& path, const TextRow& row, std::size_t field);
+
+// A time not before 0 as nanoseconds, read from the decimal text without loss (rounded to the
+// nearest nanosecond where there are more than nine decimals): "1305031102.175304", "1.037e-01".
+std::optional<std::int64_t> ParseSeconds(std::string_view text);
+// A whole number of nanoseconds, not negative.
+std::optional<std::int64_t> ParseNanoseconds(std::string_view text);
+
+}  // namespace plumbline

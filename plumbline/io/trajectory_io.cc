@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/trajectory_io.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/text_rows.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+#include <Eigen/LU>
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+using std::filesystem::path;
+
+std::string Count(std::size_t count) { return std::to_string(count) + " columns"; }
+
+Eigen::Vector3d VectorAt(const path& file, const TextRow& row, std::size_t first) {
+  return {NumberField(file, row, first),
+          NumberField(file, row, first + 1),
+          NumberField(file, row, first + 2)};
+}
+
+// The quaternion whose parts stand in the given columns.
+Eigen::Quaterniond QuaternionAt(const path& file,
+                                const TextRow& row,
+                                std::size_t w,
+                                std::size_t x) {
+  const Eigen::Vector3d v = VectorAt(file, row, x);
+  const Eigen::Quaterniond q(NumberField(file, row, w), v.x(), v.y(), v.z());
+  if (std::abs(q.norm() - 1) > 0.01) {
+    FailAt(file, row.line, "a unit quaternion", fmt::format("one of norm {:.6g}", q.norm()));
+  }
+  return q.normalized();
+}
+
+std::int64_t Stamp(const path& file, const TextRow& row, TrajectoryFormat format) {
+  const bool seconds = format == TrajectoryFormat::kTum;
+  const std::string& text = row.fields[0];
+  const std::optional<std::int64_t> stamp = seconds ? ParseSeconds(text) : ParseNanoseconds(text);
+  if (!stamp) {
+    FailAt(file,
+           row.line,
+           seconds ? "a time stamp in seconds" : "a time stamp in whole nanoseconds",
+           "'" + text + "'");
+  }
+  return *stamp;
+}
+
+Rigid3 PoseOfRow(const path& file, const TextRow& row, TrajectoryFormat format) {
+  if (format == TrajectoryFormat::kTum) {
+    return {QuaternionAt(file, row, 7, 4), VectorAt(file, row, 1)};
+  }
+  return {QuaternionAt(file, row, 4, 5), VectorAt(file, row, 1)};
+}
+
+Rigid3 PoseOfMatrixRow(const path& file, const TextRow& row) {
+  if (row.fields.size() != 12) {
+    FailAt(file, row.line, "12 numbers, a 3x4 matrix", Count(row.fields.size()));
+  }
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation;
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto i = static_cast<Eigen::Index>(r);
+    rotation.row(i) = VectorAt(file, row, 4 * r).transpose();
+    translation(i) = NumberField(file, row, 4 * r + 3);
+  }
+  const double off = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
+  if (off > 1e-3 || rotation.determinant() < 0) {
+    FailAt(
+        file,
+        row.line,
+        "a rotation matrix",
+        fmt::format(
+            "R R^T off the identity by {:.3g}, determinant {:.6g}", off, rotation.determinant()));
+  }
+  return {Eigen::Quaterniond(rotation).normalized(), translation};
+}
+
+Trajectory ReadStamped(const path& file, TrajectoryFormat format) {
+  const bool tum = format == TrajectoryFormat::kTum;
+  Trajectory poses;
+  std::optional<std::int64_t> previous;
+  for (const TextRow& row : ReadRows(file, tum ? ' ' : ',')) {
+    if (tum ? row.fields.size() != 8 : row.fields.size() < 8) {
+      FailAt(file,
+             row.line,
+             tum ? "8 columns (time tx ty tz qx qy qz qw)"
+                 : "at least 8 columns (time,px,py,pz,qw,qx,qy,qz)",
+             Count(row.fields.size()));
+    }
+    const std::int64_t stamp = Stamp(file, row, format);
+    CheckStampOrder(file, row.line, previous, stamp);
+    poses.push_back({stamp, PoseOfRow(file, row, format)});
+    previous = stamp;
+  }
+  return poses;
+}
+
+TrajectoryFormat FormatOf(const path& file) {
+  const std::vector<TextRow> rows = ReadRows(file, ' ');
+  if (rows.empty()) throw InputError(file.string() + ": expected poses, found no rows");
+  const TextRow& row = rows.front();
+  for (const std::string& field : row.fields) {
+    if (field.find(',') != std::string::npos) return TrajectoryFormat::kEuroc;
+  }
+  if (row.fields.size() == 12) return TrajectoryFormat::kKitti;
+  if (row.fields.size() == 8) return TrajectoryFormat::kTum;
+  FailAt(file,
+         row.line,
+         "8 columns (TUM), 12 (KITTI) or commas between them (EuRoC)",
+         Count(row.fields.size()));
+}
+
+// Fixed decimals, without a minus sign before zero.
+std::string Fixed(double value) {
+  std::string text = fmt::format("{:.9f}", value);
+  if (text == "-0.000000000") text.erase(0, 1);
+  return text;
+}
+
+}  // namespace
+
+LoadedTrajectory ReadTrajectory(const path& file) {
+  const TrajectoryFormat format = FormatOf(file);
+  if (format != TrajectoryFormat::kKitti) return {format, ReadStamped(file, format)};
+  path times = file.parent_path() / "times.txt";
+  const path distributed = file.parent_path() / ".." / "sequences" / file.stem() / "times.txt";
+  std::error_code error;
+  if (!std::filesystem::exists(times, error) && std::filesystem::exists(distributed, error)) {
+    times = distributed;
+  }
+  return {format, ReadKittiPoses(file, ReadKittiTimes(times))};
+}
+
+Trajectory ReadKittiPoses(const path& file, const std::vector<std::int64_t>& stamps_ns) {
+  const std::vector<TextRow> rows = ReadRows(file, ' ');
+  if (rows.size() != stamps_ns.size()) {
+    throw InputError(file.string() + ": expected " + std::to_string(stamps_ns.size()) +
+                     " poses, one for each time, found " + std::to_string(rows.size()));
+  }
+  Trajectory poses;
+  poses.reserve(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    poses.push_back({stamps_ns[i], PoseOfMatrixRow(file, rows[i])});
+  }
+  return poses;
+}
+
+std::vector<std::int64_t> ReadKittiTimes(const path& file) {
+  std::vector<std::int64_t> stamps;
+  for (const TextRow& row : ReadRows(file, ' ')) {
+    if (row.fields.size() != 1) FailAt(file, row.line, "one time", Count(row.fields.size()));
+    const std::int64_t stamp = Stamp(file, row, TrajectoryFormat::kTum);
+    CheckStampOrder(
+        file, row.line, stamps.empty() ? std::nullopt : std::optional(stamps.back()), stamp);
+    stamps.push_back(stamp);
+  }
+  if (stamps.empty()) throw InputError(file.string() + ": expected times, found no rows");
+  return stamps;
+}
+
+std::string FormatStamp(std::int64_t stamp_ns) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return fmt::format("{}{}.{:09}",
+                     stamp_ns < 0 ? "-" : "",
+                     std::abs(stamp_ns / kSecond),
+                     std::abs(stamp_ns % kSecond));
+}
+
+std::string FormatTum(const Trajectory& trajectory) {
+  std::string text;
+  for (const StampedPose& pose : trajectory) {
+    Eigen::Vector4d q = pose.world_from_camera.rotation.coeffs();
+    if (q.w() < 0) q = -q;
+    const Eigen::Vector3d& t = pose.world_from_camera.translation;
+    text += FormatStamp(pose.stamp_ns);
+    for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+      text += ' ';
+      text += Fixed(value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+void WriteTum(const path& file, const Trajectory& trajectory) {
+  WriteFileAtomically(file, FormatTum(trajectory));
+}
+
+}  // namespace plumbline

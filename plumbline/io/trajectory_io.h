@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/trajectory.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+enum class TrajectoryFormat {
+  kTum,    // `seconds tx ty tz qx qy qz qw`, blanks between, # comments
+  kEuroc,  // CSV `nanoseconds,px,py,pz,qw,qx,qy,qz,...`; more columns are ignored
+  kKitti,  // 12 numbers a row, a 3x4 matrix; times in a separate file
+};
+
+struct LoadedTrajectory {
+  TrajectoryFormat format = TrajectoryFormat::kTum;
+  Trajectory poses;  // of whatever frame the file is about, in time order
+};
+
+// Reads a trajectory, finding out the format from the first row. KITTI rows take their times from
+// times.txt beside the file or, as distributed (poses/06.txt), ../sequences/06/times.txt. Quaternions are normalized; one of a norm off 1 by more than 0.01, a
+// matrix that is not a rotation (to 1e-3), times that do not increase, and a file without rows are
+// errors, as is any malformed row: InputError "path:line: expected ..., found ...".
+LoadedTrajectory ReadTrajectory(const std::filesystem::path& path);
+
+// The rows of a KITTI poses file with one time stamp for each.
+Trajectory ReadKittiPoses(const std::filesystem::path& path,
+                          const std::vector<std::int64_t>& stamps_ns);
+
+// The times of a KITTI times.txt, seconds, one a row. Errors as above.
+std::vector<std::int64_t> ReadKittiTimes(const std::filesystem::path& path);
+
+// TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. No header.
+std::string FormatTum(const Trajectory& trajectory);
+void WriteTum(const std::filesystem::path& path, const Trajectory& trajectory);
+
+// Time stamp as seconds with 9 decimals, exact: 1305031102175304000 -> "1305031102.175304000".
+std::string FormatStamp(std::int64_t stamp_ns);
+
+}  // namespace plumbline

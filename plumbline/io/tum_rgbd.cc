@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/tum_rgbd.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/image_dataset.h"
+#include "plumbline/io/text_rows.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
+
+bool Exists(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+struct ListedImage {
+  std::int64_t stamp_ns = 0;
+  fs::path path;
+};
+
+// rgb.txt, depth.txt: `seconds file`.
+std::vector<ListedImage> ReadList(const fs::path& list) {
+  std::vector<ListedImage> images;
+  for (const TextRow& row : ReadRows(list, ' ')) {
+    if (row.fields.size() != 2) {
+      FailAt(list,
+             row.line,
+             "a time stamp and a file name",
+             std::to_string(row.fields.size()) + " columns");
+    }
+    const std::optional<std::int64_t> stamp = ParseSeconds(row.fields[0]);
+    if (!stamp) FailAt(list, row.line, "a time stamp in seconds", "'" + row.fields[0] + "'");
+    CheckStampOrder(list,
+                    row.line,
+                    images.empty() ? std::nullopt : std::optional(images.back().stamp_ns),
+                    *stamp);
+    images.push_back({*stamp, list.parent_path() / row.fields[1]});
+  }
+  if (images.empty()) throw InputError(list.string() + ": expected images, found no rows");
+  return images;
+}
+
+// Index of the image nearest in time, the earlier of two equally near. `images` is not empty.
+std::size_t Nearest(const std::vector<ListedImage>& images, std::int64_t stamp_ns) {
+  const auto after = std::lower_bound(
+      images.begin(), images.end(), stamp_ns, [](const ListedImage& image, std::int64_t stamp) {
+        return image.stamp_ns < stamp;
+      });
+  const auto index = static_cast<std::size_t>(after - images.begin());
+  if (after == images.begin()) return 0;
+  if (after == images.end()) return index - 1;
+  return stamp_ns - images[index - 1].stamp_ns <= after->stamp_ns - stamp_ns ? index - 1 : index;
+}
+
+std::vector<FrameFiles> JoinDepth(const std::vector<ListedImage>& color,
+                                  const std::vector<ListedImage>& depth,
+                                  DatasetInfo& info) {
+  std::vector<FrameFiles> files;
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    const ListedImage& nearest = depth[Nearest(depth, color[i].stamp_ns)];
+    const std::int64_t delay = std::abs(nearest.stamp_ns - color[i].stamp_ns);
+    if (delay > kMaxDepthDelayNs || Nearest(color, nearest.stamp_ns) != i) continue;
+    info.stamps_ns.push_back(color[i].stamp_ns);
+    files.push_back({color[i].path, std::nullopt, nearest.path});
+  }
+  if (files.empty()) {
+    throw InputError(info.path.string() +
+                     ": expected depth images within 20 ms of colour images, found none");
+  }
+  if (const std::size_t alone = color.size() - files.size(); alone > 0) {
+    info.notes.push_back(
+        fmt::format("{} colour images without depth within 20 ms are left out", alone));
+  }
+  return files;
+}
+
+// rgbd_dataset_freiburg2_desk -> tum_fr2.
+std::optional<std::string> CameraOfName(const std::string& name) {
+  constexpr std::string_view kStart = "rgbd_dataset_freiburg";
+  if (!name.starts_with(kStart) || name.size() <= kStart.size()) return std::nullopt;
+  const char number = name[kStart.size()];
+  if (number < '1' || number > '3') return std::nullopt;
+  return std::string("tum_fr") + number;
+}
+
+std::optional<Calibration> ReadCalibration(const fs::path& path, const DatasetOptions& options) {
+  if (options.camera) return FindCamera(*options.camera);
+  if (Exists(path / "camera.yaml")) return ReadCameraFile(path / "camera.yaml");
+  const std::string name = fs::absolute(path / ".").lexically_normal().parent_path().filename();
+  if (const std::optional<std::string> camera = CameraOfName(name)) return FindCamera(*camera);
+  if (options.allow_missing_camera) return std::nullopt;
+  throw InputError(NoCalibration(path));
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& options) {
+  std::optional<Calibration> calibration = ReadCalibration(path, options);
+  const bool has_depth = Exists(path / "depth.txt");
+  const bool has_factor = !calibration || calibration->depth_factor.has_value();
+  if (has_depth && !has_factor && options.sensor == SensorKind::kRgbd) {
+    throw InputError(path.string() + ": expected depth_factor in the camera file, found none");
+  }
+  std::vector<SensorKind> available = {SensorKind::kMono};
+  if (has_depth && has_factor) available.insert(available.begin(), SensorKind::kRgbd);
+  DatasetInfo info = DescribeDataset(path, DatasetFormat::kTum, std::move(available), options);
+  info.has_calibration = calibration.has_value();
+  info.calibration = calibration.value_or(Calibration{});
+  info.calibration.right.reset();
+  if (has_depth && !has_factor) {
+    info.notes.emplace_back("the depth images are not used: no depth_factor in the camera file");
+  }
+  if (info.sensor == SensorKind::kMono) info.calibration.depth_factor.reset();
+
+  const std::vector<ListedImage> color = ReadList(path / "rgb.txt");
+  std::vector<FrameFiles> files;
+  if (info.sensor == SensorKind::kRgbd) {
+    files = JoinDepth(color, ReadList(path / "depth.txt"), info);
+  } else {
+    for (const ListedImage& image : color) {
+      info.stamps_ns.push_back(image.stamp_ns);
+      files.push_back({image.path, std::nullopt, std::nullopt});
+    }
+  }
+  const fs::path truth = path / "groundtruth.txt";
+  if (Exists(truth)) {
+    info.ground_truth =
+        GroundTruth{ReadTrajectory(truth).poses, GroundTruth::Frame::kCamera, truth};
+  }
+  return MakeImageDataset(std::move(info), std::move(files));
+}
+
+}  // namespace plumbline

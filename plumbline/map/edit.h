@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/frame.h"
+#include "plumbline/map/landmarks.h"
+
+#include <variant>
+#include <vector>
+
+namespace plumbline {
+
+// The changes a map can undergo. Each algorithm reads a Map and returns an Edit; Map::Apply is the one
+// place where a map changes.
+namespace edit {
+
+// The keyframe with its matches; matches of landmarks that were merged or removed meanwhile follow
+// the merge or are dropped.
+struct AddKeyFrame {
+  KeyFrame keyframe;
+};
+// Its frames from then on hang on the parent with the relative pose at the time of the removal.
+struct RemoveKeyFrame {
+  KeyFrameId id;
+};
+struct SetPose {
+  KeyFrameId id;
+  Rigid3 cam_from_world;
+};
+
+// The landmark and its observations.
+struct AddPoint {
+  MapPoint point;
+};
+struct AddLine {
+  MapLine line;
+};
+struct RemovePoint {
+  PointId id;
+};
+struct RemoveLine {
+  LineId id;
+};
+struct MovePoint {
+  PointId id;
+  Eigen::Vector3d position;
+};
+struct MoveLine {
+  LineId id;
+  PluckerLine line;
+  double start, end;
+  Eigen::Matrix4d information;
+};
+struct AddPointObservation {
+  PointId id;
+  KeyFrameId keyframe;
+  int feature;
+};
+struct AddLineObservation {
+  LineId id;
+  KeyFrameId keyframe;
+  int feature;
+};
+struct RemovePointObservation {
+  PointId id;
+  KeyFrameId keyframe;
+};
+struct RemoveLineObservation {
+  LineId id;
+  KeyFrameId keyframe;
+};
+// The observations of `gone` pass to `kept`, where the keyframe does not show `kept` already.
+struct MergePoints {
+  PointId kept, gone;
+};
+struct MergeLines {
+  LineId kept, gone;
+};
+// New appearance: descriptor, viewing direction and reference scale from the observations.
+struct RefreshPoint {
+  PointId id;
+};
+struct RefreshLine {
+  LineId id;
+};
+struct ScorePoint {
+  PointId id;
+  int visible, found;  // added to the score
+};
+struct ScoreLine {
+  LineId id;
+  int visible, found;
+};
+
+}  // namespace edit
+
+using MapChange = std::variant<edit::AddKeyFrame,
+                               edit::RemoveKeyFrame,
+                               edit::SetPose,
+                               edit::AddPoint,
+                               edit::AddLine,
+                               edit::RemovePoint,
+                               edit::RemoveLine,
+                               edit::MovePoint,
+                               edit::MoveLine,
+                               edit::AddPointObservation,
+                               edit::AddLineObservation,
+                               edit::RemovePointObservation,
+                               edit::RemoveLineObservation,
+                               edit::MergePoints,
+                               edit::MergeLines,
+                               edit::RefreshPoint,
+                               edit::RefreshLine,
+                               edit::ScorePoint,
+                               edit::ScoreLine>;
+
+using MapEdit = std::vector<MapChange>;
+
+}  // namespace plumbline

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/ids.h"
+#include "plumbline/features/grid.h"
+#include "plumbline/features/types.h"
+#include "plumbline/geometry/se3.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace plumbline {
+
+// The features of one frame with their index by image cell. Never changed once made, so frames,
+// keyframes and snapshots share it.
+struct IndexedFeatures {
+  Features features;
+  PointGrid point_grid;
+};
+
+// A frame with a pose and its matches: for each feature the landmark it shows, invalid id for none.
+struct Frame {
+  FrameId id;
+  std::int64_t stamp_ns = 0;
+  Rigid3 cam_from_world;
+  std::shared_ptr<const IndexedFeatures> indexed;
+  std::vector<PointId> points;
+  std::vector<LineId> lines;
+
+  const Features& features() const { return indexed->features; }
+};
+
+// A frame kept in the map. Its features and matches are those of the frame it was made from; the
+// matches grow and shrink with the map.
+struct KeyFrame {
+  KeyFrameId id;
+  KeyFrameId parent;  // the keyframe it was tracked against; invalid for the first
+  Frame frame;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/ids.h"
+#include "plumbline/features/types.h"
+#include "plumbline/geometry/plucker.h"
+
+#include <map>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// What is needed to find a point in an image: its place and its looks.
+struct PointModel {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();        // world
+  Eigen::Vector3d view_direction = Eigen::Vector3d::Zero();  // mean unit vector from the cameras
+  double reference_distance = 0;  // metres from the camera at which the point shows in octave
+  int reference_octave = 0;       // reference_octave
+  Descriptor descriptor{};        // the most typical of its observations
+};
+
+// What is needed to find a line in an image. The infinite line is what optimization works on; the
+// interval [start, end] of parameters along it (PluckerLine::PointAt) serves search and display only.
+struct LineModel {
+  PluckerLine line;  // world; directed with the brighter side as LineFeature says
+  double start = 0;
+  double end = 0;
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of the orthonormal tangent, poses fixed
+  Eigen::Vector3d view_direction = Eigen::Vector3d::Zero();
+  Descriptor descriptor{};
+
+  Segment3 Interval() const { return {line.PointAt(start), line.PointAt(end)}; }
+};
+
+// Which feature of which keyframe shows a landmark.
+using Observations = std::map<KeyFrameId, int>;
+
+// How often the tracker expected to see a landmark and how often it did.
+struct TrackingScore {
+  int visible = 1;
+  int found = 1;
+
+  double Ratio() const { return static_cast<double>(found) / visible; }
+};
+
+// Scores gathered over several frames.
+struct TrackingScores {
+  std::map<PointId, TrackingScore> points;
+  std::map<LineId, TrackingScore> lines;
+};
+
+struct MapPoint : PointModel {
+  PointId id;
+  KeyFrameId created_by;
+  Observations observations;
+  TrackingScore score;
+};
+
+struct MapLine : LineModel {
+  LineId id;
+  KeyFrameId created_by;
+  Observations observations;
+  TrackingScore score;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/map/map.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/map/appearance.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+template <class K, class V>
+const V* FindIn(const std::map<K, V>& table, K id) {
+  const auto it = table.find(id);
+  return it == table.end() ? nullptr : &it->second;
+}
+
+// Follows the merges from id to the landmark that stands today.
+template <class LandmarkId, class Landmark>
+LandmarkId Follow(const std::map<LandmarkId, LandmarkId>& merged,
+                  const std::map<LandmarkId, Landmark>& landmarks,
+                  LandmarkId id) {
+  for (auto it = merged.find(id); it != merged.end(); it = merged.find(id)) id = it->second;
+  return landmarks.contains(id) ? id : LandmarkId{};
+}
+
+std::vector<PointId>& Matches(Frame& frame, PointId) { return frame.points; }
+std::vector<LineId>& Matches(Frame& frame, LineId) { return frame.lines; }
+const std::vector<PointId>& Matches(const Frame& frame, PointId) { return frame.points; }
+const std::vector<LineId>& Matches(const Frame& frame, LineId) { return frame.lines; }
+
+}  // namespace
+
+const KeyFrame* Map::Find(KeyFrameId id) const { return FindIn(keyframes_, id); }
+const MapPoint* Map::Find(PointId id) const { return FindIn(points_, id); }
+const MapLine* Map::Find(LineId id) const { return FindIn(lines_, id); }
+
+PointId Map::Current(PointId id) const { return Follow(merged_points_, points_, id); }
+LineId Map::Current(LineId id) const { return Follow(merged_lines_, lines_, id); }
+
+Rigid3 Map::PoseOf(KeyFrameId id) const {
+  Rigid3 cam_from_ancestor;
+  for (auto it = removed_keyframes_.find(id); it != removed_keyframes_.end();
+       it = removed_keyframes_.find(id)) {
+    cam_from_ancestor = cam_from_ancestor * it->second.cam_from_parent;
+    id = it->second.parent;
+  }
+  const KeyFrame* keyframe = Find(id);
+  PLUMBLINE_CHECK(keyframe != nullptr, "pose of a keyframe that never was in the map");
+  return cam_from_ancestor * keyframe->frame.cam_from_world;
+}
+
+// Carries out single changes. Overloads of Do() are what std::visit dispatches to.
+struct MapChanger {
+  Map& map;
+
+  auto& Landmarks(PointId) { return map.points_; }
+  auto& Landmarks(LineId) { return map.lines_; }
+  auto& Merged(PointId) { return map.merged_points_; }
+  auto& Merged(LineId) { return map.merged_lines_; }
+
+  KeyFrame* FindKeyFrame(KeyFrameId id) {
+    const auto it = map.keyframes_.find(id);
+    return it == map.keyframes_.end() ? nullptr : &it->second;
+  }
+  template <class LandmarkId>
+  auto* FindLandmark(LandmarkId id) {
+    auto& table = Landmarks(id);
+    const auto it = table.find(id);
+    return it == table.end() ? nullptr : &it->second;
+  }
+
+  // A keyframe shows a landmark with one feature, and a feature shows one landmark: whichever was
+  // there before is let go.
+  template <class LandmarkId>
+  void Observe(LandmarkId id, KeyFrameId keyframe_id, int feature) {
+    auto* landmark = FindLandmark(id);
+    KeyFrame* keyframe = FindKeyFrame(keyframe_id);
+    if (landmark == nullptr || keyframe == nullptr || landmark->observations.contains(keyframe_id)) {
+      return;
+    }
+    LandmarkId& match = Matches(keyframe->frame, id)[static_cast<std::size_t>(feature)];
+    if (match.valid()) Unobserve(match, keyframe_id);
+    Matches(keyframe->frame, id)[static_cast<std::size_t>(feature)] = id;
+    landmark->observations.emplace(keyframe_id, feature);
+  }
+
+  // A landmark without observations leaves the map.
+  template <class LandmarkId>
+  void Unobserve(LandmarkId id, KeyFrameId keyframe_id) {
+    auto* landmark = FindLandmark(id);
+    if (landmark == nullptr) return;
+    const auto it = landmark->observations.find(keyframe_id);
+    if (it == landmark->observations.end()) return;
+    if (KeyFrame* keyframe = FindKeyFrame(keyframe_id)) {
+      Matches(keyframe->frame, id)[static_cast<std::size_t>(it->second)] = LandmarkId{};
+    }
+    landmark->observations.erase(it);
+    if (landmark->observations.empty()) Landmarks(id).erase(id);
+  }
+
+  template <class LandmarkId>
+  void Remove(LandmarkId id) {
+    auto* landmark = FindLandmark(id);
+    if (landmark == nullptr) return;
+    for (const auto& [keyframe_id, feature] : landmark->observations) {
+      if (KeyFrame* keyframe = FindKeyFrame(keyframe_id)) {
+        Matches(keyframe->frame, id)[static_cast<std::size_t>(feature)] = LandmarkId{};
+      }
+    }
+    Landmarks(id).erase(id);
+  }
+
+  template <class LandmarkId, class Landmark>
+  void Add(LandmarkId id, Landmark landmark, LandmarkId& next) {
+    PLUMBLINE_CHECK(id >= next, "id of a new landmark is not new");
+    next = LandmarkId{id.value + 1};
+    const Observations observations = std::exchange(landmark.observations, {});
+    Landmarks(id).emplace(id, std::move(landmark));
+    for (const auto& [keyframe_id, feature] : observations) Observe(id, keyframe_id, feature);
+    if (FindLandmark(id)->observations.empty()) Landmarks(id).erase(id);
+  }
+
+  template <class LandmarkId>
+  void Merge(LandmarkId kept, LandmarkId gone) {
+    auto* to = FindLandmark(kept);
+    auto* from = FindLandmark(gone);
+    if (to == nullptr || from == nullptr || kept == gone) return;
+    const Observations observations = from->observations;
+    const TrackingScore score = from->score;
+    Remove(gone);
+    for (const auto& [keyframe_id, feature] : observations) Observe(kept, keyframe_id, feature);
+    to->score.visible += score.visible;
+    to->score.found += score.found;
+    Merged(kept)[gone] = kept;
+  }
+
+  template <class LandmarkId>
+  void Score(LandmarkId id, int visible, int found) {
+    if (auto* landmark = FindLandmark(id)) {
+      landmark->score.visible += visible;
+      landmark->score.found += found;
+    }
+  }
+
+  // Matches of the new keyframe become observations of the landmarks as they stand today.
+  template <class LandmarkId>
+  void ObserveMatches(KeyFrameId keyframe_id, const std::vector<LandmarkId>& matches) {
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const LandmarkId id = map.Current(matches[i]);
+      if (id.valid()) Observe(id, keyframe_id, static_cast<int>(i));
+    }
+  }
+
+  void Do(const edit::AddKeyFrame& change) {
+    KeyFrame keyframe = change.keyframe;
+    const KeyFrameId id = keyframe.id;
+    PLUMBLINE_CHECK(id >= map.next_keyframe_, "id of a new keyframe is not new");
+    map.next_keyframe_ = KeyFrameId{id.value + 1};
+    const auto points = std::exchange(keyframe.frame.points, {});
+    const auto lines = std::exchange(keyframe.frame.lines, {});
+    keyframe.frame.points.resize(points.size());
+    keyframe.frame.lines.resize(lines.size());
+    map.keyframes_.emplace(id, std::move(keyframe));
+    ObserveMatches(id, points);
+    ObserveMatches(id, lines);
+  }
+
+  void Do(const edit::RemoveKeyFrame& change) {
+    KeyFrame* keyframe = FindKeyFrame(change.id);
+    if (keyframe == nullptr || !keyframe->parent.valid()) return;
+    const Rigid3 parent_from_world = map.PoseOf(keyframe->parent);
+    map.removed_keyframes_[change.id] = {keyframe->parent,
+                                         keyframe->frame.cam_from_world * Inverse(parent_from_world)};
+    const Frame frame = keyframe->frame;
+    for (const PointId id : frame.points) Unobserve(id, change.id);
+    for (const LineId id : frame.lines) Unobserve(id, change.id);
+    map.keyframes_.erase(change.id);
+  }
+
+  void Do(const edit::SetPose& change) {
+    if (KeyFrame* keyframe = FindKeyFrame(change.id)) {
+      keyframe->frame.cam_from_world = change.cam_from_world;
+    }
+  }
+
+  void Do(const edit::AddPoint& change) { Add(change.point.id, change.point, map.next_point_); }
+  void Do(const edit::AddLine& change) { Add(change.line.id, change.line, map.next_line_); }
+  void Do(const edit::RemovePoint& change) { Remove(change.id); }
+  void Do(const edit::RemoveLine& change) { Remove(change.id); }
+  void Do(const edit::MovePoint& change) {
+    if (MapPoint* point = FindLandmark(change.id)) point->position = change.position;
+  }
+  void Do(const edit::MoveLine& change) {
+    if (MapLine* line = FindLandmark(change.id)) {
+      line->line = change.line;
+      line->start = change.start;
+      line->end = change.end;
+      line->information = change.information;
+    }
+  }
+  void Do(const edit::AddPointObservation& c) { Observe(c.id, c.keyframe, c.feature); }
+  void Do(const edit::AddLineObservation& c) { Observe(c.id, c.keyframe, c.feature); }
+  void Do(const edit::RemovePointObservation& c) { Unobserve(c.id, c.keyframe); }
+  void Do(const edit::RemoveLineObservation& c) { Unobserve(c.id, c.keyframe); }
+  void Do(const edit::MergePoints& change) { Merge(change.kept, change.gone); }
+  void Do(const edit::MergeLines& change) { Merge(change.kept, change.gone); }
+  void Do(const edit::RefreshPoint& change) {
+    if (MapPoint* point = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *point);
+  }
+  void Do(const edit::RefreshLine& change) {
+    if (MapLine* line = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *line);
+  }
+  void Do(const edit::ScorePoint& change) { Score(change.id, change.visible, change.found); }
+  void Do(const edit::ScoreLine& change) { Score(change.id, change.visible, change.found); }
+};
+
+void Map::Apply(const MapEdit& edit) {
+  MapChanger changer{*this};
+  for (const MapChange& change : edit) {
+    std::visit([&](const auto& c) { changer.Do(c); }, change);
+  }
+  ++version_;
+}
+
+namespace {
+
+template <class LandmarkId, class Landmark>
+void CheckLandmarks(const std::map<LandmarkId, Landmark>& landmarks,
+                    const std::map<KeyFrameId, KeyFrame>& keyframes) {
+  for (const auto& [id, landmark] : landmarks) {
+    PLUMBLINE_CHECK(!landmark.observations.empty(), "landmark without observations");
+    for (const auto& [keyframe_id, feature] : landmark.observations) {
+      const auto it = keyframes.find(keyframe_id);
+      PLUMBLINE_CHECK(it != keyframes.end(), "observation by a keyframe that is not in the map");
+      PLUMBLINE_CHECK(Matches(it->second.frame, id).at(static_cast<std::size_t>(feature)) == id,
+                      "keyframe does not know that it shows landmark " + std::to_string(id.value));
+    }
+  }
+}
+
+template <class LandmarkId, class Landmark>
+void CheckMatches(KeyFrameId keyframe_id,
+                  const std::vector<LandmarkId>& matches,
+                  const std::map<LandmarkId, Landmark>& landmarks) {
+  for (const LandmarkId id : matches) {
+    if (!id.valid()) continue;
+    const auto it = landmarks.find(id);
+    PLUMBLINE_CHECK(it != landmarks.end() && it->second.observations.contains(keyframe_id),
+                    "match without observation, landmark " + std::to_string(id.value));
+  }
+}
+
+}  // namespace
+
+void Map::CheckInvariants() const {
+  CheckLandmarks(points_, keyframes_);
+  CheckLandmarks(lines_, keyframes_);
+  for (const auto& [id, keyframe] : keyframes_) {
+    CheckMatches(id, keyframe.frame.points, points_);
+    CheckMatches(id, keyframe.frame.lines, lines_);
+  }
+}
+
+}  // namespace plumbline

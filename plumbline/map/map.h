@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/edit.h"
+#include "plumbline/map/frame.h"
+#include "plumbline/map/landmarks.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace plumbline {
+
+// Keyframes, points and lines of one connected world, keyed by id. Read by all, changed by Apply alone.
+class Map {
+ public:
+  explicit Map(MapId id = MapId{0}) : id_(id) {}
+
+  MapId id() const { return id_; }
+  std::int64_t version() const { return version_; }
+  const std::map<KeyFrameId, KeyFrame>& keyframes() const { return keyframes_; }
+  const std::map<PointId, MapPoint>& points() const { return points_; }
+  const std::map<LineId, MapLine>& lines() const { return lines_; }
+
+  // nullptr where there is no such object (any more).
+  const KeyFrame* Find(KeyFrameId id) const;
+  const MapPoint* Find(PointId id) const;
+  const MapLine* Find(LineId id) const;
+
+  // The landmark that `id` is today: itself, what it was merged into, or an invalid id.
+  PointId Current(PointId id) const;
+  LineId Current(LineId id) const;
+
+  // Pose of a keyframe that is or was in the map: a removed one moves with its parent.
+  Rigid3 PoseOf(KeyFrameId id) const;
+
+  // Ids for new objects: the next numbers never used before.
+  KeyFrameId NextKeyFrameId() const { return next_keyframe_; }
+  PointId NextPointId() const { return next_point_; }
+  LineId NextLineId() const { return next_line_; }
+
+  // Carries out the changes in order and adds one to the version. Changes that name an object that an
+  // earlier change removed are skipped.
+  void Apply(const MapEdit& edit);
+
+  // Throws BugError when observations and matches disagree or a landmark has none.
+  void CheckInvariants() const;
+
+ private:
+  struct Removed {
+    KeyFrameId parent;
+    Rigid3 cam_from_parent;
+  };
+
+  // One overload for each kind of change; points and lines share the templates behind them.
+  friend struct MapChanger;
+
+  MapId id_;
+  std::int64_t version_ = 0;
+  KeyFrameId next_keyframe_{0};
+  PointId next_point_{0};
+  LineId next_line_{0};
+  std::map<KeyFrameId, KeyFrame> keyframes_;
+  std::map<PointId, MapPoint> points_;
+  std::map<LineId, MapLine> lines_;
+  std::map<KeyFrameId, Removed> removed_keyframes_;
+  std::map<PointId, PointId> merged_points_;
+  std::map<LineId, LineId> merged_lines_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/map/snapshot.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/map/covisibility.h"
+
+#include <algorithm>
+#include <set>
+
+namespace plumbline {
+namespace {
+
+constexpr int kMinShared = 10;
+constexpr std::size_t kNeighboursOfNeighbour = 5;
+
+template <class Element, class LandmarkId>
+const Element* FindById(const std::vector<Element>& sorted, LandmarkId id) {
+  const auto it = std::lower_bound(
+      sorted.begin(), sorted.end(), id, [](const Element& e, LandmarkId i) { return e.id < i; });
+  return it != sorted.end() && it->id == id ? &*it : nullptr;
+}
+
+std::set<KeyFrameId> Window(const Map& map, KeyFrameId centre, std::size_t max_keyframes) {
+  std::set<KeyFrameId> window{centre};
+  const auto neighbours = Covisible(map, centre, kMinShared);
+  for (const auto& neighbour : neighbours) {
+    if (window.size() >= max_keyframes) return window;
+    window.insert(neighbour.id);
+  }
+  for (const auto& neighbour : neighbours) {
+    const auto seconds = Covisible(map, neighbour.id, kMinShared);
+    for (std::size_t i = 0; i < std::min(seconds.size(), kNeighboursOfNeighbour); ++i) {
+      if (window.size() >= max_keyframes) return window;
+      window.insert(seconds[i].id);
+    }
+  }
+  return window;
+}
+
+SnapshotPoint Copy(const MapPoint& p) {
+  return {p, p.id, static_cast<int>(p.observations.size())};
+}
+
+SnapshotLine Copy(const MapLine& l) {
+  return {l, l.id, static_cast<int>(l.observations.size())};
+}
+
+}  // namespace
+
+const SnapshotPoint* MapSnapshot::Find(PointId id) const { return FindById(points, id); }
+const SnapshotLine* MapSnapshot::Find(LineId id) const { return FindById(lines, id); }
+
+std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
+                                                KeyFrameId centre,
+                                                int max_keyframes) {
+  const KeyFrame* reference = map.Find(centre);
+  PLUMBLINE_CHECK(reference != nullptr, "snapshot around a keyframe that is not in the map");
+  auto snapshot = std::make_shared<MapSnapshot>();
+  snapshot->version = map.version();
+  snapshot->centre = centre;
+  snapshot->reference = std::make_shared<const KeyFrame>(*reference);
+  std::set<PointId> points;
+  std::set<LineId> lines;
+  for (const KeyFrameId id : Window(map, centre, static_cast<std::size_t>(max_keyframes))) {
+    const Frame& frame = map.Find(id)->frame;
+    snapshot->cam_from_world.emplace(id, frame.cam_from_world);
+    for (const PointId point : frame.points) {
+      if (point.valid()) points.insert(point);
+    }
+    for (const LineId line : frame.lines) {
+      if (line.valid()) lines.insert(line);
+    }
+  }
+  for (const PointId id : points) snapshot->points.push_back(Copy(*map.Find(id)));
+  for (const LineId id : lines) snapshot->lines.push_back(Copy(*map.Find(id)));
+  return snapshot;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/map.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace plumbline {
+
+// What tracking needs to know of a landmark.
+struct SnapshotPoint : PointModel {
+  PointId id;
+  int observation_count = 0;
+};
+
+struct SnapshotLine : LineModel {
+  LineId id;
+  int observation_count = 0;
+};
+
+// The part of the map around one keyframe as it was at one version. Immutable: the tracker reads it
+// while mapping goes on.
+struct MapSnapshot {
+  std::int64_t version = 0;
+  KeyFrameId centre;
+  std::map<KeyFrameId, Rigid3> cam_from_world;  // keyframes of the window
+  std::shared_ptr<const KeyFrame> reference;    // the centre, for matching by appearance
+  std::vector<SnapshotPoint> points;            // sorted by id
+  std::vector<SnapshotLine> lines;              // sorted by id
+
+  const SnapshotPoint* Find(PointId id) const;
+  const SnapshotLine* Find(LineId id) const;
+};
+
+// Copies the landmarks seen by `centre`, by its covisible keyframes and by their closest neighbours, at
+// most max_keyframes keyframes in all. Order of a megabyte.
+std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map, KeyFrameId centre, int max_keyframes);
+
+}  // namespace plumbline

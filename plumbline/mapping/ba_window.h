@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/association/projection_search.h"
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/options.h"
+#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/problem.h"
+
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// A part of the map as a plain problem, and what its numbers stand for. The problem's world is the
+// camera of the centre keyframe: lines far from the map's origin would be ill conditioned there.
+struct BaWindow {
+  BaProblem problem;
+  Rigid3 window_from_world;
+  std::vector<KeyFrameId> keyframes;  // by pose index
+  std::vector<PointId> points;
+  std::vector<LineId> lines;
+  std::vector<LineId> young_lines;  // seen by the window, too badly conditioned to take part
+};
+
+// The window around a keyframe: it and its covisible keyframes are free (never the first of the map),
+// other keyframes that see the same landmarks are fixed. Landmarks need two views; lines in addition
+// a wide enough angle between their interpretation planes or well known ends.
+BaWindow MakeBaWindow(const Map& map,
+                      const ImagingModel& imaging,
+                      KeyFrameId centre,
+                      LineWeighting weighting,
+                      const BaWindowOptions& options);
+
+// The result as changes of the map: poses, landmarks (lines with new intervals and information),
+// and the observations that turned out to be outliers.
+MapEdit ToEdit(const Map& map, const ImagingModel& imaging, const BaWindow& window, const BaResult& result);
+
+}  // namespace plumbline

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/projection_search.h"
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/options.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// Landmarks too young to be trusted.
+struct YoungLandmarks {
+  std::vector<PointId> points;
+  std::vector<LineId> lines;
+};
+
+// Removes young landmarks that the tracker seldom finds where they should be, or that too few
+// keyframes show after their trial; those that passed the trial leave the list.
+MapEdit RemoveWeakLandmarks(const Map& map,
+                            KeyFrameId newest,
+                            const CleanupOptions& options,
+                            YoungLandmarks& young);
+
+// Removes keyframes around `centre` nearly all of whose landmarks enough others show at the same or a
+// finer scale. The first keyframe, `centre` and the newest before it stay.
+MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
+
+}  // namespace plumbline

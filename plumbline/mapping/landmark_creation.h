@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/projection_search.h"
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/options.h"
+
+namespace plumbline {
+
+// New points and lines from the depths of one keyframe: every feature without landmark whose depth is
+// known well enough. Each gets one observation.
+MapEdit CreateFromDepth(const Map& map,
+                        const ImagingModel& imaging,
+                        KeyFrameId id,
+                        const LandmarkCreationOptions& options);
+
+// New points from features without landmark in two keyframes: searched along the epipolar line by
+// descriptor, triangulated, and kept where parallax, depth and reprojection in both (with disparity
+// where measured) are good.
+MapEdit CreatePointsFromViews(const Map& map,
+                              const ImagingModel& imaging,
+                              KeyFrameId id,
+                              const LandmarkCreationOptions& options);
+
+// New lines from line features without landmark in the keyframe and in up to two of its closest
+// neighbours (section 3.3): n-view reconstruction, kept where the end points of every view lie on the
+// projected line (chi2 95 %) and the interpretation planes meet at a large enough angle.
+MapEdit CreateLinesFromViews(const Map& map,
+                             const ImagingModel& imaging,
+                             KeyFrameId id,
+                             const LandmarkCreationOptions& options);
+
+}  // namespace plumbline

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/line_interval.h"
+
+#include "plumbline/association/line_information.h"
+#include "plumbline/geometry/trimming.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+constexpr std::size_t kViewsForTrimming = 4;
+
+}  // namespace
+
+edit::MoveLine RefitInterval(const Map& map,
+                             const ImagingModel& imaging,
+                             const std::map<KeyFrameId, Rigid3>& poses,
+                             const MapLine& line,
+                             const PluckerLine& moved) {
+  PluckerLine target = moved;
+  if (target.direction.dot(line.line.direction) < 0) target = {-moved.moment, -moved.direction};
+  edit::MoveLine change{line.id, target, 0, 0, Eigen::Matrix4d::Zero()};
+  std::vector<double> starts;
+  std::vector<double> ends;
+  for (const auto& [id, feature] : line.observations) {
+    Frame frame = map.Find(id)->frame;
+    if (const auto it = poses.find(id); it != poses.end()) frame.cam_from_world = it->second;
+    const auto i = static_cast<std::size_t>(feature);
+    change.information += LineInformation(imaging.camera, frame, i, target);
+    const auto interval = TrimToSegment(
+        imaging.camera, frame.cam_from_world, target, frame.features().lines[i].segment);
+    if (!interval) continue;
+    starts.push_back(std::min(interval->start, interval->end));
+    ends.push_back(std::max(interval->start, interval->end));
+  }
+  if (starts.empty()) {
+    change.start = target.ParameterOf(line.line.PointAt(line.start));
+    change.end = target.ParameterOf(line.line.PointAt(line.end));
+    return change;
+  }
+  std::sort(starts.begin(), starts.end());
+  std::sort(ends.begin(), ends.end());
+  const std::size_t skip = starts.size() >= kViewsForTrimming ? 1 : 0;
+  change.start = starts[skip];
+  change.end = ends[ends.size() - 1 - skip];
+  if (change.end <= change.start) {
+    change.start = starts.front();
+    change.end = ends.back();
+  }
+  return change;
+}
+
+}  // namespace plumbline

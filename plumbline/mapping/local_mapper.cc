@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/local_mapper.h"
+
+#include "plumbline/association/fusion.h"
+#include "plumbline/map/covisibility.h"
+#include "plumbline/mapping/ba_window.h"
+#include "plumbline/mapping/landmark_creation.h"
+
+#include <chrono>
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+namespace plumbline {
+namespace {
+
+constexpr int kMinShared = 10;
+
+template <class Step>
+void Timed(const char* name, std::vector<MappingStep>& times, const Step& step) {
+  const auto start = std::chrono::steady_clock::now();
+  step();
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+  times.push_back({name, taken.count()});
+}
+
+// New looks for all landmarks that a keyframe shows.
+MapEdit RefreshShown(const Frame& frame) {
+  MapEdit edit;
+  for (const PointId id : frame.points) {
+    if (id.valid()) edit.push_back(edit::RefreshPoint{id});
+  }
+  for (const LineId id : frame.lines) {
+    if (id.valid()) edit.push_back(edit::RefreshLine{id});
+  }
+  return edit;
+}
+
+}  // namespace
+
+LocalMapper::LocalMapper(const ImagingModel& imaging,
+                         LineWeighting weighting,
+                         const MappingOptions& options)
+    : imaging_(imaging), weighting_(weighting), options_(options) {}
+
+std::vector<MappingStep> LocalMapper::Add(Map& map,
+                                          const KeyFrame& keyframe,
+                                          const TrackingScores& scores) {
+  const KeyFrameId id = keyframe.id;
+  std::vector<MappingStep> times;
+  Timed("take_in", times, [&] { TakeIn(map, keyframe, scores); });
+  Timed("create", times, [&] { CreateLandmarks(map, id); });
+  Timed("fuse", times, [&] { Fuse(map, id); });
+  Timed("adjust", times, [&] { Adjust(map, id); });
+  Timed("clean_up", times, [&] { map.Apply(RemoveRedundantKeyFrames(map, id, options_.cleanup)); });
+  return times;
+}
+
+void LocalMapper::TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores) {
+  MapEdit edit{edit::AddKeyFrame{keyframe}};
+  for (const auto& [id, score] : scores.points) {
+    edit.push_back(edit::ScorePoint{id, score.visible, score.found});
+  }
+  for (const auto& [id, score] : scores.lines) {
+    edit.push_back(edit::ScoreLine{id, score.visible, score.found});
+  }
+  map.Apply(edit);
+  map.Apply(RefreshShown(map.Find(keyframe.id)->frame));
+  map.Apply(RemoveWeakLandmarks(map, keyframe.id, options_.cleanup, young_));
+}
+
+void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
+  const auto create = [&](const auto& creator) {
+    const MapEdit edit = creator(map, imaging_, id, options_.creation);
+    map.Apply(edit);
+    for (const MapChange& change : edit) {
+      if (const auto* point = std::get_if<edit::AddPoint>(&change)) {
+        young_.points.push_back(point->point.id);
+      } else if (const auto* line = std::get_if<edit::AddLine>(&change)) {
+        young_.lines.push_back(line->line.id);
+      }
+    }
+  };
+  create(CreateFromDepth);
+  create(CreatePointsFromViews);
+  create(CreateLinesFromViews);
+}
+
+void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
+  auto neighbours = Covisible(map, id, kMinShared);
+  if (static_cast<int>(neighbours.size()) > options_.fusion_neighbours) {
+    neighbours.resize(static_cast<std::size_t>(options_.fusion_neighbours));
+  }
+  for (const auto& neighbour : neighbours) {
+    map.Apply(FuseLandmarks(map, imaging_, id, neighbour.id, options_.fusion));
+    map.Apply(FuseLandmarks(map, imaging_, neighbour.id, id, options_.fusion));
+  }
+  map.Apply(RefreshShown(map.Find(id)->frame));
+}
+
+void LocalMapper::Adjust(Map& map, KeyFrameId id) const {
+  const BaWindow window = MakeBaWindow(map, imaging_, id, weighting_, options_.window);
+  const BaResult result = SolveLocalBa(window.problem, options_.ba);
+  if (result.termination == BaTermination::kNotFinite) return;
+  map.Apply(ToEdit(map, imaging_, window, result));
+}
+
+}  // namespace plumbline

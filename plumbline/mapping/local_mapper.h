@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/association/projection_search.h"
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/landmark_cleanup.h"
+#include "plumbline/mapping/options.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// Milliseconds spent in one step of a keyframe's mapping.
+struct MappingStep {
+  std::string name;
+  double milliseconds = 0;
+};
+
+// Takes keyframes into the map, one after the other: observations, landmarks from depth and from
+// several views, duplicates, local bundle adjustment, clean-up. Each step reads the map and returns a
+// MapEdit, applied here.
+class LocalMapper {
+ public:
+  LocalMapper(const ImagingModel& imaging, LineWeighting weighting, const MappingOptions& options);
+
+  // Returns the time of each step, in order.
+  std::vector<MappingStep> Add(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
+
+  // Forgets what belongs to the map worked on so far.
+  void StartNewMap() { young_ = {}; }
+
+ private:
+  void TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
+  void CreateLandmarks(Map& map, KeyFrameId id);
+  void Fuse(Map& map, KeyFrameId id) const;
+  void Adjust(Map& map, KeyFrameId id) const;
+
+  ImagingModel imaging_;
+  LineWeighting weighting_;
+  MappingOptions options_;
+  YoungLandmarks young_;
+};
+
+}  // namespace plumbline

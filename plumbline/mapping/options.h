@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/fusion.h"
+#include "plumbline/base/options.h"
+#include "plumbline/optimization/local_ba.h"
+
+namespace plumbline {
+
+struct LandmarkCreationOptions {
+  double max_relative_depth_sigma = 0.1;  // of landmarks from one stereo or RGB-D frame
+  int neighbours = 6;                     // keyframes searched for a second view
+  double min_parallax_deg = 1;            // between the two views of a new point
+  int max_distance = 50;                  // Hamming, of 256 bits
+  double ratio = 0.8;
+  double min_plane_angle_deg = 2;         // between the two views of a new line
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
+  visit("max_relative_depth_sigma",
+        o.max_relative_depth_sigma,
+        "depth uncertainty of landmarks from one frame, relative to depth",
+        Range{0.001, 1});
+  visit("neighbours", o.neighbours, "keyframes searched for a second view", Range{0, 100});
+  visit("min_parallax_deg", o.min_parallax_deg, "between two views of a point [deg]", Range{0.01, 45});
+  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
+  visit("ratio", o.ratio, "largest ratio of best to second best", Range{0.1, 1});
+  visit("min_plane_angle_deg",
+        o.min_plane_angle_deg,
+        "between the interpretation planes of a new line [deg]",
+        Range{0.01, 90});
+}
+
+struct CleanupOptions {
+  double min_found_ratio = 0.25;  // of the frames where a young landmark should be seen
+  int trial_keyframes = 3;        // keyframes until a landmark is no longer young
+  int min_observations = 2;       // keyframes that must show it one before
+  double redundant_share = 0.9;   // of a keyframe's landmarks that others show as well
+  int redundant_views = 3;        // so many others
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, CleanupOptions& o) {
+  visit("min_found_ratio", o.min_found_ratio, "found / expected of a young landmark", Range{0, 1});
+  visit("trial_keyframes", o.trial_keyframes, "keyframes a landmark is young", Range{1, 100});
+  visit("min_observations", o.min_observations, "keyframes that must show it", Range{1, 100});
+  visit("redundant_share",
+        o.redundant_share,
+        "share of landmarks seen by others that makes a keyframe redundant; 1: never",
+        Range{0.1, 1});
+  visit("redundant_views", o.redundant_views, "other keyframes that show them", Range{1, 100});
+}
+
+struct BaWindowOptions {
+  int free_keyframes = 12;       // adjusted, closest in covisibility
+  int fixed_keyframes = 20;      // at most, that see the same landmarks and hold the window
+  int min_shared = 15;           // landmarks that tie a keyframe to the window
+  double min_line_plane_angle_deg = 10;   // between views, for a line to take part ...
+  double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, BaWindowOptions& o) {
+  visit("free_keyframes", o.free_keyframes, "keyframes adjusted together", Range{1, 200});
+  visit("fixed_keyframes", o.fixed_keyframes, "keyframes that hold the window", Range{0, 1000});
+  visit("min_shared", o.min_shared, "landmarks that tie a keyframe to the window", Range{1, 1000});
+  visit("min_line_plane_angle_deg",
+        o.min_line_plane_angle_deg,
+        "angle between interpretation planes from which a line is adjusted [deg]",
+        Range{0, 90});
+  visit("max_line_relative_sigma",
+        o.max_line_relative_sigma,
+        "or from this uncertainty of its ends, relative to their depth",
+        Range{0, 1});
+}
+
+struct MappingOptions {
+  int fusion_neighbours = 10;
+  LandmarkCreationOptions creation;
+  FusionOptions fusion;
+  CleanupOptions cleanup;
+  BaWindowOptions window;
+  LocalBaOptions ba;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, MappingOptions& o) {
+  visit("fusion_neighbours", o.fusion_neighbours, "keyframes searched for duplicates", Range{0, 100});
+  visit("creation", o.creation, "new landmarks");
+  visit("fusion", o.fusion, "merging of duplicates");
+  visit("cleanup", o.cleanup, "removal of weak landmarks and redundant keyframes");
+  visit("window", o.window, "what local bundle adjustment adjusts");
+  visit("ba", o.ba, "local bundle adjustment");
+}
+
+}  // namespace plumbline

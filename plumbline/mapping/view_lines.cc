@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/association/line_information.h"
+#include "plumbline/features/match_lines.h"
+#include "plumbline/geometry/line_triangulation.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/map/covisibility.h"
+#include "plumbline/mapping/landmark_creation.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+constexpr std::size_t kClosest = 3;  // keyframes that section 3.3 takes
+
+struct LineViewOf {
+  KeyFrameId keyframe;
+  std::size_t feature;
+};
+
+// The line features of a frame that show no landmark, and their indices in the frame.
+struct FreeLines {
+  std::vector<LineFeature> features;
+  std::vector<std::size_t> index;
+
+  explicit FreeLines(const Frame& frame) {
+    for (std::size_t i = 0; i < frame.lines.size(); ++i) {
+      if (frame.lines[i].valid()) continue;
+      features.push_back(frame.features().lines[i]);
+      index.push_back(i);
+    }
+  }
+};
+
+// All images of a line, left ones and right ones, as views of single cameras.
+std::vector<LineView> ImageViews(const Map& map,
+                                 const RectifiedCamera& camera,
+                                 const std::vector<LineViewOf>& views) {
+  std::vector<LineView> images;
+  for (const LineViewOf& view : views) {
+    const Frame& frame = map.Find(view.keyframe)->frame;
+    const LineFeature& feature = frame.features().lines[view.feature];
+    images.push_back({frame.cam_from_world, feature.segment, feature.sigma_px});
+    if (const auto& right = frame.features().line_right[view.feature]) {
+      images.push_back(
+          {RightCamera(camera, frame.cam_from_world), right->segment, right->sigma_px});
+    }
+  }
+  return images;
+}
+
+std::optional<MapLine> Reconstruct(const Map& map,
+                                   const RectifiedCamera& camera,
+                                   const std::vector<LineViewOf>& views,
+                                   double min_plane_angle) {
+  const auto triangulated = TriangulateLine(
+      camera, ImageViews(map, camera, views), {.min_plane_angle = min_plane_angle});
+  if (!triangulated) return std::nullopt;
+  MapLine line;
+  line.line = triangulated->estimate.line;
+  const Frame& first = map.Find(views.front().keyframe)->frame;
+  const LineFeature& feature = first.features().lines[views.front().feature];
+  const auto interval = TrimToSegment(camera, first.cam_from_world, line.line, feature.segment);
+  if (!interval || interval->end <= interval->start) return std::nullopt;
+  line.start = interval->start;
+  line.end = interval->end;
+  line.descriptor = feature.descriptor;
+  line.view_direction =
+      (line.Interval().Midpoint() - Inverse(first.cam_from_world).translation).normalized();
+  for (const LineViewOf& view : views) {
+    line.observations[view.keyframe] = static_cast<int>(view.feature);
+    line.information +=
+        LineInformation(camera, map.Find(view.keyframe)->frame, view.feature, line.line);
+  }
+  return line;
+}
+
+}  // namespace
+
+MapEdit CreateLinesFromViews(const Map& map,
+                             const ImagingModel& imaging,
+                             KeyFrameId id,
+                             const LandmarkCreationOptions& options) {
+  const Frame& frame = map.Find(id)->frame;
+  const FreeLines mine(frame);
+  std::map<std::size_t, std::vector<LineViewOf>> tracks;  // by feature of this keyframe
+  auto neighbours = Covisible(map, id, 10);
+  if (neighbours.size() > kClosest) neighbours.resize(kClosest);
+  for (const auto& neighbour : neighbours) {
+    const FreeLines theirs(map.Find(neighbour.id)->frame);
+    for (const LineMatch& match : MatchLines(mine.features, theirs.features, LineMatchOptions{})) {
+      auto& track = tracks[mine.index[static_cast<std::size_t>(match.a)]];
+      if (track.empty()) track.push_back({id, mine.index[static_cast<std::size_t>(match.a)]});
+      track.push_back({neighbour.id, theirs.index[static_cast<std::size_t>(match.b)]});
+    }
+  }
+  const double min_angle = options.min_plane_angle_deg * std::numbers::pi / 180;
+  MapEdit edit;
+  LineId next = map.NextLineId();
+  for (const auto& [feature, views] : tracks) {
+    auto line = Reconstruct(map, imaging.camera, views, min_angle);
+    // Two-view fallback: one wrong match spoils three views, but not those of the right pair.
+    for (std::size_t k = 1; !line && views.size() > 2 && k < views.size(); ++k) {
+      line = Reconstruct(map, imaging.camera, {views.front(), views[k]}, min_angle);
+    }
+    if (!line) continue;
+    line->id = next;
+    line->created_by = id;
+    edit.push_back(edit::AddLine{std::move(*line)});
+    ++next.value;
+  }
+  return edit;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+#include "plumbline/geometry/epipolar.h"
+#include "plumbline/geometry/triangulation.h"
+#include "plumbline/map/covisibility.h"
+#include "plumbline/mapping/landmark_creation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+constexpr double kNearestDepth = 0.3;        // metres; the search along the epipolar line starts here
+constexpr double kEpipolarChi2 = 3.84;       // 95 %, one degree of freedom
+constexpr double kDepthSigmas = 3;           // of a measured but poor depth
+constexpr double kMaxScaleRatio = 1.8;       // of octave and distance between the views
+
+// Piece of the epipolar line in the second image on which a point of the first must lie.
+struct SearchWindow {
+  Eigen::Vector2d centre;
+  Eigen::Vector2d radius;
+};
+
+std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
+                                           const Rigid3& b_from_a,
+                                           const PointFeature& feature,
+                                           const std::optional<Disparity>& disparity,
+                                           double slack_px) {
+  const Eigen::Vector3d ray = camera.Unproject(feature.px);
+  double near = kNearestDepth;
+  double far = 1e4;
+  if (disparity) {
+    const double high = disparity->px + kDepthSigmas * disparity->sigma_px;
+    const double low = disparity->px - kDepthSigmas * disparity->sigma_px;
+    near = std::max(near, camera.DepthFromDisparity(high));
+    if (low > 0) far = std::max(near, camera.DepthFromDisparity(low));
+  }
+  const Eigen::Vector3d p = b_from_a * (near * ray);
+  const Eigen::Vector3d q = b_from_a * (far * ray);
+  if (p.z() < 0.05 || q.z() < 0.05) return std::nullopt;
+  const Eigen::Vector2d a = camera.Project(p);
+  const Eigen::Vector2d b = camera.Project(q);
+  const Eigen::Vector2d slack(slack_px, slack_px);
+  return SearchWindow{0.5 * (a + b), 0.5 * (a - b).cwiseAbs() + slack};
+}
+
+// Features without landmark of one keyframe against those of another.
+class PairSearch {
+ public:
+  PairSearch(const RectifiedCamera& camera,
+             const Frame& a,
+             const Frame& b,
+             const LandmarkCreationOptions& options)
+      : camera_(camera),
+        a_(a),
+        b_(b),
+        options_(options),
+        b_from_a_(b.cam_from_world * Inverse(a.cam_from_world)),
+        F_ba_(FundamentalMatrix(camera, b_from_a_)) {}
+
+  // Index of the match in b, for feature i of a.
+  std::optional<std::size_t> Find(std::size_t i, const std::vector<bool>& taken_in_b) {
+    const PointFeature& feature = a_.features().points[i];
+    const auto window = EpipolarWindow(
+        camera_, b_from_a_, feature, a_.features().point_disparity[i], 2 * feature.sigma_px);
+    if (!window) return std::nullopt;
+    const Eigen::Vector3d line = F_ba_ * feature.px.homogeneous();
+    const double norm2 = line.head<2>().squaredNorm();
+    b_.indexed->point_grid.InWindow(window->centre, window->radius, &near_);
+    int best = options_.max_distance + 1;
+    int second = 257;
+    std::optional<std::size_t> match;
+    for (const int index : near_) {
+      const auto j = static_cast<std::size_t>(index);
+      if (b_.points[j].valid() || taken_in_b[j]) continue;
+      const PointFeature& other = b_.features().points[j];
+      const double distance = line.dot(other.px.homogeneous());
+      if (distance * distance > kEpipolarChi2 * other.sigma_px * other.sigma_px * norm2) continue;
+      const int hamming = HammingDistance(feature.descriptor, other.descriptor);
+      if (hamming < best) {
+        second = best;
+        best = hamming;
+        match = j;
+      } else {
+        second = std::min(second, hamming);
+      }
+    }
+    if (!match || best > options_.max_distance || best > options_.ratio * second) {
+      return std::nullopt;
+    }
+    return match;
+  }
+
+  std::optional<Eigen::Vector3d> Triangulate(std::size_t i, std::size_t j) const {
+    const std::array<PointView, 2> views{View(a_, i), View(b_, j)};
+    const auto result = TriangulatePoint(
+        camera_,
+        views,
+        {.min_parallax = options_.min_parallax_deg * std::numbers::pi / 180});
+    if (!result || result->chi2 > Chi2Limit(result->residuals - 3)) return std::nullopt;
+    const Eigen::Vector3d& position = result->point.position;
+    const double distance_a = (a_.cam_from_world * position).norm();
+    const double distance_b = (b_.cam_from_world * position).norm();
+    const double scale_ratio = views[0].sigma_px * distance_a / (views[1].sigma_px * distance_b);
+    if (scale_ratio > kMaxScaleRatio || scale_ratio < 1 / kMaxScaleRatio) return std::nullopt;
+    return position;
+  }
+
+ private:
+  static PointView View(const Frame& frame, std::size_t i) {
+    const PointFeature& feature = frame.features().points[i];
+    return {frame.cam_from_world, feature.px, feature.sigma_px, frame.features().point_disparity[i]};
+  }
+
+  // 95 % of chi2 with 1, 2, 3 degrees of freedom.
+  static double Chi2Limit(int degrees) { return degrees <= 1 ? 3.84 : degrees == 2 ? 5.99 : 7.81; }
+
+  const RectifiedCamera& camera_;
+  const Frame& a_;
+  const Frame& b_;
+  const LandmarkCreationOptions& options_;
+  Rigid3 b_from_a_;
+  Eigen::Matrix3d F_ba_;
+  std::vector<int> near_;
+};
+
+MapPoint NewPoint(const Frame& frame, std::size_t i, const Eigen::Vector3d& position) {
+  const Eigen::Vector3d from_camera = position - Inverse(frame.cam_from_world).translation;
+  MapPoint point;
+  point.position = position;
+  point.view_direction = from_camera.normalized();
+  point.reference_distance = from_camera.norm();
+  point.reference_octave = frame.features().points[i].octave;
+  point.descriptor = frame.features().points[i].descriptor;
+  return point;
+}
+
+}  // namespace
+
+MapEdit CreatePointsFromViews(const Map& map,
+                              const ImagingModel& imaging,
+                              KeyFrameId id,
+                              const LandmarkCreationOptions& options) {
+  const Frame& frame = map.Find(id)->frame;
+  std::vector<bool> done(frame.points.size());
+  for (std::size_t i = 0; i < done.size(); ++i) done[i] = frame.points[i].valid();
+  MapEdit edit;
+  PointId next = map.NextPointId();
+  auto neighbours = Covisible(map, id, 10);
+  if (static_cast<int>(neighbours.size()) > options.neighbours) {
+    neighbours.resize(static_cast<std::size_t>(options.neighbours));
+  }
+  for (const auto& neighbour : neighbours) {
+    const Frame& other = map.Find(neighbour.id)->frame;
+    PairSearch search(imaging.camera, frame, other, options);
+    std::vector<bool> taken(other.points.size(), false);
+    for (std::size_t i = 0; i < done.size(); ++i) {
+      if (done[i]) continue;
+      const auto j = search.Find(i, taken);
+      const auto position = j ? search.Triangulate(i, *j) : std::nullopt;
+      if (!position) continue;
+      done[i] = true;
+      taken[*j] = true;
+      MapPoint point = NewPoint(frame, i, *position);
+      point.id = next;
+      point.created_by = id;
+      point.observations = {{id, static_cast<int>(i)}, {neighbour.id, static_cast<int>(*j)}};
+      edit.push_back(edit::AddPoint{std::move(point)});
+      ++next.value;
+    }
+  }
+  return edit;
+}
+
+}  // namespace plumbline

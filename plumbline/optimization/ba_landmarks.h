@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/optimization/ba_terms.h"
+#include "plumbline/optimization/schur_solver.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// One landmark's view of one observation in the caller's problem.
+template <class Term>
+struct BaObservation {
+  int pose = 0;
+  int landmark = 0;
+  Term term;
+};
+
+// All landmarks of one kind (BaPoint or BaLine) with their observations, stored landmark by
+// landmark and within each by pose: linearized, eliminated and moved in that order. Internal to
+// local_ba.cc.
+template <class Kind>
+class BaLandmarks {
+ public:
+  using State = typename Kind::State;
+  using Term = typename Kind::Term;
+
+  BaLandmarks(const RectifiedCamera& camera,
+              std::vector<State> states,
+              const std::vector<BaObservation<Term>>& observations,
+              const std::vector<BaPose>& poses);
+
+  const std::vector<State>& states() const { return states_; }
+  // Half the loss over the observations in use; remembered per landmark.
+  double Cost(const std::vector<BaPose>& poses, const HuberThresholds& huber);
+  // Adds the equations of the observations in use to `solver` and eliminates the landmarks.
+  void Eliminate(const std::vector<BaPose>& poses,
+                 const HuberThresholds& huber,
+                 double lambda,
+                 SchurSolver& solver);
+  // Moves all landmarks by the solved step to trial states. Where that does worse than standing
+  // still, the landmark is moved on its own instead. Returns the cost under the trial poses.
+  double Try(const std::vector<BaPose>& trial_poses,
+             const HuberThresholds& huber,
+             const SchurSolver& solver);
+  // The decrease of the cost that the linear model expects of the step, the landmarks' share.
+  double expected_decrease() const { return expected_; }
+  // Takes the trial states over.
+  void Accept();
+  // Uses the observations with chi2 within `gate_scale` times the limit at 95 %.
+  void Classify(const std::vector<BaPose>& poses, double gate_scale);
+  // Uses all observations that have a residual.
+  void UseAll(const std::vector<BaPose>& poses);
+  std::size_t used() const {
+    return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), char{1}));
+  }
+  // chi2 and use of each observation, in the order of the caller.
+  void Export(const std::vector<BaPose>& poses,
+              std::vector<double>& chi2,
+              std::vector<bool>& inliers) const;
+
+ private:
+  static constexpr double kOwnLambda = 1e-3;  // initial
+  static constexpr double kNegligible = 1e-6;
+  struct Packed {
+    Term term;
+    int pose = 0;
+    int coupling = -1;  // index in couplings_, -1 for a fixed pose
+  };
+
+  double CostOf(std::size_t landmark,
+                const State& state,
+                const std::vector<BaPose>& poses,
+                const HuberThresholds& huber) const;
+  // Equations of one landmark; with a solver also those of the free poses and the couplings.
+  LandmarkEquations<Kind::kDof> Linearize(std::size_t i,
+                                          const State& state,
+                                          const std::vector<BaPose>& poses,
+                                          const HuberThresholds& huber,
+                                          SchurSolver* solver);
+  // Sets the trial of a landmark by a few damped steps from its state (with cost `still`) while
+  // the poses stand still. Its damping is kept from call to call.
+  void MoveAlone(std::size_t i,
+                 double still,
+                 const std::vector<BaPose>& trial_poses,
+                 const HuberThresholds& huber);
+  std::span<Coupling<Kind::kDof>> Couplings(std::size_t landmark) {
+    return {couplings_.data() + coupling_begin_[landmark],
+            couplings_.data() + coupling_begin_[landmark + 1]};
+  }
+  template <class Visitor>
+  void ForEachChi2(const std::vector<BaPose>& poses, Visitor&& visit) const;
+
+  RectifiedCamera camera_;
+  std::vector<State> states_, trial_;
+  std::vector<std::size_t> begin_;           // first observation of each landmark, and the end
+  std::vector<std::size_t> coupling_begin_;  // the same for couplings
+  std::vector<Packed> observations_;
+  std::vector<std::size_t> original_;  // index in the caller's observations
+  std::vector<char> used_;
+  std::vector<Coupling<Kind::kDof>> couplings_;
+  std::vector<EliminatedLandmark<Kind::kDof>> eliminated_;
+  std::vector<double> cost_, trial_cost_;
+  std::vector<double> own_lambda_;  // damping of a landmark moved on its own
+  double expected_ = 0;
+};
+
+template <class Kind>
+BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
+                               std::vector<State> states,
+                               const std::vector<BaObservation<Term>>& observations,
+                               const std::vector<BaPose>& poses)
+    : camera_(camera), states_(std::move(states)), trial_(states_) {
+  const std::size_t n = states_.size();
+  original_.resize(observations.size());
+  std::iota(original_.begin(), original_.end(), std::size_t{0});
+  std::sort(original_.begin(), original_.end(), [&](std::size_t a, std::size_t b) {
+    const auto& x = observations[a];
+    const auto& y = observations[b];
+    if (x.landmark != y.landmark) return x.landmark < y.landmark;
+    return x.pose != y.pose ? x.pose < y.pose : a < b;
+  });
+  begin_.assign(n + 1, observations.size());
+  coupling_begin_.assign(n + 1, 0);
+  observations_.reserve(observations.size());
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    begin_[i] = k;
+    coupling_begin_[i] = couplings_.size();
+    int last_pose = -1;
+    for (; k < original_.size() && observations[original_[k]].landmark == static_cast<int>(i);
+         ++k) {
+      const auto& observation = observations[original_[k]];
+      const int free_index = poses[static_cast<std::size_t>(observation.pose)].free_index;
+      if (free_index >= 0 && observation.pose != last_pose) {
+        couplings_.emplace_back();
+        couplings_.back().pose = free_index;
+      }
+      last_pose = observation.pose;
+      observations_.push_back({observation.term,
+                               observation.pose,
+                               free_index < 0 ? -1 : static_cast<int>(couplings_.size()) - 1});
+    }
+  }
+  begin_[n] = k;
+  coupling_begin_[n] = couplings_.size();
+  used_.assign(observations.size(), 1);
+  eliminated_.resize(n);
+  cost_.assign(n, 0);
+  trial_cost_.assign(n, 0);
+  own_lambda_.assign(n, 0);
+}
+
+template <class Kind>
+double BaLandmarks<Kind>::CostOf(std::size_t landmark,
+                                 const State& state,
+                                 const std::vector<BaPose>& poses,
+                                 const HuberThresholds& huber) const {
+  const typename Kind::View view = Kind::MakeView(state);
+  double sum = 0;
+  for (std::size_t k = begin_[landmark]; k < begin_[landmark + 1]; ++k) {
+    if (!used_[k]) continue;
+    const Packed& o = observations_[k];
+    const double chi2 = Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], view, o.term);
+    sum += HuberLoss(chi2, Kind::Huber(o.term, huber));
+  }
+  return 0.5 * sum;
+}
+
+template <class Kind>
+double BaLandmarks<Kind>::Cost(const std::vector<BaPose>& poses, const HuberThresholds& huber) {
+  double sum = 0;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    cost_[i] = CostOf(i, states_[i], poses, huber);
+    sum += cost_[i];
+  }
+  return sum;
+}
+
+template <class Kind>
+LandmarkEquations<Kind::kDof> BaLandmarks<Kind>::Linearize(std::size_t i,
+                                                           const State& state,
+                                                           const std::vector<BaPose>& poses,
+                                                           const HuberThresholds& huber,
+                                                           SchurSolver* solver) {
+  const typename Kind::View view = Kind::MakeView(state);
+  LandmarkEquations<Kind::kDof> landmark;
+  for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+    if (!used_[k]) continue;
+    const Packed& o = observations_[k];
+    const BaPose& pose = poses[static_cast<std::size_t>(o.pose)];
+    typename Kind::Target target{landmark, nullptr, nullptr};
+    if (solver != nullptr && o.coupling >= 0) {
+      target.pose = &solver->pose(pose.free_index);
+      target.W = &couplings_[static_cast<std::size_t>(o.coupling)].W;
+    }
+    Kind::Add(camera_, pose, view, o.term, Kind::Huber(o.term, huber), target);
+  }
+  return landmark;
+}
+
+template <class Kind>
+void BaLandmarks<Kind>::Eliminate(const std::vector<BaPose>& poses,
+                                  const HuberThresholds& huber,
+                                  double lambda,
+                                  SchurSolver& solver) {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const std::span<Coupling<Kind::kDof>> couplings = Couplings(i);
+    for (auto& coupling : couplings) coupling.W.setZero();
+    const LandmarkEquations<Kind::kDof> landmark = Linearize(i, states_[i], poses, huber, &solver);
+    eliminated_[i] = solver.Eliminate<Kind::kDof>(landmark, lambda + own_lambda_[i], couplings);
+  }
+}
+
+template <class Kind>
+double BaLandmarks<Kind>::Try(const std::vector<BaPose>& trial_poses,
+                              const HuberThresholds& huber,
+                              const SchurSolver& solver) {
+  double sum = 0;
+  expected_ = 0;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const auto& eliminated = eliminated_[i];
+    trial_[i] = states_[i];
+    if (eliminated.regular) {
+      const auto step = solver.LandmarkStep<Kind::kDof>(eliminated, Couplings(i));
+      expected_ -=
+          0.5 *
+          eliminated.y.dot(eliminated.L.template triangularView<Eigen::Lower>().transpose() * step);
+      trial_[i] = Kind::Retract(states_[i], step);
+    }
+    trial_cost_[i] = CostOf(i, trial_[i], trial_poses, huber);
+    if (eliminated.regular && !(trial_cost_[i] <= cost_[i])) {
+      const double still = CostOf(i, states_[i], trial_poses, huber);
+      if (!(trial_cost_[i] <= still)) {
+        MoveAlone(i, still, trial_poses, huber);
+        sum += trial_cost_[i];
+        continue;
+      }
+    }
+    own_lambda_[i] = own_lambda_[i] < kNegligible ? 0 : 0.1 * own_lambda_[i];
+    sum += trial_cost_[i];
+  }
+  return sum;
+}
+
+template <class Kind>
+void BaLandmarks<Kind>::MoveAlone(std::size_t i,
+                                  double still,
+                                  const std::vector<BaPose>& trial_poses,
+                                  const HuberThresholds& huber) {
+  constexpr int kSteps = 5;
+  trial_[i] = states_[i];
+  trial_cost_[i] = still;
+  if (!std::isfinite(still)) return;
+  double& lambda = own_lambda_[i];
+  lambda = std::max(lambda, kOwnLambda);
+  for (int step = 0; step < kSteps; ++step) {
+    const auto equations = Linearize(i, trial_[i], trial_poses, huber, nullptr);
+    EliminatedLandmark<Kind::kDof> factor;
+    if (!factor.Factor(equations, lambda)) return;
+    const State next = Kind::Retract(trial_[i], factor.Step());
+    const double cost = CostOf(i, next, trial_poses, huber);
+    if (cost < trial_cost_[i]) {
+      trial_[i] = next;
+      trial_cost_[i] = cost;
+      lambda = std::max(kOwnLambda, 0.1 * lambda);
+    } else {
+      lambda = std::min(1e6, 10 * lambda);
+    }
+  }
+}
+
+template <class Kind>
+void BaLandmarks<Kind>::Accept() {
+  std::swap(states_, trial_);
+  std::swap(cost_, trial_cost_);
+}
+
+template <class Kind>
+template <class Visitor>
+void BaLandmarks<Kind>::ForEachChi2(const std::vector<BaPose>& poses, Visitor&& visit) const {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const typename Kind::View view = Kind::MakeView(states_[i]);
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      const Packed& o = observations_[k];
+      visit(k, Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], view, o.term));
+    }
+  }
+}
+
+template <class Kind>
+void BaLandmarks<Kind>::Classify(const std::vector<BaPose>& poses, double gate_scale) {
+  ForEachChi2(poses, [&](std::size_t k, double chi2) {
+    used_[k] = chi2 <= gate_scale * Chi2Limit95(Kind::Dof(observations_[k].term)) ? 1 : 0;
+  });
+}
+
+template <class Kind>
+void BaLandmarks<Kind>::UseAll(const std::vector<BaPose>& poses) {
+  ForEachChi2(poses, [&](std::size_t k, double chi2) { used_[k] = std::isfinite(chi2) ? 1 : 0; });
+}
+
+template <class Kind>
+void BaLandmarks<Kind>::Export(const std::vector<BaPose>& poses,
+                               std::vector<double>& chi2,
+                               std::vector<bool>& inliers) const {
+  chi2.assign(observations_.size(), 0);
+  inliers.assign(observations_.size(), false);
+  ForEachChi2(poses, [&](std::size_t k, double value) {
+    chi2[original_[k]] = value;
+    inliers[original_[k]] = used_[k] != 0;
+  });
+}
+
+}  // namespace plumbline

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/ba_terms.h"
+
+namespace plumbline {
+namespace {
+
+// [p]x M for column-major M.
+inline Eigen::Matrix3d CrossColumns(const Eigen::Vector3d& p, const Eigen::Matrix3d& M) {
+  Eigen::Matrix3d out;
+  out.row(0) = p.y() * M.row(2) - p.z() * M.row(1);
+  out.row(1) = p.z() * M.row(0) - p.x() * M.row(2);
+  out.row(2) = p.x() * M.row(1) - p.y() * M.row(0);
+  return out;
+}
+
+struct LineInCamera {
+  Eigen::Vector3d t;  // translation of the measuring camera
+  Eigen::Vector3d direction, moment;
+};
+
+inline LineInCamera ToCamera(const BaPose& pose, const BaLine::View& view, double shift) {
+  LineInCamera out;
+  out.t = pose.cam_from_world.translation;
+  out.t.x() += shift;
+  out.direction = pose.R * view.direction;
+  out.moment = pose.R * view.moment + out.t.cross(out.direction);
+  return out;
+}
+
+}  // namespace
+
+bool BaPoint::Add(const RectifiedCamera& camera,
+                  const BaPose& pose,
+                  const View& view,
+                  const Term& term,
+                  double huber,
+                  const Target& target) {
+  const Eigen::Vector3d p = pose.R * view + pose.cam_from_world.translation;
+  PointLinearization a;
+  if (!LinearizePoint(camera, term, p, a)) return false;
+  const double w = HuberWeight(a.r.squaredNorm(), huber);
+  // The rows are J_cam [-[p]x, I] for the pose and J_cam R for the point: with M = w J_cam^T J_cam
+  // all blocks are products of M, [p]x and R.
+  const double wux = w * a.ux;
+  const double wvy = w * a.vy;
+  Eigen::Matrix3d M;
+  M << wux * a.ux, 0, wux * a.uz, 0, wvy * a.vy, wvy * a.vz, wux * a.uz, wvy * a.vz,
+      w * (a.uz * a.uz + a.vz * a.vz + a.dz * a.dz);
+  const Eigen::Vector3d q(
+      wux * a.r.x(), wvy * a.r.y(), w * (a.uz * a.r.x() + a.vz * a.r.y() + a.dz * a.r.z()));
+  Eigen::Matrix3d N;  // M R without the products by zero
+  N.row(0) = M(0, 0) * pose.R.row(0) + M(0, 2) * pose.R.row(2);
+  N.row(1) = M(1, 1) * pose.R.row(1) + M(1, 2) * pose.R.row(2);
+  N.row(2) = M(0, 2) * pose.R.row(0) + M(1, 2) * pose.R.row(1) + M(2, 2) * pose.R.row(2);
+  target.landmark.V.noalias() += pose.R.transpose() * N;
+  target.landmark.g.noalias() += pose.R.transpose() * q;
+  if (target.pose == nullptr) return true;
+  const Eigen::Matrix3d PM = CrossColumns(p, M);
+  target.pose->H.topLeftCorner<3, 3>() += CrossColumns(p, PM.transpose());  // symmetric
+  target.pose->H.bottomLeftCorner<3, 3>() += PM.transpose();
+  target.pose->H.bottomRightCorner<3, 3>() += M;
+  target.pose->g.head<3>() += p.cross(q);
+  target.pose->g.tail<3>() += q;
+  target.W->topRows<3>() += CrossColumns(p, N);
+  target.W->bottomRows<3>() += N;
+  return true;
+}
+
+double BaLine::Chi2(const RectifiedCamera& camera,
+                    const BaPose& pose,
+                    const View& view,
+                    const Term& term) {
+  Eigen::Vector2d r;
+  const LineInCamera line = ToCamera(pose, view, term.shift);
+  if (!WhitenedLineDistances(camera, term, line.moment, r)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return r.squaredNorm();
+}
+
+bool BaLine::Add(const RectifiedCamera& camera,
+                 const BaPose& pose,
+                 const View& view,
+                 const Term& term,
+                 double huber,
+                 const Target& target) {
+  const LineInCamera line = ToCamera(pose, view, term.shift);
+  LineLinearization a;
+  if (!LinearizeLine(camera, term, line.moment, a)) return false;
+  const double w = HuberWeight(a.r.squaredNorm(), huber);
+  Vector6d b0;
+  Vector6d b1;
+  b0 << pose.R.transpose() * a.h0, pose.R.transpose() * a.h0.cross(line.t);  // eq. 18
+  b1 << pose.R.transpose() * a.h1, pose.R.transpose() * a.h1.cross(line.t);
+  const Eigen::Vector4d c0 = view.J.transpose() * b0;
+  const Eigen::Vector4d c1 = view.J.transpose() * b1;
+  const Eigen::Vector4d wc0 = w * c0;
+  const Eigen::Vector4d wc1 = w * c1;
+  target.landmark.V.noalias() += wc0 * c0.transpose() + wc1 * c1.transpose();
+  target.landmark.g += a.r(0) * wc0 + a.r(1) * wc1;
+  if (target.pose == nullptr) return true;
+  const Vector6d a0 = LinePoseRow(a.h0, line.moment, line.direction, term.shift);
+  const Vector6d a1 = LinePoseRow(a.h1, line.moment, line.direction, term.shift);
+  const Vector6d wa0 = w * a0;
+  const Vector6d wa1 = w * a1;
+  target.pose->H.noalias() += wa0 * a0.transpose() + wa1 * a1.transpose();
+  target.pose->g += a.r(0) * wa0 + a.r(1) * wa1;
+  target.W->noalias() += a0 * wc0.transpose() + a1 * wc1.transpose();
+  return true;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/local_ba.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/optimization/ba_landmarks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline {
+namespace {
+
+constexpr double kMinLambda = 1e-9;
+constexpr double kMaxLambda = 1e10;
+// Below this damping a step is nearly that of Gauss-Newton, so that a small gain means convergence.
+constexpr double kSmallLambda = 1;
+
+bool IsFinite(const Rigid3& pose) {
+  return pose.rotation.coeffs().allFinite() && pose.translation.allFinite();
+}
+
+bool IsFinite(const PointMeasurement& m) {
+  const bool disparity =
+      !m.disparity || (std::isfinite(m.disparity->px) && std::isfinite(m.disparity->sigma_px));
+  return disparity && m.px.allFinite() && std::isfinite(m.sigma_px);
+}
+
+bool IsFinite(const LineMeasurement& m) {
+  return m.segment.start.allFinite() && m.segment.end.allFinite() && m.covariance.allFinite();
+}
+
+bool IsFinite(const BaProblem& p) {
+  const auto all = [](const auto& items, auto&& finite) {
+    return std::all_of(items.begin(), items.end(), finite);
+  };
+  return all(p.poses, [](const auto& x) { return IsFinite(x.cam_from_world); }) &&
+         all(p.points, [](const auto& x) { return x.allFinite(); }) &&
+         all(p.lines, [](const auto& x) { return x.U.coeffs().allFinite() && x.w.allFinite(); }) &&
+         all(p.point_observations, [](const auto& x) { return IsFinite(x.measurement); }) &&
+         all(p.line_observations, [](const auto& x) { return IsFinite(x.measurement); });
+}
+
+std::vector<BaPose> MakePoses(const BaProblem& problem) {
+  std::vector<BaPose> poses(problem.poses.size());
+  int free_index = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i].Set(problem.poses[i].cam_from_world);
+    if (!problem.poses[i].fixed) poses[i].free_index = free_index++;
+  }
+  return poses;
+}
+
+void CheckIndices(int pose, int landmark, std::size_t poses, std::size_t landmarks) {
+  PLUMBLINE_CHECK(pose >= 0 && static_cast<std::size_t>(pose) < poses,
+                  "pose index of an observation out of range");
+  PLUMBLINE_CHECK(landmark >= 0 && static_cast<std::size_t>(landmark) < landmarks,
+                  "landmark index of an observation out of range");
+}
+
+std::vector<BaObservation<PointTerm>> PointObservations(const BaProblem& problem) {
+  std::vector<BaObservation<PointTerm>> out;
+  out.reserve(problem.point_observations.size());
+  for (const auto& o : problem.point_observations) {
+    CheckIndices(o.pose, o.point, problem.poses.size(), problem.points.size());
+    out.push_back({o.pose, o.point, MakePointTerm(o.measurement)});
+  }
+  return out;
+}
+
+std::vector<BaObservation<LineTerm>> LineObservations(const BaProblem& problem) {
+  std::vector<BaObservation<LineTerm>> out;
+  out.reserve(problem.line_observations.size());
+  for (const auto& o : problem.line_observations) {
+    CheckIndices(o.pose, o.line, problem.poses.size(), problem.lines.size());
+    out.push_back({o.pose, o.line, MakeLineTerm(problem.camera, o.measurement)});
+  }
+  return out;
+}
+
+class BundleAdjuster {
+ public:
+  BundleAdjuster(const BaProblem& problem, const LocalBaOptions& options)
+      : options_(options),
+        poses_(MakePoses(problem)),
+        trial_poses_(poses_),
+        points_(problem.camera, problem.points, PointObservations(problem), poses_),
+        lines_(problem.camera, problem.lines, LineObservations(problem), poses_),
+        solver_(static_cast<int>(std::count_if(
+            poses_.begin(), poses_.end(), [](const BaPose& p) { return p.free_index >= 0; }))) {}
+
+  BaResult Solve();
+
+ private:
+  double Cost(const HuberThresholds& huber) {
+    return points_.Cost(poses_, huber) + lines_.Cost(poses_, huber);
+  }
+  // Linearizes and solves; false when the damped equations are not positive definite.
+  bool ComputeStep(const HuberThresholds& huber, double lambda);
+  // Cost of the trial state; sets expected_.
+  double Try(const HuberThresholds& huber);
+  void Accept();
+  BaTermination Optimize(const HuberThresholds& huber);
+  HuberThresholds Thresholds(int round) const;
+
+  const LocalBaOptions& options_;
+  std::vector<BaPose> poses_, trial_poses_;
+  BaLandmarks<BaPoint> points_;
+  BaLandmarks<BaLine> lines_;
+  SchurSolver solver_;
+  double expected_ = 0;  // decrease of the cost by the linear model
+  double cost_ = 0;
+  int iterations_ = 0;
+};
+
+bool BundleAdjuster::ComputeStep(const HuberThresholds& huber, double lambda) {
+  solver_.Reset();
+  points_.Eliminate(poses_, huber, lambda, solver_);
+  lines_.Eliminate(poses_, huber, lambda, solver_);
+  return solver_.Solve(lambda);
+}
+
+double BundleAdjuster::Try(const HuberThresholds& huber) {
+  expected_ = 0;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const int index = poses_[i].free_index;
+    if (index < 0) continue;
+    const Vector6d step = solver_.step(index);
+    expected_ -= 0.5 * solver_.pose(index).g.dot(step);
+    trial_poses_[i].Set(RetractLeft(poses_[i].cam_from_world, step));
+  }
+  const double cost =
+      points_.Try(trial_poses_, huber, solver_) + lines_.Try(trial_poses_, huber, solver_);
+  expected_ += points_.expected_decrease() + lines_.expected_decrease();
+  return cost;
+}
+
+void BundleAdjuster::Accept() {
+  std::swap(poses_, trial_poses_);
+  points_.Accept();
+  lines_.Accept();
+}
+
+BaTermination BundleAdjuster::Optimize(const HuberThresholds& huber) {
+  cost_ = Cost(huber);
+  double lambda = options_.initial_lambda;
+  // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
+  const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
+  for (int i = 0; i < options_.max_iterations; ++i) {
+    ++iterations_;
+    double cost = std::numeric_limits<double>::infinity();
+    if (ComputeStep(huber, lambda)) cost = Try(huber);
+    const double tolerance = std::max(options_.function_tolerance * cost_, rounding);
+    const bool nearly_gauss_newton = lambda <= kSmallLambda;
+    if (cost <= cost_) {
+      const double gain = cost_ - cost;
+      Accept();
+      cost_ = cost;
+      if (gain <= tolerance && nearly_gauss_newton) return BaTermination::kConverged;
+      if (gain > 0.5 * expected_) lambda = std::max(kMinLambda, 0.1 * lambda);
+      if (gain < 0.1 * expected_) lambda = std::min(kMaxLambda, 4 * lambda);
+    } else {
+      if (std::isfinite(cost) && expected_ <= tolerance && nearly_gauss_newton) {
+        return BaTermination::kConverged;
+      }
+      lambda *= 10;
+      if (lambda > kMaxLambda) return BaTermination::kNoProgress;
+    }
+  }
+  return BaTermination::kMaxIterations;
+}
+
+HuberThresholds BundleAdjuster::Thresholds(int round) const {
+  const bool last_of_several = options_.rounds > 1 && round == options_.rounds - 1;
+  if (!options_.robust || (last_of_several && !options_.robust_last_round)) return {};
+  return {options_.huber_point, options_.huber_disparity, options_.huber_line};
+}
+
+BaResult BundleAdjuster::Solve() {
+  BaResult result;
+  points_.UseAll(poses_);
+  lines_.UseAll(poses_);
+  result.initial_cost = Cost(Thresholds(0));
+  for (int round = 0; round < options_.rounds && points_.used() + lines_.used() > 0; ++round) {
+    result.termination = Optimize(Thresholds(round));
+    result.final_cost = cost_;
+    points_.Classify(poses_, options_.gate_scale);
+    lines_.Classify(poses_, options_.gate_scale);
+  }
+  for (const BaPose& pose : poses_) result.poses.push_back(pose.cam_from_world);
+  result.points = points_.states();
+  result.lines = lines_.states();
+  points_.Export(poses_, result.point_chi2, result.point_inliers);
+  lines_.Export(poses_, result.line_chi2, result.line_inliers);
+  result.iterations = iterations_;
+  return result;
+}
+
+BaResult Unchanged(const BaProblem& problem) {
+  BaResult result;
+  for (const auto& pose : problem.poses) result.poses.push_back(pose.cam_from_world);
+  result.points = problem.points;
+  result.lines = problem.lines;
+  result.point_inliers.assign(problem.point_observations.size(), false);
+  result.line_inliers.assign(problem.line_observations.size(), false);
+  const double infinite = std::numeric_limits<double>::infinity();
+  result.point_chi2.assign(problem.point_observations.size(), infinite);
+  result.line_chi2.assign(problem.line_observations.size(), infinite);
+  result.termination = BaTermination::kNotFinite;
+  return result;
+}
+
+}  // namespace
+
+BaResult SolveLocalBa(const BaProblem& problem, const LocalBaOptions& options) {
+  if (!IsFinite(problem)) return Unchanged(problem);
+  return BundleAdjuster(problem, options).Solve();
+}
+
+}  // namespace plumbline

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/optimization/problem.h"
+
+#include <array>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+struct LocalBaOptions {
+  int rounds = 2;                    // of solve, then reject observations by chi2
+  int max_iterations = 10;           // per round, accepted and rejected steps
+  double function_tolerance = 1e-4;  // a round ends when the cost falls by less than this part
+  bool robust = true;                // Huber loss; false: squares in every round
+  bool robust_last_round = true;     // false: squares in the last of several rounds
+  double huber_point = 2.4477;       // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
+  double huber_disparity = 2.7955;
+  double huber_line = 2.4477;
+  double gate_scale = 1;  // multiplies the 95 % limits of chi2 that part inliers from outliers
+  double initial_lambda = 1e-4;  // Levenberg-Marquardt damping, relative to the diagonal
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LocalBaOptions& o) {
+  visit("rounds", o.rounds, "rounds of solving and rejecting observations", Range{1, 20});
+  visit("max_iterations", o.max_iterations, "iterations per round", Range{1, 1000});
+  visit("function_tolerance",
+        o.function_tolerance,
+        "relative decrease of the cost that ends a round",
+        Range{0, 1});
+  visit("robust", o.robust, "use the Huber loss");
+  visit("robust_last_round", o.robust_last_round, "use the Huber loss in the last round, too");
+  visit("huber_point", o.huber_point, "Huber threshold of a point [sigma]", Range{0.1, 100});
+  visit("huber_disparity",
+        o.huber_disparity,
+        "Huber threshold of a point with disparity [sigma]",
+        Range{0.1, 100});
+  visit("huber_line", o.huber_line, "Huber threshold of a line [sigma]", Range{0.1, 100});
+  visit("gate_scale", o.gate_scale, "factor on the 95 % chi2 limits of inliers", Range{0.1, 100});
+  visit("initial_lambda",
+        o.initial_lambda,
+        "initial damping relative to the diagonal",
+        Range{1e-12, 1e6});
+}
+
+enum class BaTermination {
+  kConverged,      // the cost no longer falls
+  kMaxIterations,  // the budget of the last round is used up
+  kNoProgress,     // no step lowers the cost, whatever the damping
+  kNotFinite,      // the input has NaN or infinite numbers; the result repeats the input
+  kNothingToDo,    // no observation has a residual at the start
+};
+
+constexpr auto EnumNames(std::type_identity<BaTermination>) {
+  return std::array{std::pair{BaTermination::kConverged, "converged"},
+                    std::pair{BaTermination::kMaxIterations, "max_iterations"},
+                    std::pair{BaTermination::kNoProgress, "no_progress"},
+                    std::pair{BaTermination::kNotFinite, "not_finite"},
+                    std::pair{BaTermination::kNothingToDo, "nothing_to_do"}};
+}
+
+struct BaResult {
+  std::vector<Rigid3> poses;  // cam_from_world; fixed ones are copied bit by bit
+  std::vector<Eigen::Vector3d> points;
+  std::vector<OrthonormalLine> lines;
+  // One per observation: false when chi2 exceeds its limit at the end or the point lies behind the
+  // camera (its chi2 is then infinite).
+  std::vector<bool> point_inliers;
+  std::vector<bool> line_inliers;
+  std::vector<double> point_chi2;
+  std::vector<double> line_chi2;
+  // Half the sum of the loss over the observations in use: at the start of the first round, where
+  // all in front of the camera are, and at the end of the last.
+  double initial_cost = 0;
+  double final_cost = 0;
+  int iterations = 0;
+  BaTermination termination = BaTermination::kNothingToDo;
+};
+
+// Bundle adjustment of poses, points and lines: Levenberg-Marquardt, landmarks eliminated by the
+// Schur complement with fixed-size blocks (poses 6, points 3, lines 4).
+//
+// Whitened residuals of residuals.h (eq. 13 for lines, Jacobians eq. 16-21) under the Huber loss.
+// Between rounds, observations are kept or rejected by chi2 at 95 % (a rejected one may come back).
+// Each landmark has its own damping on top of the global one: where a landmark's step raises its
+// cost, that landmark alone stands still, so that degenerate lines do not hold up the others.
+// Poses marked fixed and landmarks without observations do not move. The gauge is up to the caller;
+// what no observation fixes is held by the damping.
+//
+//   problem   indices must be in range (BugError otherwise)
+//   returns   finite numbers whenever the input is finite
+//   cost      per iteration O(sum over landmarks of their poses squared + free poses cubed)
+BaResult SolveLocalBa(const BaProblem& problem, const LocalBaOptions& options = {});
+
+}  // namespace plumbline

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/problem.h"
+
+#include <vector>
+
+namespace plumbline {
+
+struct PoseOnlyOptions {
+  int rounds = 4;                     // of solve, then classify inliers anew among all matches
+  int robust_rounds = 2;              // the first of them use the Huber loss, the others squares
+  int max_iterations = 10;            // per round
+  double decrement_tolerance = 1e-4;  // a round ends when a step would lower the cost by less ...
+  double cost_tolerance = 1e-5;       // ... or lowered it by less than this part of it
+  double huber_point = 2.4477;        // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
+  double huber_disparity = 2.7955;
+  double huber_line = 2.4477;
+  double gate_scale = 1;  // multiplies the 95 % limits of chi2 that part inliers from outliers
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, PoseOnlyOptions& o) {
+  visit("rounds", o.rounds, "rounds of solving and classifying the matches", Range{1, 20});
+  visit("robust_rounds", o.robust_rounds, "first rounds with the Huber loss", Range{0, 20});
+  visit("max_iterations", o.max_iterations, "iterations per round", Range{1, 1000});
+  visit("decrement_tolerance",
+        o.decrement_tolerance,
+        "decrease of the cost a step must promise [sigma^2]",
+        Range{0, 1});
+  visit("cost_tolerance", o.cost_tolerance, "relative decrease that ends a round", Range{0, 1});
+  visit("huber_point", o.huber_point, "Huber threshold of a point [sigma]", Range{0.1, 100});
+  visit("huber_disparity",
+        o.huber_disparity,
+        "Huber threshold of a point with disparity [sigma]",
+        Range{0.1, 100});
+  visit("huber_line", o.huber_line, "Huber threshold of a line [sigma]", Range{0.1, 100});
+  visit("gate_scale", o.gate_scale, "factor on the 95 % chi2 limits of inliers", Range{0.1, 100});
+}
+
+struct PoseOnlyResult {
+  Rigid3 cam_from_world;
+  // J^T W J of the inliers at the solution, for the left perturbation [rotation, translation].
+  Matrix6d information = Matrix6d::Zero();
+  std::vector<bool> point_inliers;  // one per PoseProblem::points
+  std::vector<bool> line_inliers;   // one per PoseProblem::lines; equal within a group
+  int inlier_points = 0;
+  int inlier_line_groups = 0;
+  double cost = 0;     // half the sum of squared whitened residuals of the inliers
+  int iterations = 0;  // over all rounds
+  // The last round met a tolerance, and the inliers fix all six degrees of freedom. When false, the
+  // pose is the best one found; it is finite if the input is.
+  bool converged = false;
+};
+
+// Camera pose from matches of points and lines of a known map.
+//
+// Levenberg-Marquardt on the whitened residuals of residuals.h (eq. 13 for lines) with the left
+// perturbation exp([w, v]) T (eq. 20). After each round all matches, also those rejected before,
+// are classified by chi2 at 95 %: points with 2 degrees of freedom (3 with disparity), the
+// measurements of one line group together with 2 each. A point behind the camera is an outlier. The
+// initial pose may be wrong by tens of pixels, with 30 % of the matches wrong.
+//
+//   problem   measurements in pixels, landmarks in the world, the initial pose
+//   returns   always a result; judge it by `converged` and the counts of inliers
+//   cost      about 0.2 ms for 300 points and 80 lines; no allocation inside the iterations
+PoseOnlyResult SolvePose(const PoseProblem& problem, const PoseOnlyOptions& options = {});
+
+}  // namespace plumbline

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/problem.h"
+
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A point nearer to the image plane than this, or behind it, has no residual. Map units.
+inline constexpr double kMinDepth = 1e-6;
+
+// Residual of a point measurement, whitened, with its derivatives.
+struct PointResidual {
+  int rows = 2;  // 3 with disparity; unused rows are zero
+  Eigen::Vector3d r =
+      Eigen::Vector3d::Zero();         // column, row, disparity: (measured - predicted) / sigma
+  Eigen::Matrix<double, 3, 6> J_pose;  // exp([w, v]) T, eq. 20
+  Eigen::Matrix3d J_point;             // the point in the world
+};
+
+// Residual of a line measurement, whitened by the Cholesky factor of the inverse covariance.
+struct LineResidual {
+  Eigen::Vector2d r = Eigen::Vector2d::Zero();  // signed distances of start and end (eq. 13)
+  Eigen::Matrix<double, 2, 6> J_pose;
+  Eigen::Matrix<double, 2, 4> J_line;  // orthonormal update (section 3.1, eq. 16-19 corrected)
+};
+
+// Measured minus projected position of a point, in units of its standard deviations. The disparity
+// row predicts fx * baseline / z. nullopt when the point is not in front of the camera.
+std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,
+                                           const Rigid3& cam_from_world,
+                                           const Eigen::Vector3d& point_in_world,
+                                           const PointMeasurement& measurement);
+
+// Distances of the measured end points from the projected infinite line (eq. 13; eq. 16 with the
+// divisor l1^2 + l2^2). In the right camera the moment is m + (-baseline, 0, 0) x d. nullopt when
+// the line passes through the camera centre or projects to infinity.
+std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
+                                         const Rigid3& cam_from_world,
+                                         const OrthonormalLine& line_in_world,
+                                         const LineMeasurement& measurement);
+
+// The parts below are what the solvers use in their inner loops: measurements prepared once, and
+// derivatives with respect to the landmark in the camera frame, from which the others follow.
+
+// A point measurement ready for use. Throws BugError when a sigma is not positive.
+struct PointTerm {
+  double u = 0, v = 0;
+  double weight = 1;  // 1 / sigma_px
+  double disparity = 0;
+  double disparity_weight = 0;  // 1 / sigma, 0 without disparity
+};
+PointTerm MakePointTerm(const PointMeasurement& measurement);
+
+// Whitened residual and the entries of its derivative with respect to the point in the camera frame
+// that are not always zero: [ux 0 uz; 0 vy vz; 0 0 dz].
+struct PointLinearization {
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();
+  double ux = 0, uz = 0, vy = 0, vz = 0, dz = 0;
+};
+
+// False when the point is not in front of the camera; `out` is then not set.
+inline bool LinearizePoint(const RectifiedCamera& camera,
+                           const PointTerm& term,
+                           const Eigen::Vector3d& point_in_cam,
+                           PointLinearization& out) {
+  const double z = point_in_cam.z();
+  if (!(z > kMinDepth)) return false;
+  const double iz = 1 / z;
+  const double x = point_in_cam.x() * iz;
+  const double y = point_in_cam.y() * iz;
+  const double fx = camera.fx * term.weight;
+  const double fy = camera.fy * term.weight;
+  const double d = camera.fx * camera.baseline * term.disparity_weight * iz;
+  out.r = {(term.u - camera.cx) * term.weight - fx * x,
+           (term.v - camera.cy) * term.weight - fy * y,
+           term.disparity * term.disparity_weight - d};
+  out.ux = -fx * iz;
+  out.uz = -out.ux * x;
+  out.vy = -fy * iz;
+  out.vz = -out.vy * y;
+  out.dz = d * iz;
+  return true;
+}
+
+// The squared norm of the whitened residual alone; nullopt as above.
+inline std::optional<double> PointChi2(const RectifiedCamera& camera,
+                                       const PointTerm& term,
+                                       const Eigen::Vector3d& point_in_cam) {
+  const double z = point_in_cam.z();
+  if (!(z > kMinDepth)) return std::nullopt;
+  const double iz = 1 / z;
+  const double ru = (term.u - camera.cx - camera.fx * point_in_cam.x() * iz) * term.weight;
+  const double rv = (term.v - camera.cy - camera.fy * point_in_cam.y() * iz) * term.weight;
+  const double rd = (term.disparity - camera.fx * camera.baseline * iz) * term.disparity_weight;
+  return ru * ru + rv * rv + rd * rd;
+}
+
+// A line measurement ready for use. Throws BugError when its covariance is not positive definite.
+struct LineTerm {
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();
+  // Lower triangle of the inverse Cholesky factor of the covariance: whitened residual = W r.
+  double w00 = 1, w10 = 0, w11 = 1;
+  double shift = 0;  // x of the left camera's centre in the camera that measured: 0 or -baseline
+};
+LineTerm MakeLineTerm(const RectifiedCamera& camera, const LineMeasurement& measurement);
+
+// Whitened residual and its derivative with respect to the moment in the measuring camera's frame.
+struct LineLinearization {
+  Eigen::Vector2d r = Eigen::Vector2d::Zero();
+  Eigen::Vector3d h0 = Eigen::Vector3d::Zero();  // of the first row
+  Eigen::Vector3d h1 = Eigen::Vector3d::Zero();  // of the second row
+};
+
+// Distances (eq. 13), whitened. `moment` in the frame of the camera that measured, of any scale.
+inline bool WhitenedLineDistances(const RectifiedCamera& camera,
+                                  const LineTerm& term,
+                                  const Eigen::Vector3d& moment,
+                                  Eigen::Vector2d& r) {
+  const Eigen::Vector3d l = camera.ProjectMoment(moment);
+  const double n2 = l.x() * l.x() + l.y() * l.y();
+  if (!(n2 > 1e-24 * l.z() * l.z())) return false;
+  const double scale = 1 / std::sqrt(n2);
+  const double r0 = (l.x() * term.start.x() + l.y() * term.start.y() + l.z()) * scale;
+  const double r1 = (l.x() * term.end.x() + l.y() * term.end.y() + l.z()) * scale;
+  r = {term.w00 * r0, term.w10 * r0 + term.w11 * r1};
+  return true;
+}
+
+// False when the image line is not defined; `out` is then not set.
+inline bool LinearizeLine(const RectifiedCamera& camera,
+                          const LineTerm& term,
+                          const Eigen::Vector3d& moment,
+                          LineLinearization& out) {
+  const Eigen::Vector3d l = camera.ProjectMoment(moment);
+  const double n2 = l.x() * l.x() + l.y() * l.y();
+  if (!(n2 > 1e-24 * l.z() * l.z())) return false;
+  const double scale = 1 / std::sqrt(n2);
+  const Eigen::Vector2d n(l.x() * scale, l.y() * scale);
+  const double c = l.z() * scale;
+  const double r0 = n.dot(term.start) + c;
+  const double r1 = n.dot(term.end) + c;
+  // eq. 16 with the divisor l1^2 + l2^2: dr/d(l1, l2) = (x - n r) / |l12|, dr/dl3 = 1 / |l12|.
+  const Eigen::Vector2d g0 = (term.start - r0 * n) * scale;
+  const Eigen::Vector2d g1 = (term.end - r1 * n) * scale;
+  // eq. 17: transpose of the line projection matrix of eq. 8.
+  const double f = camera.fx * camera.fy * scale;
+  const Eigen::Vector3d h0(
+      camera.fy * (g0.x() - camera.cx * scale), camera.fx * (g0.y() - camera.cy * scale), f);
+  const Eigen::Vector3d h1(
+      camera.fy * (g1.x() - camera.cx * scale), camera.fx * (g1.y() - camera.cy * scale), f);
+  out.r = {term.w00 * r0, term.w10 * r0 + term.w11 * r1};
+  out.h0 = term.w00 * h0;
+  out.h1 = term.w10 * h0 + term.w11 * h1;
+  return true;
+}
+
+// Row of the derivative with respect to exp([w, v]) T of a residual with gradient h at the moment
+// (eq. 20): a turn and a shift of the left camera change its moment m and direction d by w x m +
+// v x d and w x d; the right camera's moment is m + shift e_x x d. `moment` as for LinearizeLine.
+inline Vector6d LinePoseRow(const Eigen::Vector3d& h,
+                            const Eigen::Vector3d& moment,
+                            const Eigen::Vector3d& direction,
+                            double shift) {
+  const Eigen::Vector3d dh = direction.cross(h);
+  Vector6d row;
+  // With e = (shift, 0, 0) and Jacobi's identity e x (w x d) = (e x w) x d + w x (e x d), the turn
+  // contributes h . (w x moment) + h . ((e x w) x d) = w . (moment x h + dh x e).
+  row << moment.cross(h) + Eigen::Vector3d(0, shift * dh.z(), -shift * dh.y()), dh;
+  return row;
+}
+
+}  // namespace plumbline

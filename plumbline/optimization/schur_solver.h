@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Normal equations of one pose: sums of w J^T J (lower triangle valid) and w J^T r.
+struct PoseEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d g = Vector6d::Zero();
+};
+
+// Normal equations of one landmark with kDof parameters (V: lower triangle valid).
+template <int kDof>
+struct LandmarkEquations {
+  Eigen::Matrix<double, kDof, kDof> V = Eigen::Matrix<double, kDof, kDof>::Zero();
+  Eigen::Matrix<double, kDof, 1> g = Eigen::Matrix<double, kDof, 1>::Zero();
+};
+
+// The off-diagonal block w J_pose^T J_landmark between a landmark and one free pose.
+template <int kDof>
+struct Coupling {
+  int pose = 0;  // index among the free poses
+  Eigen::Matrix<double, 6, kDof> W = Eigen::Matrix<double, 6, kDof>::Zero();
+};
+
+// A landmark after its elimination: with V + damping = L L^T, y = L^-1 g, and its couplings hold
+// Z = W L^-T instead of W.
+template <int kDof>
+struct EliminatedLandmark {
+  Eigen::Matrix<double, kDof, kDof> L = Eigen::Matrix<double, kDof, kDof>::Zero();
+  Eigen::Matrix<double, kDof, 1> y = Eigen::Matrix<double, kDof, 1>::Zero();
+  bool regular = false;  // false: held still in this step
+
+  // Sets L, y and `regular` from V + lambda diag(V) and g.
+  bool Factor(const LandmarkEquations<kDof>& equations, double lambda);
+  // -L^-T (y + x).
+  Eigen::Matrix<double, kDof, 1> Step(
+      const Eigen::Matrix<double, kDof, 1>& x = Eigen::Matrix<double, kDof, 1>::Zero()) const;
+};
+
+// Damped Gauss-Newton equations of free poses and landmarks, with the landmarks eliminated one by
+// one into a dense system of the poses (Schur complement):
+//
+//   (H - sum Z Z^T) step = -(g - sum Z y),   landmark step = -L^-T (y + sum Z^T step)
+//
+// Damping adds lambda times the diagonal (Marquardt), which makes a step independent of the units
+// of the parameters. Sums run in the order of the calls, so results repeat bit by bit.
+class SchurSolver {
+ public:
+  explicit SchurSolver(int free_poses);
+
+  // Empties the equations.
+  void Reset();
+  PoseEquations& pose(int index) { return poses_[static_cast<std::size_t>(index)]; }
+
+  // Eliminates one landmark. `couplings` are ordered by pose, each pose at most once; on return
+  // they hold Z. O(couplings squared), no allocation.
+  template <int kDof>
+  EliminatedLandmark<kDof> Eliminate(const LandmarkEquations<kDof>& landmark,
+                                     double lambda,
+                                     std::span<Coupling<kDof>> couplings);
+
+  // Solves for the steps of the poses. False when the damped system is not positive definite.
+  bool Solve(double lambda);
+  Eigen::Ref<const Vector6d> step(int index) const { return step_.segment<6>(6 * index); }
+
+  // Step of an eliminated landmark after Solve().
+  template <int kDof>
+  Eigen::Matrix<double, kDof, 1> LandmarkStep(const EliminatedLandmark<kDof>& landmark,
+                                              std::span<const Coupling<kDof>> couplings) const;
+
+ private:
+  // Block (row, column) of the sum of Z Z^T, row >= column.
+  Matrix6d& Block(int row, int column) {
+    const auto r = static_cast<std::size_t>(row);
+    return complement_[r * (r + 1) / 2 + static_cast<std::size_t>(column)];
+  }
+
+  int free_poses_;
+  std::vector<PoseEquations> poses_;
+  std::vector<Matrix6d> complement_;
+  std::vector<Vector6d> complement_g_;  // sum of Z y
+  Eigen::MatrixXd matrix_;              // of the poses, lower triangle
+  Eigen::VectorXd step_;
+};
+
+template <int kDof>
+bool EliminatedLandmark<kDof>::Factor(const LandmarkEquations<kDof>& equations, double lambda) {
+  const auto& V = equations.V;
+  const double floor = 1e-12 * V.diagonal().maxCoeff();
+  regular = false;
+  for (int j = 0; j < kDof; ++j) {
+    const double damped = V(j, j) + lambda * (V(j, j) > floor ? V(j, j) : floor);
+    double pivot = damped;
+    double value = equations.g(j);
+    for (int k = 0; k < j; ++k) {
+      pivot -= L(j, k) * L(j, k);
+      value -= L(j, k) * y(k);
+    }
+    if (!(pivot > 1e-14 * damped)) return false;
+    L(j, j) = std::sqrt(pivot);
+    const double inverse = 1 / L(j, j);
+    y(j) = value * inverse;
+    for (int i = j + 1; i < kDof; ++i) {
+      double entry = V(i, j);
+      for (int k = 0; k < j; ++k) entry -= L(i, k) * L(j, k);
+      L(i, j) = entry * inverse;
+    }
+  }
+  regular = true;
+  return true;
+}
+
+template <int kDof>
+Eigen::Matrix<double, kDof, 1> EliminatedLandmark<kDof>::Step(
+    const Eigen::Matrix<double, kDof, 1>& x) const {
+  Eigen::Matrix<double, kDof, 1> step = -(y + x);
+  for (int j = kDof - 1; j >= 0; --j) {
+    for (int k = j + 1; k < kDof; ++k) step(j) -= L(k, j) * step(k);
+    step(j) /= L(j, j);
+  }
+  return step;
+}
+
+template <int kDof>
+EliminatedLandmark<kDof> SchurSolver::Eliminate(const LandmarkEquations<kDof>& landmark,
+                                                double lambda,
+                                                std::span<Coupling<kDof>> couplings) {
+  EliminatedLandmark<kDof> out;
+  if (!out.Factor(landmark, lambda)) return out;
+  for (Coupling<kDof>& coupling : couplings) {
+    for (int j = 0; j < kDof; ++j) {
+      for (int k = 0; k < j; ++k) coupling.W.col(j) -= out.L(j, k) * coupling.W.col(k);
+      coupling.W.col(j) *= 1 / out.L(j, j);
+    }
+    complement_g_[static_cast<std::size_t>(coupling.pose)].noalias() += coupling.W * out.y;
+  }
+  for (std::size_t i = 0; i < couplings.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      Block(couplings[i].pose, couplings[j].pose).noalias() +=
+          couplings[i].W * couplings[j].W.transpose();
+    }
+  }
+  return out;
+}
+
+template <int kDof>
+Eigen::Matrix<double, kDof, 1> SchurSolver::LandmarkStep(
+    const EliminatedLandmark<kDof>& landmark, std::span<const Coupling<kDof>> couplings) const {
+  Eigen::Matrix<double, kDof, 1> x = Eigen::Matrix<double, kDof, 1>::Zero();
+  if (!landmark.regular) return x;
+  for (const Coupling<kDof>& coupling : couplings) {
+    x.noalias() += coupling.W.transpose() * step_.segment<6>(6 * coupling.pose);
+  }
+  return landmark.Step(x);
+}
+
+}  // namespace plumbline

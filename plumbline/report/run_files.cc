@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/run_files.h"
+
+#include "plumbline/base/options.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/ply.h"
+#include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/timing.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+void WriteTrajectories(const System& system, const std::filesystem::path& folder) {
+  const auto main = system.MainMap();
+  if (!main) {
+    for (const char* name : {"trajectory.txt", "trajectory_causal.txt", "keyframes.txt"}) {
+      WriteTum(folder / name, {});
+    }
+    return;
+  }
+  for (const Map& map : system.maps()) {
+    const std::string suffix = map.id() == *main ? "" : fmt::format("_map{}", map.id().value);
+    WriteTum(folder / ("trajectory" + suffix + ".txt"), system.FinalTrajectory(map.id()));
+    WriteTum(folder / ("trajectory_causal" + suffix + ".txt"), system.CausalTrajectory(map.id()));
+    WriteTum(folder / ("keyframes" + suffix + ".txt"), system.KeyFrameTrajectory(map.id()));
+  }
+}
+
+void WriteMap(const System& system, const std::filesystem::path& folder) {
+  const auto main = system.MainMap();
+  const Map map = main ? system.maps()[static_cast<std::size_t>(main->value)] : Map();
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& [id, point] : map.points()) points.push_back(point.position);
+  std::vector<Segment3> lines;
+  for (const auto& [id, line] : map.lines()) lines.push_back(line.Interval());
+  WritePly(folder / "map.ply", points, lines);
+  WriteObjLines(folder / "lines.obj", lines);
+}
+
+}  // namespace
+
+std::string FormatFrames(const std::vector<FrameRecord>& frames) {
+  std::string text =
+      "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,inlier_points,"
+      "inlier_lines\n";
+  for (const FrameRecord& f : frames) {
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n",
+                        f.id.value,
+                        FormatStamp(f.stamp_ns),
+                        NameOf(f.status),
+                        f.map.valid() ? fmt::format("{}", f.map.value) : std::string(),
+                        f.reason,
+                        f.keyframe ? 1 : 0,
+                        f.counts.matched_points,
+                        f.counts.matched_lines,
+                        f.counts.inlier_points,
+                        f.counts.inlier_lines);
+  }
+  return text;
+}
+
+void WriteRunFiles(const System& system, const std::filesystem::path& folder) {
+  WriteTrajectories(system, folder);
+  WriteFileAtomically(folder / "frames.csv", FormatFrames(system.frames()));
+  WriteFileAtomically(folder / "timing.csv", FormatTimingCsv(system.frames()));
+  WriteFileAtomically(folder / "timing.json", FormatTimingJson(system.frames()));
+  WriteMap(system, folder);
+}
+
+}  // namespace plumbline

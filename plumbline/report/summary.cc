@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/summary.h"
+
+#include "plumbline/base/options.h"
+#include "plumbline/report/timing.h"
+
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+namespace plumbline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t kKittiGapNs = 250'000'000;
+
+Json Statistics(const ErrorStatistics& s, double factor, const char* unit) {
+  return {{"rmse", s.rmse * factor},
+          {"mean", s.mean * factor},
+          {"median", s.median * factor},
+          {"max", s.max * factor},
+          {"count", s.count},
+          {"unit", unit}};
+}
+
+Json Accuracy(const TrajectoryError& error, SensorKind sensor, const RunCounts& counts) {
+  Json json;
+  json["alignment"] = sensor == SensorKind::kMono ? "sim3" : "se3";
+  json["association"] = "interpolate";
+  json["associated"] = error.poses.size();
+  json["coverage"] = counts.frames > 0 ? static_cast<double>(counts.tracked) / counts.frames : 0.0;
+  json["ate"] = Statistics(error.ate, 1, "m");
+  json["relative_window"] = "3s";
+  if (error.rpe) json["rpe"] = Statistics(*error.rpe, 1, "m/s");
+  if (error.roe) json["roe"] = Statistics(*error.roe, 180 / std::numbers::pi, "deg/s");
+  return json;
+}
+
+Json Timing(const std::vector<FrameRecord>& frames) {
+  Json json;
+  for (const StageStatistics& s : TimingStatistics(frames)) {
+    json[s.stage] = {{"median_ms", s.median}, {"p95_ms", s.p95}, {"p99_ms", s.p99}};
+  }
+  return json;
+}
+
+}  // namespace
+
+ResourceUse MeasureResources() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  ResourceUse use;
+  use.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  use.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  return use;
+}
+
+RunCounts CountRun(const System& system) {
+  RunCounts counts;
+  for (const FrameRecord& frame : system.frames()) {
+    ++counts.frames;
+    counts.tracked += frame.status == FrameStatus::kTracked;
+    counts.lost += frame.status == FrameStatus::kLost;
+    counts.skipped += frame.status == FrameStatus::kSkipped;
+    counts.initializing += frame.status == FrameStatus::kInitializing;
+  }
+  counts.maps = static_cast<int>(system.maps().size());
+  if (const auto main = system.MainMap()) {
+    const Map& map = system.maps()[static_cast<std::size_t>(main->value)];
+    counts.keyframes = static_cast<int>(map.keyframes().size());
+    counts.points = static_cast<int>(map.points().size());
+    counts.lines = static_cast<int>(map.lines().size());
+  }
+  return counts;
+}
+
+std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
+                                                      const Dataset& dataset) {
+  const auto main = system.MainMap();
+  if (!main || !dataset.info().ground_truth) return std::nullopt;
+  TrajectoryErrorOptions options;
+  if (dataset.sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
+  if (dataset.info().format == DatasetFormat::kKitti) options.max_gap_ns = kKittiGapNs;
+  return CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
+                             system.FinalTrajectory(*main),
+                             options);
+}
+
+std::string FormatSummary(const RunDescription& description,
+                          const System& system,
+                          const Dataset& dataset,
+                          const ResourceUse& resources) {
+  const RunCounts counts = CountRun(system);
+  Json json;
+  json["version"] = description.version;
+  json["data"] = description.data_path;
+  json["sensor"] = NameOf(dataset.sensor());
+  json["seed"] = description.seed;
+  json["frames"] = {{"in", counts.frames},
+                    {"tracked", counts.tracked},
+                    {"lost", counts.lost},
+                    {"skipped", counts.skipped},
+                    {"initializing", counts.initializing}};
+  json["maps"] = counts.maps;
+  json["keyframes"] = counts.keyframes;
+  json["points"] = counts.points;
+  json["lines"] = counts.lines;
+  json["loops"] = 0;
+  const auto error = CompareWithGroundTruth(system, dataset);
+  json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts) : Json(nullptr);
+  json["timing"] = Timing(system.frames());
+  json["wall_seconds"] = resources.wall_seconds;
+  json["cpu_seconds"] = resources.cpu_seconds;
+  json["peak_memory_mb"] = resources.peak_memory_mb;
+  json["options"] = description.options_yaml;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace plumbline

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/slam/system.h"
+
+#include <optional>
+#include <string>
+
+namespace plumbline {
+
+// What a run used of the machine, from its start.
+struct ResourceUse {
+  double wall_seconds = 0;
+  double cpu_seconds = 0;
+  double peak_memory_mb = 0;
+};
+
+// CPU time and peak memory of this process; wall_seconds is for the caller to fill in.
+ResourceUse MeasureResources();
+
+struct RunCounts {
+  int frames = 0, tracked = 0, lost = 0, skipped = 0, initializing = 0;
+  int keyframes = 0, points = 0, lines = 0, maps = 0;
+};
+RunCounts CountRun(const System& system);
+
+// The main map's final trajectory against the data set's ground truth: SE(3) alignment, Sim(3) for mono,
+// windows of 3 s. nullopt without ground truth, trajectory, or common time.
+std::optional<TrajectoryError> CompareWithGroundTruth(const System& system, const Dataset& dataset);
+
+struct RunDescription {
+  std::string version;
+  std::string data_path;
+  std::string options_yaml;
+  int seed = 0;
+};
+
+// summary.json.
+std::string FormatSummary(const RunDescription& description,
+                          const System& system,
+                          const Dataset& dataset,
+                          const ResourceUse& resources);
+
+}  // namespace plumbline

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/slam/system.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// Distribution of the time of one stage over the frames in which it ran, milliseconds.
+struct StageStatistics {
+  std::string stage;
+  std::size_t count = 0;
+  double median = 0, p95 = 0, p99 = 0, max = 0, mean = 0;
+};
+
+// One entry for each stage, in the order of first appearance; "total" is the whole frame.
+std::vector<StageStatistics> TimingStatistics(const std::vector<FrameRecord>& frames);
+
+// A row for each frame, a column for each stage; empty where the stage did not run.
+std::string FormatTimingCsv(const std::vector<FrameRecord>& frames);
+std::string FormatTimingJson(const std::vector<FrameRecord>& frames);
+
+}  // namespace plumbline

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/base/options.h"
+#include "plumbline/features/extractor.h"
+#include "plumbline/image/rectify.h"
+#include "plumbline/mapping/options.h"
+#include "plumbline/tracking/tracker.h"
+
+#include <array>
+#include <type_traits>
+#include <utility>
+
+namespace plumbline {
+
+enum class RunMode { kInline };
+constexpr auto EnumNames(std::type_identity<RunMode>) {
+  return std::array{std::pair{RunMode::kInline, "inline"}};
+}
+
+struct ExecutionOptions {
+  RunMode mode = RunMode::kInline;
+  int seed = 0;
+  int lag = 1;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, ExecutionOptions& o) {
+  visit("mode", o.mode, "inline: all stages one after the other in one thread");
+  visit("seed", o.seed, "of everything random", Range{0, 2147483647});
+  visit("lag",
+        o.lag,
+        "frames between a keyframe and the first frame that is tracked against the map with it, "
+        "beyond the next one",
+        Range{0, 100});
+}
+
+// All options of a run.
+struct SlamOptions {
+  RectifierOptions rectification;
+  FeatureOptions features;
+  LineOptions lines;
+  TrackingOptions tracking;
+  MappingOptions mapping;
+  ExecutionOptions slam;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, SlamOptions& o) {
+  visit("slam", o.slam, "how the stages run");
+  visit("rectification", o.rectification, "from raw to ideal images");
+  visit("features", o.features, "what is measured in the images");
+  visit("lines", o.lines, "how lines enter optimization");
+  visit("tracking", o.tracking, "pose of each frame");
+  visit("mapping", o.mapping, "keyframes, landmarks, local bundle adjustment");
+}
+
+}  // namespace plumbline

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/frame_association.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace plumbline {
+namespace {
+
+std::vector<bool> Taken(const std::vector<int>& match_of_feature) {
+  std::vector<bool> taken(match_of_feature.size());
+  for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = match_of_feature[i] >= 0;
+  return taken;
+}
+
+int CountMatches(const std::vector<int>& match_of_feature) {
+  return static_cast<int>(std::count_if(
+      match_of_feature.begin(), match_of_feature.end(), [](int match) { return match >= 0; }));
+}
+
+// Projects the candidates, writes down which are visible, and leaves those without a match.
+template <class Candidate, class Project>
+auto ProjectUnmatched(const std::vector<Candidate>& candidates,
+                      const std::vector<int>& match_of_feature,
+                      const Project& project,
+                      std::vector<int>& expected) {
+  std::vector<decltype(project(candidates[0].model))> projected(candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    projected[i] = project(candidates[i].model);
+    if (projected[i]) expected.push_back(static_cast<int>(i));
+  }
+  for (const int match : match_of_feature) {
+    if (match >= 0) projected[static_cast<std::size_t>(match)].reset();
+  }
+  return projected;
+}
+
+void Record(const std::vector<LandmarkMatch>& matches, std::vector<int>& match_of_feature) {
+  for (const LandmarkMatch& match : matches) {
+    match_of_feature[static_cast<std::size_t>(match.feature)] = match.landmark;
+  }
+}
+
+}  // namespace
+
+int FrameAssociation::PointMatches() const { return CountMatches(point_of_feature); }
+int FrameAssociation::LineMatches() const { return CountMatches(line_of_feature); }
+
+ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,
+                                  const IndexedFeatures& image,
+                                  const Rigid3& cam_from_world,
+                                  const ProjectionSearchOptions& options,
+                                  FrameAssociation& association) {
+  ExpectedLandmarks expected;
+  const auto points = ProjectUnmatched(
+      association.points,
+      association.point_of_feature,
+      [&](const PointModel& m) { return ProjectPoint(imaging, cam_from_world, m, options); },
+      expected.points);
+  const auto lines = ProjectUnmatched(
+      association.lines,
+      association.line_of_feature,
+      [&](const LineModel& m) { return ProjectLine(imaging, cam_from_world, m, options); },
+      expected.lines);
+  Record(MatchProjectedPoints(image, points, Taken(association.point_of_feature), options),
+         association.point_of_feature);
+  Record(MatchProjectedLines(image, lines, Taken(association.line_of_feature), options),
+         association.line_of_feature);
+  return expected;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/projection_search.h"
+#include "plumbline/base/ids.h"
+#include "plumbline/map/landmarks.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace plumbline {
+
+// A landmark that a frame may show: of the map, or (invalid id) made on the spot from one frame.
+struct CandidatePoint {
+  PointId id;
+  PointModel model;
+};
+struct CandidateLine {
+  LineId id;
+  LineModel model;
+};
+
+// Candidates and which feature of the frame shows which: -1 or an index into the candidates.
+struct FrameAssociation {
+  std::vector<CandidatePoint> points;
+  std::vector<CandidateLine> lines;
+  std::vector<int> point_of_feature;
+  std::vector<int> line_of_feature;
+
+  FrameAssociation() = default;
+  FrameAssociation(std::size_t point_features, std::size_t line_features)
+      : point_of_feature(point_features, -1), line_of_feature(line_features, -1) {}
+
+  int PointMatches() const;
+  int LineMatches() const;
+};
+
+// Indices of the candidates that were projected into the image (expected to be seen).
+struct ExpectedLandmarks {
+  std::vector<int> points;
+  std::vector<int> lines;
+};
+
+// Projects the candidates with the given pose and matches those without a match with the features
+// without a match. Returns all candidates that should be visible, matched or not.
+ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,
+                                  const IndexedFeatures& image,
+                                  const Rigid3& cam_from_world,
+                                  const ProjectionSearchOptions& options,
+                                  FrameAssociation& association);
+
+}  // namespace plumbline

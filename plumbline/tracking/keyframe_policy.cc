@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/keyframe_policy.h"
+
+namespace plumbline {
+
+KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
+                              const KeyFramePolicyOptions& options) {
+  const bool needs_close = situation.close_tracked < options.min_close &&
+                           situation.close_untracked > options.min_new_close;
+  const auto fewer_than = [&](double ratio) {
+    return situation.tracked_landmarks < ratio * situation.reference_landmarks;
+  };
+  if (fewer_than(options.critical_ratio)) return KeyFrameReason::kAlmostLost;
+  if (situation.frames_since_keyframe < options.min_frames) return KeyFrameReason::kNone;
+  if (fewer_than(options.min_landmark_ratio)) return KeyFrameReason::kFewLandmarks;
+  if (needs_close) return KeyFrameReason::kNeedsClosePoints;
+  if (situation.frames_since_keyframe >= options.max_frames) return KeyFrameReason::kLongAgo;
+  return KeyFrameReason::kNone;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+
+namespace plumbline {
+
+struct KeyFramePolicyOptions {
+  int max_frames = 20;           // a keyframe at the latest after so many frames
+  int min_frames = 2;            // and never sooner than this, unless tracking is about to fail
+  double min_landmark_ratio = 0.75;  // landmarks tracked of those the last keyframe shows
+  double critical_ratio = 0.35;      // below this at once
+  int min_close = 100;           // enough near landmarks to fix the translation
+  int min_new_close = 70;        // near points without landmark that a keyframe would add
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
+  visit("max_frames", o.max_frames, "a keyframe at the latest after so many frames", Range{1, 10000});
+  visit("min_frames", o.min_frames, "frames between keyframes at least", Range{1, 1000});
+  visit("min_landmark_ratio",
+        o.min_landmark_ratio,
+        "keyframe when a smaller share of the last keyframe's landmarks is tracked",
+        Range{0, 1});
+  visit("critical_ratio", o.critical_ratio, "the same share, without waiting", Range{0, 1});
+  visit("min_close", o.min_close, "near points tracked that are enough", Range{0, 10000});
+  visit("min_new_close", o.min_new_close, "near points a keyframe would add", Range{0, 10000});
+}
+
+enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints, kLongAgo };
+
+// What the decision depends on, of the frame just tracked.
+struct KeyFrameSituation {
+  int frames_since_keyframe = 0;
+  int tracked_landmarks = 0;    // map points and lines among the inliers
+  int reference_landmarks = 0;  // well observed points and lines of the last keyframe
+  int close_tracked = 0;        // points with good disparity that show a map point
+  int close_untracked = 0;      // and that show none
+};
+
+// Whether a tracked frame should become a keyframe, and why. A pure function.
+KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
+                              const KeyFramePolicyOptions& options);
+
+}  // namespace plumbline

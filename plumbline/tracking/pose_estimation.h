@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/map/frame.h"
+#include "plumbline/optimization/pose_only.h"
+#include "plumbline/tracking/frame_association.h"
+
+namespace plumbline {
+
+struct PoseEstimate {
+  Rigid3 cam_from_world;
+  Matrix6d information = Matrix6d::Zero();
+  int inlier_points = 0;
+  int inlier_lines = 0;
+  bool converged = false;
+
+  int Inliers() const { return inlier_points + inlier_lines; }
+};
+
+// The pose that best fits the matches, from `initial`; matches that turn out to be outliers are taken
+// out of the association. Each line counts once, however many images of the rig show it.
+PoseEstimate EstimatePose(const RectifiedCamera& camera,
+                          const Features& features,
+                          const Rigid3& initial,
+                          LineWeighting weighting,
+                          const PoseOnlyOptions& options,
+                          FrameAssociation& association);
+
+}  // namespace plumbline

@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/tracker.h"
+
+#include "plumbline/association/landmark_from_frame.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+// Keyframes' landmarks count as well observed from this many views on.
+constexpr int kWellObserved = 3;
+
+template <class LandmarkId, class Candidate>
+std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
+                                     const std::vector<Candidate>& candidates) {
+  std::vector<LandmarkId> ids(match_of_feature.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (match_of_feature[i] >= 0) ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
+  }
+  return ids;
+}
+
+// Adds the snapshot's landmarks that are not among the candidates yet.
+template <class Candidate, class Landmark>
+void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& candidates) {
+  std::set<decltype(Candidate::id)> known;
+  for (const Candidate& candidate : candidates) known.insert(candidate.id);
+  for (const Landmark& landmark : landmarks) {
+    if (!known.contains(landmark.id)) candidates.push_back({landmark.id, landmark});
+  }
+}
+
+template <class Candidate, class LandmarkId>
+void ScoreKind(const std::vector<int>& expected,
+               const std::vector<int>& match_of_feature,
+               const std::vector<Candidate>& candidates,
+               std::map<LandmarkId, TrackingScore>& scores) {
+  const auto entry = [&](int candidate) -> TrackingScore* {
+    const LandmarkId id = candidates[static_cast<std::size_t>(candidate)].id;
+    return id.valid() ? &scores.try_emplace(id, TrackingScore{0, 0}).first->second : nullptr;
+  };
+  for (const int candidate : expected) {
+    if (TrackingScore* score = entry(candidate)) ++score->visible;
+  }
+  for (const int candidate : match_of_feature) {
+    if (candidate < 0) continue;
+    if (TrackingScore* score = entry(candidate)) ++score->found;
+  }
+}
+
+template <class LandmarkId, class Landmark>
+int CountWellObserved(const std::vector<LandmarkId>& ids, const MapSnapshot& snapshot, const Landmark*) {
+  return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](LandmarkId id) {
+    const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
+    return landmark != nullptr && landmark->observation_count >= kWellObserved;
+  }));
+}
+
+// Newest model of a candidate that the map has, or the one it had.
+template <class Candidate>
+void AddRefreshed(const Candidate& candidate, const MapSnapshot& snapshot, std::vector<Candidate>& out) {
+  const auto* landmark = candidate.id.valid() ? snapshot.Find(candidate.id) : nullptr;
+  if (landmark != nullptr) {
+    out.push_back({candidate.id, *landmark});
+  } else if (candidate.id.valid()) {
+    out.push_back(candidate);
+  }
+}
+
+}  // namespace
+
+TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after) {
+  if (has_pose) return TrackerState::kTracking;
+  if (state == TrackerState::kInitializing) return TrackerState::kInitializing;
+  return lost_frames >= new_map_after ? TrackerState::kInitializing : TrackerState::kLost;
+}
+
+Tracker::Tracker(const ImagingModel& imaging,
+                 const TrackingOptions& options,
+                 LineWeighting weighting,
+                 const Rigid3& world_from_first_cam)
+    : imaging_(imaging),
+      options_(options),
+      weighting_(weighting),
+      first_cam_from_world_(Inverse(world_from_first_cam)) {}
+
+TrackingResult Tracker::Track(FrameId id,
+                              std::int64_t stamp_ns,
+                              std::shared_ptr<const IndexedFeatures> indexed,
+                              const MapSnapshot* snapshot) {
+  Frame frame;
+  frame.id = id;
+  frame.stamp_ns = stamp_ns;
+  frame.points.resize(indexed->features.points.size());
+  frame.lines.resize(indexed->features.lines.size());
+  frame.indexed = std::move(indexed);
+  if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
+  PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
+  return Follow(std::move(frame), *snapshot);
+}
+
+TrackingResult Tracker::StartMap(Frame frame) {
+  const Features& features = frame.features();
+  const auto with_depth =
+      std::count_if(features.point_disparity.begin(),
+                    features.point_disparity.end(),
+                    [](const auto& disparity) { return disparity.has_value(); }) +
+      std::count_if(features.line_right.begin(), features.line_right.end(), [](const auto& right) {
+        return right.has_value();
+      });
+  if (with_depth < options_.min_initial) {
+    return Fail(std::move(frame), TrackingFailure::kTooFewFeatures, {});
+  }
+  frame.cam_from_world = first_cam_from_world_;
+  TrackingResult result;
+  result.keyframe = MakeKeyFrame(frame, KeyFrameId{}, KeyFrameReason::kNone);
+  result.starts_map = true;
+  result.cam_from_world = frame.cam_from_world;
+  result.frame = frame;
+  result.reference = newest_keyframe_;
+  state_ = NextState(state_, true, 0, options_.new_map_after);
+  result.state = state_;
+  lost_frames_ = 0;
+  velocity_ = Rigid3{};
+  const std::size_t points = frame.points.size();
+  const std::size_t lines = frame.lines.size();
+  last_ = LastFrame{std::move(frame), FrameAssociation(points, lines), newest_keyframe_, Rigid3{}};
+  return result;
+}
+
+TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot) {
+  ++frames_since_keyframe_;
+  const Rigid3 last_pose = LastPose(snapshot);
+  FrameAssociation association;
+  auto first = FromPrediction(frame, velocity_ * last_pose, snapshot, association);
+  if (!first) first = FromAppearance(frame, last_pose, snapshot, association);
+  if (!first) {
+    const bool any = association.PointMatches() + association.LineMatches() > 0;
+    return Fail(std::move(frame),
+                any ? TrackingFailure::kTooFewInliers : TrackingFailure::kTooFewMatches,
+                {});
+  }
+  TrackingResult result;
+  const PoseEstimate pose = WithLocalMap(frame, *first, snapshot, association, result.counts);
+  result.counts.inlier_points = pose.inlier_points;
+  result.counts.inlier_lines = pose.inlier_lines;
+  if (pose.Inliers() < options_.min_inliers) {
+    return Fail(std::move(frame), TrackingFailure::kTooFewInliers, result.counts);
+  }
+  if (!pose.converged) {
+    return Fail(std::move(frame), TrackingFailure::kPoseNotObservable, result.counts);
+  }
+
+  frame.cam_from_world = pose.cam_from_world;
+  frame.points = IdsOfMatches<PointId>(association.point_of_feature, association.points);
+  frame.lines = IdsOfMatches<LineId>(association.line_of_feature, association.lines);
+  velocity_ = frame.cam_from_world * Inverse(last_pose);
+  lost_frames_ = 0;
+  state_ = NextState(state_, true, 0, options_.new_map_after);
+  result.state = state_;
+  result.cam_from_world = frame.cam_from_world;
+  result.reference = snapshot.centre;
+  result.cam_from_reference =
+      frame.cam_from_world * Inverse(snapshot.cam_from_world.at(snapshot.centre));
+  const KeyFrameReason reason =
+      DecideKeyFrame(Situation(frame, association, snapshot), options_.keyframes);
+  if (reason != KeyFrameReason::kNone) {
+    result.keyframe = MakeKeyFrame(frame, snapshot.centre, reason);
+    result.reference = newest_keyframe_;
+    result.cam_from_reference = Rigid3{};
+  }
+  result.frame = frame;
+  last_ = LastFrame{
+      std::move(frame), std::move(association), result.reference, result.cam_from_reference};
+  return result;
+}
+
+// The last frame's pose, moved with its reference keyframe by what optimization has done since.
+Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
+  const auto it = snapshot.cam_from_world.find(last_->reference);
+  if (it == snapshot.cam_from_world.end()) return last_->frame.cam_from_world;
+  return last_->cam_from_reference * it->second;
+}
+
+// What the last frame showed: its landmarks as they are in the snapshot, and new ones from its
+// depths, at the places that go with its pose of today.
+FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame& frame) const {
+  FrameAssociation result(frame.points.size(), frame.lines.size());
+  Frame last = last_->frame;
+  last.cam_from_world = LastPose(snapshot);
+  const FrameAssociation& before = last_->association;
+  for (std::size_t i = 0; i < last.points.size(); ++i) {
+    const int match = before.point_of_feature[i];
+    if (match >= 0 && before.points[static_cast<std::size_t>(match)].id.valid()) {
+      AddRefreshed(before.points[static_cast<std::size_t>(match)], snapshot, result.points);
+    } else if (const auto point = PointFromFrame(
+                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+      result.points.push_back({PointId{}, *point});
+    }
+  }
+  for (std::size_t i = 0; i < last.lines.size(); ++i) {
+    const int match = before.line_of_feature[i];
+    if (match >= 0 && before.lines[static_cast<std::size_t>(match)].id.valid()) {
+      AddRefreshed(before.lines[static_cast<std::size_t>(match)], snapshot, result.lines);
+    } else if (const auto line = LineFromFrame(
+                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+      result.lines.push_back({LineId{}, *line});
+    }
+  }
+  return result;
+}
+
+PoseEstimate Tracker::Estimate(const Frame& frame,
+                               const Rigid3& initial,
+                               FrameAssociation& association) const {
+  return EstimatePose(
+      imaging_.camera, frame.features(), initial, weighting_, options_.pose, association);
+}
+
+std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
+                                                    const Rigid3& predicted,
+                                                    const MapSnapshot& snapshot,
+                                                    FrameAssociation& association) const {
+  const FrameAssociation candidates = LastLandmarks(snapshot, frame);
+  for (const double factor : {1.0, options_.wide_factor}) {
+    association = candidates;
+    ProjectionSearchOptions search = options_.search;
+    search.point_radius_px = factor * options_.first_radius_px;
+    search.line_offset_px = factor * options_.first_radius_px;
+    MatchCandidates(imaging_, *frame.indexed, predicted, search, association);
+    const int matches = association.PointMatches() + association.LineMatches();
+    if (matches < 2 * options_.min_inliers) continue;
+    const PoseEstimate estimate = Estimate(frame, predicted, association);
+    if (estimate.converged && estimate.Inliers() >= options_.min_inliers &&
+        estimate.Inliers() * 3 >= matches) {
+      return estimate;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
+                                                    const Rigid3& initial,
+                                                    const MapSnapshot& snapshot,
+                                                    FrameAssociation& association) const {
+  association = FrameAssociation(frame.points.size(), frame.lines.size());
+  const Frame& reference = snapshot.reference->frame;
+  const auto point_matches = MatchPoints(
+      reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
+  for (const PointMatch& match : point_matches) {
+    const PointId id = reference.points[static_cast<std::size_t>(match.a)];
+    const SnapshotPoint* point = id.valid() ? snapshot.Find(id) : nullptr;
+    if (point == nullptr) continue;
+    association.point_of_feature[static_cast<std::size_t>(match.b)] =
+        static_cast<int>(association.points.size());
+    association.points.push_back({id, *point});
+  }
+  const auto line_matches =
+      MatchLines(reference.features().lines, frame.features().lines, LineMatchOptions{});
+  for (const LineMatch& match : line_matches) {
+    const LineId id = reference.lines[static_cast<std::size_t>(match.a)];
+    const SnapshotLine* line = id.valid() ? snapshot.Find(id) : nullptr;
+    if (line == nullptr) continue;
+    association.line_of_feature[static_cast<std::size_t>(match.b)] =
+        static_cast<int>(association.lines.size());
+    association.lines.push_back({id, *line});
+  }
+  if (association.PointMatches() + association.LineMatches() < options_.min_inliers) {
+    return std::nullopt;
+  }
+  const PoseEstimate estimate = Estimate(frame, initial, association);
+  if (!estimate.converged || estimate.Inliers() < options_.min_inliers) return std::nullopt;
+  return estimate;
+}
+
+PoseEstimate Tracker::WithLocalMap(const Frame& frame,
+                                   const PoseEstimate& first,
+                                   const MapSnapshot& snapshot,
+                                   FrameAssociation& association,
+                                   FrameCounts& counts) {
+  AddRest(snapshot.points, association.points);
+  AddRest(snapshot.lines, association.lines);
+  const ExpectedLandmarks expected = MatchCandidates(
+      imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+  counts.matched_points = association.PointMatches();
+  counts.matched_lines = association.LineMatches();
+  const PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
+  Score(expected, association);
+  return estimate;
+}
+
+void Tracker::Score(const ExpectedLandmarks& expected, const FrameAssociation& association) {
+  ScoreKind(expected.points, association.point_of_feature, association.points, scores_.points);
+  ScoreKind(expected.lines, association.line_of_feature, association.lines, scores_.lines);
+}
+
+KeyFrameSituation Tracker::Situation(const Frame& frame,
+                                     const FrameAssociation& association,
+                                     const MapSnapshot& snapshot) const {
+  KeyFrameSituation situation;
+  situation.frames_since_keyframe = static_cast<int>(frames_since_keyframe_);
+  for (const PointId id : frame.points) situation.tracked_landmarks += id.valid();
+  for (const LineId id : frame.lines) situation.tracked_landmarks += id.valid();
+  const Frame& reference = snapshot.reference->frame;
+  situation.reference_landmarks =
+      CountWellObserved(reference.points, snapshot, static_cast<const SnapshotPoint*>(nullptr)) +
+      CountWellObserved(reference.lines, snapshot, static_cast<const SnapshotLine*>(nullptr));
+  const auto& disparities = frame.features().point_disparity;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    if (!disparities[i] ||
+        disparities[i]->sigma_px > options_.close_relative_depth_sigma * disparities[i]->px) {
+      continue;
+    }
+    const bool tracked = association.point_of_feature[i] >= 0 && frame.points[i].valid();
+    ++(tracked ? situation.close_tracked : situation.close_untracked);
+  }
+  return situation;
+}
+
+TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
+  ++lost_frames_;
+  state_ = NextState(state_, false, lost_frames_, options_.new_map_after);
+  velocity_ = Rigid3{};
+  TrackingResult result;
+  result.state = state_;
+  result.failure = failure;
+  result.counts = counts;
+  result.frame = std::move(frame);
+  return result;
+}
+
+NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame, KeyFrameId parent, KeyFrameReason reason) {
+  newest_keyframe_ = next_keyframe_;
+  next_keyframe_ = KeyFrameId{next_keyframe_.value + 1};
+  frames_since_keyframe_ = 0;
+  return {{newest_keyframe_, parent, frame}, reason, std::exchange(scores_, {})};
+}
+
+}  // namespace plumbline

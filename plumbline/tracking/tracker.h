@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/association/projection_search.h"
+#include "plumbline/base/options.h"
+#include "plumbline/features/match_lines.h"
+#include "plumbline/features/match_points.h"
+#include "plumbline/map/frame.h"
+#include "plumbline/map/snapshot.h"
+#include "plumbline/optimization/pose_only.h"
+#include "plumbline/tracking/frame_association.h"
+#include "plumbline/tracking/keyframe_policy.h"
+#include "plumbline/tracking/pose_estimation.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+struct TrackingOptions {
+  int min_inliers = 10;           // points + lines a pose needs to be accepted
+  int min_initial = 60;           // points with depth + lines with depth that can start a map
+  double max_relative_depth_sigma = 0.15;  // of landmarks made from one frame
+  double close_relative_depth_sigma = 0.05;  // of points that count as near
+  double first_radius_px = 12;    // search around the predicted place, from the last frame
+  double wide_factor = 3;         // the same when that finds too little
+  int new_map_after = 10;         // lost frames after which a new map starts
+  ProjectionSearchOptions search;
+  PoseOnlyOptions pose;
+  KeyFramePolicyOptions keyframes;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, TrackingOptions& o) {
+  visit("min_inliers", o.min_inliers, "points + lines a pose needs to be accepted", Range{4, 1000});
+  visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
+  visit("max_relative_depth_sigma",
+        o.max_relative_depth_sigma,
+        "depth uncertainty of landmarks from one frame, relative to depth",
+        Range{0.001, 1});
+  visit("close_relative_depth_sigma",
+        o.close_relative_depth_sigma,
+        "depth uncertainty below which a point counts as near, relative to depth",
+        Range{0.001, 1});
+  visit("first_radius_px", o.first_radius_px, "search radius from the last frame [px]", Range{1, 200});
+  visit("wide_factor", o.wide_factor, "larger search when the first finds too little", Range{1, 20});
+  visit("new_map_after", o.new_map_after, "lost frames after which a new map starts", Range{1, 100000});
+  visit("search", o.search, "search of landmarks in the image");
+  visit("pose", o.pose, "pose from matches");
+  visit("keyframes", o.keyframes, "when a frame becomes a keyframe");
+}
+
+enum class TrackerState { kInitializing, kTracking, kLost };
+constexpr auto EnumNames(std::type_identity<TrackerState>) {
+  return std::array{std::pair{TrackerState::kInitializing, "initializing"},
+                    std::pair{TrackerState::kTracking, "tracking"},
+                    std::pair{TrackerState::kLost, "lost"}};
+}
+
+// Why a frame has no pose.
+enum class TrackingFailure {
+  kNone,
+  kTooFewFeatures,   // to start a map
+  kTooFewMatches,    // landmarks found in the image
+  kTooFewInliers,    // of them agree on a pose
+  kPoseNotObservable // the inliers do not fix all six degrees of freedom
+};
+constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
+  return std::array{std::pair{TrackingFailure::kNone, ""},
+                    std::pair{TrackingFailure::kTooFewFeatures, "too_few_features"},
+                    std::pair{TrackingFailure::kTooFewMatches, "too_few_matches"},
+                    std::pair{TrackingFailure::kTooFewInliers, "too_few_inliers"},
+                    std::pair{TrackingFailure::kPoseNotObservable, "pose_not_observable"}};
+}
+
+// The next state after a frame. With too many lost frames in a row a new map is to be started.
+TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after);
+
+struct NewKeyFrame {
+  KeyFrame keyframe;
+  KeyFrameReason reason = KeyFrameReason::kNone;  // kNone: the first of a map
+  TrackingScores scores;
+};
+
+struct FrameCounts {
+  int matched_points = 0, matched_lines = 0;
+  int inlier_points = 0, inlier_lines = 0;
+};
+
+struct TrackingResult {
+  TrackerState state = TrackerState::kInitializing;  // after this frame
+  TrackingFailure failure = TrackingFailure::kNone;
+  FrameCounts counts;
+  std::optional<Rigid3> cam_from_world;  // where the frame has a pose
+  KeyFrameId reference;                  // the keyframe it moves with from now on
+  Rigid3 cam_from_reference;
+  std::optional<NewKeyFrame> keyframe;
+  bool starts_map = false;  // the keyframe is the first of a new map
+  Frame frame;              // as tracked: features, and matches where it has a pose
+};
+
+// Follows the camera: one frame after the other against an immutable snapshot of the map.
+//
+// Prediction by constant velocity; landmarks of the last frame (and points and lines with depth that
+// are not in the map yet) are searched near their predicted places, then the rest of the snapshot;
+// pose from points and lines together after each. When the prediction fails, by appearance against
+// the snapshot's keyframe.
+class Tracker {
+ public:
+  // world_from_first_cam: pose given to the first frame of each map.
+  Tracker(const ImagingModel& imaging,
+          const TrackingOptions& options,
+          LineWeighting weighting,
+          const Rigid3& world_from_first_cam);
+
+  // snapshot: null exactly while the tracker has no map.
+  TrackingResult Track(FrameId id,
+                       std::int64_t stamp_ns,
+                       std::shared_ptr<const IndexedFeatures> indexed,
+                       const MapSnapshot* snapshot);
+
+  TrackerState state() const { return state_; }
+
+ private:
+  struct LastFrame {
+    Frame frame;
+    FrameAssociation association;
+    KeyFrameId reference;
+    Rigid3 cam_from_reference;
+  };
+
+  TrackingResult StartMap(Frame frame);
+  TrackingResult Follow(Frame frame, const MapSnapshot& snapshot);
+  Rigid3 LastPose(const MapSnapshot& snapshot) const;
+  FrameAssociation LastLandmarks(const MapSnapshot& snapshot, const Frame& frame) const;
+  std::optional<PoseEstimate> FromPrediction(const Frame& frame,
+                                             const Rigid3& predicted,
+                                             const MapSnapshot& snapshot,
+                                             FrameAssociation& association) const;
+  std::optional<PoseEstimate> FromAppearance(const Frame& frame,
+                                             const Rigid3& initial,
+                                             const MapSnapshot& snapshot,
+                                             FrameAssociation& association) const;
+  PoseEstimate WithLocalMap(const Frame& frame,
+                            const PoseEstimate& first,
+                            const MapSnapshot& snapshot,
+                            FrameAssociation& association,
+                            FrameCounts& counts);
+  PoseEstimate Estimate(const Frame& frame, const Rigid3& initial, FrameAssociation& a) const;
+  void Score(const ExpectedLandmarks& expected, const FrameAssociation& association);
+  KeyFrameSituation Situation(const Frame& frame,
+                              const FrameAssociation& association,
+                              const MapSnapshot& snapshot) const;
+  TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
+  NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, KeyFrameReason reason);
+
+  ImagingModel imaging_;
+  TrackingOptions options_;
+  LineWeighting weighting_;
+  Rigid3 first_cam_from_world_;
+  TrackerState state_ = TrackerState::kInitializing;
+  std::optional<LastFrame> last_;
+  Rigid3 velocity_;  // cam_now_from_cam_before, per frame
+  TrackingScores scores_;
+  KeyFrameId next_keyframe_{0};
+  KeyFrameId newest_keyframe_;
+  std::int64_t frames_since_keyframe_ = 0;
+  int lost_frames_ = 0;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/command_line.h"
+
+#include "plumbline/base/error.h"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+CommandSyntax Syntax() {
+  return {"do", "Does.", {"A", "[B]"}, {{"--set", "K=V", "sets"}, {"--quiet", "", "says less"}}};
+}
+
+CommandLine Parse(const std::vector<std::string>& arguments) {
+  return CommandLine(Syntax(), arguments);
+}
+
+std::string MessageOf(const std::vector<std::string>& arguments) {
+  try {
+    Parse(arguments);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(CommandLine, TakesOptionsInAnyPlaceAndForm) {
+  const CommandLine line = Parse({"--set", "a=1", "x", "--quiet", "--set=b=2"});
+  EXPECT_THAT(line.Values("--set"), ElementsAre("a=1", "b=2"));
+  EXPECT_EQ(line.Value("--set"), "b=2");
+  EXPECT_TRUE(line.Has("--quiet"));
+  EXPECT_EQ(line.Positional(0), "x");
+  EXPECT_EQ(line.Positional(1), "");
+  EXPECT_FALSE(line.help());
+}
+
+TEST(CommandLine, TakesAllAsPositionalBehindTwoDashes) {
+  const CommandLine line = Parse({"--", "--quiet", "-"});
+  EXPECT_FALSE(line.Has("--quiet"));
+  EXPECT_EQ(line.Positional(0), "--quiet");
+  EXPECT_EQ(line.Positional(1), "-");
+}
+
+TEST(CommandLine, HelpNeedsNothingElse) { EXPECT_TRUE(Parse({"--help"}).help()); }
+
+TEST(CommandLine, NamesWrongUse) {
+  EXPECT_EQ(MessageOf({"x", "--quite"}), "do: unknown option --quite; the nearest is --quiet");
+  EXPECT_EQ(MessageOf({"x", "--elephants"}), "do: unknown option --elephants");
+  EXPECT_EQ(MessageOf({"x", "--set"}), "--set: expected K=V");
+  EXPECT_EQ(MessageOf({"x", "--quiet=1"}), "--quiet: takes no value");
+  EXPECT_EQ(MessageOf({"x", "y", "z"}), "do: unexpected argument z");
+  EXPECT_THAT(MessageOf({}), HasSubstr("do: expected A"));
+}
+
+TEST(HelpText, ListsTheOptions) {
+  const std::string help = HelpText(Syntax());
+  EXPECT_THAT(help, HasSubstr("plumbline do A [B] [options]\nDoes.\n"));
+  EXPECT_THAT(help, HasSubstr("--set K=V  sets\n"));
+}
+
+}  // namespace
+}  // namespace plumbline

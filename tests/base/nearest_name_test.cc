@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/nearest_name.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+TEST(EditDistance, CountsInsertionsDeletionsReplacements) {
+  EXPECT_EQ(EditDistance("", ""), 0U);
+  EXPECT_EQ(EditDistance("abc", ""), 3U);
+  EXPECT_EQ(EditDistance("kitten", "sitting"), 3U);
+  EXPECT_EQ(EditDistance("huber_px", "hubber_px"), 1U);
+}
+
+TEST(NearestName, FindsTheMisspelledName) {
+  const std::vector<std::string> names = {"slam.seed", "slam.mode", "ba.huber_px"};
+  EXPECT_EQ(NearestName("slam.sede", names), "slam.seed");
+  EXPECT_EQ(NearestName("ba.huberpx", names), "ba.huber_px");
+}
+
+TEST(NearestName, FindsANameWithoutItsGroup) {
+  const std::vector<std::string> names = {"slam.seed", "slam.mode", "ba.huber_px"};
+  EXPECT_EQ(NearestName("huber_px", names), "ba.huber_px");
+}
+
+TEST(NearestName, IsSilentWhenNothingIsNear) {
+  const std::vector<std::string> names = {"slam.seed", "slam.mode"};
+  EXPECT_EQ(NearestName("lines.weighting", names), std::nullopt);
+}
+
+TEST(NearestName, TakesTheFirstOfEquallyNear) {
+  const std::vector<std::string> names = {"abd", "abe"};
+  EXPECT_EQ(NearestName("abc", names), "abd");
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/geometry/line_triangulation.h"
+
+#include "plumbline/geometry/trimming.h"
+
+#include "tests/support/jacobian.h"
+#include "tests/support/random_geometry.h"
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+// Cameras about 5 m in front of the world point (0, 0, 20), far from the world's origin.
+std::vector<Rigid3> CamerasNear(Rng& rng, int count) {
+  std::vector<Rigid3> poses;
+  for (int i = 0; i < count; ++i) {
+    Eigen::Vector3d centre(0, 0, 15);
+    centre += RandomVector<3>(rng, 0.7);
+    const Eigen::Quaterniond rotation = ExpSo3(RandomVector<3>(rng, 0.05));
+    poses.push_back({rotation, -(rotation * centre)});
+  }
+  return poses;
+}
+
+Segment3 LineInView(Rng& rng) {
+  const Eigen::Vector3d middle = Eigen::Vector3d(0, 0, 20) + RandomVector<3>(rng, 0.3);
+  const Eigen::Vector3d half = 0.8 * RandomVector<3>(rng).normalized();
+  return {middle - half, middle + half};
+}
+
+LineView ViewOf(const Segment3& segment, const Rigid3& pose, double sigma_px = 1) {
+  const RectifiedCamera camera = TestCamera();
+  return {
+      pose, {camera.Project(pose * segment.start), camera.Project(pose * segment.end)}, sigma_px};
+}
+
+std::vector<LineView> ViewsOf(const Segment3& segment, const std::vector<Rigid3>& poses) {
+  std::vector<LineView> views;
+  for (const Rigid3& pose : poses) views.push_back(ViewOf(segment, pose));
+  return views;
+}
+
+void AddNoise(Rng& rng, LineView& view) {
+  view.segment.start += RandomVector<2>(rng, view.sigma_px);
+  view.segment.end += RandomVector<2>(rng, view.sigma_px);
+}
+
+double Distance(const PluckerLine& line, const Segment3& truth) {
+  return std::max(line.DistanceTo(truth.start), line.DistanceTo(truth.end));
+}
+
+// The tangent that takes `from` to `to`, for nearby lines.
+Eigen::Vector4d TangentTo(const PluckerLine& from, const PluckerLine& to) {
+  Eigen::Vector4d delta = Eigen::Vector4d::Zero();
+  for (int i = 0; i < 10; ++i) {
+    const OrthonormalLine at = Retract(ToOrthonormal(from), delta);
+    // The step is taken at `at` but added to delta: only its zero matters.
+    const Eigen::Matrix<double, 6, 1> difference =
+        ToOrthonormal(to).Homogeneous() - at.Homogeneous();
+    const Eigen::Matrix<double, 6, 4> J = NumericJacobian(
+        [&](const Eigen::Vector4d& d) { return Retract(ToOrthonormal(from), d).Homogeneous(); },
+        delta);
+    delta += (J.transpose() * J).ldlt().solve(J.transpose() * difference);
+  }
+  return delta;
+}
+
+TEST(InterpretationPlane, HoldsTheCentreAndTheLine) {
+  Rng rng(1);
+  for (int i = 0; i < 20; ++i) {
+    const Rigid3 pose = CamerasNear(rng, 1)[0];
+    const Segment3 truth = LineInView(rng);
+    const auto plane = InterpretationPlane(TestCamera(), ViewOf(truth, pose));
+    ASSERT_TRUE(plane);
+    EXPECT_NEAR(plane->head<3>().norm(), 1, 1e-14);
+    EXPECT_NEAR(plane->dot(Inverse(pose).translation.homogeneous()), 0, 1e-12);
+    EXPECT_NEAR(plane->dot(truth.start.homogeneous()), 0, 1e-11);
+    EXPECT_NEAR(plane->dot(truth.end.homogeneous()), 0, 1e-11);
+  }
+  EXPECT_FALSE(InterpretationPlane(TestCamera(), {{}, {{5, 5}, {5, 5}}, 1}));
+}
+
+TEST(TriangulateLine, IsExactWithoutNoise) {
+  Rng rng(2);
+  int done = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Segment3 truth = LineInView(rng);
+    const auto views = ViewsOf(truth, CamerasNear(rng, 2 + i % 4));
+    for (const int iterations : {0, 6}) {
+      const auto result = TriangulateLine(
+          TestCamera(), views, {.min_plane_angle = 0.05, .max_iterations = iterations});
+      if (!result) continue;
+      ++done;
+      EXPECT_LT(Distance(result->estimate.line, truth), 1e-8);
+      EXPECT_NEAR(result->estimate.line.direction.norm(), 1, 1e-12);
+      EXPECT_GT(result->estimate.line.direction.dot(truth.Direction()), 0.99);
+      EXPECT_LT(result->chi2, 1e-9);
+      EXPECT_EQ(result->residuals, 2 * static_cast<int>(views.size()));
+    }
+  }
+  EXPECT_GT(done, 80);
+}
+
+TEST(TriangulateLine, DirectionIsThatOfTheFirstSegment) {
+  Rng rng(3);
+  const Segment3 truth = LineInView(rng);
+  auto views = ViewsOf(truth, CamerasNear(rng, 3));
+  views[0].segment = views[0].segment.Reversed();
+  const auto result = TriangulateLine(TestCamera(), views);
+  ASSERT_TRUE(result);
+  EXPECT_LT(result->estimate.line.direction.dot(truth.Direction()), -0.99);
+}
+
+TEST(TriangulateLine, ErrorsFollowTheCovariance) {
+  Rng rng(4);
+  double sum = 0;
+  double chi2 = 0;
+  int done = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Segment3 truth = LineInView(rng);
+    auto views = ViewsOf(truth, CamerasNear(rng, 4));
+    for (LineView& view : views) {
+      view.sigma_px = 0.1;
+      AddNoise(rng, view);
+    }
+    const auto result =
+        TriangulateLine(TestCamera(), views, {.min_plane_angle = 0.15, .max_residual_sigma = 100});
+    if (!result) continue;
+    ++done;
+    PluckerLine exact = LineThroughPoints(truth.start, truth.end);
+    if (exact.direction.dot(result->estimate.line.direction) < 0) {
+      exact = {-exact.moment, -exact.direction};
+    }
+    const Eigen::Vector4d error = TangentTo(result->estimate.line, exact);
+    sum += error.dot(result->estimate.covariance.ldlt().solve(error));
+    chi2 += result->chi2 / (result->residuals - 4);
+  }
+  EXPECT_GT(done, 300);
+  EXPECT_NEAR(sum / done, 4, 0.5);
+  EXPECT_NEAR(chi2 / done, 1, 0.1);
+}
+
+TEST(TriangulateLine, RefinementBeatsTheLinearSolution) {
+  Rng rng(5);
+  double linear = 0;
+  double refined = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Segment3 truth = LineInView(rng);
+    auto views = ViewsOf(truth, CamerasNear(rng, 5));
+    for (LineView& view : views) AddNoise(rng, view);
+    const LineTriangulationOptions options{.min_plane_angle = 0.1, .max_residual_sigma = 100};
+    LineTriangulationOptions no_steps = options;
+    no_steps.max_iterations = 0;
+    const auto a = TriangulateLine(TestCamera(), views, no_steps);
+    const auto b = TriangulateLine(TestCamera(), views, options);
+    if (!a || !b) continue;
+    EXPECT_LE(b->chi2, a->chi2 * (1 + 1e-9));
+    linear += Distance(a->estimate.line, truth);
+    refined += Distance(b->estimate.line, truth);
+  }
+  EXPECT_LT(refined, linear);
+  EXPECT_LT(linear, 2 * refined) << "the linear solution is a good start";
+}
+
+TEST(TriangulateLine, NamesItsFailures) {
+  using enum LineTriangulationFailure;
+  const RectifiedCamera camera = TestCamera();
+  Rng rng(6);
+  const Segment3 truth{{-0.5, -0.5, 20}, {0.4, 0.6, 20.5}};
+  const Rigid3 first{Eigen::Quaterniond::Identity(), {0, 0, -15}};
+  const Rigid3 right{Eigen::Quaterniond::Identity(), {-1, 0, -15}};
+  std::vector<LineView> views = {ViewOf(truth, first)};
+  EXPECT_EQ(TriangulateLine(camera, views).error(), kTooFewViews);
+  views.push_back(ViewOf(truth, right));
+  ASSERT_TRUE(TriangulateLine(camera, views));
+
+  auto empty = views;
+  empty[1].segment.end = empty[1].segment.start;
+  EXPECT_EQ(TriangulateLine(camera, empty).error(), kEmptySegment);
+
+  // A horizontal line and a horizontal displacement: the two planes are one.
+  const Segment3 horizontal{{-0.5, 0.3, 20}, {0.5, 0.3, 20}};
+  EXPECT_EQ(TriangulateLine(camera, ViewsOf(horizontal, {first, right})).error(), kParallelPlanes);
+
+  // Swapped images: the planes meet behind the cameras.
+  auto swapped = views;
+  std::swap(swapped[0].segment, swapped[1].segment);
+  EXPECT_EQ(TriangulateLine(camera, swapped).error(), kBehindCamera);
+
+  // A third segment of something else.
+  auto inconsistent = views;
+  inconsistent.push_back(ViewOf(truth, CamerasNear(rng, 1)[0]));
+  ASSERT_TRUE(TriangulateLine(camera, inconsistent));
+  inconsistent[2].segment.start.x() += 20;
+  EXPECT_EQ(TriangulateLine(camera, inconsistent).error(), kInconsistentViews);
+}
+
+TEST(TriangulateStereoLine, IsExactInTheLeftFrame) {
+  const RectifiedCamera camera = TestCamera();
+  const Segment3 truth{{0.2, -0.8, 2}, {0.4, 0.7, 2.6}};
+  const Rigid3 right = RightCamera(camera, Rigid3{});
+  // The right segment shows another piece of the line.
+  const Eigen::Vector3d beyond = truth.end + 0.2 * truth.Direction();
+  const Segment2 left_segment = ViewOf(truth, Rigid3{}).segment;
+  const Segment2 right_segment = ViewOf({truth.Midpoint(), beyond}, right).segment;
+  const auto result = TriangulateStereoLine(camera, left_segment, 1, right_segment, 1);
+  ASSERT_TRUE(result);
+  EXPECT_LT(Distance(result->estimate.line, truth), 1e-10);
+  const auto interval = TrimToSegment(camera, Rigid3{}, result->estimate.line, left_segment);
+  ASSERT_TRUE(interval);
+  EXPECT_LT((SegmentOf(result->estimate.line, *interval).end - truth.end).norm(), 1e-9);
+}
+
+TEST(TriangulateStereoLine, RefusesImageLinesAlongTheRows) {
+  const auto result = TriangulateStereoLine(
+      TestCamera(), {{100, 200}, {300, 200.1}}, 1, {{80, 200}, {280, 200.1}}, 1);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error(), LineTriangulationFailure::kParallelPlanes);
+}
+
+TEST(LineEstimate, TransformedCovarianceIsThatOfTheTransformedErrors) {
+  Rng rng(7);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d a = RandomVector<3>(rng, 2);
+    const LineEstimate estimate{LineThroughPoints(a, a + RandomVector<3>(rng)),
+                                Eigen::Vector4d(1, 2, 3, 4).asDiagonal()};
+    const Rigid3 motion = RandomRigid(rng);
+    const auto moved = Transform(motion, estimate);
+    ASSERT_TRUE(moved);
+    const Eigen::Matrix4d J = NumericJacobian(
+        [&](const Eigen::Vector4d& delta) {
+          const PluckerLine perturbed = ToPlucker(Retract(ToOrthonormal(estimate.line), delta));
+          return TangentTo(moved->line, Transform(motion, perturbed));
+        },
+        Eigen::Vector4d(Eigen::Vector4d::Zero()),
+        1e-4);
+    const Eigen::Matrix4d expected = J * estimate.covariance * J.transpose();
+    EXPECT_LT((moved->covariance - expected).norm(), 1e-5 * expected.norm());
+  }
+}
+
+TEST(LineFromEndPoints, CovarianceIsPropagatedFromThePoints) {
+  Rng rng(8);
+  for (int i = 0; i < 20; ++i) {
+    PointEstimate a{Eigen::Vector3d(0, 0, 3) + RandomVector<3>(rng), {}};
+    PointEstimate b{Eigen::Vector3d(0, 0, 3) + RandomVector<3>(rng), {}};
+    a.covariance = Eigen::Vector3d(1, 2, 9).asDiagonal();
+    b.covariance = Eigen::Vector3d(2, 1, 16).asDiagonal();
+    const auto estimate = LineFromEndPoints(a, b);
+    ASSERT_TRUE(estimate);
+    EXPECT_LT(estimate->line.DistanceTo(a.position), 1e-12);
+    EXPECT_LT(estimate->line.DistanceTo(b.position), 1e-12);
+    Vector6d both;
+    both << a.position, b.position;
+    const Eigen::Matrix<double, 4, 6> J = NumericJacobian(
+        [&](const Vector6d& x) {
+          return TangentTo(estimate->line, LineThroughPoints(x.head<3>(), x.tail<3>()));
+        },
+        both,
+        1e-4);
+    const Eigen::Matrix4d expected = J.leftCols<3>() * a.covariance * J.leftCols<3>().transpose() +
+                                     J.rightCols<3>() * b.covariance * J.rightCols<3>().transpose();
+    EXPECT_LT((estimate->covariance - expected).norm(), 1e-5 * expected.norm());
+  }
+}
+
+TEST(LineFromEndPoints, RefusesNoLength) {
+  const PointEstimate point{{1, 2, 3}, Eigen::Matrix3d::Identity()};
+  EXPECT_FALSE(LineFromEndPoints(point, point));
+  const PointEstimate twice{{2, 4, 6}, Eigen::Matrix3d::Identity()};
+  EXPECT_FALSE(LineFromEndPoints(point, twice)) << "through the camera centre";
+}
+
+}  // namespace
+}  // namespace plumbline

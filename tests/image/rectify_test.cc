@@ -1,0 +1,335 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/image/rectify.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/random.h"
+#include "plumbline/image/opencv_bridge.h"
+
+#include "tests/support/data_folder.h"
+#include "tests/support/euroc_calibration.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+namespace plumbline {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string MessageOf(const auto& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+double InvalidFraction(const GrayImage& mask) {
+  double invalid = 0;
+  for (int y = 0; y < mask.height(); ++y) {
+    invalid += static_cast<double>(std::count(mask.row(y), mask.row(y) + mask.width(), 0));
+  }
+  return invalid / (static_cast<double>(mask.width()) * mask.height());
+}
+
+Calibration TumCalibration() {
+  Calibration calibration;
+  calibration.left = Camera({.fx = 517.306408,
+                             .fy = 516.469215,
+                             .cx = 318.643040,
+                             .cy = 255.313989,
+                             .width = 640,
+                             .height = 480,
+                             .model = DistortionModel::kRadTan,
+                             .distortion = {0.262383, -0.953104, -0.005358, 0.002628, 1.163314}});
+  calibration.depth_factor = 5000;
+  return calibration;
+}
+
+Calibration KittiCalibration() {
+  Calibration calibration;
+  calibration.left = Camera(
+      {.fx = 707.0912, .fy = 707.0912, .cx = 601.8873, .cy = 183.1104, .width = 124, .height = 37});
+  calibration.right = calibration.left;
+  calibration.right_from_left.translation = {-0.537, 0, 0};
+  calibration.rectified = true;
+  return calibration;
+}
+
+TEST(Rectifier, EurocPairHasEqualRowsAndTheDisparityOfTheDepth) {
+  const Calibration calibration = EurocCalibration();
+  const Rectifier rectifier(calibration);
+  const RectifiedCamera& ideal = rectifier.camera();
+  Rng rng(1);
+  int seen = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double z = rng.Uniform(0.5, 20);
+    const Eigen::Vector3d point(rng.Uniform(-0.8, 0.8) * z, rng.Uniform(-0.5, 0.5) * z, z);
+    const auto raw_left = calibration.left.Project(point);
+    const auto raw_right = calibration.right->Project(calibration.right_from_left * point);
+    if (!raw_left || !raw_right || !calibration.left.Contains(*raw_left) ||
+        !calibration.right->Contains(*raw_right)) {
+      continue;
+    }
+    ++seen;
+    const auto left = rectifier.RectifyLeft(*raw_left);
+    const auto right = rectifier.RectifyRight(*raw_right);
+    ASSERT_TRUE(left && right);
+    const Eigen::Vector3d turned = rectifier.rectified_left_from_left() * point;
+    EXPECT_LT((*left - ideal.Project(turned)).norm(), 1e-8);
+    EXPECT_NEAR(left->y(), right->y(), 1e-8);
+    EXPECT_NEAR(left->x() - right->x(), ideal.DisparityFromDepth(turned.z()), 1e-8);
+  }
+  EXPECT_GT(seen, 1000);
+}
+
+TEST(Rectifier, EurocKeepsTheViewWithoutInvalidBorders) {
+  const Rectifier rectifier(EurocCalibration());
+  const RectifiedCamera& ideal = rectifier.camera();
+  EXPECT_NEAR(ideal.fx, 435, 12);
+  EXPECT_EQ(ideal.fx, ideal.fy);
+  EXPECT_NEAR(ideal.baseline, 0.11007, 1e-4);
+  EXPECT_LT(InvalidFraction(rectifier.left_mask()), 1e-3);
+  EXPECT_LT(InvalidFraction(rectifier.right_mask()), 1e-3);
+  // The mounting is nearly parallel: the picture is hardly turned.
+  EXPECT_LT(LogSo3(rectifier.rectified_left_from_left()).norm(), 0.03);
+}
+
+// A smooth picture of which every pixel can be computed.
+double Pattern(const Eigen::Vector2d& px) {
+  return 128 + 100 * std::sin(0.05 * px.x()) * std::cos(0.07 * px.y());
+}
+
+TEST(Rectifier, RemapsPixelsToWhereThePointsLie) {
+  const Calibration calibration = EurocCalibration();
+  const Rectifier rectifier(calibration);
+  const RectifiedCamera& ideal = rectifier.camera();
+  SensorFrame raw;
+  raw.stamp_ns = 77;
+  raw.left = GrayImage(752, 480);
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 752; ++u) {
+      // Value of the ideal picture where this raw pixel comes to lie.
+      const auto px = rectifier.RectifyLeft({u, v});
+      ASSERT_TRUE(px);
+      raw.left.at(u, v) = static_cast<std::uint8_t>(std::lround(Pattern(*px)));
+    }
+  }
+  raw.right = raw.left;
+  const RectifiedFrame frame = rectifier.Apply(raw);
+  EXPECT_EQ(frame.stamp_ns, 77);
+  ASSERT_TRUE(frame.right);
+  EXPECT_FALSE(frame.depth);
+  double worst = 0;
+  for (int v = 0; v < ideal.height; ++v) {
+    for (int u = 0; u < ideal.width; ++u) {
+      if (rectifier.left_mask().at(u, v) == 0) continue;
+      worst = std::max(worst, std::abs(frame.left.at(u, v) - Pattern({u, v})));
+    }
+  }
+  // Half a grey level twice, 1/64 px of rounding at up to 7 grey levels a pixel, and interpolation.
+  EXPECT_LT(worst, 2.0);
+}
+
+TEST(Rectifier, UndistortsMonoWithoutTurning) {
+  Calibration calibration = EurocCalibration();
+  calibration.right.reset();
+  const Rectifier rectifier(calibration);
+  EXPECT_EQ(LogSo3(rectifier.rectified_left_from_left()).norm(), 0);
+  EXPECT_EQ(rectifier.camera().baseline, 0);
+  EXPECT_TRUE(rectifier.right_mask().empty());
+  EXPECT_FALSE(rectifier.RectifyRight({100, 100}));
+  const Eigen::Vector3d point(0.3, -0.2, 2);
+  EXPECT_LT(
+      (*rectifier.RectifyLeft(*calibration.left.Project(point)) - rectifier.camera().Project(point))
+          .norm(),
+      1e-8);
+}
+
+TEST(Rectifier, BoundsTheFocalLengthOfAFisheye) {
+  Calibration calibration;
+  calibration.left = Camera({.fx = 190.98,
+                             .fy = 190.97,
+                             .cx = 254.93,
+                             .cy = 256.90,
+                             .width = 512,
+                             .height = 512,
+                             .model = DistortionModel::kEquidistant,
+                             .distortion = {0.00348, 0.000715, -0.00205, 0.0002}});
+  const Rectifier rectifier(calibration);
+  EXPECT_NEAR(rectifier.camera().fx, 95.4875, 1e-9);
+  EXPECT_LT(InvalidFraction(rectifier.left_mask()), 0.02);
+  const Eigen::Vector3d wide(2, 1, 1);
+  EXPECT_LT(
+      (*rectifier.RectifyLeft(*calibration.left.Project(wide)) - rectifier.camera().Project(wide))
+          .norm(),
+      1e-8);
+}
+
+// The second camera looks 40 degrees to the side: no ideal image has only real pixels.
+TEST(Rectifier, MasksWhatNoCameraSaw) {
+  Calibration calibration = EurocCalibration();
+  calibration.right_from_left.rotation = ExpSo3({0, 0.7, 0});
+  calibration.right_from_left.translation =
+      -(calibration.right_from_left.rotation * Eigen::Vector3d(0.11, 0, 0));
+  const Rectifier rectifier(calibration);
+  EXPECT_GT(InvalidFraction(rectifier.left_mask()), 0.02);
+  EXPECT_LT(InvalidFraction(rectifier.left_mask()), 0.7);
+  const RectifiedCamera& ideal = rectifier.camera();
+  const Eigen::Quaterniond left_from_rectified = rectifier.rectified_left_from_left().conjugate();
+  for (int v = 0; v < ideal.height; v += 17) {
+    for (int u = 0; u < ideal.width; u += 17) {
+      const auto raw = calibration.left.Project(left_from_rectified * ideal.Unproject({u, v}));
+      const bool seen = raw && calibration.left.Contains(*raw);
+      EXPECT_EQ(rectifier.left_mask().at(u, v) != 0, seen) << u << " " << v;
+    }
+  }
+}
+
+TEST(Rectifier, RemapsDepthByNearestNeighbour) {
+  const Calibration calibration = TumCalibration();
+  const Rectifier rectifier(calibration, {.virtual_baseline = 0.1});
+  EXPECT_EQ(rectifier.camera().baseline, 0.1);
+  SensorFrame raw;
+  raw.left = GrayImage(640, 480, 9);
+  raw.depth = DepthImage(640, 480);
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) raw.depth->at(u, v) = u < 300 ? 1.0F : 3.0F;
+  }
+  const RectifiedFrame frame = rectifier.Apply(raw);
+  ASSERT_TRUE(frame.depth);
+  int checked = 0;
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const float z = frame.depth->at(u, v);
+      if (rectifier.left_mask().at(u, v) == 0) continue;
+      EXPECT_TRUE(z == 1.0F || z == 3.0F) << "no value between two surfaces, found " << z;
+      const auto raw_px = calibration.left.Project(rectifier.camera().Unproject({u, v}));
+      if (std::abs(raw_px->x() - 299.5) < 0.6) continue;
+      EXPECT_EQ(z, raw_px->x() < 299.5 ? 1.0F : 3.0F);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 280000);
+}
+
+TEST(Rectifier, HandsIdealImagesThroughWithoutCopy) {
+  const Rectifier rectifier(KittiCalibration());
+  EXPECT_EQ(rectifier.camera().fx, 707.0912);
+  EXPECT_EQ(rectifier.camera().cx, 601.8873);
+  EXPECT_EQ(rectifier.camera().baseline, 0.537);
+  EXPECT_EQ(InvalidFraction(rectifier.left_mask()), 0);
+  EXPECT_EQ(InvalidFraction(rectifier.right_mask()), 0);
+  SensorFrame raw;
+  raw.left = GrayImage(124, 37, 1);
+  raw.right = GrayImage(124, 37, 2);
+  const std::uint8_t* pixels = raw.left.data();
+  const RectifiedFrame frame = rectifier.Apply(std::move(raw));
+  EXPECT_EQ(frame.left.data(), pixels);
+  EXPECT_EQ(frame.right->at(3, 3), 2);
+}
+
+TEST(Rectifier, MakesOneCameraOfAnUndistortedPairWithTwoPrincipalPoints) {
+  Calibration calibration = KittiCalibration();
+  CameraIntrinsics shifted = calibration.left.intrinsics();
+  shifted.cx += 3;
+  calibration.right = Camera(shifted);
+  const Rectifier rectifier(calibration);
+  const Eigen::Vector3d point(-0.5, -0.2, 9);  // the size above is a corner of the real image
+  const auto left = rectifier.RectifyLeft(*calibration.left.Project(point));
+  const auto right =
+      rectifier.RectifyRight(*calibration.right->Project(calibration.right_from_left * point));
+  EXPECT_NEAR(left->x() - right->x(), rectifier.camera().DisparityFromDepth(9), 1e-9);
+}
+
+TEST(Rectifier, NamesExpectedAndFoundSizes) {
+  const Rectifier stereo(EurocCalibration());
+  SensorFrame raw;
+  raw.left = GrayImage(640, 480);
+  EXPECT_THAT(MessageOf([&] { (void)stereo.Apply(raw); }),
+              HasSubstr("left image: expected 752x480, found 640x480"));
+  raw.left = GrayImage(752, 480);
+  raw.right = GrayImage(752, 481);
+  EXPECT_THAT(MessageOf([&] { (void)stereo.Apply(raw); }),
+              HasSubstr("right image: expected 752x480, found 752x481"));
+  const Rectifier rgbd(TumCalibration());
+  raw.left = GrayImage(640, 480);
+  raw.depth = DepthImage(320, 240);
+  EXPECT_THAT(MessageOf([&] { (void)rgbd.Apply(raw); }),
+              HasSubstr("depth image: expected 640x480, found 320x240"));
+}
+
+TEST(Rectifier, RefusesPairsThatContradictThemselves) {
+  Calibration swapped = EurocCalibration();
+  swapped.right_from_left = Inverse(swapped.right_from_left);
+  EXPECT_THAT(MessageOf([&] { Rectifier{swapped}; }), HasSubstr("to the right (+x)"));
+  Calibration turned = KittiCalibration();
+  turned.right_from_left.rotation = ExpSo3({0, 0.01, 0});
+  EXPECT_THAT(MessageOf([&] { Rectifier{turned}; }), HasSubstr("declared rectified"));
+  Calibration distorted = EurocCalibration();
+  distorted.rectified = true;
+  EXPECT_THAT(MessageOf([&] { Rectifier{distorted}; }), HasSubstr("no lens distortion"));
+  Calibration sizes = KittiCalibration();
+  CameraIntrinsics smaller = sizes.left.intrinsics();
+  smaller.width = 100;
+  sizes.right = Camera(smaller);
+  EXPECT_THAT(MessageOf([&] { Rectifier{sizes}; }), HasSubstr("expected a right camera of 124x37"));
+}
+
+TEST(Rectifier, AlignsTheRowsOfARealPair) {
+  const auto folder = FindData("euroc/MH_01_easy_first250/mav0");
+  if (!folder) GTEST_SKIP() << "the EuRoC sequence is not there";
+  const std::string name = "data/1403636584763555584.webp";
+  const auto read = [&](const char* camera) {
+    return cv::imread((*folder / camera / name).string(), cv::IMREAD_GRAYSCALE);
+  };
+  SensorFrame raw;
+  raw.left = ToImage<std::uint8_t>(read("cam0"));
+  raw.right = ToImage<std::uint8_t>(read("cam1"));
+  const RectifiedFrame frame = Rectifier(EurocCalibration()).Apply(raw);
+  // Blocks of strong gradient in both directions must match best in their own row: by the sum of
+  // absolute differences over all disparities, at row offsets -2 ... 2.
+  std::array<int, 5> votes{};
+  constexpr int kHalf = 7;
+  for (int y = 60; y < 420; y += 30) {
+    for (int x = 160; x < 720; x += 20) {
+      double texture = 0;
+      for (int dy = -kHalf; dy <= kHalf; ++dy) {
+        for (int dx = -kHalf; dx <= kHalf; ++dx) {
+          texture +=
+              std::abs(frame.left.at(x + dx, y + dy + 1) - frame.left.at(x + dx, y + dy - 1));
+        }
+      }
+      if (texture < 10 * 225) continue;
+      int best_offset = 0;
+      double best = 1e9;
+      for (int offset = -2; offset <= 2; ++offset) {
+        for (int d = 0; d < 100; ++d) {
+          double sum = 0;
+          for (int dy = -kHalf; dy <= kHalf; ++dy) {
+            const std::uint8_t* l = frame.left.row(y + dy) + x;
+            const std::uint8_t* r = frame.right->row(y + dy + offset) + x - d;
+            for (int dx = -kHalf; dx <= kHalf; ++dx) sum += std::abs(l[dx] - r[dx]);
+          }
+          if (sum < best) {
+            best = sum;
+            best_offset = offset;
+          }
+        }
+      }
+      ++votes[static_cast<std::size_t>(best_offset + 2)];
+    }
+  }
+  EXPECT_GE(votes[2], 20);
+  for (const std::size_t other : {0U, 1U, 3U, 4U}) EXPECT_GT(votes[2], 5 * votes[other]);
+}
+
+}  // namespace
+}  // namespace plumbline

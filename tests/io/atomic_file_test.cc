@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/atomic_file.h"
+
+#include "tests/io/scratch_folder.h"
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+std::ptrdiff_t FileCount(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+TEST(WriteFileAtomically, WritesAndReplaces) {
+  const ScratchFolder folder;
+  WriteFileAtomically(folder / "a.txt", "one");
+  WriteFileAtomically(folder / "a.txt", std::string_view("t\0wo", 4));
+  EXPECT_EQ(Contents(folder / "a.txt"), std::string("t\0wo", 4));
+  EXPECT_EQ(FileCount(folder.path()), 1);
+}
+
+TEST(WriteFileAtomically, NamesTheFileAndTheReason) {
+  const ScratchFolder folder;
+  EXPECT_THAT(MessageOf([&] { WriteFileAtomically(folder / "none/a.txt", "x"); }),
+              testing::AllOf(HasSubstr("cannot write "),
+                             HasSubstr("none/a.txt: No such file or directory")));
+  std::filesystem::create_directories(folder / "b.txt/full");
+  EXPECT_THAT(MessageOf([&] { WriteFileAtomically(folder / "b.txt", "x"); }),
+              HasSubstr("b.txt: Is a directory"));
+  EXPECT_EQ(FileCount(folder.path()), 1);
+}
+
+TEST(AtomicFile, LeavesTheOldFileWithoutCommit) {
+  const ScratchFolder folder;
+  folder.Write("a.png", "old");
+  {
+    const AtomicFile file(folder / "a.png");
+    EXPECT_EQ(file.temporary_path().extension(), ".png");
+    EXPECT_EQ(file.temporary_path().parent_path(), folder.path());
+    WriteFileAtomically(file.temporary_path(), "new");
+  }
+  EXPECT_EQ(Contents(folder / "a.png"), "old");
+  EXPECT_EQ(FileCount(folder.path()), 1);
+}
+
+TEST(WriteFileAtomically, ReportsAFullDisk) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const ScratchFolder folder;
+  // The temporary name leads to a device that is always full.
+  const AtomicFile probe(folder / "a.txt");
+  std::filesystem::create_symlink("/dev/full", probe.temporary_path());
+  EXPECT_THAT(MessageOf([&] { WriteFileAtomically(folder / "a.txt", std::string(100000, 'x')); }),
+              HasSubstr("a.txt: No space left on device"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+}
+
+TEST(MakeFolder, MakesThoseAboveAndRefusesFiles) {
+  const ScratchFolder folder;
+  MakeFolder(folder / "a/b/c");
+  MakeFolder(folder / "a/b/c");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b/c"));
+  folder.Write("file", "x");
+  EXPECT_THAT(MessageOf([&] { MakeFolder(folder / "file"); }), HasSubstr("cannot make the folder"));
+  EXPECT_THAT(MessageOf([&] { MakeFolder(folder / "file/a"); }),
+              HasSubstr("cannot make the folder"));
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/dataset.h"
+
+#include "tests/io/dataset_fixtures.h"
+#include "tests/io/scratch_folder.h"
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+// One file of a good data set replaced (or removed, nullopt), and part of the message expected.
+struct Fault {
+  std::string file;
+  std::optional<std::string> content;
+  std::string message;
+};
+
+void ExpectErrors(void (*write)(const ScratchFolder&),
+                  const std::vector<Fault>& faults,
+                  const DatasetOptions& options = {}) {
+  for (const Fault& fault : faults) {
+    const ScratchFolder folder;
+    write(folder);
+    if (fault.content) {
+      folder.Write(fault.file, *fault.content);
+    } else {
+      std::filesystem::remove_all(folder / fault.file);
+    }
+    EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path(), options); }), HasSubstr(fault.message))
+        << fault.file << ": " << fault.content.value_or("(removed)");
+  }
+}
+
+TEST(OpenDataset, NamesFaultsOfEuroc) {
+  const std::string csv = "mav0/cam0/data.csv";
+  ExpectErrors(
+      WriteEuroc,
+      {{csv,
+        "#h\n100,1.png\n200\n",
+        "cam0/data.csv:3: expected a time stamp and a file name, "
+        "found 1 columns"},
+       {csv, "100,1.png,x\n", "cam0/data.csv:1: expected a time stamp and a file name"},
+       {csv, "100,\n", "cam0/data.csv:1: expected a time stamp and a file name"},
+       {csv, "1e2,1.png\n", "data.csv:1: expected a time stamp in whole nanoseconds, found '1e2'"},
+       {csv,
+        "100,1.png\n100,2.png\n",
+        "data.csv:2: expected time stamps that increase, found the "
+        "same time stamp again"},
+       {csv,
+        "200,1.png\n100,2.png\n",
+        "data.csv:2: expected time stamps that increase, found one "
+        "that goes back"},
+       {csv, "#timestamp [ns],filename\n", "cam0/data.csv: expected images, found no rows"},
+       {csv, "", "cam0/data.csv: expected images, found no rows"},
+       {csv, std::nullopt, "cam0/data.csv: no such file"},
+       {csv, "105,1.png\n", "expected equal time stamps in cam0/data.csv and cam1/data.csv"},
+       {"mav0/cam1/data.csv", "x,1.png\n", "cam1/data.csv:1: expected a time stamp"},
+       {"mav0/cam0", std::nullopt, "expected a EuRoC folder, found no mav0/cam0"},
+       {"mav0/cam0/data", std::nullopt, "expected images, found none of the 3 listed"},
+       {"mav0/cam0/sensor.yaml", std::nullopt, "cam0/sensor.yaml: no such file"},
+       {"mav0/cam1/sensor.yaml", "a: 1\n", "cam1/sensor.yaml:1: camera_model: expected a value"},
+       {"mav0/state_groundtruth_estimate0/data.csv",
+        "100,1,2,3,1,0,0\n",
+        "estimate0/data.csv:1: expected at least 8 columns"}});
+}
+
+TEST(OpenDataset, NamesFaultsOfKitti) {
+  ExpectErrors(
+      WriteKitti,
+      {{"calib.txt", std::nullopt, "calib.txt: no such file"},
+       {"calib.txt", "P0: 1 2 3\n", "calib.txt:1: expected 12 numbers after P0:, found 3"},
+       {"calib.txt",
+        "P0: 700 0 4 0 0 x 3 0 0 0 1 0\n",
+        "calib.txt:1: expected a number in column 7"},
+       {"calib.txt", "P0: 700 0 4 0 0 710 3 0 0 0 1 0\n", "calib.txt: expected a row 'P1:'"},
+       {"calib.txt", "P0: 700 9 4 0 0 710 3 0 0 0 1 0\n", "the projection of a rectified camera"},
+       {"calib.txt",
+        "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 4 380 0 710 3 0 0 0 1 0\n",
+        "expected P1 to be P0 with a baseline above 0"},
+       {"times.txt", std::nullopt, "times.txt: no such file"},
+       {"times.txt", "0\n1 2\n", "times.txt:2: expected one time, found 2 columns"},
+       {"times.txt", "0\n0\n1\n", "times.txt:2: expected time stamps that increase"},
+       {"times.txt", "0\nx\n", "times.txt:2: expected a time stamp in seconds, found 'x'"},
+       {"times.txt",
+        "0\n1\n",
+        "times.txt: expected a time for each image up to 000002.png, found 2"},
+       {"image_0", std::nullopt, "image_0: no such folder"},
+       {"image_0/left.png", "x", "left.png: expected a number as file name"},
+       {"poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n", "poses.txt: expected 3 poses"}});
+}
+
+TEST(OpenDataset, NamesFaultsOfTum) {
+  ExpectErrors(
+      WriteTumFolder,
+      {{"rgb.txt", "# nothing\n", "rgb.txt: expected images, found no rows"},
+       {"rgb.txt", "1.0\n", "rgb.txt:1: expected a time stamp and a file name, found 1 columns"},
+       {"rgb.txt", "#\n1.0 a.png\n0.9 b.png\n", "rgb.txt:3: expected time stamps that increase"},
+       {"rgb.txt", "one a.png\n", "rgb.txt:1: expected a time stamp in seconds, found 'one'"},
+       {"rgb", std::nullopt, "expected images, found none of the 2 listed"},
+       {"depth.txt", "9.0 a.png\n", "expected depth images within 20 ms of colour images"},
+       {"depth.txt", "9.0 a b c\n", "depth.txt:1: expected a time stamp and a file name"},
+       {"groundtruth.txt", "1 2 3\n", "groundtruth.txt:1: expected 8 columns"},
+       {"camera.yaml", std::nullopt, "expected a calibration, found none: give --camera FILE"},
+       {"camera.yaml", "size: 5\n", "camera.yaml:1: size: expected 2 numbers"}});
+}
+
+TEST(OpenDataset, NamesFaultsOfImageFolders) {
+  ExpectErrors([](const ScratchFolder& folder) { folder.Write("1.png", Png(8, 6, 1)); },
+               {{"camera.yaml", std::nullopt, "expected a calibration, found none"},
+                {"camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\n", "expected rate_hz"},
+                {"1.png", std::nullopt, "expected a EuRoC folder (mav0/), a TUM or ICL folder"}});
+}
+
+TEST(OpenDataset, NamesWrongPathsAndWishes) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  const auto message = [&](const std::string& path, const DatasetOptions& options) {
+    return MessageOf([&] { OpenDataset(folder / path, options); });
+  };
+  EXPECT_THAT(message("none", {}), HasSubstr("none: no such file or folder"));
+  EXPECT_THAT(message("mav0/cam0/data.csv", {}), HasSubstr("expected a folder, found a file"));
+  EXPECT_THAT(message("", {.sensor = SensorKind::kRgbd}),
+              HasSubstr("expected data for rgbd, found data for stereo, mono only"));
+  EXPECT_THAT(message("", {.format = DatasetFormat::kKitti}), HasSubstr("no such file"));
+  EXPECT_THAT(message("", {.camera = "tum_fr1"}), HasSubstr("expected a stereo camera"));
+  EXPECT_THAT(message("", {.camera = "none.yaml"}), HasSubstr("none.yaml: no such camera file"));
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/dataset.h"
+
+#include "tests/io/dataset_fixtures.h"
+#include "tests/io/scratch_folder.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/euroc_calibration.h"
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(OpenDataset, ReadsEurocAsStereoAndAsMono) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_EQ(dataset->info().format, DatasetFormat::kEuroc);
+  EXPECT_EQ(dataset->sensor(), SensorKind::kStereo);
+  EXPECT_THAT(dataset->info().available, ElementsAre(SensorKind::kStereo, SensorKind::kMono));
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(100, 200, 300));
+  EXPECT_THAT(dataset->info().notes, IsEmpty());
+  EXPECT_NEAR(dataset->calibration().right_from_left.translation.x(), -0.1, 1e-15);
+  const auto frame = dataset->Read(1);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp_ns, 200);
+  EXPECT_EQ(frame->left.at(0, 0), 2);
+  EXPECT_EQ(frame->right->at(0, 0), 12);
+  EXPECT_FALSE(frame->depth);
+
+  const auto mono = OpenDataset(folder / "mav0", {.sensor = SensorKind::kMono});
+  EXPECT_FALSE(mono->calibration().right);
+  EXPECT_FALSE(mono->Read(0)->right);
+}
+
+TEST(OpenDataset, TurnsGroundTruthOfTheBodyIntoTheCameras) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  const auto dataset = OpenDataset(folder.path());
+  ASSERT_TRUE(dataset->info().ground_truth);
+  const GroundTruth& truth = *dataset->info().ground_truth;
+  EXPECT_EQ(truth.frame, GroundTruth::Frame::kBody);
+  EXPECT_EQ(truth.poses[0].world_from_camera.translation, Eigen::Vector3d(1, 2, 3));
+  // The body looks along world y after a quarter turn about z; the camera sits at x = 0.5 in it.
+  const Trajectory camera = truth.OfCamera(dataset->calibration());
+  EXPECT_LT((camera[0].world_from_camera.translation - Eigen::Vector3d(1, 2.5, 3)).norm(), 1e-12);
+}
+
+TEST(OpenDataset, LeavesOutEurocFramesWithoutTheirPair) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  folder.Write("mav0/cam1/data.csv", "#h\n100,1.png\n250,x.png\n300,3.png\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(100, 300));
+  EXPECT_THAT(dataset->info().notes,
+              ElementsAre("1 left images without a right one are left out",
+                          "1 right images without a left one are left out"));
+}
+
+TEST(OpenDataset, MissingImageFilesFailFrameByFrame) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  std::filesystem::remove(folder / "mav0/cam0/data/2.png");
+  folder.Write("mav0/cam1/data/3.png", "broken");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_THAT(dataset->info().notes, ElementsAre("1 of 3 left images do not exist"));
+  EXPECT_EQ(dataset->size(), 3U);
+  EXPECT_TRUE(dataset->Read(0));
+  EXPECT_EQ(dataset->Read(1).error().path, folder / "mav0/cam0/data/2.png");
+  EXPECT_EQ(dataset->Read(1).error().why, "no such file");
+  EXPECT_EQ(dataset->Read(2).error().path, folder / "mav0/cam1/data/3.png");
+  // In mono only the left image counts.
+  EXPECT_TRUE(OpenDataset(folder.path(), {.sensor = SensorKind::kMono})->Read(2));
+}
+
+TEST(OpenDataset, RefusesImagesOfAnotherSize) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  folder.Write("mav0/cam0/data/2.png", Png(9, 6, 1));
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_THAT(MessageOf([&] { (void)dataset->Read(1); }),
+              HasSubstr("2.png: expected an image of 8x6 pixels as in the calibration, found 9x6"));
+}
+
+TEST(OpenDataset, ReadsKitti) {
+  const ScratchFolder folder;
+  WriteKitti(folder);
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_EQ(dataset->info().format, DatasetFormat::kKitti);
+  EXPECT_EQ(dataset->sensor(), SensorKind::kStereo);
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(0, 103'700'000, 207'400'000));
+  const Calibration& c = dataset->calibration();
+  EXPECT_TRUE(c.rectified);
+  EXPECT_EQ(c.left.width(), 8);
+  EXPECT_EQ(c.left.intrinsics().fy, 710);
+  EXPECT_NEAR(c.right_from_left.translation.x(), -380.0 / 700, 1e-15);
+  EXPECT_EQ(dataset->Read(2)->right->at(3, 3), 13);
+  ASSERT_TRUE(dataset->info().ground_truth);
+  EXPECT_EQ(dataset->info().ground_truth->frame, GroundTruth::Frame::kCamera);
+  EXPECT_EQ(dataset->info().ground_truth->poses.size(), 3U);
+}
+
+TEST(OpenDataset, KittiGapsInTheImagesFailFrameByFrame) {
+  const ScratchFolder folder;
+  WriteKitti(folder);
+  std::filesystem::remove(folder / "image_1/000001.png");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_EQ(dataset->size(), 3U);
+  EXPECT_THAT(dataset->info().notes, ElementsAre("1 of 3 right images do not exist"));
+  EXPECT_FALSE(dataset->Read(1));
+  EXPECT_EQ(dataset->Read(2)->left.at(0, 0), 3);
+}
+
+TEST(OpenDataset, JoinsTumDepthNearestInTime) {
+  const ScratchFolder folder;
+  WriteTumFolder(folder);
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_EQ(dataset->info().format, DatasetFormat::kTum);
+  EXPECT_EQ(dataset->sensor(), SensorKind::kRgbd);
+  // 1.000 has depth at 1.010; 1.033 has none of its own (1.010 is nearer to 1.000); 1.100 has
+  // 1.081, but 1.200 is 21 ms off.
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(1'000'000'000, 1'100'000'000));
+  EXPECT_THAT(dataset->info().notes,
+              ElementsAre("2 colour images without depth within 20 ms are left out"));
+  const auto frame = dataset->Read(1);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->left.at(0, 0), 3);
+  EXPECT_EQ(frame->depth->at(0, 0), 2.0F);
+
+  const auto mono = OpenDataset(folder.path(), {.sensor = SensorKind::kMono});
+  EXPECT_EQ(mono->size(), 4U);
+  EXPECT_FALSE(mono->calibration().depth_factor);
+}
+
+TEST(OpenDataset, FindsTheCameraOfATumFolderByItsName) {
+  const ScratchFolder folder;
+  folder.Write("rgbd_dataset_freiburg3_x/rgb.txt", "1.0 a.png\n");
+  folder.Write("rgbd_dataset_freiburg3_x/a.png", Png(640, 480, 1));
+  const auto dataset = OpenDataset(folder / "rgbd_dataset_freiburg3_x/");
+  EXPECT_EQ(dataset->info().name, "rgbd_dataset_freiburg3_x");
+  EXPECT_EQ(dataset->calibration().left.intrinsics().fx, 535.4);
+  EXPECT_EQ(dataset->sensor(), SensorKind::kMono);
+  EXPECT_TRUE(dataset->Read(0));
+}
+
+TEST(OpenDataset, SortsFoldersOfImagesByNumber) {
+  const ScratchFolder folder;
+  for (const int i : {1, 2, 10}) {
+    folder.Write("img" + std::to_string(i) + ".png", Png(8, 6, i));
+  }
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_EQ(dataset->info().format, DatasetFormat::kImages);
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(0, 333'333'333, 666'666'667));
+  EXPECT_EQ(dataset->Read(1)->left.at(0, 0), 2);
+  EXPECT_EQ(dataset->Read(2)->left.at(0, 0), 10);
+}
+
+TEST(OpenDataset, LooksAtDataWithoutCalibrationOnRequest) {
+  const ScratchFolder folder;
+  folder.Write("rgb.txt", "1.0 a.png\n");
+  folder.Write("a.png", Png(8, 6, 9));
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }), HasSubstr("give --camera FILE"));
+  const auto dataset = OpenDataset(folder.path(), {.allow_missing_camera = true});
+  EXPECT_FALSE(dataset->info().has_calibration);
+  EXPECT_TRUE(dataset->Read(0));
+}
+
+struct RealCase {
+  std::string folder;
+  std::string camera;
+  SensorKind sensor;
+  std::size_t frames;
+};
+
+TEST(OpenDataset, OpensTheRealSequences) {
+  const std::vector<RealCase> cases = {
+      {"euroc/MH_01_easy_first250", "", SensorKind::kStereo, 250},
+      {"icl/office_kt3_first600", "icl_nuim", SensorKind::kMono, 600},
+      {"kitti/06_first51", "", SensorKind::kStereo, 51},
+      {"tum/rgbd_dataset_freiburg1_floor_first90", "", SensorKind::kRgbd, 90},
+  };
+  for (const RealCase& c : cases) {
+    const auto path = FindData(c.folder);
+    if (!path) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+    DatasetOptions options;
+    if (!c.camera.empty()) options.camera = c.camera;
+    const auto dataset = OpenDataset(*path, options);
+    EXPECT_EQ(dataset->size(), c.frames) << c.folder;
+    EXPECT_EQ(dataset->sensor(), c.sensor) << c.folder;
+    EXPECT_THAT(dataset->info().notes, IsEmpty()) << c.folder;
+    EXPECT_TRUE(dataset->info().ground_truth) << c.folder;
+    EXPECT_TRUE(dataset->Read(0)) << c.folder;
+    EXPECT_TRUE(dataset->Read(c.frames - 1)) << c.folder;
+  }
+}
+
+TEST(OpenDataset, FindsExactlyOneBadPairInEuroc) {
+  const auto path = FindData("euroc/MH_01_easy_first250");
+  if (!path) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+  const auto dataset = OpenDataset(*path);
+  EXPECT_LT(
+      LogSe3(dataset->calibration().right_from_left * Inverse(EurocCalibration().right_from_left))
+          .norm(),
+      1e-14);
+  std::vector<std::int64_t> bad;
+  for (std::size_t i = 155; i < 170; ++i) {
+    if (!dataset->Read(i)) bad.push_back(dataset->stamp_ns(i));
+  }
+  EXPECT_THAT(bad, ElementsAre(1403636592913555456));
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_file.h"
+
+#include "tests/io/scratch_folder.h"
+#include "tests/support/data_folder.h"
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+cv::Mat Pattern() {
+  cv::Mat image(48, 64, CV_8UC1);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>((x * 7 + y * y * 3) % 256);
+    }
+  }
+  return image;
+}
+
+std::string Encoded(const cv::Mat& image, const std::string& extension) {
+  std::vector<std::uint8_t> bytes;
+  std::vector<int> parameters;
+  if (extension == ".webp") parameters = {cv::IMWRITE_WEBP_QUALITY, 101};  // lossless
+  cv::imencode(extension, image, bytes, parameters);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(ReadGrayImage, ReadsLosslessTypesAlike) {
+  const ScratchFolder folder;
+  const cv::Mat image = Pattern();
+  for (const std::string extension : {".png", ".webp", ".pgm", ".bmp", ".tiff"}) {
+    const auto read = ReadGrayImage(folder.Write("a" + extension, Encoded(image, extension)));
+    ASSERT_TRUE(read) << extension << ": " << read.error().why;
+    ASSERT_EQ(read->width(), 64);
+    ASSERT_EQ(read->height(), 48);
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) ASSERT_EQ(read->at(x, y), image.at<std::uint8_t>(y, x));
+    }
+  }
+}
+
+TEST(ReadGrayImage, TurnsColourToGreyAlikeForAllTypes) {
+  const ScratchFolder folder;
+  cv::Mat color(8, 8, CV_8UC3);
+  for (int i = 0; i < 64; ++i) {
+    color.at<cv::Vec3b>(i / 8, i % 8) = cv::Vec3b(static_cast<std::uint8_t>(i * 4),
+                                                  static_cast<std::uint8_t>(255 - i * 3),
+                                                  static_cast<std::uint8_t>(i * i % 256));
+  }
+  const auto png = ReadGrayImage(folder.Write("a.png", Encoded(color, ".png")));
+  const auto bmp = ReadGrayImage(folder.Write("a.bmp", Encoded(color, ".bmp")));
+  const auto webp = ReadGrayImage(folder.Write("a.webp", Encoded(color, ".webp")));
+  for (int i = 0; i < 64; ++i) {
+    const cv::Vec3b bgr = color.at<cv::Vec3b>(i / 8, i % 8);
+    EXPECT_NEAR(png->at(i % 8, i / 8), 0.114 * bgr[0] + 0.587 * bgr[1] + 0.299 * bgr[2], 0.51);
+    EXPECT_EQ(png->at(i % 8, i / 8), bmp->at(i % 8, i / 8));
+    EXPECT_EQ(png->at(i % 8, i / 8), webp->at(i % 8, i / 8));
+  }
+}
+
+TEST(ReadGrayImage, FilesCutShortFailWithoutNoise) {
+  const ScratchFolder folder;
+  testing::internal::CaptureStderr();
+  for (const std::string extension : {".png", ".jpg", ".webp"}) {
+    const std::string whole = Encoded(Pattern(), extension);
+    ASSERT_TRUE(ReadGrayImage(folder.Write("whole" + extension, whole)));
+    for (const double part : {0.1, 0.5, 0.67, 0.95}) {
+      const auto length = static_cast<std::size_t>(static_cast<double>(whole.size()) * part);
+      const auto file = folder.Write("cut" + extension, whole.substr(0, length));
+      const auto read = ReadGrayImage(file);
+      ASSERT_FALSE(read) << extension << " " << part;
+      EXPECT_EQ(read.error().path, file);
+      EXPECT_FALSE(read.error().why.empty());
+    }
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(ReadGrayImage, FindsAChangedByteOfAPng) {
+  const ScratchFolder folder;
+  std::string bytes = Encoded(Pattern(), ".png");
+  bytes[bytes.size() / 2] ^= 1;
+  const auto read = ReadGrayImage(folder.Write("a.png", bytes));
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().why, HasSubstr("checksum"));
+}
+
+TEST(ReadGrayImage, TellsWhyThereIsNoImage) {
+  const ScratchFolder folder;
+  EXPECT_EQ(ReadGrayImage(folder / "none.png").error().why, "no such file");
+  EXPECT_EQ(ReadGrayImage(folder.path()).error().why, "not a file");
+  EXPECT_EQ(ReadGrayImage(folder.Write("e.png", "")).error().why, "the file is empty");
+  EXPECT_THAT(ReadGrayImage(folder.Write("t.png", "some text")).error().why,
+              HasSubstr("not an image"));
+}
+
+TEST(ReadDepthImage, DividesByTheFactorAndKeepsHoles) {
+  const ScratchFolder folder;
+  cv::Mat image(2, 3, CV_16UC1, cv::Scalar(0));
+  image.at<std::uint16_t>(1, 2) = 5000;
+  image.at<std::uint16_t>(0, 0) = 65535;
+  const auto depth = ReadDepthImage(folder.Write("d.png", Encoded(image, ".png")), 5000);
+  ASSERT_TRUE(depth);
+  EXPECT_EQ(depth->at(2, 1), 1.0F);
+  EXPECT_EQ(depth->at(0, 0), 13.107F);
+  EXPECT_EQ(depth->at(1, 0), 0.0F);
+}
+
+TEST(ReadDepthImage, RefusesEightBits) {
+  const ScratchFolder folder;
+  const auto depth = ReadDepthImage(folder.Write("d.png", Encoded(Pattern(), ".png")), 5000);
+  ASSERT_FALSE(depth);
+  EXPECT_THAT(depth.error().why, HasSubstr("16-bit"));
+}
+
+TEST(ReadGrayImage, FindsTheDamagedImageOfEuroc) {
+  const auto file = FindData("euroc/MH_01_easy_first250/mav0/cam1/data/1403636592913555456.png");
+  if (!file) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(ReadGrayImage(*file));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/text_rows.h"
+
+#include "plumbline/io/crc32.h"
+
+#include "tests/io/scratch_folder.h"
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(ParseSeconds, IsExact) {
+  const std::vector<std::pair<std::string, std::int64_t>> cases = {
+      {"0", 0},
+      {"0.000000", 0},
+      {"1.", 1'000'000'000},
+      {".5", 500'000'000},
+      {"1305031102.175304", 1'305'031'102'175'304'000},
+      {"1403636584.763555584", 1'403'636'584'763'555'584},
+      {"0.0000000014", 1},
+      {"0.0000000015", 2},
+      {"0.0000000005", 1},
+      {"0.00000000005", 0},
+      {"1.037000e-01", 103'700'000},
+      {"1.234567e+02", 123'456'700'000},
+      {"5E-10", 1},
+      {"4e-10", 0},
+      {"9223372036.854775807", INT64_MAX},
+  };
+  for (const auto& [text, stamp] : cases) EXPECT_EQ(ParseSeconds(text), stamp) << text;
+}
+
+TEST(ParseSeconds, RefusesWhatIsNotATime) {
+  for (const char* text : {"",
+                           "-1",
+                           "abc",
+                           "1.2.3",
+                           "1s",
+                           "1e",
+                           "1e+",
+                           "1e99",
+                           "nan",
+                           "inf",
+                           ".",
+                           "1 2",
+                           "9223372036.854775808",
+                           "1403636584763555584.0"}) {
+    EXPECT_EQ(ParseSeconds(text), std::nullopt) << text;
+  }
+}
+
+TEST(ParseNumber, TakesWholeFiniteNumbersOnly) {
+  EXPECT_EQ(ParseNumber("-1.5e-3"), -1.5e-3);
+  EXPECT_EQ(ParseNumber("+2"), 2.0);
+  for (const char* text : {"", "1.5x", "nan", "inf", "1e999", " 1", "0x10"}) {
+    EXPECT_EQ(ParseNumber(text), std::nullopt) << text;
+  }
+}
+
+TEST(ReadRows, DropsCommentsBlanksAndCarriageReturns) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("a.csv", "\xEF\xBB\xBF# head\r\n\r\n 1 , two words\r\n#x\n3,\n4");
+  const std::vector<TextRow> rows = ReadRows(file, ',');
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].line, 3);
+  EXPECT_THAT(rows[0].fields, ElementsAre("1", "two words"));
+  EXPECT_EQ(rows[1].line, 5);
+  EXPECT_THAT(rows[1].fields, ElementsAre("3", ""));
+  EXPECT_THAT(rows[2].fields, ElementsAre("4"));
+}
+
+TEST(ReadRows, CutsAtRunsOfBlanks) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("a.txt", "  a \t b  c \n");
+  EXPECT_THAT(ReadRows(file, ' ').at(0).fields, ElementsAre("a", "b", "c"));
+  EXPECT_TRUE(ReadRows(folder.Write("empty.txt", ""), ' ').empty());
+}
+
+TEST(ReadTextFile, NamesWhatCannotBeRead) {
+  const ScratchFolder folder;
+  EXPECT_THAT(MessageOf([&] { ReadTextFile(folder / "none"); }), HasSubstr("none: no such file"));
+  EXPECT_THAT(MessageOf([&] { ReadTextFile(folder.path()); }), HasSubstr("found a folder"));
+}
+
+TEST(Crc32, AgreesWithTheCheckValueAtEveryLength) {
+  const std::string digits = "123456789";
+  const std::vector<std::uint8_t> bytes(digits.begin(), digits.end());
+  EXPECT_EQ(Crc32(bytes), 0xCBF43926U);
+  EXPECT_EQ(Crc32({}), 0U);
+  for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+    const std::span<const std::uint8_t> all(bytes);
+    EXPECT_EQ(Crc32(all.subspan(cut), Crc32(all.first(cut))), 0xCBF43926U) << cut;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

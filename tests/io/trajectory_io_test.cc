@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/trajectory_io.h"
+
+#include "tests/io/scratch_folder.h"
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(FormatStamp, IsExact) {
+  EXPECT_EQ(FormatStamp(1'403'636'584'763'555'584), "1403636584.763555584");
+  EXPECT_EQ(FormatStamp(0), "0.000000000");
+  EXPECT_EQ(FormatStamp(5), "0.000000005");
+  EXPECT_EQ(FormatStamp(-1'500'000'000), "-1.500000000");
+  EXPECT_EQ(FormatStamp(-5), "-0.000000005");
+}
+
+TEST(FormatTum, HasNineDecimalsAndPositiveW) {
+  const Rigid3 pose{Eigen::Quaterniond(-0.5, 0.5, 0.5, 0.5), {1, -1e-12, 2.0 / 3}};
+  EXPECT_EQ(FormatTum({{7, pose}}),
+            "0.000000007 1.000000000 0.000000000 0.666666667 -0.500000000 -0.500000000 "
+            "-0.500000000 0.500000000\n");
+  EXPECT_EQ(FormatTum({}), "");
+}
+
+TEST(ReadTrajectory, ReadsBackWhatWriteTumWrote) {
+  const ScratchFolder folder;
+  Trajectory written;
+  for (int i = 0; i < 20; ++i) {
+    const Vector6d tangent = Vector6d::LinSpaced(-1, 1 + i) * 0.3;
+    written.push_back({1'403'636'584'763'555'584 + 50'000'001LL * i, ExpSe3(tangent)});
+  }
+  WriteTum(folder / "t.txt", written);
+  const LoadedTrajectory read = ReadTrajectory(folder / "t.txt");
+  EXPECT_EQ(read.format, TrajectoryFormat::kTum);
+  ASSERT_EQ(read.poses.size(), written.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    EXPECT_EQ(read.poses[i].stamp_ns, written[i].stamp_ns);
+    const Rigid3 difference =
+        read.poses[i].world_from_camera * Inverse(written[i].world_from_camera);
+    EXPECT_LT(LogSe3(difference).norm(), 1e-8);
+  }
+}
+
+TEST(ReadTrajectory, ReadsEurocWithExtraColumns) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("data.csv",
+                                 "#timestamp,p,p,p,qw,qx,qy,qz,v\r\n"
+                                 "1403636580838555648,1,2,3,0.6,0.8,0,0,9,9\r\n");
+  const LoadedTrajectory read = ReadTrajectory(file);
+  EXPECT_EQ(read.format, TrajectoryFormat::kEuroc);
+  ASSERT_EQ(read.poses.size(), 1U);
+  EXPECT_EQ(read.poses[0].stamp_ns, 1403636580838555648);
+  EXPECT_EQ(read.poses[0].world_from_camera.translation, Eigen::Vector3d(1, 2, 3));
+  EXPECT_NEAR(read.poses[0].world_from_camera.rotation.w(), 0.6, 1e-12);
+  EXPECT_NEAR(read.poses[0].world_from_camera.rotation.x(), 0.8, 1e-12);
+}
+
+TEST(ReadTrajectory, ReadsKittiWithTheTimesBesideIt) {
+  const ScratchFolder folder;
+  folder.Write("times.txt", "0.000000e+00\n1.037000e-01\n");
+  const auto file =
+      folder.Write("poses.txt", "1 0 0 1 0 1 0 2 0 0 1 3\n0 -1 0 4 1 0 0 5 0 0 1 6\n");
+  const LoadedTrajectory read = ReadTrajectory(file);
+  EXPECT_EQ(read.format, TrajectoryFormat::kKitti);
+  ASSERT_EQ(read.poses.size(), 2U);
+  EXPECT_EQ(read.poses[1].stamp_ns, 103'700'000);
+  EXPECT_EQ(read.poses[1].world_from_camera.translation, Eigen::Vector3d(4, 5, 6));
+  EXPECT_NEAR(AngularDistance(read.poses[1].world_from_camera.rotation,
+                              Eigen::Quaterniond(std::sqrt(0.5), 0, 0, std::sqrt(0.5))),
+              0,
+              1e-7);
+}
+
+TEST(ReadTrajectory, FindsTheTimesOfTheDistributedKittiLayout) {
+  const ScratchFolder folder;
+  folder.Write("sequences/06/times.txt", "0\n");
+  const auto file = folder.Write("poses/06.txt", "1 0 0 1 0 1 0 2 0 0 1 3\n");
+  EXPECT_EQ(ReadTrajectory(file).poses.size(), 1U);
+}
+
+TEST(ReadTrajectory, BadRowsAreNamedByLine) {
+  struct Case {
+    std::string content;
+    std::string message;
+  };
+  const std::vector<Case> cases = {
+      {"", "t.txt: expected poses, found no rows"},
+      {"# only\n", "t.txt: expected poses, found no rows"},
+      {"1 2 3\n", "t.txt:1: expected 8 columns (TUM), 12 (KITTI)"},
+      {"0 0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n", "t.txt:2: expected 8 columns"},
+      {"0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1 9\n", "t.txt:2: expected 8 columns"},
+      {"0 0 0 0 0 0 0 1\n1 0 x 0 0 0 0 1\n", "t.txt:2: expected a number in column 3, found 'x'"},
+      {"0 0 nan 0 0 0 0 1\n", "t.txt:1: expected a number in column 3, found 'nan'"},
+      {"a 0 0 0 0 0 0 1\n", "t.txt:1: expected a time stamp in seconds, found 'a'"},
+      {"1403636580838555648.0 0 0 0 0 0 0 1\n", "t.txt:1: expected a time stamp in seconds"},
+      {"# c\n0 0 0 0 0 0 0 2\n", "t.txt:2: expected a unit quaternion, found one of norm 2"},
+      {"0 0 0 0 0 0 0 0\n", "t.txt:1: expected a unit quaternion, found one of norm 0"},
+      {"1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "t.txt:2: expected time stamps that increase"},
+      {"1 0 0 0 0 0 0 1\n0.5 0 0 0 0 0 0 1\n",
+       "t.txt:2: expected time stamps that increase, "
+       "found one that goes back"},
+      {"1,2,3\n", "t.txt:1: expected at least 8 columns"},
+      {"1.5,0,0,0,1,0,0,0\n", "t.txt:1: expected a time stamp in whole nanoseconds"},
+      {"1,0,0,,1,0,0,0\n", "t.txt:1: expected a number in column 4, found ''"},
+      {"1 0 0 0 0 1 0 0 0 0 1 0\n", "times.txt: no such file"},
+  };
+  const ScratchFolder folder;
+  for (const Case& c : cases) {
+    const auto file = folder.Write("t.txt", c.content);
+    EXPECT_THAT(MessageOf([&] { ReadTrajectory(file); }), HasSubstr(c.message)) << c.content;
+  }
+}
+
+TEST(ReadKittiPoses, RefusesWrongCountsAndMatrices) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 2 0\n");
+  EXPECT_THAT(MessageOf([&] { ReadKittiPoses(file, {1}); }),
+              HasSubstr("expected 1 poses, one for each time, found 2"));
+  EXPECT_THAT(MessageOf([&] {
+                ReadKittiPoses(file, {1, 2});
+              }),
+              HasSubstr("poses.txt:2: expected a rotation matrix"));
+  const auto mirrored = folder.Write("mirrored.txt", "1 0 0 0 0 1 0 0 0 0 -1 0\n");
+  EXPECT_THAT(MessageOf([&] { ReadKittiPoses(mirrored, {1}); }),
+              HasSubstr("mirrored.txt:1: expected a rotation matrix"));
+  const auto cut = folder.Write("cut.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
+  EXPECT_THAT(MessageOf([&] { ReadKittiPoses(cut, {1}); }),
+              HasSubstr("cut.txt:1: expected 12 numbers, a 3x4 matrix, found 11 columns"));
+}
+
+}  // namespace
+}  // namespace plumbline

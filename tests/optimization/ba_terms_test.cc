@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/ba_terms.h"
+
+#include "tests/optimization/random_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::AddNoise;
+using testing::MeasureLine;
+using testing::MeasurePoint;
+using testing::Random;
+using testing::StereoCamera;
+
+// The blocks that one observation adds, each expected to be w J^T J or w J^T r.
+template <int kDof>
+struct Blocks {
+  LandmarkEquations<kDof> landmark;
+  PoseEquations pose;
+  Eigen::Matrix<double, 6, kDof> W = Eigen::Matrix<double, 6, kDof>::Zero();
+};
+
+template <int kDof, class JPose, class JLandmark, class Residual>
+void ExpectBlocks(const Blocks<kDof>& blocks,
+                  const JPose& J_pose,
+                  const JLandmark& J_landmark,
+                  const Residual& r,
+                  double w) {
+  const auto lower = [](const auto& m) {
+    return Eigen::MatrixXd(Eigen::MatrixXd(m).triangularView<Eigen::Lower>());
+  };
+  const auto near = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    EXPECT_LT((a - b).norm(), 1e-10 * (1 + b.norm())) << a << "\nexpected\n" << b;
+  };
+  near(lower(blocks.pose.H), lower(w * J_pose.transpose() * J_pose));
+  near(blocks.pose.g, w * J_pose.transpose() * r);
+  near(lower(blocks.landmark.V), lower(w * J_landmark.transpose() * J_landmark));
+  near(blocks.landmark.g, w * J_landmark.transpose() * r);
+  near(blocks.W, w * J_pose.transpose() * J_landmark);
+}
+
+BaPose RandomPose(Random& random) {
+  BaPose pose;
+  pose.Set(ExpSe3(random.Twist(0.7, 2)));
+  return pose;
+}
+
+TEST(BaPoint, AddsTheProductsOfTheJacobians) {
+  Random random(1);
+  const RectifiedCamera camera = StereoCamera();
+  for (int i = 0; i < 20; ++i) {
+    const BaPose pose = RandomPose(random);
+    const Eigen::Vector3d point = Inverse(pose.cam_from_world) * random.PointInView(camera);
+    auto m = MeasurePoint(camera, pose.cam_from_world, point, i % 2 == 0, 0.8);
+    AddNoise(random, 4, m);
+    const auto full = EvaluatePoint(camera, pose.cam_from_world, point, m);
+    ASSERT_TRUE(full);
+    const double huber = 2;
+    Blocks<3> blocks;
+    const BaPoint::Target target{blocks.landmark, &blocks.pose, &blocks.W};
+    ASSERT_TRUE(BaPoint::Add(camera, pose, point, MakePointTerm(m), huber, target));
+    const double chi2 = full->r.squaredNorm();
+    ExpectBlocks(blocks, full->J_pose, full->J_point, full->r, HuberWeight(chi2, huber));
+    EXPECT_NEAR(BaPoint::Chi2(camera, pose, point, MakePointTerm(m)), chi2, 1e-9 * chi2);
+  }
+}
+
+TEST(BaLine, AddsTheProductsOfTheJacobians) {
+  Random random(2);
+  const RectifiedCamera camera = StereoCamera();
+  for (int i = 0; i < 20; ++i) {
+    const BaPose pose = RandomPose(random);
+    const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
+    const Segment3 segment{world_from_cam * random.PointInView(camera),
+                           world_from_cam * random.PointInView(camera)};
+    const auto line = ToOrthonormal(LineThroughPoints(segment.start, segment.end));
+    auto m = MeasureLine(camera, pose.cam_from_world, segment, i % 2 == 0, 1);
+    AddNoise(random, 4, m);
+    m.covariance << 2, 0.6, 0.6, 1;
+    const auto full = EvaluateLine(camera, pose.cam_from_world, line, m);
+    ASSERT_TRUE(full);
+    const LineTerm term = MakeLineTerm(camera, m);
+    const double huber = 2;
+    Blocks<4> blocks;
+    const BaLine::Target target{blocks.landmark, &blocks.pose, &blocks.W};
+    ASSERT_TRUE(BaLine::Add(camera, pose, BaLine::MakeView(line), term, huber, target));
+    const double chi2 = full->r.squaredNorm();
+    ExpectBlocks(blocks, full->J_pose, full->J_line, full->r, HuberWeight(chi2, huber));
+    EXPECT_NEAR(BaLine::Chi2(camera, pose, BaLine::MakeView(line), term), chi2, 1e-9 * chi2);
+  }
+}
+
+TEST(BaPoint, AFixedPoseGetsNothing) {
+  const RectifiedCamera camera = StereoCamera();
+  const BaPose pose;
+  const Eigen::Vector3d point(0.1, 0.2, 4);
+  auto m = MeasurePoint(camera, {}, point, true, 1);
+  Blocks<3> blocks;
+  EXPECT_TRUE(
+      BaPoint::Add(camera, pose, point, MakePointTerm(m), 1, {blocks.landmark, nullptr, nullptr}));
+  EXPECT_GT(blocks.landmark.V.trace(), 0);
+}
+
+TEST(BaPoint, BehindTheCameraAddsNothingAndCostsInfinitelyMuch) {
+  const BaPose pose;
+  Blocks<3> blocks;
+  const BaPoint::Target target{blocks.landmark, &blocks.pose, &blocks.W};
+  EXPECT_FALSE(BaPoint::Add(StereoCamera(), pose, {0, 0, -1}, {}, 1, target));
+  EXPECT_EQ(blocks.landmark.V.norm() + blocks.pose.H.norm() + blocks.W.norm(), 0);
+  EXPECT_TRUE(std::isinf(BaPoint::Chi2(StereoCamera(), pose, {0, 0, -1}, {})));
+}
+
+}  // namespace
+}  // namespace plumbline

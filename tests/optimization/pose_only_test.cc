@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/pose_only.h"
+
+#include "plumbline/optimization/residuals.h"
+#include "plumbline/optimization/robust_loss.h"
+
+#include "tests/optimization/pose_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+static_assert(OptionGroup<PoseOnlyOptions>);
+
+using testing::MakePoseScene;
+using Scene = testing::PoseScene;
+
+double Error(const Rigid3& a, const Rigid3& b) { return LogSe3(a * Inverse(b)).norm(); }
+
+TEST(SolvePose, RecoversTheExactPoseWithoutNoise) {
+  for (const bool disparity : {false, true}) {
+    const Scene scene = MakePoseScene(1, {.disparity = disparity});
+    const auto result = SolvePose(scene.problem, {.decrement_tolerance = 1e-14});
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(Error(result.cam_from_world, scene.truth), 1e-9);
+    EXPECT_EQ(result.inlier_points, 200);
+    EXPECT_EQ(result.inlier_line_groups, 50);
+  }
+}
+
+TEST(SolvePose, RecoversThePoseFromPointsAloneAndFromLinesAlone) {
+  for (const auto& [points, lines] : {std::pair{100, 0}, std::pair{0, 40}}) {
+    const Scene scene = MakePoseScene(2, {.points = points, .lines = lines});
+    const auto result = SolvePose(scene.problem, {.decrement_tolerance = 1e-14});
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(Error(result.cam_from_world, scene.truth), 1e-9);
+  }
+}
+
+// Every seed: 30 % gross outliers, start several tens of pixels off.
+TEST(SolvePose, FindsThePoseAmongGrossOutliersFromAFarStart) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const Scene scene = MakePoseScene(
+        seed, {.sigma = 1, .outliers = 0.3, .rotation_error = 0.05, .translation_error = 0.2});
+    const auto result = SolvePose(scene.problem);
+    EXPECT_TRUE(result.converged) << seed;
+    const Vector6d error = LogSe3(result.cam_from_world * Inverse(scene.truth));
+    EXPECT_LT(error.dot(result.information * error), 30) << seed;  // chi2, 6 dof: 22.5 at 99.9 %
+    for (std::size_t i = 0; i < scene.point_outlier.size(); ++i) {
+      if (!scene.point_outlier[i]) continue;
+      // A gross outlier may fall near its own landmark by chance.
+      const auto r = EvaluatePoint(scene.problem.camera,
+                                   scene.truth,
+                                   scene.problem.points[i].point_in_world,
+                                   scene.problem.points[i].measurement);
+      EXPECT_TRUE(r->r.norm() <= 5 || !result.point_inliers[i]) << seed << " point " << i;
+    }
+    for (std::size_t i = 0; i < scene.line_outlier.size(); ++i) {
+      const auto r = EvaluateLine(scene.problem.camera,
+                                  scene.truth,
+                                  ToOrthonormal(scene.problem.lines[i].line_in_world),
+                                  scene.problem.lines[i].measurement);
+      EXPECT_TRUE(r->r.norm() <= 5 || !scene.line_outlier[i] || !result.line_inliers[i])
+          << seed << " line " << i;
+    }
+    EXPECT_GT(result.inlier_points, 0.85 * 0.6 * 200);
+    EXPECT_GT(result.inlier_line_groups, 0.85 * 0.6 * 50);
+  }
+}
+
+TEST(SolvePose, AcceptsNinetyFivePercentOfCorrectMatches) {
+  int points = 0;
+  int groups = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const auto result = SolvePose(MakePoseScene(seed, {.sigma = 1}).problem);
+    points += result.inlier_points;
+    groups += result.inlier_line_groups;
+  }
+  EXPECT_NEAR(points / (20.0 * 200), 0.95, 0.015);
+  EXPECT_NEAR(groups / (20.0 * 50), 0.95, 0.02);
+}
+
+TEST(SolvePose, MeasurementsOfOneLineAreKeptOrRejectedTogether) {
+  Scene scene = MakePoseScene(3, {.sigma = 1, .outliers = 0});
+  scene.problem.lines[7].measurement.segment.start += Eigen::Vector2d(40, 40);
+  const auto result = SolvePose(scene.problem);
+  EXPECT_FALSE(result.line_inliers[6]);
+  EXPECT_FALSE(result.line_inliers[7]);
+}
+
+TEST(SolvePose, InformationIsTheSumOfSquaredJacobiansOfTheInliers) {
+  const Scene scene = MakePoseScene(4, {.sigma = 1, .outliers = 0.1});
+  const auto result = SolvePose(scene.problem);
+  Matrix6d H = Matrix6d::Zero();
+  double cost = 0;
+  for (std::size_t i = 0; i < scene.problem.points.size(); ++i) {
+    if (!result.point_inliers[i]) continue;
+    const auto& match = scene.problem.points[i];
+    const auto r = EvaluatePoint(
+        scene.problem.camera, result.cam_from_world, match.point_in_world, match.measurement);
+    H += r->J_pose.transpose() * r->J_pose;
+    cost += 0.5 * r->r.squaredNorm();
+  }
+  for (std::size_t i = 0; i < scene.problem.lines.size(); ++i) {
+    if (!result.line_inliers[i]) continue;
+    const auto& match = scene.problem.lines[i];
+    const auto r = EvaluateLine(scene.problem.camera,
+                                result.cam_from_world,
+                                ToOrthonormal(match.line_in_world),
+                                match.measurement);
+    H += r->J_pose.transpose() * r->J_pose;
+    cost += 0.5 * r->r.squaredNorm();
+  }
+  EXPECT_LT((H - result.information).norm(), 1e-9 * H.norm());
+  EXPECT_NEAR(cost, result.cost, 1e-9 * cost);
+}
+
+TEST(SolvePose, PointsBehindTheCameraAreOutliers) {
+  Scene scene = MakePoseScene(5, {.sigma = 1});
+  scene.problem.points[0].point_in_world = Inverse(scene.truth) * Eigen::Vector3d(0.1, 0.1, -3);
+  const auto result = SolvePose(scene.problem);
+  EXPECT_TRUE(result.converged);
+  EXPECT_FALSE(result.point_inliers[0]);
+}
+
+TEST(SolvePose, DoesNotClaimConvergenceWhenThePoseIsNotFixed) {
+  EXPECT_FALSE(SolvePose(MakePoseScene(6, {.points = 0, .lines = 0}).problem).converged);
+  EXPECT_FALSE(
+      SolvePose(MakePoseScene(6, {.points = 2, .lines = 0, .disparity = false}).problem).converged);
+}
+
+TEST(SolvePose, RepeatsTheSameBytes) {
+  const Scene scene = MakePoseScene(7, {.sigma = 1, .outliers = 0.2});
+  const auto a = SolvePose(scene.problem);
+  const auto b = SolvePose(scene.problem);
+  EXPECT_EQ(a.cam_from_world.rotation.coeffs(), b.cam_from_world.rotation.coeffs());
+  EXPECT_EQ(a.cam_from_world.translation, b.cam_from_world.translation);
+  EXPECT_EQ(a.information, b.information);
+}
+
+TEST(Chi2Limit95, MatchesTheTablesAndContinuesSmoothly) {
+  EXPECT_NEAR(Chi2Limit95(2), 5.991, 1e-3);
+  EXPECT_NEAR(Chi2Limit95(4), 9.488, 1e-3);
+  EXPECT_NEAR(Chi2Limit95(20), 31.410, 0.03);
+  EXPECT_NEAR(Chi2Limit95(40), 55.758, 0.05);
+}
+
+}  // namespace
+}  // namespace plumbline
