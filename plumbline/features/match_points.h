@@ -42,6 +42,7 @@ struct StereoPointOptions {
   int search_px = 5;           // half width of the correlation search on the level image
   double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
   double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
+  double calibration_sigma_px = 0.3;  // of every disparity, from the pair's calibration
 };
 
 struct StereoView {
@@ -89,6 +90,10 @@ void VisitFields(Visitor&& visit, StereoPointOptions& o) {
         o.max_sad_factor,
         "residual limit as a multiple of the median",
         Range{1, 100});
+  visit("calibration_sigma_px",
+        o.calibration_sigma_px,
+        "deviation that the calibration of the pair adds to every disparity [px]",
+        Range{0, 10});
   visit("min_sigma_px",
         o.min_sigma_px,
         "floor of the deviation of a disparity at octave 0 [px]",
