@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -105,23 +106,49 @@ struct LineFit {
   double slope_variance = 0;
 };
 
+// The line through two of the edge points, one near each end, that has most of the others close by.
+LineFit FirstGuess(const std::vector<EdgePoint>& edges) {
+  constexpr std::size_t kTries = 5;     // at each end
+  constexpr double kClose = 0.5 * 0.5;  // square pixels
+  const std::size_t third = edges.size() / 3;
+  LineFit best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kTries; ++i) {
+    for (std::size_t j = 0; j < kTries; ++j) {
+      const EdgePoint& a = edges[i * third / kTries];
+      const EdgePoint& b = edges[edges.size() - 1 - j * third / kTries];
+      if (std::abs(b.along - a.along) < 1) continue;
+      LineFit guess;
+      guess.slope = (b.across - a.across) / (b.along - a.along);
+      guess.offset = a.across - guess.slope * a.along;
+      double cost = 0;
+      for (const EdgePoint& e : edges) {
+        const double r = e.across - guess.offset - guess.slope * e.along;
+        cost += e.weight * std::min(r * r, kClose);
+      }
+      if (cost >= best_cost) continue;
+      best_cost = cost;
+      best = guess;
+    }
+  }
+  return best;
+}
+
 // Weighted straight line through the edge points, outliers pushed out by Tukey weights.
 std::optional<LineFit> FitLine(const std::vector<EdgePoint>& edges) {
-  LineFit fit;
-  double limit = 1e9;
-  std::vector<double> residuals;
-  for (int iteration = 0; iteration < 5; ++iteration) {
+  LineFit fit = FirstGuess(edges);
+  double limit = 1;
+  std::vector<double> residuals(edges.size());
+  for (int iteration = 0; iteration < 4; ++iteration) {
     double s0 = 0;
     double s1 = 0;
     double s2 = 0;
     double t0 = 0;
     double t1 = 0;
     double squares = 0;
-    residuals.clear();
     for (const EdgePoint& e : edges) {
       const double r = e.across - fit.offset - fit.slope * e.along;
-      residuals.push_back(iteration == 0 ? 0 : std::abs(r));
-      const double u = iteration == 0 ? 0 : r / limit;
+      const double u = r / limit;
       if (std::abs(u) >= 1) continue;
       const double w = e.weight * (1 - u * u) * (1 - u * u);
       s0 += w;

@@ -18,7 +18,7 @@ namespace plumbline {
 namespace {
 
 constexpr int kCentroidRadius = 15;
-constexpr int kPatchRadius = 19;  // the turned sampling pattern stays inside
+constexpr int kPatchRadius = 20;  // the turned sampling pattern (18.4) and a shift stay inside
 
 struct Corner {
   int x = 0;
@@ -141,56 +141,79 @@ double ParabolaPeak(double before, double at, double after) {
   return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
 }
 
-// Sub-pixel peak of the Harris response around a corner, offset from the pixel centre.
-Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
-  constexpr int kWindow = 2;
-  constexpr int kReach = kWindow + 1;
-  constexpr int kSide = 2 * kReach + 1;
-  std::array<std::array<float, 3>, static_cast<std::size_t>(kSide * kSide)> products;
-  std::size_t k = 0;
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    const std::uint8_t* above = image.row(y + dy - 1) + x;
-    const std::uint8_t* row = image.row(y + dy) + x;
-    const std::uint8_t* below = image.row(y + dy + 1) + x;
-    for (int dx = -kReach; dx <= kReach; ++dx, ++k) {
-      const auto gx = static_cast<float>(2 * (row[dx + 1] - row[dx - 1]) + above[dx + 1] -
-                                         above[dx - 1] + below[dx + 1] - below[dx - 1]);
-      const auto gy = static_cast<float>(2 * (below[dx] - above[dx]) + below[dx + 1] -
-                                         above[dx + 1] + below[dx - 1] - above[dx - 1]);
-      products[k] = {gx * gx, gx * gy, gy * gy};
+// Harris response at whole-pixel offsets, up to 2, from a corner; 5x5 windows.
+class HarrisAround {
+ public:
+  HarrisAround(const GrayImage& image, int x, int y) {
+    std::size_t k = 0;
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+      const std::uint8_t* above = image.row(y + dy - 1) + x;
+      const std::uint8_t* row = image.row(y + dy) + x;
+      const std::uint8_t* below = image.row(y + dy + 1) + x;
+      for (int dx = -kReach; dx <= kReach; ++dx, ++k) {
+        const auto gx = static_cast<float>(2 * (row[dx + 1] - row[dx - 1]) + above[dx + 1] -
+                                           above[dx - 1] + below[dx + 1] - below[dx - 1]);
+        const auto gy = static_cast<float>(2 * (below[dx] - above[dx]) + below[dx + 1] -
+                                           above[dx + 1] + below[dx - 1] - above[dx - 1]);
+        products_[k] = {gx * gx, gx * gy, gy * gy};
+      }
     }
   }
-  const auto response = [&](int sx, int sy) {
+
+  double At(int dx, int dy) const {
     float xx = 0;
     float xy = 0;
     float yy = 0;
-    for (int v = -kWindow; v <= kWindow; ++v) {
-      for (int u = -kWindow; u <= kWindow; ++u) {
-        const auto& p =
-            products[static_cast<std::size_t>((sy + v + kReach) * kSide + sx + u + kReach)];
+    for (int v = dy - kWindow; v <= dy + kWindow; ++v) {
+      for (int u = dx - kWindow; u <= dx + kWindow; ++u) {
+        const auto& p = products_[static_cast<std::size_t>((v + kReach) * kSide + u + kReach)];
         xx += p[0];
         xy += p[1];
         yy += p[2];
       }
     }
-    return static_cast<double>(xx * yy - xy * xy - 0.04F * (xx + yy) * (xx + yy));
-  };
-  const double center = response(0, 0);
-  return {ParabolaPeak(response(-1, 0), center, response(1, 0)),
-          ParabolaPeak(response(0, -1), center, response(0, 1))};
+    constexpr float kTrace = 0.04F;
+    return static_cast<double>(xx * yy - xy * xy - kTrace * (xx + yy) * (xx + yy));
+  }
+
+ private:
+  static constexpr int kWindow = 2;
+  static constexpr int kReach = kWindow + 2;
+  static constexpr int kSide = 2 * kReach + 1;
+  std::array<std::array<float, 3>, static_cast<std::size_t>(kSide* kSide)> products_;
+};
+
+// Sub-pixel peak of the Harris response near a FAST corner, offset from the pixel centre. The peak
+// may lie on a neighbouring pixel.
+Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
+  const HarrisAround harris(image, x, y);
+  Eigen::Vector2i best(0, 0);
+  double peak = harris.At(0, 0);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const double response = harris.At(dx, dy);
+      if (response <= peak) continue;
+      peak = response;
+      best = {dx, dy};
+    }
+  }
+  const int u = best.x();
+  const int v = best.y();
+  return {u + ParabolaPeak(harris.At(u - 1, v), peak, harris.At(u + 1, v)),
+          v + ParabolaPeak(harris.At(u, v - 1), peak, harris.At(u, v + 1))};
 }
 
 std::vector<Descriptor> Describe(const GrayImage& image,
                                  const std::vector<PointFeature>& points,
-                                 const std::vector<Corner>& corners) {
+                                 const std::vector<Eigen::Vector2d>& places) {
   std::vector<Descriptor> descriptors(points.size());
   if (points.empty()) return descriptors;
   std::vector<cv::KeyPoint> keypoints;
   keypoints.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double degrees = points[i].angle * 180 / std::numbers::pi;
-    keypoints.emplace_back(static_cast<float>(corners[i].x),
-                           static_cast<float>(corners[i].y),
+    keypoints.emplace_back(static_cast<float>(std::round(places[i].x())),
+                           static_cast<float>(std::round(places[i].y())),
                            31.F,
                            static_cast<float>(degrees < 0 ? degrees + 360 : degrees),
                            0.F,
@@ -225,19 +248,27 @@ void ExtractLevel(const PyramidLevel& level,
   });
   corners = SpreadSelect(std::move(corners), level.image.width(), level.image.height(), count);
   std::vector<PointFeature> points;
-  points.reserve(corners.size());
+  std::vector<Eigen::Vector2d> places;  // on the level
   for (const Corner& c : corners) {
     Eigen::Vector2d px(c.x, c.y);
     if (options.subpixel) px += CornerOffset(level.image, c.x, c.y);
+    // Two corners may have moved to one peak; the first one is the stronger.
+    if (std::any_of(places.begin(), places.end(), [&](const Eigen::Vector2d& other) {
+          return (other - px).squaredNorm() < 1;
+        })) {
+      continue;
+    }
+    places.push_back(px);
     PointFeature point;
     point.px = level.ToFull(px);
     point.sigma_px = options.sigma_px * scale;
-    point.angle = CentroidAngle(level.image, c.x, c.y);
+    point.angle = CentroidAngle(
+        level.image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
     point.response = static_cast<double>(c.response);
     point.octave = octave;
     points.push_back(point);
   }
-  const std::vector<Descriptor> descriptors = Describe(level.image, points, corners);
+  const std::vector<Descriptor> descriptors = Describe(level.image, points, places);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].descriptor = descriptors[i];
   result->insert(result->end(), points.begin(), points.end());
 }
