@@ -12,7 +12,9 @@ namespace plumbline {
 // prints in one line and turns into exit code 2. A new command: a file, a line here, and a row in
 // main.cc.
 int ConfigCommand(std::span<const std::string> arguments);
+int EvaluateCommand(std::span<const std::string> arguments);
 int InfoCommand(std::span<const std::string> arguments);
 int RunCommand(std::span<const std::string> arguments);
+int SynthCommand(std::span<const std::string> arguments);
 
 }  // namespace plumbline

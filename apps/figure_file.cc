@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -44,8 +45,8 @@ std::string ToPng(const Figure& figure) {
                                                                   : size.width;
     const cv::Point place(static_cast<int>(std::lround(text.position.x() - shift)),
                           static_cast<int>(std::lround(text.position.y())));
-    cv::putText(canvas, text.text, place, cv::FONT_HERSHEY_SIMPLEX, scale, Bgr(text.color), 1,
-                cv::LINE_AA);
+    cv::putText(
+        canvas, text.text, place, cv::FONT_HERSHEY_SIMPLEX, scale, Bgr(text.color), 1, cv::LINE_AA);
   }
   std::vector<std::uint8_t> bytes;
   PLUMBLINE_CHECK(cv::imencode(".png", canvas, bytes), "encoding a PNG image");

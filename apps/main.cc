@@ -25,6 +25,8 @@ struct Command {
 
 constexpr std::array kCommands = {
     Command{"run", RunCommand, "track the camera through a sequence and map what it sees"},
+    Command{"evaluate", EvaluateCommand, "errors of a trajectory against ground truth"},
+    Command{"synth", SynthCommand, "render a stereo sequence of an invented world"},
     Command{"info", InfoCommand, "what is at a path: format, sensors, frames, calibration"},
     Command{"config", ConfigCommand, "all options with values and help, as a config file"},
 };

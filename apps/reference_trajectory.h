@@ -5,14 +5,21 @@
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/trajectory_io.h"
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 namespace plumbline {
 
 // What the poses of a reference file are about.
 enum class ReferenceFrame { kCamera, kBody };
+constexpr auto EnumNames(std::type_identity<ReferenceFrame>) {
+  return std::array{std::pair{ReferenceFrame::kCamera, "camera"},
+                    std::pair{ReferenceFrame::kBody, "body"}};
+}
 
 struct ReferenceTrajectory {
   Trajectory poses;  // of the left camera

@@ -49,7 +49,7 @@ struct TrajectoryErrorOptions {
   TrajectoryAssociation association = TrajectoryAssociation::kInterpolate;
   std::int64_t max_gap_ns = 100'000'000;  // between reference poses interpolated (KITTI: 0.25 s)
   std::int64_t max_difference_ns = 20'000'000;  // of the nearest reference pose
-  RelativeWindow window;
+  RelativeWindow window = {};
 };
 
 // Of a set of non-negative errors. The median of an even number is the mean of the middle two.

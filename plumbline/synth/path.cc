@@ -25,8 +25,8 @@ double HandHeldLoop::Wander(double time, int channel, int first_period, double s
 
 Rigid3 HandHeldLoop::WorldFromCamera(double time) const {
   const double turn = 2 * std::numbers::pi * time / shape_.loop_s;
-  // About 1.7 steps a second, in whole numbers for a loop.
-  const double steps = std::round(1.7 * shape_.loop_s);
+  // About 1.7 steps a second; an even number in a loop, for the roll goes left and right.
+  const double steps = 2 * std::round(0.5 * 1.7 * shape_.loop_s);
   const double gait = steps * turn;
   Eigen::Vector3d position = shape_.centre;
   position.x() += shape_.radius_x * std::cos(turn) + Wander(time, 0, 2, 0.03);

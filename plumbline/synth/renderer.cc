@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -61,15 +62,20 @@ RayTable::RayTable(const Camera& camera) : width_(camera.width()), height_(camer
     }
     return ray->head<2>();
   };
-  constexpr double kHalf = 0.5;
+  // One ray a pixel, and one beyond each border; the slope comes from the two neighbours.
+  std::vector<Eigen::Vector2d> grid;
+  const int stride = width_ + 2;
+  grid.reserve(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height_ + 2));
+  for (int y = -1; y <= height_; ++y) {
+    for (int x = -1; x <= width_; ++x) grid.push_back(ray_at(x, y));
+  }
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const Eigen::Vector2d left = ray_at(x - kHalf, y), right = ray_at(x + kHalf, y);
-      const Eigen::Vector2d above = ray_at(x, y - kHalf), below = ray_at(x, y + kHalf);
+      const Eigen::Vector2d* centre = grid.data() + (y + 1) * stride + x + 1;
       Entry entry;
-      entry.ray = ray_at(x, y).cast<float>();
-      entry.slope.col(0) = (right - left).cast<float>();
-      entry.slope.col(1) = (below - above).cast<float>();
+      entry.ray = centre->cast<float>();
+      entry.slope.col(0) = (0.5 * (centre[1] - centre[-1])).cast<float>();
+      entry.slope.col(1) = (0.5 * (centre[stride] - centre[-stride])).cast<float>();
       entries_.push_back(entry);
     }
   }

@@ -67,14 +67,14 @@ void AddShelf(SceneBuilder& scene, double x, double wall_y, double side, double 
 
 void AddDoor(SceneBuilder& scene, double x, double wall_y, double side) {
   constexpr double kBroad = 0.9, kTall = 2.05, kFrame = 0.08;
-  const double y = wall_y + side * 0.02;
+  const double y = wall_y + side * 0.022, frame_y = wall_y + side * 0.052;
   scene.AddBox({{x, y, 0}, {kBroad, 0.04, kTall}, 0}, Material::kPaint, 0.75);
   for (const double end : {-0.5, 0.5}) {
-    scene.AddBox({{x + end * (kBroad + kFrame), y, 0}, {kFrame, 0.1, kTall + kFrame}, 0},
+    scene.AddBox({{x + end * (kBroad + kFrame), frame_y, 0}, {kFrame, 0.1, kTall + kFrame}, 0},
                  Material::kWood,
                  0.3);
   }
-  scene.AddBox({{x, y, kTall}, {kBroad, 0.1, kFrame}, 0}, Material::kWood, 0.3);
+  scene.AddBox({{x, frame_y, kTall}, {kBroad, 0.1, kFrame}, 0}, Material::kWood, 0.3);
   for (const double z : {0.2, 0.85, 1.45}) {  // raised panels
     for (const double end : {-0.22, 0.22}) {
       scene.AddBox({{x + end, y + side * 0.02, z}, {0.32, 0.03, 0.5}, 0}, Material::kPaint, 0.6);

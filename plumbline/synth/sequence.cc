@@ -91,7 +91,7 @@ StereoSequence::StereoSequence(std::string_view world, const SynthOptions& optio
       calibration_(MakeCalibration(options)),
       scene_(MakeScene(world, options.seed)),
       path_(MakePath(options)),
-      renderer_(scene_, {.threads = threads}),
+      renderer_(scene_, {.texel = options.texel, .threads = threads}),
       left_rays_(calibration_.left),
       right_rays_(*calibration_.right) {}
 

@@ -27,6 +27,7 @@ struct SynthOptions {
   bool distortion = true;  // radial-tangential lens, as in EuRoC; false: ideal pinhole
   double exposure = 1.25;  // brightness of the image
   double noise = 1;        // sensor noise, 1 as a real camera, 0 none
+  double texel = 0.003;    // metres; coarser is prepared faster and blurs what is near
   std::uint64_t seed = 1;  // of the textures, the furniture, the path and the noise
 };
 
@@ -39,6 +40,7 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("distortion", o.distortion, "lens distortion; without it an ideal rectified pair");
   visit("exposure", o.exposure, "brightness of the images", Range{0.05, 20});
   visit("noise", o.noise, "sensor noise, 1 as a real camera, 0 none", Range{0, 20});
+  visit("texel", o.texel, "size of a texture cell [m]", Range{0.001, 0.1});
   visit("seed", o.seed, "seed of textures, furniture, path and noise");
 }
 

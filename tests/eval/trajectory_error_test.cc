@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/eval/trajectory_error.h"
+
+#include "plumbline/base/random.h"
+#include "plumbline/eval/figure.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+StampedPose At(double seconds,
+               const Vector3d& position,
+               const Vector3d& rotation = Vector3d::Zero()) {
+  return {std::llround(seconds * 1e9), {ExpSo3(rotation), position}};
+}
+
+Trajectory RandomTrajectory(Rng& rng, int count, double spacing_s) {
+  Trajectory trajectory;
+  const auto vector = [&rng](double size) {
+    return Vector3d(rng.Normal(size), rng.Normal(size), rng.Normal(size));
+  };
+  for (int i = 0; i < count; ++i) trajectory.push_back(At(i * spacing_s, vector(1), vector(1)));
+  return trajectory;
+}
+
+Trajectory Perturbed(const Trajectory& trajectory, Rng& rng, double size) {
+  Trajectory noisy = trajectory;
+  for (StampedPose& pose : noisy) {
+    Vector6d tangent;
+    for (double& value : tangent) value = rng.Normal(size);
+    pose.world_from_camera = RetractLeft(pose.world_from_camera, tangent);
+  }
+  return noisy;
+}
+
+TEST(TrajectoryError, StatisticsByHand) {
+  const auto odd = StatisticsOf({3, 0, 4});
+  ASSERT_TRUE(odd);
+  EXPECT_EQ(odd->count, 3U);
+  EXPECT_DOUBLE_EQ(odd->rmse, std::sqrt(25.0 / 3));
+  EXPECT_DOUBLE_EQ(odd->mean, 7.0 / 3);
+  EXPECT_DOUBLE_EQ(odd->median, 3);
+  EXPECT_DOUBLE_EQ(odd->max, 4);
+  EXPECT_DOUBLE_EQ(StatisticsOf({4, 1, 2, 9})->median, 3);
+  EXPECT_FALSE(StatisticsOf({}));
+}
+
+TEST(TrajectoryError, UnalignedPositionsByHand) {
+  const Trajectory reference = {At(0, {0, 0, 0}), At(1, {1, 0, 0}), At(2, {2, 0, 0})};
+  const Trajectory estimate = {At(0, {0, 0, 0}), At(1, {1, 0.3, 0}), At(2, {2, 0, 0.4})};
+  const auto error =
+      CompareTrajectories(reference, estimate, {.alignment = TrajectoryAlignment::kNone});
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(error->ate.rmse, std::sqrt(0.25 / 3), 1e-15);
+  EXPECT_NEAR(error->ate.mean, 0.7 / 3, 1e-15);
+  EXPECT_NEAR(error->ate.max, 0.4, 1e-15);
+  EXPECT_EQ(error->poses.size(), 3U);
+}
+
+TEST(TrajectoryError, AlignedPositionsByHand) {
+  const Trajectory reference = {
+      At(0, {1, 0, 0}), At(1, {-1, 0, 0}), At(2, {0, 1, 0}), At(3, {0, -1, 0})};
+  Trajectory estimate = reference;
+  // A quarter turn and a shift of the whole; then a symmetric stretch along z that no motion
+  // undoes.
+  const Rigid3 moved{ExpSo3({0, 0, 0.5 * std::numbers::pi}), {5, -2, 7}};
+  constexpr double kBend = 0.1;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    Rigid3 pose = estimate[i].world_from_camera;
+    pose.translation.z() += i < 2 ? kBend : -kBend;
+    estimate[i].world_from_camera = moved * pose;
+  }
+  const auto error = CompareTrajectories(reference, estimate, {});
+  ASSERT_TRUE(error);
+  EXPECT_FALSE(error->degenerate);
+  EXPECT_NEAR(error->ate.rmse, kBend, 1e-12);
+  EXPECT_NEAR(error->ate.max, kBend, 1e-12);
+  EXPECT_NEAR((error->reference_from_estimate.rotation * moved.rotation)
+                  .angularDistance(Eigen::Quaterniond::Identity()),
+              0,
+              1e-12);
+}
+
+TEST(TrajectoryError, RelativeErrorsByHand) {
+  // The reference stands still; the estimate drifts 0.2 m along x and turns 0.1 rad in 2 s, then
+  // rests for another.
+  const Trajectory reference = {
+      At(0, {1, 2, 3}), At(1, {1, 2, 3}), At(2, {1, 2, 3}), At(3, {1, 2, 3})};
+  const Trajectory estimate = {At(0, {0, 0, 0}),
+                               At(1, {0.1, 0, 0}, {0.05, 0, 0}),
+                               At(2, {0.2, 0, 0}, {0.1, 0, 0}),
+                               At(3, {0.2, 0, 0}, {0.1, 0, 0})};
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kNone};
+  options.window.duration_ns = 2 * kSecond;
+  auto error = CompareTrajectories(reference, estimate, options);
+  ASSERT_TRUE(error && error->rpe && error->roe);
+  EXPECT_EQ(error->rpe->count, 2U);  // 0 -> 2 s: 0.2 m; 1 -> 3 s: 0.1 m
+  EXPECT_NEAR(error->rpe->mean, 0.075, 1e-12);
+  EXPECT_NEAR(error->rpe->rmse, std::sqrt((0.01 + 0.0025) / 2), 1e-12);
+  EXPECT_NEAR(error->roe->mean, 0.0375, 1e-12);
+
+  options.window = {.frames = 1};
+  error = CompareTrajectories(reference, estimate, options);
+  ASSERT_TRUE(error && error->rpe);
+  EXPECT_EQ(error->rpe->count, 3U);
+  EXPECT_NEAR(error->rpe->mean, 0.2 / 3, 1e-12);
+  EXPECT_NEAR(error->rpe->max, 0.1, 1e-12);
+  EXPECT_NEAR(error->roe->max, 0.05, 1e-12);
+}
+
+TEST(TrajectoryError, RelativeErrorIsDividedByTheActualTime) {
+  const Trajectory reference = {At(0, {0, 0, 0}), At(1.02, {0, 0, 0})};
+  const Trajectory estimate = {At(0, {0, 0, 0}), At(1.02, {0.51, 0, 0})};
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kNone};
+  options.window.duration_ns = kSecond;
+  options.max_gap_ns = 2 * kSecond;
+  const auto error = CompareTrajectories(reference, estimate, options);
+  ASSERT_TRUE(error && error->rpe);
+  EXPECT_NEAR(error->rpe->mean, 0.5, 1e-12);
+  options.window.duration_ns = 11 * kSecond / 10;  // 7 % off: no pair
+  EXPECT_FALSE(CompareTrajectories(reference, estimate, options)->rpe);
+}
+
+TEST(TrajectoryError, FrameWindowsDoNotSpanLostFrames) {
+  Trajectory reference, estimate;
+  for (int i = 0; i < 10; ++i) {
+    reference.push_back(At(0.1 * i, {1.0 * i, 0, 0}));
+    if (i != 4 && i != 5) estimate.push_back(reference.back());
+  }
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kNone};
+  options.window = {.frames = 1};
+  const auto error = CompareTrajectories(reference, estimate, options);
+  ASSERT_TRUE(error && error->rpe);
+  EXPECT_EQ(error->rpe->count, 6U);  // 7 steps, one of them over the gap
+}
+
+TEST(TrajectoryError, AlignmentMakesErrorsInvariantToTheWorld) {
+  Rng rng(1);
+  const Trajectory reference = RandomTrajectory(rng, 60, 0.1);
+  const Trajectory estimate = Perturbed(reference, rng, 0.02);
+  TrajectoryErrorOptions options;
+  options.window.duration_ns = kSecond;
+  const auto plain = CompareTrajectories(reference, estimate, options);
+  const Rigid3 moved{ExpSo3({0.3, -1, 2}), {4, 5, -6}};
+  Trajectory other = estimate;
+  for (StampedPose& pose : other) pose.world_from_camera = moved * pose.world_from_camera;
+  const auto aligned = CompareTrajectories(reference, other, options);
+  ASSERT_TRUE(plain && aligned && plain->rpe && aligned->rpe);
+  EXPECT_GT(plain->ate.rmse, 0.01);
+  EXPECT_NEAR(aligned->ate.rmse, plain->ate.rmse, 1e-12);
+  EXPECT_NEAR(aligned->rpe->rmse, plain->rpe->rmse, 1e-12);
+  EXPECT_NEAR(aligned->roe->rmse, plain->roe->rmse, 1e-12);
+  options.alignment = TrajectoryAlignment::kNone;
+  EXPECT_GT(CompareTrajectories(reference, other, options)->ate.rmse, 1);
+}
+
+TEST(TrajectoryError, Sim3TakesOutTheScaleAlsoOfRelativeErrors) {
+  Rng rng(2);
+  const Trajectory reference = RandomTrajectory(rng, 40, 0.1);
+  Trajectory estimate = reference;
+  for (StampedPose& pose : estimate) pose.world_from_camera.translation *= 0.25;
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kSim3};
+  options.window = {.frames = 1};
+  const auto error = CompareTrajectories(reference, estimate, options);
+  ASSERT_TRUE(error && error->rpe);
+  EXPECT_NEAR(error->reference_from_estimate.scale, 4, 1e-12);
+  EXPECT_LT(error->ate.max, 1e-12);
+  EXPECT_LT(error->rpe->max, 1e-10);
+  options.alignment = TrajectoryAlignment::kSe3;
+  EXPECT_GT(CompareTrajectories(reference, estimate, options)->rpe->mean, 1);
+}
+
+TEST(TrajectoryError, InterpolationMeetsTheTimeThatNearestMisses) {
+  Trajectory reference;
+  for (int i = 0; i < 20; ++i) reference.push_back(At(0.03 * i, {0.3 * i, 0, 0}));
+  const Trajectory estimate = {At(0.1, {1, 0, 0}), At(0.205, {2.05, 0, 0})};
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kNone};
+  EXPECT_LT(CompareTrajectories(reference, estimate, options)->ate.max, 1e-12);
+  options.association = TrajectoryAssociation::kNearest;
+  const auto nearest = CompareTrajectories(reference, estimate, options);
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->ate.max, 0.1, 1e-12);     // reference of 0.09 s for 0.1 s
+  EXPECT_NEAR(nearest->ate.mean, 0.075, 1e-12);  // and 0.21 s for 0.205 s
+  options.max_difference_ns = kSecond / 200;
+  EXPECT_EQ(CompareTrajectories(reference, estimate, options)->poses.size(), 1U);
+}
+
+TEST(TrajectoryError, PosesInGapsOfTheReferenceAreLeftOut) {
+  const Trajectory reference = {At(0, {0, 0, 0}), At(0.1, {1, 0, 0}), At(0.3, {3, 0, 0})};
+  const Trajectory estimate = {
+      At(-0.1, {0, 0, 0}), At(0.05, {0.5, 0, 0}), At(0.2, {2, 0, 0}), At(0.3, {3, 0, 0})};
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kNone};
+  auto error = CompareTrajectories(reference, estimate, options);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->estimated, 4U);
+  ASSERT_EQ(error->poses.size(), 2U);
+  EXPECT_EQ(error->poses[0].row, 1U);
+  EXPECT_EQ(error->poses[1].row, 3U);
+  options.max_gap_ns = kSecond / 4;
+  EXPECT_EQ(CompareTrajectories(reference, estimate, options)->poses.size(), 3U);
+  EXPECT_FALSE(CompareTrajectories(reference, {At(9, {0, 0, 0})}, options));
+  EXPECT_FALSE(CompareTrajectories({}, estimate, options));
+}
+
+TEST(TrajectoryError, DegenerateAlignmentsAreReported) {
+  const Rigid3 moved{ExpSo3({1, 2, 0.5}), {4, 5, 6}};
+  Trajectory line, still;
+  for (int i = 0; i < 5; ++i) {
+    line.push_back(At(i, {2.0 * i, 1.0 * i, 0}));
+    still.push_back(At(i, {1, 2, 3}));
+  }
+  const auto other = [&moved](Trajectory trajectory, double scale) {
+    for (StampedPose& pose : trajectory) {
+      pose.world_from_camera.translation *= scale;
+      pose.world_from_camera = moved * pose.world_from_camera;
+    }
+    return trajectory;
+  };
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kSim3};
+  auto error = CompareTrajectories(line, other(line, 0.5), options);
+  ASSERT_TRUE(error && error->degenerate);
+  EXPECT_EQ(*error->degenerate, AlignmentFailure::kCollinear);
+  EXPECT_NEAR(error->reference_from_estimate.scale, 2, 1e-9);
+  EXPECT_LT(error->ate.max, 1e-9);
+  error = CompareTrajectories(still, other(still, 1), options);
+  ASSERT_TRUE(error && error->degenerate);
+  EXPECT_EQ(*error->degenerate, AlignmentFailure::kCoincident);
+  EXPECT_DOUBLE_EQ(error->reference_from_estimate.scale, 1);
+  EXPECT_LT(error->ate.max, 1e-9);
+  error = CompareTrajectories({line[0]}, {line[0]}, {});
+  ASSERT_TRUE(error && error->degenerate);
+  EXPECT_EQ(*error->degenerate, AlignmentFailure::kTooFewPoints);
+  EXPECT_FALSE(error->rpe);
+}
+
+TEST(TrajectoryError, BodyAndCameraDifferByTheLeverArm) {
+  const Rigid3 body_from_camera{ExpSo3({0.1, 0.2, 0.3}), {0.05, 0, 0}};
+  const Trajectory body = {At(0, {1, 2, 3}, {0, 0, 0.5 * std::numbers::pi})};
+  const Trajectory camera = OfCamera(body, body_from_camera);
+  EXPECT_NEAR((camera[0].world_from_camera.translation - Vector3d(1, 2.05, 3)).norm(), 0, 1e-15);
+  EXPECT_NEAR(AngularDistance(camera[0].world_from_camera.rotation,
+                              body[0].world_from_camera.rotation * body_from_camera.rotation),
+              0,
+              1e-15);
+}
+
+TEST(TrajectoryError, MirrorConjugatesThePose) {
+  Rng rng(3);
+  const Trajectory trajectory = RandomTrajectory(rng, 5, 1);
+  const Trajectory mirrored = MirroredY(trajectory);
+  const Eigen::Vector4d mirror(1, -1, 1, 1);
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const Eigen::Matrix4d expected =
+        mirror.asDiagonal() * trajectory[i].world_from_camera.Matrix() * mirror.asDiagonal();
+    EXPECT_LT((mirrored[i].world_from_camera.Matrix() - expected).norm(), 1e-14);
+  }
+}
+
+TEST(TrajectoryFigure, ShowsTheTwoAxesOfMotionInRange) {
+  Trajectory reference;
+  for (int i = 0; i < 50; ++i) {
+    const double turn = 0.1 * i;
+    reference.push_back(At(0.1 * i, {3 * std::cos(turn), 0.01 * turn, 2 * std::sin(turn)}));
+  }
+  Rng rng(4);
+  const auto error = CompareTrajectories(reference, Perturbed(reference, rng, 0.01), {});
+  ASSERT_TRUE(error);
+  const Figure figure = TrajectoryFigure(*error);
+  for (const Figure::Polyline& line : figure.lines) {
+    for (const Eigen::Vector2d& point : line.points) {
+      EXPECT_TRUE(point.x() >= 0 && point.x() <= figure.width && point.y() >= 0 &&
+                  point.y() <= figure.height)
+          << point.transpose();
+    }
+  }
+  const std::string svg = ToSvg(figure);
+  EXPECT_THAT(svg, HasSubstr(">x [m]<"));
+  EXPECT_THAT(svg, HasSubstr(">z [m]<"));
+  EXPECT_THAT(svg, HasSubstr("RMSE"));
+  EXPECT_EQ(svg, ToSvg(TrajectoryFigure(*error)));
+}
+
+TEST(TrajectoryFigure, StandsASinglePose) {
+  const auto error = CompareTrajectories({At(0, {1, 2, 3})}, {At(0, {1, 2, 3})}, {});
+  ASSERT_TRUE(error);
+  EXPECT_THAT(ToSvg(TrajectoryFigure(*error)), testing::Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace plumbline

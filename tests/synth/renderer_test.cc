@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/synth/renderer.h"
+
+#include "plumbline/base/random.h"
+#include "plumbline/synth/path.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Camera SmallCamera(bool distorted) {
+  CameraIntrinsics intrinsics;
+  intrinsics.fx = intrinsics.fy = 120;
+  intrinsics.cx = 99.5;
+  intrinsics.cy = 74.5;
+  intrinsics.width = 200;
+  intrinsics.height = 150;
+  if (distorted) {
+    intrinsics.model = DistortionModel::kRadTan;
+    intrinsics.distortion = {-0.28, 0.07, 0.0002, 0.0001, 0};
+  }
+  return Camera(intrinsics);
+}
+
+// A white wall of 4 x 4 m at x = 2 and, 1 m nearer, a black one that covers y < `edge`.
+Scene TwoWalls(double edge) {
+  Scene scene;
+  scene.ambient = 1;
+  Surface white{{2, -2, -2}, {0, 4, 0}, {0, 0, 4}, {Material::kPaint, 1.0, 1, 0}, 2};
+  Surface black{{1, -2, -2}, {0, 2 + edge, 0}, {0, 0, 4}, {Material::kPaint, 0.0, 2, 0}, 0};
+  scene.surfaces = {white, black};
+  return scene;
+}
+
+// Looks along world x, up is world z.
+Rigid3 LevelView() {
+  Eigen::Matrix3d axes;
+  axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return {Eigen::Quaterniond(axes), Vector3d::Zero()};
+}
+
+// Depth along z at which a ray first meets a surface, by trying all.
+std::optional<double> DepthByHand(const Scene& scene,
+                                  const Rigid3& world_from_camera,
+                                  const Vector3d& ray) {
+  const Vector3d direction = world_from_camera.rotation * ray;
+  std::optional<double> nearest;
+  for (const Surface& surface : scene.surfaces) {
+    const Vector3d normal = surface.Normal();
+    const double depth =
+        normal.dot(surface.origin - world_from_camera.translation) / normal.dot(direction);
+    if (!(depth > 0) || (nearest && depth >= *nearest)) continue;
+    const Vector3d offset = world_from_camera.translation + depth * direction - surface.origin;
+    const double a = offset.dot(surface.side_u) / surface.side_u.squaredNorm();
+    const double b = offset.dot(surface.side_v) / surface.side_v.squaredNorm();
+    if (a >= 0 && a <= 1 && b >= 0 && b <= 1) nearest = depth;
+  }
+  return nearest;
+}
+
+float Bilinear(const Image<float>& image, const Vector2d& px) {
+  const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
+  const auto ax = static_cast<float>(px.x() - x), ay = static_cast<float>(px.y() - y);
+  return (1 - ay) * ((1 - ax) * image.at(x, y) + ax * image.at(x + 1, y)) +
+         ay * ((1 - ax) * image.at(x, y + 1) + ax * image.at(x + 1, y + 1));
+}
+
+TEST(RayTable, AgreesWithTheCameraAcrossThePixel) {
+  const Camera camera = SmallCamera(true);
+  const RayTable table(camera);
+  for (const auto& [x, y] : {std::pair{0, 0}, {199, 149}, {100, 20}, {3, 140}}) {
+    for (const double d : {-0.5, 0.0, 0.4}) {
+      const Eigen::Vector2f ray = table.at(x, y).At(static_cast<float>(d), static_cast<float>(-d));
+      const auto px = camera.Project({ray.x(), ray.y(), 1});
+      ASSERT_TRUE(px);
+      EXPECT_LT((*px - Vector2d(x + d, y - d)).norm(), 0.01);  // the slope is linear
+    }
+  }
+}
+
+TEST(Renderer, DepthIsThatOfTheNearestSurface) {
+  const Scene room = MakeRoom(2);
+  const Renderer renderer(room, {.texel = 0.05});
+  const Rigid3 pose = HandHeldLoop({{3.2, 2.6, 1.5}, 1.1, 0.75, 10, 1}).WorldFromCamera(3.3);
+  const Camera camera = SmallCamera(true);
+  const Rendering rendering = renderer.Render(RayTable(camera), pose);
+  Rng rng(1);
+  int differences = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int x = static_cast<int>(rng.Index(200)), y = static_cast<int>(rng.Index(150));
+    const auto ray = camera.Unproject(Vector2d(x, y));
+    ASSERT_TRUE(ray);
+    const auto expected = DepthByHand(room, pose, *ray);
+    ASSERT_TRUE(expected);
+    // On an edge single and double precision may find different sides.
+    if (std::abs(rendering.depth.at(x, y) - *expected) > 1e-4 * *expected) ++differences;
+  }
+  EXPECT_LE(differences, 1);
+}
+
+TEST(Renderer, EdgesAreWhereTheGeometryIs) {
+  for (const double edge : {-0.0311, 0.0, 0.0123, 0.05}) {
+    const Renderer renderer(TwoWalls(edge), {.texel = 0.02});
+    const Rendering rendering = renderer.Render(RayTable(SmallCamera(false)), LevelView());
+    // The black wall is at the right (y < edge): the sum over a row tells where it begins.
+    const double border_px = 99.5 - 120 * edge;
+    for (const int row : {40, 75, 110}) {
+      double covered = 0;
+      for (int x = 70; x < 130; ++x) covered += rendering.light.at(x, row) / 255;
+      EXPECT_NEAR(70 - 0.5 + covered, border_px, 0.13);
+    }
+  }
+}
+
+TEST(Renderer, BothCamerasSeeTheSamePoints) {
+  const Scene room = MakeRoom(2);
+  const Renderer renderer(room, {.texel = 0.02});
+  const Camera camera = SmallCamera(true);
+  const RayTable rays(camera);
+  const Rigid3 world_from_left =
+      HandHeldLoop({{3.2, 2.6, 1.5}, 1.1, 0.75, 10, 1}).WorldFromCamera(5);
+  const Rigid3 left_from_right{ExpSo3({0.01, 0.02, -0.01}), {0.11, 0.01, 0}};
+  const Rendering left = renderer.Render(rays, world_from_left);
+  const Rendering right = renderer.Render(rays, world_from_left * left_from_right);
+  double aligned = 0, shifted = 0;
+  int count = 0;
+  for (int y = 5; y < 145; y += 2) {
+    for (int x = 5; x < 195; x += 2) {
+      const float depth = left.depth.at(x, y);
+      const Vector3d point = depth * *camera.Unproject(Vector2d(x, y));
+      const auto px = camera.Project(Inverse(left_from_right) * point);
+      if (!px || px->minCoeff() < 3 || px->x() > 195 || px->y() > 145) continue;
+      const double z = (Inverse(left_from_right) * point).z();
+      const Vector2d nearest(std::round(px->x()), std::round(px->y()));
+      const float other =
+          right.depth.at(static_cast<int>(nearest.x()), static_cast<int>(nearest.y()));
+      if (std::abs(other - z) > 0.02 * z) continue;  // hidden in the right image, or an edge
+      aligned += std::abs(Bilinear(right.light, *px) - left.light.at(x, y));
+      shifted += std::abs(Bilinear(right.light, *px + Vector2d(2, 0)) - left.light.at(x, y));
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 3000);
+  EXPECT_LT(aligned / count, 5.0);
+  EXPECT_GT(shifted, 2.5 * aligned);
+}
+
+TEST(Renderer, ThingsThrowShadows) {
+  Scene scene;
+  scene.ambient = 0.1;
+  scene.lamps.push_back({{0, 0, 2}, 1});
+  scene.surfaces.push_back({{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, {Material::kPaint, 0.9, 1, 0}, 0});
+  scene.surfaces.push_back(
+      {{-0.3, -0.3, 0.5}, {0.6, 0, 0}, {0, 0.6, 0}, {Material::kPaint, 0.9, 2, 0}, 0});
+  const Renderer renderer(scene, {.texel = 0.02});
+  // Below the plate's edge, looking down at the floor: the left of the image is in its shadow.
+  const Rigid3 down{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX())),
+                    {0.4, 0, 0.4}};
+  const Rendering rendering = renderer.Render(RayTable(SmallCamera(false)), down);
+  const float shadow = rendering.light.at(10, 75), lit = rendering.light.at(190, 75);
+  EXPECT_GT(lit, 35);
+  EXPECT_LT(shadow, 0.6F * lit);
+  EXPECT_GT(shadow, 15);
+}
+
+TEST(Renderer, NothingIsBlackAndWithoutDepth) {
+  const Renderer renderer(Scene{}, {});
+  const Rendering rendering = renderer.Render(RayTable(SmallCamera(false)), LevelView());
+  EXPECT_EQ(rendering.light.at(100, 75), 0);
+  EXPECT_EQ(rendering.depth.at(100, 75), 0);
+}
+
+}  // namespace
+}  // namespace plumbline
