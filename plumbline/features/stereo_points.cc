@@ -145,7 +145,7 @@ struct ShiftStep {
 };
 
 constexpr double kCentreDeviation = 0.6;  // of the centre weights, in half widths
-constexpr float kCauchyScale = 2;  // of the mean deviation
+constexpr float kCauchyScale = 2;         // of the mean deviation
 
 float WeightedMean(const std::array<float, kMaxPatch>& value,
                    const std::array<float, kMaxPatch>& weight,
@@ -345,8 +345,8 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
     if (!found) continue;
     const double disparity = (at.x() - found->x) * level.scale.x();
     if (disparity <= 0 || disparity > gate.max_disparity) continue;
-    const double sigma = std::hypot(
-        std::max(options.min_sigma_px, found->sigma) * level.scale.x(), options.calibration_sigma_px);
+    const double sigma = std::hypot(std::max(options.min_sigma_px, found->sigma) * level.scale.x(),
+                                    options.calibration_sigma_px);
     result[i] = Disparity{disparity, sigma};
     residuals[i] = found->residual;
   }
