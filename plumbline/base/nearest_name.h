@@ -10,7 +10,8 @@
 
 namespace plumbline {
 
-// Least number of single characters to insert, delete or replace to turn `a` into `b`.
+// Least number of steps that turn `a` into `b`: a character inserted, deleted or replaced, or two
+// neighbours swapped (no part is changed twice).
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
 // The candidate a user most likely meant by `name`: the one of least edit distance, the first of

@@ -61,30 +61,42 @@ RegionSums SumRows(const GradientImage& gradient, const Segment2& segment) {
   const Eigen::Vector2d step = direction * (length / columns);
   const auto dx = static_cast<float>(direction.x());
   const auto dy = static_cast<float>(direction.y());
-  const int width = gradient.width();
-  const int height = gradient.height();
+  // Pixel coordinates step in fixed point: 16 bits below the point.
+  constexpr double kOne = 65536;
+  const auto step_x = static_cast<std::int64_t>(step.x() * kOne);
+  const auto step_y = static_cast<std::int64_t>(step.y() * kOne);
   for (int row = 0; row < kRows; ++row) {
     const Eigen::Vector2d first = segment.start + 0.5 * step + (row - 0.5 * (kRows - 1)) * normal;
-    std::array<float, 4> value{};
+    auto fixed_x = static_cast<std::int64_t>((first.x() + 0.5) * kOne);
+    auto fixed_y = static_cast<std::int64_t>((first.y() + 0.5) * kOne);
+    float across_sum = 0;
+    float across_size = 0;
+    float along_sum = 0;
+    float along_size = 0;
     int count = 0;
-    for (int column = 0; column < columns; ++column) {
-      const int x = static_cast<int>(std::floor(first.x() + column * step.x() + 0.5));
-      const int y = static_cast<int>(std::floor(first.y() + column * step.y() + 0.5));
-      if (x < 0 || y < 0 || x >= width || y >= height) continue;
-      const auto gx = static_cast<float>(gradient.dx.at(x, y));
-      const auto gy = static_cast<float>(gradient.dy.at(x, y));
+    for (int column = 0; column < columns; ++column, fixed_x += step_x, fixed_y += step_y) {
+      const std::int64_t x = fixed_x >> 16;
+      const std::int64_t y = fixed_y >> 16;
+      if (x < 0 || y < 0 || x >= gradient.width() || y >= gradient.height()) continue;
+      const auto gx = static_cast<float>(gradient.dx.row(static_cast<int>(y))[x]);
+      const auto gy = static_cast<float>(gradient.dy.row(static_cast<int>(y))[x]);
       const float across = gy * dx - gx * dy;
       const float along = gx * dx + gy * dy;
-      value[0] += std::max(across, 0.F);
-      value[1] += std::max(-across, 0.F);
-      value[2] += std::max(along, 0.F);
-      value[3] += std::max(-along, 0.F);
+      across_sum += across;
+      across_size += std::abs(across);
+      along_sum += along;
+      along_size += std::abs(along);
       ++count;
     }
     if (count == 0) continue;
     RowSums& out = sums[static_cast<std::size_t>(row)];
     out.valid = true;
-    for (std::size_t k = 0; k < 4; ++k) out.value[k] = static_cast<double>(value[k]) / count;
+    const double scale = 0.5 / count;
+    // Sum of the positive and of the negative parts from the sum and the sum of magnitudes.
+    out.value = {scale * static_cast<double>(across_size + across_sum),
+                 scale * static_cast<double>(across_size - across_sum),
+                 scale * static_cast<double>(along_size + along_sum),
+                 scale * static_cast<double>(along_size - along_sum)};
   }
   return sums;
 }

@@ -35,13 +35,14 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
 
 struct StereoPointOptions {
   int max_distance = 75;
-  double ratio = 0.9;           // best / second best that is somewhere else; 1: no test
-  double row_band_px = 2;       // allowed row difference, times the scale of the octave
-  double min_depth_m = 0.25;    // gives the largest disparity
-  int window_px = 5;            // half width of the correlation window on the level image
-  int search_px = 5;            // half width of the correlation search on the level image
-  double max_sad_factor = 2.1;  // matches with a residual above this times the median are dropped
-  double min_sigma_px = 0.12;   // floor of the disparity's deviation on the level image
+  double ratio = 0.9;          // best / second best that is somewhere else; 1: no test
+  double row_band_px = 2;      // allowed row difference, times the scale of the octave
+  double min_depth_m = 0.25;   // gives the largest disparity
+  int window_px = 5;           // half width of the correlation window on the level image
+  int search_px = 5;           // half width of the correlation search on the level image
+  double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
+  double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
+  double calibration_sigma_px = 0.3;  // of every disparity, from the pair's calibration
 };
 
 struct StereoView {
@@ -89,6 +90,10 @@ void VisitFields(Visitor&& visit, StereoPointOptions& o) {
         o.max_sad_factor,
         "residual limit as a multiple of the median",
         Range{1, 100});
+  visit("calibration_sigma_px",
+        o.calibration_sigma_px,
+        "deviation that the calibration of the pair adds to every disparity [px]",
+        Range{0, 10});
   visit("min_sigma_px",
         o.min_sigma_px,
         "floor of the deviation of a disparity at octave 0 [px]",

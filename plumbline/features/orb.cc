@@ -12,14 +12,13 @@
 #include <numbers>
 #include <tuple>
 
-#include <Eigen/LU>
 #include <opencv2/features2d.hpp>
 
 namespace plumbline {
 namespace {
 
 constexpr int kCentroidRadius = 15;
-constexpr int kPatchRadius = 19;  // the turned sampling pattern stays inside
+constexpr int kPatchRadius = 20;  // the turned sampling pattern (18.4) and a shift stay inside
 
 struct Corner {
   int x = 0;
@@ -135,47 +134,86 @@ double CentroidAngle(const GrayImage& image, int x, int y) {
   return std::atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
 }
 
-// The point that the edges around a corner run to: minimum over q of sum (g . (p - q))^2 with
-// Gaussian weights (Förstner and Gülch 1987). Offset from the pixel centre; zero where it is not
-// well defined.
-Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
-  constexpr int kRadius = 3;
-  constexpr std::array<double, kRadius + 1> kWeight = {1.0, 0.8, 0.41, 0.135};
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
-    const std::uint8_t* above = image.row(y + dy - 1) + x;
-    const std::uint8_t* row = image.row(y + dy) + x;
-    const std::uint8_t* below = image.row(y + dy + 1) + x;
-    for (int dx = -kRadius; dx <= kRadius; ++dx) {
-      const Eigen::Vector2d g(row[dx + 1] - row[dx - 1], below[dx] - above[dx]);
-      const double w = kWeight[static_cast<std::size_t>(std::abs(dx))] *
-                       kWeight[static_cast<std::size_t>(std::abs(dy))];
-      const Eigen::Matrix2d gg = w * g * g.transpose();
-      normal += gg;
-      moment += gg * Eigen::Vector2d(dx, dy);
+// Place of the extreme of a parabola through three values at -1, 0, 1; 0 when it is not between.
+double ParabolaPeak(double before, double at, double after) {
+  const double curvature = before - 2 * at + after;
+  if (curvature >= 0) return 0;
+  return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+}
+
+// Harris response at whole-pixel offsets, up to 2, from a corner; 5x5 windows.
+class HarrisAround {
+ public:
+  HarrisAround(const GrayImage& image, int x, int y) {
+    std::size_t k = 0;
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+      const std::uint8_t* above = image.row(y + dy - 1) + x;
+      const std::uint8_t* row = image.row(y + dy) + x;
+      const std::uint8_t* below = image.row(y + dy + 1) + x;
+      for (int dx = -kReach; dx <= kReach; ++dx, ++k) {
+        const auto gx = static_cast<float>(2 * (row[dx + 1] - row[dx - 1]) + above[dx + 1] -
+                                           above[dx - 1] + below[dx + 1] - below[dx - 1]);
+        const auto gy = static_cast<float>(2 * (below[dx] - above[dx]) + below[dx + 1] -
+                                           above[dx + 1] + below[dx - 1] - above[dx - 1]);
+        products_[k] = {gx * gx, gx * gy, gy * gy};
+      }
     }
   }
-  const double determinant = normal.determinant();
-  const double trace = normal.trace();
-  // Flat, or an edge: the smaller eigenvalue is too small against the larger one.
-  if (determinant < 0.02 * trace * trace || trace < 1) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d offset = normal.inverse() * moment;
-  if (offset.cwiseAbs().maxCoeff() > 1) return Eigen::Vector2d::Zero();
-  return offset;
+
+  double At(int dx, int dy) const {
+    float xx = 0;
+    float xy = 0;
+    float yy = 0;
+    for (int v = dy - kWindow; v <= dy + kWindow; ++v) {
+      for (int u = dx - kWindow; u <= dx + kWindow; ++u) {
+        const auto& p = products_[static_cast<std::size_t>((v + kReach) * kSide + u + kReach)];
+        xx += p[0];
+        xy += p[1];
+        yy += p[2];
+      }
+    }
+    constexpr float kTrace = 0.04F;
+    return static_cast<double>(xx * yy - xy * xy - kTrace * (xx + yy) * (xx + yy));
+  }
+
+ private:
+  static constexpr int kWindow = 2;
+  static constexpr int kReach = kWindow + 2;
+  static constexpr int kSide = 2 * kReach + 1;
+  std::array<std::array<float, 3>, static_cast<std::size_t>(kSide* kSide)> products_;
+};
+
+// Sub-pixel peak of the Harris response near a FAST corner, offset from the pixel centre. The peak
+// may lie on a neighbouring pixel.
+Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
+  const HarrisAround harris(image, x, y);
+  Eigen::Vector2i best(0, 0);
+  double peak = harris.At(0, 0);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const double response = harris.At(dx, dy);
+      if (response <= peak) continue;
+      peak = response;
+      best = {dx, dy};
+    }
+  }
+  const int u = best.x();
+  const int v = best.y();
+  return {u + ParabolaPeak(harris.At(u - 1, v), peak, harris.At(u + 1, v)),
+          v + ParabolaPeak(harris.At(u, v - 1), peak, harris.At(u, v + 1))};
 }
 
 std::vector<Descriptor> Describe(const GrayImage& image,
                                  const std::vector<PointFeature>& points,
-                                 const std::vector<Corner>& corners) {
+                                 const std::vector<Eigen::Vector2d>& places) {
   std::vector<Descriptor> descriptors(points.size());
   if (points.empty()) return descriptors;
   std::vector<cv::KeyPoint> keypoints;
   keypoints.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double degrees = points[i].angle * 180 / std::numbers::pi;
-    keypoints.emplace_back(static_cast<float>(corners[i].x),
-                           static_cast<float>(corners[i].y),
+    keypoints.emplace_back(static_cast<float>(std::round(places[i].x())),
+                           static_cast<float>(std::round(places[i].y())),
                            31.F,
                            static_cast<float>(degrees < 0 ? degrees + 360 : degrees),
                            0.F,
@@ -210,19 +248,27 @@ void ExtractLevel(const PyramidLevel& level,
   });
   corners = SpreadSelect(std::move(corners), level.image.width(), level.image.height(), count);
   std::vector<PointFeature> points;
-  points.reserve(corners.size());
+  std::vector<Eigen::Vector2d> places;  // on the level
   for (const Corner& c : corners) {
     Eigen::Vector2d px(c.x, c.y);
     if (options.subpixel) px += CornerOffset(level.image, c.x, c.y);
+    // Two corners may have moved to one peak; the first one is the stronger.
+    if (std::any_of(places.begin(), places.end(), [&](const Eigen::Vector2d& other) {
+          return (other - px).squaredNorm() < 1;
+        })) {
+      continue;
+    }
+    places.push_back(px);
     PointFeature point;
     point.px = level.ToFull(px);
     point.sigma_px = options.sigma_px * scale;
-    point.angle = CentroidAngle(level.image, c.x, c.y);
+    point.angle = CentroidAngle(
+        level.image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
     point.response = static_cast<double>(c.response);
     point.octave = octave;
     points.push_back(point);
   }
-  const std::vector<Descriptor> descriptors = Describe(level.image, points, corners);
+  const std::vector<Descriptor> descriptors = Describe(level.image, points, places);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].descriptor = descriptors[i];
   result->insert(result->end(), points.begin(), points.end());
 }

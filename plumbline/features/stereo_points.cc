@@ -47,12 +47,17 @@ struct Candidate {
 
 // May these two show one point? Rows, octaves, disparity.
 struct StereoGate {
+  const ImagePyramid& pyramid;
   double max_disparity = 0;
   double row_band = 0;
 
+  double Scale(const PointFeature& point) const {
+    return pyramid[static_cast<std::size_t>(point.octave)].scale.maxCoeff();
+  }
+
   bool operator()(const PointFeature& left, const PointFeature& right) const {
     const double disparity = left.px.x() - right.px.x();
-    const double scale = std::max(left.sigma_px, right.sigma_px);
+    const double scale = std::max(Scale(left), Scale(right));
     return std::abs(left.octave - right.octave) <= 1 && disparity >= -scale &&
            disparity <= max_disparity + scale &&
            std::abs(left.px.y() - right.px.y()) <= row_band * scale;
@@ -69,7 +74,8 @@ Candidate BestRight(const PointFeature& left,
   constexpr double kMaxScaleRatio = 2;  // of neighbouring octaves
   Candidate best;
   std::vector<Candidate> all;
-  const double band = gate.row_band * kMaxScaleRatio * left.sigma_px;
+  const double scale = gate.Scale(left);
+  const double band = gate.row_band * kMaxScaleRatio * scale;
   rows.ForEach(left.px.y(), band, [&](int i) {
     const PointFeature& candidate = right[static_cast<std::size_t>(i)];
     if (!gate(left, candidate)) return;
@@ -83,7 +89,7 @@ Candidate BestRight(const PointFeature& left,
   const double place = right[static_cast<std::size_t>(best.index)].px.x();
   for (const Candidate& c : all) {
     const double apart = std::abs(right[static_cast<std::size_t>(c.index)].px.x() - place);
-    if (apart > kSamePlacePx * left.sigma_px && best.distance > options.ratio * c.distance) {
+    if (apart > kSamePlacePx * scale && best.distance > options.ratio * c.distance) {
       return {};
     }
   }
@@ -134,10 +140,55 @@ struct ShiftStep {
   double delta = 0;
   double curvature = 0;  // sum of squared derivatives
   double squares = 0;    // sum of squared residuals
+  double weights = 0;    // sum of the weights in the sums above
   double absolute = 0;   // sum of their magnitudes
 };
 
-std::optional<ShiftStep> StepAt(const Patch& left, const GrayImage& right, double x, int y) {
+constexpr double kCentreDeviation = 0.6;  // of the centre weights, in half widths
+constexpr float kCauchyScale = 2;  // of the mean deviation
+
+float WeightedMean(const std::array<float, kMaxPatch>& value,
+                   const std::array<float, kMaxPatch>& weight,
+                   std::size_t count) {
+  float sum = 0;
+  float weights = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    sum += weight[i] * value[i];
+    weights += weight[i];
+  }
+  return sum / weights;
+}
+
+float MeanDeviation(const std::array<float, kMaxPatch>& value,
+                    const std::array<float, kMaxPatch>& weight,
+                    std::size_t count,
+                    float mean) {
+  float sum = 0;
+  float weights = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    sum += weight[i] * std::abs(value[i] - mean);
+    weights += weight[i];
+  }
+  return sum / weights;
+}
+
+// Gaussian weights of a window, 1 in the middle.
+Patch CentreWeights(int half) {
+  Patch weights;
+  weights.half = half;
+  const double deviation = std::max(1.0, kCentreDeviation * half);
+  std::size_t k = 0;
+  for (int dy = -half; dy <= half; ++dy) {
+    for (int dx = -half; dx <= half; ++dx) {
+      weights.value[k++] =
+          static_cast<float>(std::exp(-0.5 * (dx * dx + dy * dy) / (deviation * deviation)));
+    }
+  }
+  return weights;
+}
+
+std::optional<ShiftStep> StepAt(
+    const Patch& left, const Patch& weights, const GrayImage& right, double x, int y) {
   const int half = left.half;
   const int side = 2 * half + 1;
   const int x0 = static_cast<int>(std::floor(x));
@@ -145,8 +196,6 @@ std::optional<ShiftStep> StepAt(const Patch& left, const GrayImage& right, doubl
   const auto f = static_cast<float>(x - x0);
   std::array<float, kMaxPatch> residual;
   std::array<float, kMaxPatch> slope;
-  float mean_r = 0;
-  float mean_g = 0;
   std::size_t k = 0;
   for (int dy = -half; dy <= half; ++dy) {
     const std::uint8_t* row = right.row(y + dy) + x0 - half;
@@ -157,21 +206,29 @@ std::optional<ShiftStep> StepAt(const Patch& left, const GrayImage& right, doubl
       const auto after = static_cast<float>(row[dx + 2]);
       residual[k] = left.value[k] - (a + f * (b - a));
       slope[k] = 0.5F * ((1 - f) * (b - before) + f * (after - a));
-      mean_r += residual[k];
-      mean_g += slope[k];
     }
   }
+  // The window may hold two surfaces: what lies near the corner counts more, and what does not fit
+  // counts less, so that the far one does not pull.
+  std::array<float, kMaxPatch> weight = weights.value;
+  const float rough_mean = WeightedMean(residual, weight, k);
+  const float scale = kCauchyScale * MeanDeviation(residual, weight, k, rough_mean) + 1e-3F;
+  for (std::size_t i = 0; i < k; ++i) {
+    const float r = (residual[i] - rough_mean) / scale;
+    weight[i] /= 1 + r * r;
+  }
+  const float mean_r = WeightedMean(residual, weight, k);
+  const float mean_g = WeightedMean(slope, weight, k);
   const auto count = static_cast<float>(k);
-  mean_r /= count;
-  mean_g /= count;
   ShiftStep step;
   double moment = 0;
   for (std::size_t i = 0; i < k; ++i) {
     const float r = residual[i] - mean_r;
     const float g = slope[i] - mean_g;
-    moment += static_cast<double>(r * g);
-    step.curvature += static_cast<double>(g * g);
-    step.squares += static_cast<double>(r * r);
+    moment += static_cast<double>(weight[i] * r * g);
+    step.curvature += static_cast<double>(weight[i] * g * g);
+    step.squares += static_cast<double>(weight[i] * r * r);
+    step.weights += static_cast<double>(weight[i]);
     step.absolute += static_cast<double>(std::abs(r));
   }
   if (step.curvature < 1e-3 * static_cast<double>(count)) return std::nullopt;
@@ -180,10 +237,11 @@ std::optional<ShiftStep> StepAt(const Patch& left, const GrayImage& right, doubl
 }
 
 std::optional<Correlation> RefineShift(const Patch& left, const GrayImage& right, int x, int y) {
+  const Patch weights = CentreWeights(left.half);
   double place = x;
   std::optional<ShiftStep> step;
   for (int iteration = 0; iteration < 6; ++iteration) {
-    step = StepAt(left, right, place, y);
+    step = StepAt(left, weights, right, place, y);
     if (!step) return std::nullopt;
     place += step->delta;
     if (std::abs(place - x) > 1.5) return std::nullopt;
@@ -193,7 +251,7 @@ std::optional<Correlation> RefineShift(const Patch& left, const GrayImage& right
   // Residuals of neighbours are correlated: about every fourth pixel tells something new.
   constexpr double kCorrelated = 4;
   return Correlation{place,
-                     std::sqrt(kCorrelated * step->squares / count / step->curvature),
+                     std::sqrt(kCorrelated * step->squares / step->weights / step->curvature),
                      step->absolute / count};
 }
 
@@ -261,8 +319,10 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
                                                         const StereoView& right,
                                                         const StereoPointOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
+  PLUMBLINE_CHECK(left.pyramid.size() == right.pyramid.size(), "pyramids of one kind");
   PLUMBLINE_CHECK(options.window_px <= kMaxWindow, "size of the correlation window");
-  const StereoGate gate{camera.DisparityFromDepth(options.min_depth_m), options.row_band_px};
+  const StereoGate gate{
+      left.pyramid, camera.DisparityFromDepth(options.min_depth_m), options.row_band_px};
   const RowIndex rows(right.points);
   std::vector<Candidate> candidates(left.points.size());
   for (std::size_t i = 0; i < left.points.size(); ++i) {
@@ -275,7 +335,7 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
     if (candidates[i].index < 0) continue;
     const auto j = static_cast<std::size_t>(candidates[i].index);
     const auto octave = static_cast<std::size_t>(left.points[i].octave);
-    if (best_left[j] != static_cast<int>(i) || octave >= right.pyramid.size()) continue;
+    if (best_left[j] != static_cast<int>(i)) continue;
     const PyramidLevel& level = left.pyramid[octave];
     const PyramidLevel& other = right.pyramid[octave];
     const Eigen::Vector2i at = level.FromFull(left.points[i].px).array().round().cast<int>();
@@ -285,7 +345,8 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
     if (!found) continue;
     const double disparity = (at.x() - found->x) * level.scale.x();
     if (disparity <= 0 || disparity > gate.max_disparity) continue;
-    const double sigma = std::max(options.min_sigma_px, found->sigma) * level.scale.x();
+    const double sigma = std::hypot(
+        std::max(options.min_sigma_px, found->sigma) * level.scale.x(), options.calibration_sigma_px);
     result[i] = Disparity{disparity, sigma};
     residuals[i] = found->residual;
   }

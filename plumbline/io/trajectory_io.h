@@ -23,9 +23,10 @@ struct LoadedTrajectory {
 };
 
 // Reads a trajectory, finding out the format from the first row. KITTI rows take their times from
-// times.txt beside the file or, as distributed (poses/06.txt), ../sequences/06/times.txt. Quaternions are normalized; one of a norm off 1 by more than 0.01, a
-// matrix that is not a rotation (to 1e-3), times that do not increase, and a file without rows are
-// errors, as is any malformed row: InputError "path:line: expected ..., found ...".
+// times.txt beside the file or, as distributed (poses/06.txt), ../sequences/06/times.txt.
+// Quaternions are normalized; one of a norm off 1 by more than 0.01, a matrix that is not a
+// rotation (to 1e-3), times that do not increase, and a file without rows are errors, as is any
+// malformed row: InputError "path:line: expected ..., found ...".
 LoadedTrajectory ReadTrajectory(const std::filesystem::path& path);
 
 // The rows of a KITTI poses file with one time stamp for each.

@@ -10,15 +10,19 @@
 namespace plumbline {
 namespace {
 
-TEST(EditDistance, CountsInsertionsDeletionsReplacements) {
+TEST(EditDistance, CountsInsertionsDeletionsReplacementsSwaps) {
   EXPECT_EQ(EditDistance("", ""), 0U);
   EXPECT_EQ(EditDistance("abc", ""), 3U);
   EXPECT_EQ(EditDistance("kitten", "sitting"), 3U);
   EXPECT_EQ(EditDistance("huber_px", "hubber_px"), 1U);
+  EXPECT_EQ(EditDistance("seed", "sede"), 1U);
+  EXPECT_EQ(EditDistance("ab", "ba"), 1U);
+  EXPECT_EQ(EditDistance("abcd", "badc"), 2U);
+  EXPECT_EQ(EditDistance("ca", "abc"), 3U);
 }
 
 TEST(NearestName, FindsTheMisspelledName) {
-  const std::vector<std::string> names = {"slam.seed", "slam.mode", "ba.huber_px"};
+  const std::vector<std::string> names = {"slam.mode", "slam.seed", "ba.huber_px"};
   EXPECT_EQ(NearestName("slam.sede", names), "slam.seed");
   EXPECT_EQ(NearestName("ba.huberpx", names), "ba.huber_px");
 }

@@ -4,14 +4,15 @@
 
 #include "plumbline/base/error.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace plumbline {
 
@@ -19,12 +20,9 @@ namespace plumbline {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            ("plumbline_" + std::to_string(::getpid()) + "_" + test->test_suite_name() + "_" +
-             test->name());
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::path(testing::TempDir()) / "plumbline_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/grid.h"
+
+#include "plumbline/base/random.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+TEST(PointGrid, FindsExactlyWhatACompleteSearchFindsInAscendingOrder) {
+  Rng rng(1, "grid");
+  std::vector<Eigen::Vector2d> positions;
+  for (int i = 0; i < 500; ++i) {
+    const double x = rng.Uniform(-30, 350);  // some outside the image
+    positions.emplace_back(x, rng.Uniform(-30, 270));
+  }
+  const PointGrid grid(positions, 320, 240, 25);
+  for (int query = 0; query < 200; ++query) {
+    const double x = rng.Uniform(-50, 370);
+    const Eigen::Vector2d center(x, rng.Uniform(-50, 290));
+    const double radius_x = rng.Uniform(0, 60);
+    const Eigen::Vector2d radius(radius_x, rng.Uniform(0, 60));
+    std::vector<int> expected;
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector2d d = positions[static_cast<std::size_t>(i)] - center;
+      if (std::abs(d.x()) <= radius.x() && std::abs(d.y()) <= radius.y()) expected.push_back(i);
+    }
+    EXPECT_EQ(grid.InWindow(center, radius), expected);
+  }
+}
+
+TEST(PointGrid, OfNothingFindsNothing) {
+  EXPECT_TRUE(PointGrid().InWindow({1, 2}, 100).empty());
+  EXPECT_TRUE(PointGrid({}, 10, 10).InWindow({1, 2}, 100).empty());
+}
+
+}  // namespace
+}  // namespace plumbline
