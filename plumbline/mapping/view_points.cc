@@ -17,7 +17,7 @@
 namespace plumbline {
 namespace {
 
-constexpr double kNearestDepth = 0.3;        // metres; the search along the epipolar line starts here
+constexpr double kNearestDepth = 0.3;        // metres, in both views; the search along the epipolar line starts here
 constexpr double kEpipolarChi2 = 3.84;       // 95 %, one degree of freedom
 constexpr double kDepthSigmas = 3;           // of a measured but poor depth
 constexpr double kMaxScaleRatio = 1.8;       // of octave and distance between the views
@@ -42,9 +42,14 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
     near = std::max(near, camera.DepthFromDisparity(high));
     if (low > 0) far = std::max(near, camera.DepthFromDisparity(low));
   }
+  // In the second view the depth is slope * depth + offset; there, too, it must be large enough.
+  const double slope = (b_from_a.rotation * ray).z();
+  const double offset = b_from_a.translation.z();
+  if (slope > 0) near = std::max(near, (kNearestDepth - offset) / slope);
+  if (slope < 0) far = std::min(far, (kNearestDepth - offset) / slope);
   const Eigen::Vector3d p = b_from_a * (near * ray);
   const Eigen::Vector3d q = b_from_a * (far * ray);
-  if (p.z() < 0.05 || q.z() < 0.05) return std::nullopt;
+  if (near > far || std::min(p.z(), q.z()) < 0.5 * kNearestDepth) return std::nullopt;
   const Eigen::Vector2d a = camera.Project(p);
   const Eigen::Vector2d b = camera.Project(q);
   const Eigen::Vector2d slack(slack_px, slack_px);

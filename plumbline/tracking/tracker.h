@@ -147,7 +147,8 @@ class Tracker {
   std::optional<PoseEstimate> FromAppearance(const Frame& frame,
                                              const Rigid3& initial,
                                              const MapSnapshot& snapshot,
-                                             FrameAssociation& association) const;
+                                             FrameAssociation& association,
+                                             FrameCounts& counts) const;
   PoseEstimate WithLocalMap(const Frame& frame,
                             const PoseEstimate& first,
                             const MapSnapshot& snapshot,
