@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/command_line.h"
-#include "apps/commands.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/image/box_filter.h"
 #include "plumbline/io/atomic_file.h"
@@ -11,6 +9,8 @@
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/system.h"
 
+#include "apps/command_line.h"
+#include "apps/commands.h"
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -80,10 +80,8 @@ std::vector<std::size_t> ChooseFrames(const CommandLine& line, const Dataset& da
       dataset.size(),
       static_cast<std::size_t>(ParseCount(line, "--to", std::numeric_limits<int>::max(), 1)));
   if (from >= to) {
-    throw InputError(fmt::format("--from {}: the sequence has {} frames, and --to is {}",
-                                 from,
-                                 dataset.size(),
-                                 to));
+    throw InputError(fmt::format(
+        "--from {}: the sequence has {} frames, and --to is {}", from, dataset.size(), to));
   }
   std::vector<std::size_t> frames;
   for (std::size_t i = from; i < to; i += stride) frames.push_back(i);
@@ -93,7 +91,8 @@ std::vector<std::size_t> ChooseFrames(const CommandLine& line, const Dataset& da
 // Shows how far a run is: a bar on a terminal, a line every few seconds elsewhere.
 class Progress {
  public:
-  Progress(std::size_t total, bool quiet) : total_(total), quiet_(quiet), terminal_(isatty(2) != 0) {}
+  Progress(std::size_t total, bool quiet)
+      : total_(total), quiet_(quiet), terminal_(isatty(2) != 0) {}
 
   void Show(std::size_t done, const FrameRecord& frame, std::size_t keyframes) {
     const auto now = Clock::now();
@@ -104,14 +103,15 @@ class Progress {
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const double fps = static_cast<double>(done) / std::max(seconds, 1e-9);
     const double left = static_cast<double>(total_ - done) / std::max(fps, 1e-9);
-    const std::string text = fmt::format("{}{}/{} frames  {:.1f} fps  {}  {} keyframes  ETA {:.0f} s",
-                                         terminal_ ? Bar(done) : std::string(),
-                                         done,
-                                         total_,
-                                         fps,
-                                         NameOf(frame.status),
-                                         keyframes,
-                                         left);
+    const std::string text =
+        fmt::format("{}{}/{} frames  {:.1f} fps  {}  {} keyframes  ETA {:.0f} s",
+                    terminal_ ? Bar(done) : std::string(),
+                    done,
+                    total_,
+                    fps,
+                    NameOf(frame.status),
+                    keyframes,
+                    left);
     if (terminal_) {
       std::cerr << '\r' << text << "   " << (last ? "\n" : "") << std::flush;
     } else {
@@ -192,10 +192,8 @@ void ProcessFrames(const Dataset& dataset,
   for (std::size_t k = 0; k < frames.size() && stop_requested == 0; ++k) {
     auto frame = dataset.Read(frames[k]);
     if (!frame) {
-      progress.Say(fmt::format("frame {} skipped: {}: {}",
-                               frames[k],
-                               frame.error().path.string(),
-                               frame.error().why));
+      progress.Say(fmt::format(
+          "frame {} skipped: {}: {}", frames[k], frame.error().path.string(), frame.error().why));
       progress.Show(k + 1, system.Skip(dataset.stamp_ns(frames[k]), "image_unreadable"), keyframes);
       continue;
     }
@@ -220,12 +218,12 @@ void PrintResult(const System& system, const Dataset& dataset, const RunSetup& s
                            counts.initializing > 0
                                ? fmt::format(", {} before a map", counts.initializing)
                                : std::string());
-  std::cout << fmt::format("map: {} keyframes, {} points, {} lines{}\n",
-                           counts.keyframes,
-                           counts.points,
-                           counts.lines,
-                           counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps)
-                                           : std::string());
+  std::cout << fmt::format(
+      "map: {} keyframes, {} points, {} lines{}\n",
+      counts.keyframes,
+      counts.points,
+      counts.lines,
+      counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
   if (const auto error = CompareWithGroundTruth(system, dataset)) {
     std::cout << fmt::format("ATE {:.4f} m RMSE over {} poses, coverage {:.1f} %\n",
                              error->ate.rmse,
@@ -254,7 +252,8 @@ int RunCommand(std::span<const std::string> arguments) {
   MakeFolder(setup.folder);
   WriteFileAtomically(setup.folder / "options.yaml", setup.options_yaml);
   if (!setup.quiet) {
-    for (const std::string& note : dataset->info().notes) std::cerr << "plumbline: " << note << '\n';
+    for (const std::string& note : dataset->info().notes)
+      std::cerr << "plumbline: " << note << '\n';
   }
   std::signal(SIGINT, RequestStop);
   std::signal(SIGTERM, RequestStop);
@@ -266,11 +265,11 @@ int RunCommand(std::span<const std::string> arguments) {
   resources.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   WriteFileAtomically(
       setup.folder / "summary.json",
-      FormatSummary({PLUMBLINE_VERSION, line.Positional(0), setup.options_yaml,
-                     setup.options.slam.seed},
-                    system,
-                    *dataset,
-                    resources));
+      FormatSummary(
+          {PLUMBLINE_VERSION, line.Positional(0), setup.options_yaml, setup.options.slam.seed},
+          system,
+          *dataset,
+          resources));
   if (!setup.quiet) PrintResult(system, *dataset, setup);
   return 0;
 }

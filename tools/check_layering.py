@@ -1,85 +1,131 @@
 #!/usr/bin/env python3
-"""Fails when a plumbline module includes something its row of LAYERS does not allow.
+"""Checks that the modules depend on each other only as the table LAYERS says.
 
-Run from the repository root. Exit status: 0 clean, 1 violations (one per line, file:line).
+Three things must agree: the row of a module in LAYERS, the DEPS in its CMakeLists.txt, and what its
+files include. Third-party headers may be included only where THIRD_PARTY says. Exit status: 0 clean,
+1 violations (one a line, file:line).
 """
 import pathlib
 import re
 import sys
 
-# module -> modules it may include directly. Order is bottom to top, so a name may only
-# appear after it was defined: the table itself cannot describe a cycle.
+# module -> modules it may include. Bottom to top: a name may only appear after it was defined, so that
+# the table itself cannot describe a cycle.
 LAYERS = {
     "base": [],
     "geometry": ["base"],
     "image": ["base", "geometry"],
-    "solvers": ["base", "geometry"],
     "optimization": ["base", "geometry"],
-    "linecut": ["base", "geometry", "optimization"],
     "features": ["base", "geometry", "image"],
-    "initialization": ["base", "geometry", "image", "features", "solvers", "optimization"],
     "map": ["base", "geometry", "features"],
-    "association": ["base", "geometry", "features", "map"],
-    "tracking": ["base", "geometry", "image", "features", "solvers", "initialization",
-                 "optimization", "linecut", "map", "association"],
-    "mapping": ["base", "geometry", "features", "solvers", "optimization", "map", "association"],
-    "place": ["base", "geometry", "features", "solvers", "optimization", "map", "association"],
-    "slam": ["base", "geometry", "image", "features", "solvers", "optimization", "linecut",
-             "initialization", "map", "tracking", "mapping", "place"],
-    "io": ["base", "geometry", "image", "features", "map", "place"],
+    "association": ["base", "geometry", "features", "optimization", "map"],
+    "tracking": ["base", "geometry", "features", "optimization", "map", "association"],
+    "mapping": ["base", "geometry", "features", "optimization", "map", "association"],
+    "slam": ["base", "geometry", "image", "features", "optimization", "map", "association",
+             "tracking", "mapping"],
+    "io": ["base", "geometry", "image", "features", "map"],
     "synth": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
-    "experiments": ["base", "geometry", "image", "features", "solvers", "optimization", "linecut",
-                    "initialization", "map", "tracking", "mapping", "place", "slam", "io", "synth",
-                    "eval", "report"],
-    "viewer": ["base", "geometry", "map", "slam"],
 }
-# third-party prefix -> modules whose .cc files may include it. A header may only do so when
-# its name says it (ceres_*.h), so no public header drags a heavy library along.
+# third-party prefix -> the files of plumbline/ that may include it (regular expression). Headers are
+# left out but for three, so that nobody needs more than Eigen and fmt to include the library.
 THIRD_PARTY = {
-    "ceres/": ["optimization"],
-    "opencv2/": ["image", "features", "io", "report"],
-    "embree3/": ["synth"],
-    "nlopt": ["experiments"],
-    "coin/": ["experiments"],
-    "nlohmann/": ["io", "report", "experiments", "viewer"],
-    "yaml-cpp/": ["base", "io"],
-    "civetweb": ["viewer"],
-    "CLI/": [],
-    "pybind11/": [],
+    "CLI/": None,
+    "benchmark/": None,
+    "ceres/": r"optimization/ceres_\w+\.(h|cc)",
+    "embree3/": r"synth/\w+\.cc",
+    "fmt/": r"base/log\.h|\w+/\w+\.cc",
+    "gmock/": None,
+    "gtest/": None,
+    "nlohmann/": r"(io|eval|report)/\w+\.cc",
+    "opencv2/": r"image/opencv_bridge\.h|(image|features|io|report)/\w+\.cc",
+    "spdlog/": r"base/log\.cc",
+    "yaml-cpp/": r"(base|io)/\w+\.cc",
 }
+# Headers of the library that bring a heavy third-party header along: for .cc files only.
+HEAVY_HEADERS = {"plumbline/image/opencv_bridge.h", "plumbline/optimization/ceres_terms.h"}
+
 INCLUDE = re.compile(r'\s*#\s*include\s+["<]([^">]+)[">]')
+MODULE = re.compile(r"plumbline_module\(\s*NAME\s+(\w+)(.*?)\)", re.DOTALL)
+KEYWORDS = {"SOURCES", "DEPS", "PUBLIC", "PRIVATE"}
 
 
-def violations(root: pathlib.Path):
+def table_problems():
     seen = set()
     for module, allowed in LAYERS.items():
-        unknown = set(allowed) - seen
+        unknown = sorted(set(allowed) - seen)
         if unknown:
-            yield f"LAYERS: {module} names {sorted(unknown)} before they are defined"
+            yield f"tools/check_layering.py: {module} names {unknown} before they are defined"
         seen.add(module)
-    for path in sorted((root / "plumbline").rglob("*")):
-        if path.suffix not in (".h", ".cc"):
+
+
+def declared_dependencies(text):
+    """(target name, set of DEPS) for every plumbline_module() of a CMakeLists.txt."""
+    for match in MODULE.finditer(re.sub(r"#.*", "", text)):
+        dependencies, keyword = set(), None
+        for word in match[2].split():
+            if word in KEYWORDS:
+                keyword = word
+            elif keyword == "DEPS":
+                dependencies.add(word)
+        yield match[1], dependencies
+
+
+def cmake_problems(folder, module):
+    path = folder / "CMakeLists.txt"
+    if not path.is_file():
+        yield f"plumbline/{module}: no CMakeLists.txt"
+        return
+    targets = dict(declared_dependencies(path.read_text()))
+    row = set(LAYERS[module])
+    where = f"plumbline/{module}/CMakeLists.txt"
+    if module not in targets:
+        yield f"{where}: defines no module {module}"
+    for target, dependencies in targets.items():
+        if target == module and dependencies != row:
+            yield (f"{where}: DEPS {sorted(dependencies)}, but the table of "
+                   f"tools/check_layering.py says {sorted(row)}")
+        if target != module and not dependencies <= row | {module}:
+            yield f"{where}: {target} may not depend on {sorted(dependencies - row - {module})}"
+
+
+def include_problems(path, relative, module):
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
             continue
-        module = path.relative_to(root / "plumbline").parts[0]
-        for number, line in enumerate(path.read_text().splitlines(), 1):
-            match = INCLUDE.match(line)
-            if not match:
-                continue
-            target, where = match[1], f"{path.relative_to(root)}:{number}"
-            if target.startswith("plumbline/"):
-                other = target.split("/")[1]
-                if other != module and other not in LAYERS.get(module, []):
-                    yield f"{where}: {module} may not include {other}"
-            for prefix, users in THIRD_PARTY.items():
-                named_header = path.name.startswith(prefix.rstrip("/") + "_")
-                if target.startswith(prefix) and (
-                        module not in users or (path.suffix == ".h" and not named_header)):
-                    yield f"{where}: {target} is not allowed here"
+        target, where = match[1], f"plumbline/{relative}:{number}"
+        if target.startswith("plumbline/"):
+            other = target.split("/")[1]
+            if other != module and other not in LAYERS[module]:
+                yield f"{where}: {module} may not include {other}"
+            if target in HEAVY_HEADERS and path.suffix == ".h":
+                yield f"{where}: {target} may be included in .cc files only"
+        elif target.startswith(("apps/", "tests/")):
+            yield f"{where}: the library may not include {target}"
+        for prefix, users in THIRD_PARTY.items():
+            if target.startswith(prefix) and not (users and re.fullmatch(users, relative)):
+                yield f"{where}: {target} is not allowed here"
+
+
+def problems(root):
+    yield from table_problems()
+    library = root / "plumbline"
+    folders = {path.name for path in library.iterdir() if path.is_dir()}
+    for module in sorted(folders - LAYERS.keys()):
+        yield f"plumbline/{module}: has no row in the table of tools/check_layering.py"
+    for module in sorted(LAYERS.keys() - folders):
+        yield f"tools/check_layering.py: there is no plumbline/{module}"
+    for module in sorted(folders & LAYERS.keys()):
+        yield from cmake_problems(library / module, module)
+        for path in sorted((library / module).rglob("*")):
+            if path.suffix in (".h", ".cc"):
+                relative = path.relative_to(library).as_posix()
+                yield from include_problems(path, relative, module)
 
 
 if __name__ == "__main__":
-    problems = list(violations(pathlib.Path(".")))
-    print("\n".join(problems))
-    sys.exit(1 if problems else 0)
+    found = list(problems(pathlib.Path(__file__).resolve().parent.parent))
+    print("\n".join(found))
+    sys.exit(1 if found else 0)

@@ -88,6 +88,7 @@ MapEdit FuseLandmarks(const Map& map,
 
   const auto points = Missing<MapPoint>(map, source.points, to);
   std::vector<std::optional<ProjectedPoint>> projected_points;
+  projected_points.reserve(points.size());
   for (const MapPoint* point : points) {
     projected_points.push_back(ProjectPoint(imaging, target.cam_from_world, *point, search));
   }
@@ -107,6 +108,7 @@ MapEdit FuseLandmarks(const Map& map,
 
   const auto lines = Missing<MapLine>(map, source.lines, to);
   std::vector<std::optional<ProjectedLine>> projected_lines;
+  projected_lines.reserve(lines.size());
   for (const MapLine* line : lines) {
     projected_lines.push_back(ProjectLine(imaging, target.cam_from_world, *line, search));
   }

@@ -12,8 +12,9 @@
 
 namespace plumbline {
 
-// What line feature i of a frame says about a line in the world: J^T Sigma^-1 J over the residuals of
-// its left and right measurement, for the orthonormal tangent of `line`, with the pose taken as known.
+// What line feature i of a frame says about a line in the world: J^T Sigma^-1 J over the residuals
+// of its left and right measurement, for the orthonormal tangent of `line`, with the pose taken as
+// known.
 Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 const Frame& frame,
                                 std::size_t i,

@@ -41,10 +41,11 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
   visit("residual",
         o.residual,
         "observed_ends: distance of the measured end points from the projected line");
-  visit("weighting",
-        o.weighting,
-        "of the two residuals of a line: none (1 px each), scalar (their mean variance), covariance "
-        "(2 x 2, with the uncertainty of the 3D line in tracking)");
+  visit(
+      "weighting",
+      o.weighting,
+      "of the two residuals of a line: none (1 px each), scalar (their mean variance), covariance "
+      "(2 x 2, with the uncertainty of the 3D line in tracking)");
 }
 
 // The measurement of point feature i.

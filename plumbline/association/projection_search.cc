@@ -130,8 +130,7 @@ std::optional<ProjectedLine> ProjectLine(const ImagingModel& imaging,
                                          const LineModel& line,
                                          const ProjectionSearchOptions& options) {
   const Segment3 world = line.Interval();
-  const Eigen::Vector3d to_middle =
-      world.Midpoint() - Inverse(cam_from_world).translation;
+  const Eigen::Vector3d to_middle = world.Midpoint() - Inverse(cam_from_world).translation;
   if (!SeenFromNear(line.view_direction, to_middle, options.max_view_angle_deg)) {
     return std::nullopt;
   }
@@ -160,7 +159,8 @@ std::vector<LandmarkMatch> MatchProjectedPoints(
       const PointFeature& feature = features.points[i];
       if (taken[i] || std::abs(feature.octave - landmark.octave) > 1) continue;
       if (!DisparityAgrees(features.point_disparity[i], landmark.disparity, radius)) continue;
-      nearest.Offer(index, HammingDistance(feature.descriptor, landmark.descriptor), feature.octave);
+      nearest.Offer(
+          index, HammingDistance(feature.descriptor, landmark.descriptor), feature.octave);
     }
     if (nearest.best < 0 || nearest.best_distance > options.point_max_distance) continue;
     if (nearest.best_octave == nearest.second_octave &&

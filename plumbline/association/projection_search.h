@@ -14,14 +14,14 @@
 namespace plumbline {
 
 struct ProjectionSearchOptions {
-  double point_radius_px = 4;       // at octave 0; grows with the octave
-  int point_max_distance = 80;      // Hamming, of 256 bits
-  double point_ratio = 0.85;        // best / second best in the window
-  double max_view_angle_deg = 60;   // between the usual and the present viewing direction
-  double line_offset_px = 10;       // midpoint of the feature from the projected line
-  double line_angle_deg = 8;        // between feature and projected line
-  int line_max_distance = 80;       // Hamming, of 256 bits
-  double line_min_length_px = 20;   // visible part of a projected line
+  double point_radius_px = 4;      // at octave 0; grows with the octave
+  int point_max_distance = 80;     // Hamming, of 256 bits
+  double point_ratio = 0.85;       // best / second best in the window
+  double max_view_angle_deg = 60;  // between the usual and the present viewing direction
+  double line_offset_px = 10;      // midpoint of the feature from the projected line
+  double line_angle_deg = 8;       // between feature and projected line
+  int line_max_distance = 80;      // Hamming, of 256 bits
+  double line_min_length_px = 20;  // visible part of a projected line
 };
 
 template <class Visitor>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -11,8 +10,9 @@
 
 namespace plumbline {
 
-// Bad input from outside: a missing file, a malformed line, an unknown option. The message names the
-// file (and line), what was expected and what was found. The command line prints it and exits with 2.
+// Bad input from outside: a missing file, a malformed line, an unknown option. The message names
+// the file (and line), what was expected and what was found. The command line prints it and exits
+// with 2.
 class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -22,19 +22,20 @@ class BugError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] inline void FailCheck(
-    std::string_view expression,
-    std::string_view why,
-    const std::source_location& where = std::source_location::current()) {
-  throw BugError(std::string(where.file_name()) + ":" + std::to_string(where.line()) +
-                 ": check failed: " + std::string(expression) + (why.empty() ? "" : ": ") +
-                 std::string(why));
+// Throws BugError that names file and line of the caller (by the compilers' built-ins, which give
+// what std::source_location would; clang 14 cannot read that header of GCC 12).
+[[noreturn]] inline void FailCheck(std::string_view expression,
+                                   std::string_view why,
+                                   const char* file = __builtin_FILE(),
+                                   int line = __builtin_LINE()) {
+  throw BugError(std::string(file) + ":" + std::to_string(line) + ": check failed: " +
+                 std::string(expression) + (why.empty() ? "" : ": ") + std::string(why));
 }
 
-#define PLUMBLINE_CHECK(expression, why)             \
-  do {                                               \
-    if (!(expression)) [[unlikely]]                  \
-      ::plumbline::FailCheck(#expression, (why));    \
+#define PLUMBLINE_CHECK(expression, why)          \
+  do {                                            \
+    if (!(expression)) [[unlikely]]               \
+      ::plumbline::FailCheck(#expression, (why)); \
   } while (false)
 
 // The value of an algorithm that may fail in foreseen ways, or the reason (an enum) why it failed.

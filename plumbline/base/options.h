@@ -48,6 +48,8 @@ struct FieldProbe {
 };
 
 template <class T>
-concept OptionGroup = requires(T& t, FieldProbe probe) { VisitFields(probe, t); };
+concept OptionGroup = requires(T& t, FieldProbe probe) {
+  VisitFields(probe, t);
+};
 
 }  // namespace plumbline

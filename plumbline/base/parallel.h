@@ -27,16 +27,18 @@ void ParallelFor(int n, int threads, const Function& fn) {
   std::mutex mutex;
   int failed_index = n;
   std::exception_ptr failure;
+  const auto keep_failure = [&](int i) {
+    const std::lock_guard lock(mutex);
+    if (i >= failed_index) return;
+    failed_index = i;
+    failure = std::current_exception();
+  };
   const auto work = [&] {
     for (int i = next.fetch_add(1); i < n; i = next.fetch_add(1)) {
       try {
         fn(i);
-      } catch (...) {  // handed to the caller below
-        const std::lock_guard lock(mutex);
-        if (i < failed_index) {
-          failed_index = i;
-          failure = std::current_exception();
-        }
+      } catch (...) {  // rethrown in the caller's thread below
+        keep_failure(i);
         next.store(n);
       }
     }

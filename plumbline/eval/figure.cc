@@ -99,7 +99,7 @@ std::pair<int, int> ViewAxes(const std::vector<EvaluatedPose>& poses) {
 }
 
 // Grows the range to the shape of the panel, so that a metre is as long in x as in y.
-Eigen::AlignedBox2d EqualScale(Eigen::AlignedBox2d range, double aspect) {
+Eigen::AlignedBox2d EqualScale(const Eigen::AlignedBox2d& range, double aspect) {
   const Vector2d centre = range.center();
   Vector2d size = 1.08 * range.sizes().cwiseMax(Vector2d::Constant(1e-6));
   size.x() = std::max(size.x(), aspect * size.y());

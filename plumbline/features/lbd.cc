@@ -171,9 +171,7 @@ Descriptor BinarizeLbd(const LbdVector& vector) {
     for (std::size_t b = a + 1; b < kLbdBands; ++b) {
       if (b - a >= 7 || (b - a == 6 && a == 1)) continue;
       for (std::size_t k = 0; k < 8; ++k, ++bit) {
-        if (vector[8 * a + k] > vector[8 * b + k]) {
-          descriptor[bit / 64] |= std::uint64_t{1} << (bit % 64);
-        }
+        descriptor[bit / 64] |= std::uint64_t{vector[8 * a + k] > vector[8 * b + k]} << (bit % 64);
       }
     }
   }

@@ -218,8 +218,7 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
     const LineFeature& r = right[static_cast<std::size_t>(m.b)];
     // An error of the calibration shifts the line along the rows, so across itself by this much.
     const double shift = options.calibration_sigma_px * std::abs(r.segment.Direction().y());
-    result[static_cast<std::size_t>(m.a)] =
-        RightLine{r.segment, std::hypot(r.sigma_px, shift)};
+    result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, std::hypot(r.sigma_px, shift)};
   }
   return result;
 }

@@ -293,8 +293,8 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
     if (!found) continue;
     const double disparity = (at.x() - found->x) * level.scale.x();
     if (disparity <= 0 || disparity > gate.max_disparity) continue;
-    const double sigma = std::hypot(
-        std::max(options.min_sigma_px, found->sigma) * level.scale.x(), options.calibration_sigma_px);
+    const double sigma = std::hypot(std::max(options.min_sigma_px, found->sigma) * level.scale.x(),
+                                    options.calibration_sigma_px);
     result[i] = Disparity{disparity, sigma};
     residuals[i] = found->residual;
   }

@@ -14,7 +14,8 @@ namespace plumbline {
 // const matrices: do not write through the Mat of a const Image.
 template <class T>
 cv::Mat AsMat(const Image<T>& image) {
-  return cv::Mat(image.height(), image.width(), cv::DataType<T>::type, const_cast<T*>(image.data()));
+  return cv::Mat(
+      image.height(), image.width(), cv::DataType<T>::type, const_cast<T*>(image.data()));
 }
 
 // Copies a single-channel matrix of the same element type.

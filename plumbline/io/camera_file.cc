@@ -26,8 +26,8 @@ namespace {
 // A YAML map with the place it came from, for messages. `prefix` is the dotted name of the map.
 class Section {
  public:
-  Section(YAML::Node node, std::string source, std::string prefix)
-      : node_(std::move(node)), source_(std::move(source)), prefix_(std::move(prefix)) {}
+  Section(const YAML::Node& node, std::string source, std::string prefix)
+      : node_(node), source_(std::move(source)), prefix_(std::move(prefix)) {}
 
   static Section Parse(const std::string& yaml, const std::string& source) {
     YAML::Node node;
@@ -224,6 +224,7 @@ void AppendCamera(const Camera& camera, const std::string& indent, std::string& 
 
 std::string FormatMotion(const std::string& key, const Rigid3& motion) {
   std::vector<double> numbers;
+  numbers.reserve(16);
   const Eigen::Matrix4d matrix = motion.Matrix();
   for (int i = 0; i < 16; ++i) numbers.push_back(matrix(i / 4, i % 4));
   return fmt::format("{}: [{}]\n", key, fmt::join(numbers, ", "));

@@ -45,6 +45,7 @@ Descriptor MostTypical(const std::vector<Descriptor>& descriptors) {
   int best_median = 257;
   for (std::size_t i = 0; i < descriptors.size(); ++i) {
     std::vector<int> distances;
+    distances.reserve(descriptors.size());
     for (const Descriptor& other : descriptors) {
       distances.push_back(HammingDistance(descriptors[i], other));
     }
@@ -64,6 +65,7 @@ void RefreshAppearance(const std::map<KeyFrameId, KeyFrame>& keyframes, MapPoint
   const std::vector<View> views = NewestViews(keyframes, point.observations);
   if (views.empty()) return;
   std::vector<Descriptor> descriptors;
+  descriptors.reserve(views.size());
   for (const View& v : views) {
     descriptors.push_back(v.keyframe->frame.features().points[v.feature].descriptor);
   }
@@ -78,6 +80,7 @@ void RefreshAppearance(const std::map<KeyFrameId, KeyFrame>& keyframes, MapLine&
   const std::vector<View> views = NewestViews(keyframes, line.observations);
   if (views.empty()) return;
   std::vector<Descriptor> descriptors;
+  descriptors.reserve(views.size());
   for (const View& v : views) {
     descriptors.push_back(v.keyframe->frame.features().lines[v.feature].descriptor);
   }

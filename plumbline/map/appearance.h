@@ -11,8 +11,9 @@ namespace plumbline {
 
 // Recomputes what a landmark looks like from its observations: the descriptor with the least median
 // Hamming distance to the others (ties: the oldest keyframe's), the mean viewing direction, and for
-// points the distance and octave of the newest observation, from which the octave at any other distance
-// follows. Cost O(n^2) in the number of observations, at most the newest 12 of which count.
+// points the distance and octave of the newest observation, from which the octave at any other
+// distance follows. Cost O(n^2) in the number of observations, at most the newest 12 of which
+// count.
 void RefreshAppearance(const std::map<KeyFrameId, KeyFrame>& keyframes, MapPoint& point);
 void RefreshAppearance(const std::map<KeyFrameId, KeyFrame>& keyframes, MapLine& line);
 

@@ -13,8 +13,9 @@ struct CovisibleKeyFrame {
   int shared = 0;  // points and lines that both show
 };
 
-// The keyframes that show at least min_shared of the landmarks that `id` shows, most shared first (ties:
-// newest first), without `id` itself. Derived from the observations at each call, O(matches x views).
+// The keyframes that show at least min_shared of the landmarks that `id` shows, most shared first
+// (ties: newest first), without `id` itself. Derived from the observations at each call, O(matches
+// x views).
 std::vector<CovisibleKeyFrame> Covisible(const Map& map, KeyFrameId id, int min_shared);
 
 }  // namespace plumbline

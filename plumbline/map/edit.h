@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// The changes a map can undergo. Each algorithm reads a Map and returns an Edit; Map::Apply is the one
-// place where a map changes.
+// The changes a map can undergo. Each algorithm reads a Map and returns an Edit; Map::Apply is the
+// one place where a map changes.
 namespace edit {
 
 // The keyframe with its matches; matches of landmarks that were merged or removed meanwhile follow
@@ -43,23 +43,24 @@ struct RemoveLine {
 };
 struct MovePoint {
   PointId id;
-  Eigen::Vector3d position;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 struct MoveLine {
   LineId id;
   PluckerLine line;
-  double start, end;
-  Eigen::Matrix4d information;
+  double start = 0;
+  double end = 0;
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
 };
 struct AddPointObservation {
   PointId id;
   KeyFrameId keyframe;
-  int feature;
+  int feature = 0;
 };
 struct AddLineObservation {
   LineId id;
   KeyFrameId keyframe;
-  int feature;
+  int feature = 0;
 };
 struct RemovePointObservation {
   PointId id;
@@ -85,11 +86,13 @@ struct RefreshLine {
 };
 struct ScorePoint {
   PointId id;
-  int visible, found;  // added to the score
+  int visible = 0;
+  int found = 0;  // both are added to the score
 };
 struct ScoreLine {
   LineId id;
-  int visible, found;
+  int visible = 0;
+  int found = 0;
 };
 
 }  // namespace edit

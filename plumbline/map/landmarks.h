@@ -22,7 +22,8 @@ struct PointModel {
 };
 
 // What is needed to find a line in an image. The infinite line is what optimization works on; the
-// interval [start, end] of parameters along it (PluckerLine::PointAt) serves search and display only.
+// interval [start, end] of parameters along it (PluckerLine::PointAt) serves search and display
+// only.
 struct LineModel {
   PluckerLine line;  // world; directed with the brighter side as LineFeature says
   double start = 0;

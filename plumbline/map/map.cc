@@ -79,7 +79,8 @@ struct MapChanger {
   void Observe(LandmarkId id, KeyFrameId keyframe_id, int feature) {
     auto* landmark = FindLandmark(id);
     KeyFrame* keyframe = FindKeyFrame(keyframe_id);
-    if (landmark == nullptr || keyframe == nullptr || landmark->observations.contains(keyframe_id)) {
+    if (landmark == nullptr || keyframe == nullptr ||
+        landmark->observations.contains(keyframe_id)) {
       return;
     }
     LandmarkId& match = Matches(keyframe->frame, id)[static_cast<std::size_t>(feature)];
@@ -173,8 +174,8 @@ struct MapChanger {
     KeyFrame* keyframe = FindKeyFrame(change.id);
     if (keyframe == nullptr || !keyframe->parent.valid()) return;
     const Rigid3 parent_from_world = map.PoseOf(keyframe->parent);
-    map.removed_keyframes_[change.id] = {keyframe->parent,
-                                         keyframe->frame.cam_from_world * Inverse(parent_from_world)};
+    map.removed_keyframes_[change.id] = {
+        keyframe->parent, keyframe->frame.cam_from_world * Inverse(parent_from_world)};
     const Frame frame = keyframe->frame;
     for (const PointId id : frame.points) Unobserve(id, change.id);
     for (const LineId id : frame.lines) Unobserve(id, change.id);

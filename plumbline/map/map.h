@@ -12,7 +12,8 @@
 
 namespace plumbline {
 
-// Keyframes, points and lines of one connected world, keyed by id. Read by all, changed by Apply alone.
+// Keyframes, points and lines of one connected world, keyed by id. Read by all, changed by Apply
+// alone.
 class Map {
  public:
   explicit Map(MapId id = MapId{0}) : id_(id) {}
@@ -40,8 +41,8 @@ class Map {
   PointId NextPointId() const { return next_point_; }
   LineId NextLineId() const { return next_line_; }
 
-  // Carries out the changes in order and adds one to the version. Changes that name an object that an
-  // earlier change removed are skipped.
+  // Carries out the changes in order and adds one to the version. Changes that name an object that
+  // an earlier change removed are skipped.
   void Apply(const MapEdit& edit);
 
   // Throws BugError when observations and matches disagree or a landmark has none.

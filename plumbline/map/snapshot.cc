@@ -38,13 +38,9 @@ std::set<KeyFrameId> Window(const Map& map, KeyFrameId centre, std::size_t max_k
   return window;
 }
 
-SnapshotPoint Copy(const MapPoint& p) {
-  return {p, p.id, static_cast<int>(p.observations.size())};
-}
+SnapshotPoint Copy(const MapPoint& p) { return {p, p.id, static_cast<int>(p.observations.size())}; }
 
-SnapshotLine Copy(const MapLine& l) {
-  return {l, l.id, static_cast<int>(l.observations.size())};
-}
+SnapshotLine Copy(const MapLine& l) { return {l, l.id, static_cast<int>(l.observations.size())}; }
 
 }  // namespace
 

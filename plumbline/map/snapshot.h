@@ -36,8 +36,10 @@ struct MapSnapshot {
   const SnapshotLine* Find(LineId id) const;
 };
 
-// Copies the landmarks seen by `centre`, by its covisible keyframes and by their closest neighbours, at
-// most max_keyframes keyframes in all. Order of a megabyte.
-std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map, KeyFrameId centre, int max_keyframes);
+// Copies the landmarks seen by `centre`, by its covisible keyframes and by their closest
+// neighbours, at most max_keyframes keyframes in all. Order of a megabyte.
+std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
+                                                KeyFrameId centre,
+                                                int max_keyframes);
 
 }  // namespace plumbline

@@ -22,7 +22,7 @@ class WindowBuilder {
                 const ImagingModel& imaging,
                 LineWeighting weighting,
                 const BaWindowOptions& options)
-      : map_(map), imaging_(imaging), weighting_(weighting), options_(options) {
+      : map_(map), weighting_(weighting), options_(options) {
     window_.problem.camera = imaging.camera;
   }
 
@@ -78,6 +78,7 @@ class WindowBuilder {
     for (const PointId id : points_) count(map_.Find(id)->observations);
     for (const LineId id : lines_) count(map_.Find(id)->observations);
     std::vector<CovisibleKeyFrame> others;
+    others.reserve(shared.size());
     for (const auto& [id, n] : shared) others.push_back({id, n});
     std::sort(others.begin(), others.end(), [](const auto& a, const auto& b) {
       return a.shared != b.shared ? a.shared > b.shared : a.id > b.id;
@@ -112,7 +113,8 @@ class WindowBuilder {
         window_.problem.point_observations.push_back(
             {pose->second,
              index,
-             MeasurePoint(map_.Find(keyframe)->frame.features(), static_cast<std::size_t>(feature))});
+             MeasurePoint(map_.Find(keyframe)->frame.features(),
+                          static_cast<std::size_t>(feature))});
       }
     }
   }
@@ -146,8 +148,8 @@ class WindowBuilder {
     }
   }
 
-  // Wide angle between the interpretation planes of the first view and another (left images), or ends
-  // that the information fixes.
+  // Wide angle between the interpretation planes of the first view and another (left images), or
+  // ends that the information fixes.
   bool WellConditioned(const MapLine& line) const {
     const double limit = std::cos(options_.min_line_plane_angle_deg * std::numbers::pi / 180);
     std::optional<Eigen::Vector3d> first;
@@ -167,7 +169,6 @@ class WindowBuilder {
   }
 
   const Map& map_;
-  const ImagingModel& imaging_;
   LineWeighting weighting_;
   const BaWindowOptions& options_;
   BaWindow window_;
@@ -230,8 +231,7 @@ MapEdit ToEdit(const Map& map,
   MapEdit edit;
   for (std::size_t k = 0; k < window.keyframes.size(); ++k) {
     if (window.problem.poses[k].fixed) continue;
-    edit.push_back(
-        edit::SetPose{window.keyframes[k], result.poses[k] * window.window_from_world});
+    edit.push_back(edit::SetPose{window.keyframes[k], result.poses[k] * window.window_from_world});
   }
   const Rigid3 world_from_window = Inverse(window.window_from_world);
   for (std::size_t k = 0; k < window.points.size(); ++k) {

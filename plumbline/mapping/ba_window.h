@@ -25,9 +25,9 @@ struct BaWindow {
   std::vector<LineId> young_lines;  // seen by the window, too badly conditioned to take part
 };
 
-// The window around a keyframe: it and its covisible keyframes are free (never the first of the map),
-// other keyframes that see the same landmarks are fixed. Landmarks need two views; lines in addition
-// a wide enough angle between their interpretation planes or well known ends.
+// The window around a keyframe: it and its covisible keyframes are free (never the first of the
+// map), other keyframes that see the same landmarks are fixed. Landmarks need two views; lines in
+// addition a wide enough angle between their interpretation planes or well known ends.
 BaWindow MakeBaWindow(const Map& map,
                       const ImagingModel& imaging,
                       KeyFrameId centre,
@@ -36,6 +36,9 @@ BaWindow MakeBaWindow(const Map& map,
 
 // The result as changes of the map: poses, landmarks (lines with new intervals and information),
 // and the observations that turned out to be outliers.
-MapEdit ToEdit(const Map& map, const ImagingModel& imaging, const BaWindow& window, const BaResult& result);
+MapEdit ToEdit(const Map& map,
+               const ImagingModel& imaging,
+               const BaWindow& window,
+               const BaResult& result);
 
 }  // namespace plumbline

@@ -34,9 +34,8 @@ std::vector<DepthPoint> ChooseDepthPoints(const Frame& frame,
     return a.relative_sigma < b.relative_sigma;
   });
   std::size_t count = 0;
-  while (count < free.size() &&
-         (free[count].relative_sigma <= options.max_relative_depth_sigma ||
-          present + static_cast<int>(count) < options.min_depth_points)) {
+  while (count < free.size() && (free[count].relative_sigma <= options.max_relative_depth_sigma ||
+                                 present + static_cast<int>(count) < options.min_depth_points)) {
     ++count;
   }
   free.resize(count);

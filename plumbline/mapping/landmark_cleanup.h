@@ -23,8 +23,8 @@ MapEdit RemoveWeakLandmarks(const Map& map,
                             const CleanupOptions& options,
                             YoungLandmarks& young);
 
-// Removes keyframes around `centre` nearly all of whose landmarks enough others show at the same or a
-// finer scale. The first keyframe, `centre` and the newest before it stay.
+// Removes keyframes around `centre` nearly all of whose landmarks enough others show at the same or
+// a finer scale. The first keyframe, `centre` and the newest before it stay.
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
 
 }  // namespace plumbline

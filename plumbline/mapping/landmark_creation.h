@@ -8,9 +8,9 @@
 
 namespace plumbline {
 
-// New points and lines from the depths of one keyframe: every feature without landmark whose depth is
-// known well enough, and where the keyframe shows few points with depth, the best known of the others.
-// Each gets one observation.
+// New points and lines from the depths of one keyframe: every feature without landmark whose depth
+// is known well enough, and where the keyframe shows few points with depth, the best known of the
+// others. Each gets one observation.
 MapEdit CreateFromDepth(const Map& map,
                         const ImagingModel& imaging,
                         KeyFrameId id,
@@ -25,8 +25,8 @@ MapEdit CreatePointsFromViews(const Map& map,
                               const LandmarkCreationOptions& options);
 
 // New lines from line features without landmark in the keyframe and in up to two of its closest
-// neighbours (section 3.3): n-view reconstruction, kept where the end points of every view lie on the
-// projected line (chi2 95 %) and the interpretation planes meet at a large enough angle.
+// neighbours (section 3.3): n-view reconstruction, kept where the end points of every view lie on
+// the projected line (chi2 95 %) and the interpretation planes meet at a large enough angle.
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,

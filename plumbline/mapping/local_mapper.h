@@ -20,8 +20,8 @@ struct MappingStep {
 };
 
 // Takes keyframes into the map, one after the other: observations, landmarks from depth and from
-// several views, duplicates, local bundle adjustment, clean-up. Each step reads the map and returns a
-// MapEdit, applied here.
+// several views, duplicates, local bundle adjustment, clean-up. Each step reads the map and returns
+// a MapEdit, applied here.
 class LocalMapper {
  public:
   LocalMapper(const ImagingModel& imaging, LineWeighting weighting, const MappingOptions& options);

@@ -9,15 +9,15 @@
 namespace plumbline {
 
 struct LandmarkCreationOptions {
-  double max_relative_depth_sigma = 0.04;  // of points from one stereo or RGB-D frame ...
-  int min_depth_points = 100;              // ... but at least so many, the best known first ...
+  double max_relative_depth_sigma = 0.04;   // of points from one stereo or RGB-D frame ...
+  int min_depth_points = 100;               // ... but at least so many, the best known first ...
   double worst_relative_depth_sigma = 0.3;  // ... up to this
   double max_relative_line_depth_sigma = 0.08;  // of the ends of lines from one frame
-  int neighbours = 6;                     // keyframes searched for a second view
-  double min_parallax_deg = 1;            // between the two views of a new point
-  int max_distance = 50;                  // Hamming, of 256 bits
+  int neighbours = 6;                           // keyframes searched for a second view
+  double min_parallax_deg = 1;                  // between the two views of a new point
+  int max_distance = 50;                        // Hamming, of 256 bits
   double ratio = 0.8;
-  double min_plane_angle_deg = 2;         // between the two views of a new line
+  double min_plane_angle_deg = 2;  // between the two views of a new line
 };
 
 template <class Visitor>
@@ -39,7 +39,10 @@ void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
         "depth uncertainty of the ends of lines from one frame, relative to depth",
         Range{0.001, 1});
   visit("neighbours", o.neighbours, "keyframes searched for a second view", Range{0, 100});
-  visit("min_parallax_deg", o.min_parallax_deg, "between two views of a point [deg]", Range{0.01, 45});
+  visit("min_parallax_deg",
+        o.min_parallax_deg,
+        "between two views of a point [deg]",
+        Range{0.01, 45});
   visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
   visit("ratio", o.ratio, "largest ratio of best to second best", Range{0.1, 1});
   visit("min_plane_angle_deg",
@@ -69,10 +72,10 @@ void VisitFields(Visitor&& visit, CleanupOptions& o) {
 }
 
 struct BaWindowOptions {
-  int free_keyframes = 12;       // adjusted, closest in covisibility
-  int fixed_keyframes = 20;      // at most, that see the same landmarks and hold the window
-  int min_shared = 15;           // landmarks that tie a keyframe to the window
-  double min_line_plane_angle_deg = 10;   // between views, for a line to take part ...
+  int free_keyframes = 12;               // adjusted, closest in covisibility
+  int fixed_keyframes = 20;              // at most, that see the same landmarks and hold the window
+  int min_shared = 15;                   // landmarks that tie a keyframe to the window
+  double min_line_plane_angle_deg = 10;  // between views, for a line to take part ...
   double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
 };
 
@@ -102,7 +105,8 @@ struct MappingOptions {
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, MappingOptions& o) {
-  visit("fusion_neighbours", o.fusion_neighbours, "keyframes searched for duplicates", Range{0, 100});
+  visit(
+      "fusion_neighbours", o.fusion_neighbours, "keyframes searched for duplicates", Range{0, 100});
   visit("creation", o.creation, "new landmarks");
   visit("fusion", o.fusion, "merging of duplicates");
   visit("cleanup", o.cleanup, "removal of weak landmarks and redundant keyframes");

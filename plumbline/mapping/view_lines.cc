@@ -59,8 +59,8 @@ std::optional<MapLine> Reconstruct(const Map& map,
                                    const RectifiedCamera& camera,
                                    const std::vector<LineViewOf>& views,
                                    double min_plane_angle) {
-  const auto triangulated = TriangulateLine(
-      camera, ImageViews(map, camera, views), {.min_plane_angle = min_plane_angle});
+  const auto triangulated =
+      TriangulateLine(camera, ImageViews(map, camera, views), {.min_plane_angle = min_plane_angle});
   if (!triangulated) return std::nullopt;
   MapLine line;
   line.line = triangulated->estimate.line;

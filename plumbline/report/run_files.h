@@ -13,7 +13,8 @@ namespace plumbline {
 // frames.csv: what came of every input frame.
 std::string FormatFrames(const std::vector<FrameRecord>& frames);
 
-// Writes trajectory.txt, trajectory_causal.txt, keyframes.txt (of the map with most frames; others as
+// Writes trajectory.txt, trajectory_causal.txt, keyframes.txt (of the map with most frames; others
+// as
 // *_map<k>.txt), frames.csv, timing.csv, timing.json, map.plb, map.ply and lines.obj. Each file is
 // written whole or not at all. Throws InputError when a file cannot be written.
 void WriteRunFiles(const System& system, const std::filesystem::path& folder);

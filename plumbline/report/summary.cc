@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include <nlohmann/json.hpp>
-
 #include <sys/resource.h>
 
 namespace plumbline {

@@ -27,8 +27,8 @@ struct RunCounts {
 };
 RunCounts CountRun(const System& system);
 
-// The main map's final trajectory against the data set's ground truth: SE(3) alignment, Sim(3) for mono,
-// windows of 3 s. nullopt without ground truth, trajectory, or common time.
+// The main map's final trajectory against the data set's ground truth: SE(3) alignment, Sim(3) for
+// mono, windows of 3 s. nullopt without ground truth, trajectory, or common time.
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system, const Dataset& dataset);
 
 struct RunDescription {

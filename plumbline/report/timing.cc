@@ -20,7 +20,8 @@ std::vector<std::string> StageNames(const std::vector<FrameRecord>& frames) {
   std::vector<std::string> names;
   for (const FrameRecord& frame : frames) {
     for (const StageTime& time : frame.times) {
-      if (time.stage != "total" && std::find(names.begin(), names.end(), time.stage) == names.end()) {
+      if (time.stage != "total" &&
+          std::find(names.begin(), names.end(), time.stage) == names.end()) {
         names.push_back(time.stage);
       }
     }

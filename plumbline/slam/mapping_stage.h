@@ -18,9 +18,9 @@ namespace plumbline {
 
 // The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
 //
-// When a keyframe takes effect is part of the algorithm, not of the machine's speed: one made at frame
-// f is in the snapshot from frame f + 1 + lag on, the first one of a map at once. Here the work is done
-// when the snapshot is asked for, in the caller's thread.
+// When a keyframe takes effect is part of the algorithm, not of the machine's speed: one made at
+// frame f is in the snapshot from frame f + 1 + lag on, the first one of a map at once. Here the
+// work is done when the snapshot is asked for, in the caller's thread.
 class MappingStage {
  public:
   MappingStage(const ImagingModel& imaging, const SlamOptions& options);
@@ -28,7 +28,8 @@ class MappingStage {
   // Opens a new map when `starts_map`; frames count from 0.
   void Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
 
-  // The map around its newest keyframe as frame `frame` may know it; null before the first keyframe.
+  // The map around its newest keyframe as frame `frame` may know it; null before the first
+  // keyframe.
   std::shared_ptr<const MapSnapshot> SnapshotFor(std::int64_t frame);
 
   // Does all work that is left.

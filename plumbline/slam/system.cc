@@ -47,8 +47,8 @@ ValidRegion RegionOf(const GrayImage& mask) {
   return mask.empty() ? ValidRegion(0, 0) : ValidRegion(mask);
 }
 
-// Pose that a map's first frame gets: the world is the camera as delivered, the tracker's camera the
-// rectified one.
+// Pose that a map's first frame gets: the world is the camera as delivered, the tracker's camera
+// the rectified one.
 Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
   return {rectifier.rectified_left_from_left().conjugate(), Eigen::Vector3d::Zero()};
 }
@@ -62,10 +62,9 @@ System::System(const Calibration& calibration, const SlamOptions& options)
       left_valid_(RegionOf(rectifier_.left_mask())),
       right_valid_(RegionOf(rectifier_.right_mask())),
       mapping_(imaging_, options_),
-      tracker_(imaging_,
-               options_.tracking,
-               options_.lines.weighting,
-               WorldFromFirstCamera(rectifier_)) {}
+      tracker_(
+          imaging_, options_.tracking, options_.lines.weighting, WorldFromFirstCamera(rectifier_)) {
+}
 
 System::~System() = default;
 
@@ -95,8 +94,7 @@ const FrameRecord& System::Process(SensorFrame sensor_frame) {
     input.right_valid = &right_valid_;
   }
   if (view_.images.depth) input.depth = &*view_.images.depth;
-  auto indexed =
-      Index(imaging_.camera, ExtractFeatures(imaging_.camera, input, options_.features));
+  auto indexed = Index(imaging_.camera, ExtractFeatures(imaging_.camera, input, options_.features));
   clock.Done("features");
 
   const auto snapshot = mapping_.SnapshotFor(record.id.value);

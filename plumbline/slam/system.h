@@ -55,8 +55,8 @@ struct FrameView {
 
 // The whole pipeline for one camera: feed frames in order, then Finish.
 //
-// Poses are world_from_camera of the left camera as delivered (before rectification); the world is that
-// camera at the first keyframe of each map. Not thread-safe.
+// Poses are world_from_camera of the left camera as delivered (before rectification); the world is
+// that camera at the first keyframe of each map. Not thread-safe.
 class System {
  public:
   // Throws InputError for a calibration that cannot be used.

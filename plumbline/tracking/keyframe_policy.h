@@ -7,17 +7,18 @@
 namespace plumbline {
 
 struct KeyFramePolicyOptions {
-  int max_frames = 20;           // a keyframe at the latest after so many frames
-  int min_frames = 2;            // and never sooner than this, unless tracking is about to fail
+  int max_frames = 20;               // a keyframe at the latest after so many frames
+  int min_frames = 2;                // and never sooner than this, unless tracking is about to fail
   double min_landmark_ratio = 0.75;  // landmarks tracked of those the last keyframe shows
   double critical_ratio = 0.35;      // below this at once
-  int min_close = 100;           // enough near landmarks to fix the translation
-  int min_new_close = 70;        // near points without landmark that a keyframe would add
+  int min_close = 100;               // enough near landmarks to fix the translation
+  int min_new_close = 70;            // near points without landmark that a keyframe would add
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
-  visit("max_frames", o.max_frames, "a keyframe at the latest after so many frames", Range{1, 10000});
+  visit(
+      "max_frames", o.max_frames, "a keyframe at the latest after so many frames", Range{1, 10000});
   visit("min_frames", o.min_frames, "frames between keyframes at least", Range{1, 1000});
   visit("min_landmark_ratio",
         o.min_landmark_ratio,

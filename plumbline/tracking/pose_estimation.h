@@ -19,8 +19,8 @@ struct PoseEstimate {
   int Inliers() const { return inlier_points + inlier_lines; }
 };
 
-// The pose that best fits the matches, from `initial`; matches that turn out to be outliers are taken
-// out of the association. Each line counts once, however many images of the rig show it.
+// The pose that best fits the matches, from `initial`; matches that turn out to be outliers are
+// taken out of the association. Each line counts once, however many images of the rig show it.
 PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const Features& features,
                           const Rigid3& initial,

@@ -19,7 +19,8 @@ std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
                                      const std::vector<Candidate>& candidates) {
   std::vector<LandmarkId> ids(match_of_feature.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (match_of_feature[i] >= 0) ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
+    if (match_of_feature[i] >= 0)
+      ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
   }
   return ids;
 }
@@ -53,7 +54,9 @@ void ScoreKind(const std::vector<int>& expected,
 }
 
 template <class LandmarkId, class Landmark>
-int CountWellObserved(const std::vector<LandmarkId>& ids, const MapSnapshot& snapshot, const Landmark*) {
+int CountWellObserved(const std::vector<LandmarkId>& ids,
+                      const MapSnapshot& snapshot,
+                      const Landmark*) {
   return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](LandmarkId id) {
     const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
     return landmark != nullptr && landmark->observation_count >= kWellObserved;
@@ -219,8 +222,8 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame
     const auto* known = InSnapshot(before.points, before.point_of_feature[i], snapshot);
     if (known != nullptr) {
       result.points.push_back({known->id, *known});
-    } else if (const auto point = PointFromFrame(
-                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    } else if (const auto point =
+                   PointFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
       result.points.push_back({PointId{}, *point});
     }
   }
@@ -228,8 +231,8 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame
     const auto* known = InSnapshot(before.lines, before.line_of_feature[i], snapshot);
     if (known != nullptr) {
       result.lines.push_back({known->id, *known});
-    } else if (const auto line = LineFromFrame(
-                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    } else if (const auto line =
+                   LineFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
       result.lines.push_back({LineId{}, *line});
     }
   }
@@ -311,8 +314,8 @@ PoseEstimate Tracker::WithLocalMap(const Frame& frame,
   CopyMatches(association, true, with_map);
   AddRest(snapshot.points, with_map.points);
   AddRest(snapshot.lines, with_map.lines);
-  const ExpectedLandmarks expected = MatchCandidates(
-      imaging_, *frame.indexed, first.cam_from_world, options_.search, with_map);
+  const ExpectedLandmarks expected =
+      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, with_map);
   CopyMatches(association, false, with_map);
   association = std::move(with_map);
   counts.matched_points = association.PointMatches();
