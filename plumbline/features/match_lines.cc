@@ -216,7 +216,9 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
   std::vector<std::optional<RightLine>> result(left.size());
   for (const LineMatch& m : table.Match(right, {options.max_distance, options.ratio, true})) {
     const LineFeature& r = right[static_cast<std::size_t>(m.b)];
-    result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, r.sigma_px};
+    // An error of the calibration shifts the line along the rows, so across itself by this much.
+    const double shift = options.calibration_sigma_px * std::abs(r.segment.Direction().y());
+    result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, std::hypot(r.sigma_px, shift)};
   }
   return result;
 }

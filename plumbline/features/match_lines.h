@@ -36,6 +36,7 @@ std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const LineMatchOptions& options);
 
 struct StereoLineOptions {
+  double calibration_sigma_px = 1;  // of every disparity, from the pair's calibration
   int max_distance = 80;
   double ratio = 0.9;
   double max_angle_deg = 30;
@@ -84,6 +85,10 @@ void VisitFields(Visitor&& visit, LineMatchOptions& o) {
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoLineOptions& o) {
+  visit("calibration_sigma_px",
+        o.calibration_sigma_px,
+        "deviation that the calibration of the pair adds to every disparity [px]",
+        Range{0, 10});
   visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
   visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
   visit("max_angle_deg", o.max_angle_deg, "largest difference of directions [deg]", Range{0, 90});

@@ -42,7 +42,7 @@ struct StereoPointOptions {
   int search_px = 5;           // half width of the correlation search on the level image
   double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
   double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
-  double calibration_sigma_px = 0.3;  // of every disparity, from the pair's calibration
+  double calibration_sigma_px = 1;  // of every disparity, from the pair's calibration
 };
 
 struct StereoView {

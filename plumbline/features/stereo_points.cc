@@ -140,55 +140,10 @@ struct ShiftStep {
   double delta = 0;
   double curvature = 0;  // sum of squared derivatives
   double squares = 0;    // sum of squared residuals
-  double weights = 0;    // sum of the weights in the sums above
   double absolute = 0;   // sum of their magnitudes
 };
 
-constexpr double kCentreDeviation = 0.6;  // of the centre weights, in half widths
-constexpr float kCauchyScale = 2;         // of the mean deviation
-
-float WeightedMean(const std::array<float, kMaxPatch>& value,
-                   const std::array<float, kMaxPatch>& weight,
-                   std::size_t count) {
-  float sum = 0;
-  float weights = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    sum += weight[i] * value[i];
-    weights += weight[i];
-  }
-  return sum / weights;
-}
-
-float MeanDeviation(const std::array<float, kMaxPatch>& value,
-                    const std::array<float, kMaxPatch>& weight,
-                    std::size_t count,
-                    float mean) {
-  float sum = 0;
-  float weights = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    sum += weight[i] * std::abs(value[i] - mean);
-    weights += weight[i];
-  }
-  return sum / weights;
-}
-
-// Gaussian weights of a window, 1 in the middle.
-Patch CentreWeights(int half) {
-  Patch weights;
-  weights.half = half;
-  const double deviation = std::max(1.0, kCentreDeviation * half);
-  std::size_t k = 0;
-  for (int dy = -half; dy <= half; ++dy) {
-    for (int dx = -half; dx <= half; ++dx) {
-      weights.value[k++] =
-          static_cast<float>(std::exp(-0.5 * (dx * dx + dy * dy) / (deviation * deviation)));
-    }
-  }
-  return weights;
-}
-
-std::optional<ShiftStep> StepAt(
-    const Patch& left, const Patch& weights, const GrayImage& right, double x, int y) {
+std::optional<ShiftStep> StepAt(const Patch& left, const GrayImage& right, double x, int y) {
   const int half = left.half;
   const int side = 2 * half + 1;
   const int x0 = static_cast<int>(std::floor(x));
@@ -196,6 +151,8 @@ std::optional<ShiftStep> StepAt(
   const auto f = static_cast<float>(x - x0);
   std::array<float, kMaxPatch> residual;
   std::array<float, kMaxPatch> slope;
+  float mean_r = 0;
+  float mean_g = 0;
   std::size_t k = 0;
   for (int dy = -half; dy <= half; ++dy) {
     const std::uint8_t* row = right.row(y + dy) + x0 - half;
@@ -206,29 +163,21 @@ std::optional<ShiftStep> StepAt(
       const auto after = static_cast<float>(row[dx + 2]);
       residual[k] = left.value[k] - (a + f * (b - a));
       slope[k] = 0.5F * ((1 - f) * (b - before) + f * (after - a));
+      mean_r += residual[k];
+      mean_g += slope[k];
     }
   }
-  // The window may hold two surfaces: what lies near the corner counts more, and what does not fit
-  // counts less, so that the far one does not pull.
-  std::array<float, kMaxPatch> weight = weights.value;
-  const float rough_mean = WeightedMean(residual, weight, k);
-  const float scale = kCauchyScale * MeanDeviation(residual, weight, k, rough_mean) + 1e-3F;
-  for (std::size_t i = 0; i < k; ++i) {
-    const float r = (residual[i] - rough_mean) / scale;
-    weight[i] /= 1 + r * r;
-  }
-  const float mean_r = WeightedMean(residual, weight, k);
-  const float mean_g = WeightedMean(slope, weight, k);
   const auto count = static_cast<float>(k);
+  mean_r /= count;
+  mean_g /= count;
   ShiftStep step;
   double moment = 0;
   for (std::size_t i = 0; i < k; ++i) {
     const float r = residual[i] - mean_r;
     const float g = slope[i] - mean_g;
-    moment += static_cast<double>(weight[i] * r * g);
-    step.curvature += static_cast<double>(weight[i] * g * g);
-    step.squares += static_cast<double>(weight[i] * r * r);
-    step.weights += static_cast<double>(weight[i]);
+    moment += static_cast<double>(r * g);
+    step.curvature += static_cast<double>(g * g);
+    step.squares += static_cast<double>(r * r);
     step.absolute += static_cast<double>(std::abs(r));
   }
   if (step.curvature < 1e-3 * static_cast<double>(count)) return std::nullopt;
@@ -237,11 +186,10 @@ std::optional<ShiftStep> StepAt(
 }
 
 std::optional<Correlation> RefineShift(const Patch& left, const GrayImage& right, int x, int y) {
-  const Patch weights = CentreWeights(left.half);
   double place = x;
   std::optional<ShiftStep> step;
   for (int iteration = 0; iteration < 6; ++iteration) {
-    step = StepAt(left, weights, right, place, y);
+    step = StepAt(left, right, place, y);
     if (!step) return std::nullopt;
     place += step->delta;
     if (std::abs(place - x) > 1.5) return std::nullopt;
@@ -251,7 +199,7 @@ std::optional<Correlation> RefineShift(const Patch& left, const GrayImage& right
   // Residuals of neighbours are correlated: about every fourth pixel tells something new.
   constexpr double kCorrelated = 4;
   return Correlation{place,
-                     std::sqrt(kCorrelated * step->squares / step->weights / step->curvature),
+                     std::sqrt(kCorrelated * step->squares / count / step->curvature),
                      step->absolute / count};
 }
 

@@ -247,11 +247,13 @@ template <class LandmarkId, class Landmark>
 void CheckMatches(KeyFrameId keyframe_id,
                   const std::vector<LandmarkId>& matches,
                   const std::map<LandmarkId, Landmark>& landmarks) {
-  for (const LandmarkId id : matches) {
-    if (!id.valid()) continue;
-    const auto it = landmarks.find(id);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!matches[i].valid()) continue;
+    const auto it = landmarks.find(matches[i]);
     PLUMBLINE_CHECK(it != landmarks.end() && it->second.observations.contains(keyframe_id),
-                    "match without observation, landmark " + std::to_string(id.value));
+                    "match without observation, landmark " + std::to_string(matches[i].value));
+    PLUMBLINE_CHECK(it->second.observations.at(keyframe_id) == static_cast<int>(i),
+                    "two features of a keyframe show landmark " + std::to_string(matches[i].value));
   }
 }
 

@@ -207,6 +207,21 @@ void RemoveOutliers(const BaWindow& window, const BaResult& result, MapEdit& edi
   }
 }
 
+// The window's lines with the observations that stay.
+std::vector<MapLine> LinesWithoutOutliers(const Map& map,
+                                          const BaWindow& window,
+                                          const BaResult& result) {
+  std::vector<MapLine> lines;
+  for (const LineId id : window.lines) lines.push_back(*map.Find(id));
+  const auto& observations = window.problem.line_observations;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (result.line_inliers[k]) continue;
+    lines[static_cast<std::size_t>(observations[k].line)].observations.erase(
+        window.keyframes[static_cast<std::size_t>(observations[k].pose)]);
+  }
+  return lines;
+}
+
 }  // namespace
 
 MapEdit ToEdit(const Map& map,
@@ -222,14 +237,15 @@ MapEdit ToEdit(const Map& map,
   for (std::size_t k = 0; k < window.points.size(); ++k) {
     edit.push_back(edit::MovePoint{window.points[k], world_from_window * result.points[k]});
   }
-  // Intervals and information follow from the poses as they will be.
+  // Intervals and information follow from the poses and observations as they will be.
   std::map<KeyFrameId, Rigid3> poses;
   for (std::size_t k = 0; k < window.keyframes.size(); ++k) {
     poses[window.keyframes[k]] = result.poses[k] * window.window_from_world;
   }
+  const std::vector<MapLine> lines = LinesWithoutOutliers(map, window, result);
   for (std::size_t k = 0; k < window.lines.size(); ++k) {
     const PluckerLine line = Transform(world_from_window, ToPlucker(result.lines[k]));
-    edit.push_back(RefitInterval(map, imaging, poses, *map.Find(window.lines[k]), line));
+    edit.push_back(RefitInterval(map, imaging, poses, lines[k], line));
   }
   RemoveOutliers(window, result, edit);
   return edit;

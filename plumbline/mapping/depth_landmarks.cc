@@ -3,29 +3,67 @@
 #include "plumbline/association/landmark_from_frame.h"
 #include "plumbline/mapping/landmark_creation.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace plumbline {
+namespace {
+
+struct DepthPoint {
+  std::size_t feature;
+  double relative_sigma;
+};
+
+// The features without landmark to make points of, the best known depth first.
+std::vector<DepthPoint> ChooseDepthPoints(const Frame& frame,
+                                          const LandmarkCreationOptions& options) {
+  const auto& disparities = frame.features().point_disparity;
+  std::vector<DepthPoint> free;
+  int present = 0;
+  for (std::size_t i = 0; i < frame.points.size(); ++i) {
+    if (!disparities[i] || !(disparities[i]->px > 0)) continue;
+    const double relative = disparities[i]->sigma_px / disparities[i]->px;
+    if (frame.points[i].valid()) {
+      ++present;
+    } else if (relative <= options.worst_relative_depth_sigma) {
+      free.push_back({i, relative});
+    }
+  }
+  std::stable_sort(free.begin(), free.end(), [](const DepthPoint& a, const DepthPoint& b) {
+    return a.relative_sigma < b.relative_sigma;
+  });
+  std::size_t count = 0;
+  while (count < free.size() && (free[count].relative_sigma <= options.max_relative_depth_sigma ||
+                                 present + static_cast<int>(count) < options.min_depth_points)) {
+    ++count;
+  }
+  free.resize(count);
+  return free;
+}
+
+}  // namespace
 
 MapEdit CreateFromDepth(const Map& map,
                         const ImagingModel& imaging,
                         KeyFrameId id,
                         const LandmarkCreationOptions& options) {
   const Frame& frame = map.Find(id)->frame;
-  const double max_sigma = options.max_relative_depth_sigma;
   MapEdit edit;
   PointId next_point = map.NextPointId();
-  for (std::size_t i = 0; i < frame.points.size(); ++i) {
-    if (frame.points[i].valid()) continue;
-    const auto model = PointFromFrame(imaging.camera, frame, i, max_sigma);
+  for (const DepthPoint& point : ChooseDepthPoints(frame, options)) {
+    const auto model =
+        PointFromFrame(imaging.camera, frame, point.feature, options.worst_relative_depth_sigma);
     if (!model) continue;
-    edit.push_back(edit::AddPoint{{*model, next_point, id, {{id, static_cast<int>(i)}}, {}}});
+    edit.push_back(
+        edit::AddPoint{{*model, next_point, id, {{id, static_cast<int>(point.feature)}}, {}}});
     ++next_point.value;
   }
   LineId next_line = map.NextLineId();
   for (std::size_t i = 0; i < frame.lines.size(); ++i) {
     if (frame.lines[i].valid()) continue;
-    const auto model = LineFromFrame(imaging.camera, frame, i, max_sigma);
+    const auto model =
+        LineFromFrame(imaging.camera, frame, i, options.max_relative_line_depth_sigma);
     if (!model) continue;
     edit.push_back(edit::AddLine{{*model, next_line, id, {{id, static_cast<int>(i)}}, {}}});
     ++next_line.value;

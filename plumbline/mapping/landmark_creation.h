@@ -9,7 +9,8 @@
 namespace plumbline {
 
 // New points and lines from the depths of one keyframe: every feature without landmark whose depth
-// is known well enough. Each gets one observation.
+// is known well enough, and where the keyframe shows few points with depth, the best known of the
+// others. Each gets one observation.
 MapEdit CreateFromDepth(const Map& map,
                         const ImagingModel& imaging,
                         KeyFrameId id,

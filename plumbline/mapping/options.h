@@ -9,10 +9,13 @@
 namespace plumbline {
 
 struct LandmarkCreationOptions {
-  double max_relative_depth_sigma = 0.1;  // of landmarks from one stereo or RGB-D frame
-  int neighbours = 6;                     // keyframes searched for a second view
-  double min_parallax_deg = 1;            // between the two views of a new point
-  int max_distance = 50;                  // Hamming, of 256 bits
+  double max_relative_depth_sigma = 0.04;   // of points from one stereo or RGB-D frame ...
+  int min_depth_points = 100;               // ... but at least so many, the best known first ...
+  double worst_relative_depth_sigma = 0.3;  // ... up to this
+  double max_relative_line_depth_sigma = 0.08;  // of the ends of lines from one frame
+  int neighbours = 6;                           // keyframes searched for a second view
+  double min_parallax_deg = 1;                  // between the two views of a new point
+  int max_distance = 50;                        // Hamming, of 256 bits
   double ratio = 0.8;
   double min_plane_angle_deg = 2;  // between the two views of a new line
 };
@@ -21,7 +24,19 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
   visit("max_relative_depth_sigma",
         o.max_relative_depth_sigma,
-        "depth uncertainty of landmarks from one frame, relative to depth",
+        "depth uncertainty of points from one frame, relative to depth",
+        Range{0.001, 1});
+  visit("min_depth_points",
+        o.min_depth_points,
+        "points with depth that a keyframe should show, if need be less well known ones",
+        Range{0, 10000});
+  visit("worst_relative_depth_sigma",
+        o.worst_relative_depth_sigma,
+        "depth uncertainty of those, relative to depth",
+        Range{0.001, 1});
+  visit("max_relative_line_depth_sigma",
+        o.max_relative_line_depth_sigma,
+        "depth uncertainty of the ends of lines from one frame, relative to depth",
         Range{0.001, 1});
   visit("neighbours", o.neighbours, "keyframes searched for a second view", Range{0, 100});
   visit("min_parallax_deg",

@@ -17,10 +17,11 @@
 namespace plumbline {
 namespace {
 
-constexpr double kNearestDepth = 0.3;        // metres; the search along the epipolar line starts here
-constexpr double kEpipolarChi2 = 3.84;       // 95 %, one degree of freedom
-constexpr double kDepthSigmas = 3;           // of a measured but poor depth
-constexpr double kMaxScaleRatio = 1.8;       // of octave and distance between the views
+constexpr double kNearestDepth =
+    0.3;  // metres, in both views; the search along the epipolar line starts here
+constexpr double kEpipolarChi2 = 3.84;  // 95 %, one degree of freedom
+constexpr double kDepthSigmas = 3;      // of a measured but poor depth
+constexpr double kMaxScaleRatio = 1.8;  // of octave and distance between the views
 
 // Piece of the epipolar line in the second image on which a point of the first must lie.
 struct SearchWindow {
@@ -42,9 +43,14 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
     near = std::max(near, camera.DepthFromDisparity(high));
     if (low > 0) far = std::max(near, camera.DepthFromDisparity(low));
   }
+  // In the second view the depth is slope * depth + offset; there, too, it must be large enough.
+  const double slope = (b_from_a.rotation * ray).z();
+  const double offset = b_from_a.translation.z();
+  if (slope > 0) near = std::max(near, (kNearestDepth - offset) / slope);
+  if (slope < 0) far = std::min(far, (kNearestDepth - offset) / slope);
   const Eigen::Vector3d p = b_from_a * (near * ray);
   const Eigen::Vector3d q = b_from_a * (far * ray);
-  if (p.z() < 0.05 || q.z() < 0.05) return std::nullopt;
+  if (near > far || std::min(p.z(), q.z()) < 0.5 * kNearestDepth) return std::nullopt;
   const Eigen::Vector2d a = camera.Project(p);
   const Eigen::Vector2d b = camera.Project(q);
   const Eigen::Vector2d slack(slack_px, slack_px);
@@ -101,9 +107,7 @@ class PairSearch {
   std::optional<Eigen::Vector3d> Triangulate(std::size_t i, std::size_t j) const {
     const std::array<PointView, 2> views{View(a_, i), View(b_, j)};
     const auto result = TriangulatePoint(
-        camera_,
-        views,
-        {.min_parallax = options_.min_parallax_deg * std::numbers::pi / 180});
+        camera_, views, {.min_parallax = options_.min_parallax_deg * std::numbers::pi / 180});
     if (!result || result->chi2 > Chi2Limit(result->residuals - 3)) return std::nullopt;
     const Eigen::Vector3d& position = result->point.position;
     const double distance_a = (a_.cam_from_world * position).norm();
@@ -116,7 +120,8 @@ class PairSearch {
  private:
   static PointView View(const Frame& frame, std::size_t i) {
     const PointFeature& feature = frame.features().points[i];
-    return {frame.cam_from_world, feature.px, feature.sigma_px, frame.features().point_disparity[i]};
+    return {
+        frame.cam_from_world, feature.px, feature.sigma_px, frame.features().point_disparity[i]};
   }
 
   // 95 % of chi2 with 1, 2, 3 degrees of freedom.

@@ -19,7 +19,8 @@ std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
                                      const std::vector<Candidate>& candidates) {
   std::vector<LandmarkId> ids(match_of_feature.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (match_of_feature[i] >= 0) ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
+    if (match_of_feature[i] >= 0)
+      ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
   }
   return ids;
 }
@@ -53,22 +54,45 @@ void ScoreKind(const std::vector<int>& expected,
 }
 
 template <class LandmarkId, class Landmark>
-int CountWellObserved(const std::vector<LandmarkId>& ids, const MapSnapshot& snapshot, const Landmark*) {
+int CountWellObserved(const std::vector<LandmarkId>& ids,
+                      const MapSnapshot& snapshot,
+                      const Landmark*) {
   return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](LandmarkId id) {
     const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
     return landmark != nullptr && landmark->observation_count >= kWellObserved;
   }));
 }
 
-// Newest model of a candidate that the map has, or the one it had.
+// The landmark of the map that a feature of the last frame showed; nullptr when it is not in the
+// snapshot (any more): removed, merged into another, or never in the map.
 template <class Candidate>
-void AddRefreshed(const Candidate& candidate, const MapSnapshot& snapshot, std::vector<Candidate>& out) {
-  const auto* landmark = candidate.id.valid() ? snapshot.Find(candidate.id) : nullptr;
-  if (landmark != nullptr) {
-    out.push_back({candidate.id, *landmark});
-  } else if (candidate.id.valid()) {
+auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSnapshot& snapshot)
+    -> decltype(snapshot.Find(Candidate{}.id)) {
+  if (match < 0) return nullptr;
+  const auto id = candidates[static_cast<std::size_t>(match)].id;
+  return id.valid() ? snapshot.Find(id) : nullptr;
+}
+
+// Copies the matches with landmarks of the map (or only the others) of features that have none in
+// `out` yet.
+template <class Candidate>
+void CopyMatches(const std::vector<Candidate>& candidates,
+                 const std::vector<int>& match_of_feature,
+                 bool of_map,
+                 std::vector<Candidate>& out,
+                 std::vector<int>& out_match_of_feature) {
+  for (std::size_t i = 0; i < match_of_feature.size(); ++i) {
+    if (match_of_feature[i] < 0 || out_match_of_feature[i] >= 0) continue;
+    const Candidate& candidate = candidates[static_cast<std::size_t>(match_of_feature[i])];
+    if (candidate.id.valid() != of_map) continue;
+    out_match_of_feature[i] = static_cast<int>(out.size());
     out.push_back(candidate);
   }
+}
+
+void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to) {
+  CopyMatches(from.points, from.point_of_feature, of_map, to.points, to.point_of_feature);
+  CopyMatches(from.lines, from.line_of_feature, of_map, to.lines, to.line_of_feature);
 }
 
 }  // namespace
@@ -136,15 +160,16 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot) {
   ++frames_since_keyframe_;
   const Rigid3 last_pose = LastPose(snapshot);
   FrameAssociation association;
-  auto first = FromPrediction(frame, velocity_ * last_pose, snapshot, association);
-  if (!first) first = FromAppearance(frame, last_pose, snapshot, association);
-  if (!first) {
-    const bool any = association.PointMatches() + association.LineMatches() > 0;
-    return Fail(std::move(frame),
-                any ? TrackingFailure::kTooFewInliers : TrackingFailure::kTooFewMatches,
-                {});
-  }
   TrackingResult result;
+  auto first = FromPrediction(frame, velocity_ * last_pose, snapshot, association);
+  if (!first) first = FromAppearance(frame, last_pose, snapshot, association, result.counts);
+  if (!first) {
+    const int matches = result.counts.matched_points + result.counts.matched_lines;
+    return Fail(std::move(frame),
+                matches < options_.min_inliers ? TrackingFailure::kTooFewMatches
+                                               : TrackingFailure::kTooFewInliers,
+                result.counts);
+  }
   const PoseEstimate pose = WithLocalMap(frame, *first, snapshot, association, result.counts);
   result.counts.inlier_points = pose.inlier_points;
   result.counts.inlier_lines = pose.inlier_lines;
@@ -194,20 +219,20 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame
   last.cam_from_world = LastPose(snapshot);
   const FrameAssociation& before = last_->association;
   for (std::size_t i = 0; i < last.points.size(); ++i) {
-    const int match = before.point_of_feature[i];
-    if (match >= 0 && before.points[static_cast<std::size_t>(match)].id.valid()) {
-      AddRefreshed(before.points[static_cast<std::size_t>(match)], snapshot, result.points);
-    } else if (const auto point = PointFromFrame(
-                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    const auto* known = InSnapshot(before.points, before.point_of_feature[i], snapshot);
+    if (known != nullptr) {
+      result.points.push_back({known->id, *known});
+    } else if (const auto point =
+                   PointFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
       result.points.push_back({PointId{}, *point});
     }
   }
   for (std::size_t i = 0; i < last.lines.size(); ++i) {
-    const int match = before.line_of_feature[i];
-    if (match >= 0 && before.lines[static_cast<std::size_t>(match)].id.valid()) {
-      AddRefreshed(before.lines[static_cast<std::size_t>(match)], snapshot, result.lines);
-    } else if (const auto line = LineFromFrame(
-                   imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    const auto* known = InSnapshot(before.lines, before.line_of_feature[i], snapshot);
+    if (known != nullptr) {
+      result.lines.push_back({known->id, *known});
+    } else if (const auto line =
+                   LineFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
       result.lines.push_back({LineId{}, *line});
     }
   }
@@ -246,7 +271,8 @@ std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
 std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
                                                     const Rigid3& initial,
                                                     const MapSnapshot& snapshot,
-                                                    FrameAssociation& association) const {
+                                                    FrameAssociation& association,
+                                                    FrameCounts& counts) const {
   association = FrameAssociation(frame.points.size(), frame.lines.size());
   const Frame& reference = snapshot.reference->frame;
   const auto point_matches = MatchPoints(
@@ -269,9 +295,9 @@ std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
         static_cast<int>(association.lines.size());
     association.lines.push_back({id, *line});
   }
-  if (association.PointMatches() + association.LineMatches() < options_.min_inliers) {
-    return std::nullopt;
-  }
+  counts.matched_points = association.PointMatches();
+  counts.matched_lines = association.LineMatches();
+  if (counts.matched_points + counts.matched_lines < options_.min_inliers) return std::nullopt;
   const PoseEstimate estimate = Estimate(frame, initial, association);
   if (!estimate.converged || estimate.Inliers() < options_.min_inliers) return std::nullopt;
   return estimate;
@@ -282,10 +308,16 @@ PoseEstimate Tracker::WithLocalMap(const Frame& frame,
                                    const MapSnapshot& snapshot,
                                    FrameAssociation& association,
                                    FrameCounts& counts) {
-  AddRest(snapshot.points, association.points);
-  AddRest(snapshot.lines, association.lines);
-  const ExpectedLandmarks expected = MatchCandidates(
-      imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+  // Landmarks of the map come before those made on the spot from the last frame: these know the
+  // pose from one frame only, and would keep the map's from being found.
+  FrameAssociation with_map(frame.points.size(), frame.lines.size());
+  CopyMatches(association, true, with_map);
+  AddRest(snapshot.points, with_map.points);
+  AddRest(snapshot.lines, with_map.lines);
+  const ExpectedLandmarks expected =
+      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, with_map);
+  CopyMatches(association, false, with_map);
+  association = std::move(with_map);
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
   const PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);

@@ -25,13 +25,13 @@
 namespace plumbline {
 
 struct TrackingOptions {
-  int min_inliers = 10;           // points + lines a pose needs to be accepted
-  int min_initial = 60;           // points with depth + lines with depth that can start a map
-  double max_relative_depth_sigma = 0.15;  // of landmarks made from one frame
+  int min_inliers = 10;  // points + lines a pose needs to be accepted
+  int min_initial = 60;  // points with depth + lines with depth that can start a map
+  double max_relative_depth_sigma = 0.15;    // of landmarks made from one frame
   double close_relative_depth_sigma = 0.05;  // of points that count as near
-  double first_radius_px = 12;    // search around the predicted place, from the last frame
-  double wide_factor = 3;         // the same when that finds too little
-  int new_map_after = 10;         // lost frames after which a new map starts
+  double first_radius_px = 12;  // search around the predicted place, from the last frame
+  double wide_factor = 3;       // the same when that finds too little
+  int new_map_after = 10;       // lost frames after which a new map starts
   ProjectionSearchOptions search;
   PoseOnlyOptions pose;
   KeyFramePolicyOptions keyframes;
@@ -49,9 +49,16 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         o.close_relative_depth_sigma,
         "depth uncertainty below which a point counts as near, relative to depth",
         Range{0.001, 1});
-  visit("first_radius_px", o.first_radius_px, "search radius from the last frame [px]", Range{1, 200});
-  visit("wide_factor", o.wide_factor, "larger search when the first finds too little", Range{1, 20});
-  visit("new_map_after", o.new_map_after, "lost frames after which a new map starts", Range{1, 100000});
+  visit("first_radius_px",
+        o.first_radius_px,
+        "search radius from the last frame [px]",
+        Range{1, 200});
+  visit(
+      "wide_factor", o.wide_factor, "larger search when the first finds too little", Range{1, 20});
+  visit("new_map_after",
+        o.new_map_after,
+        "lost frames after which a new map starts",
+        Range{1, 100000});
   visit("search", o.search, "search of landmarks in the image");
   visit("pose", o.pose, "pose from matches");
   visit("keyframes", o.keyframes, "when a frame becomes a keyframe");
@@ -67,10 +74,10 @@ constexpr auto EnumNames(std::type_identity<TrackerState>) {
 // Why a frame has no pose.
 enum class TrackingFailure {
   kNone,
-  kTooFewFeatures,   // to start a map
-  kTooFewMatches,    // landmarks found in the image
-  kTooFewInliers,    // of them agree on a pose
-  kPoseNotObservable // the inliers do not fix all six degrees of freedom
+  kTooFewFeatures,    // to start a map
+  kTooFewMatches,     // landmarks found in the image
+  kTooFewInliers,     // of them agree on a pose
+  kPoseNotObservable  // the inliers do not fix all six degrees of freedom
 };
 constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
   return std::array{std::pair{TrackingFailure::kNone, ""},
@@ -108,10 +115,10 @@ struct TrackingResult {
 
 // Follows the camera: one frame after the other against an immutable snapshot of the map.
 //
-// Prediction by constant velocity; landmarks of the last frame (and points and lines with depth that
-// are not in the map yet) are searched near their predicted places, then the rest of the snapshot;
-// pose from points and lines together after each. When the prediction fails, by appearance against
-// the snapshot's keyframe.
+// Prediction by constant velocity; landmarks of the last frame (and points and lines with depth
+// that are not in the map yet) are searched near their predicted places, then the rest of the
+// snapshot; pose from points and lines together after each. When the prediction fails, by
+// appearance against the snapshot's keyframe.
 class Tracker {
  public:
   // world_from_first_cam: pose given to the first frame of each map.
@@ -147,7 +154,8 @@ class Tracker {
   std::optional<PoseEstimate> FromAppearance(const Frame& frame,
                                              const Rigid3& initial,
                                              const MapSnapshot& snapshot,
-                                             FrameAssociation& association) const;
+                                             FrameAssociation& association,
+                                             FrameCounts& counts) const;
   PoseEstimate WithLocalMap(const Frame& frame,
                             const PoseEstimate& first,
                             const MapSnapshot& snapshot,

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace plumbline {
+
+// What a run over one of the recorded sequences must reach. To see the figures:
+//
+//   build/release/plumbline run DATA/SEQUENCE --out /tmp/run
+//
+// prints them, and /tmp/run/summary.json holds them ("frames", "accuracy").
+struct Gate {
+  const char* sequence;  // below the data folder
+  const char* settings;  // further arguments of the run
+  int tracked, skipped;  // frames; all others are failures
+  double max_ate_m;      // RMSE of the positions after alignment, metres
+};
+
+inline constexpr Gate kMachineHall{"euroc/MH_01_easy_first250", "", 249, 1, 0.005};
+inline constexpr Gate kFloor{"tum/rgbd_dataset_freiburg1_floor_first90", "", 90, 0, 0.005};
+inline constexpr Gate kRoad{"kitti/06_first51", "", 51, 0, 0.09};
+// Lines only: above all, that the track is kept.
+inline constexpr Gate kMachineHallLines{
+    "euroc/MH_01_easy_first250", "--set features.points=false --to 120", 120, 0, 0.2};
+
+}  // namespace plumbline

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/landmark_cleanup.h"
+
+#include "tests/map/map_fixture.h"
+#include <variant>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+const CleanupOptions kOptions{.min_found_ratio = 0.25,
+                              .trial_keyframes = 3,
+                              .min_observations = 2,
+                              .redundant_share = 0.9,
+                              .redundant_views = 3};
+
+MapPoint CreatedBy(std::int64_t keyframe, std::int64_t id, const Observations& observations) {
+  MapPoint point = PointSeenBy(id, observations);
+  point.created_by = KeyFrameId{keyframe};
+  return point;
+}
+
+struct Verdict {
+  bool removed = false;
+  bool still_young = false;
+};
+
+// What becomes of a point and of a line with the same history when keyframe `newest` has come.
+Verdict Judge(int visible, int found, std::int64_t newest, int views) {
+  Map map = ChainOfKeyFrames(8);
+  MapPoint point = CreatedBy(2, 0, SeenBy(2, 2 + views - 1, 0));
+  MapLine line = LineSeenBy(0, SeenBy(2, 2 + views - 1, 0));
+  line.created_by = KeyFrameId{2};
+  map.Apply({edit::AddPoint{point},
+             edit::AddLine{line},
+             edit::ScorePoint{point.id, visible - 1, found - 1},
+             edit::ScoreLine{line.id, visible - 1, found - 1}});
+  YoungLandmarks young{{point.id}, {line.id}};
+  const MapEdit edit = RemoveWeakLandmarks(map, KeyFrameId{newest}, kOptions, young);
+  EXPECT_EQ(young.points.size(), young.lines.size());
+  EXPECT_TRUE(edit.empty() || edit.size() == 2U);
+  return {!edit.empty(), !young.points.empty()};
+}
+
+TEST(RemoveWeakLandmarks, GivesEachItsTrial) {
+  Verdict v = Judge(4, 1, 3, 1);  // just good enough, still on trial
+  EXPECT_FALSE(v.removed);
+  EXPECT_TRUE(v.still_young);
+  v = Judge(5, 1, 3, 1);  // seldom found
+  EXPECT_TRUE(v.removed);
+  EXPECT_FALSE(v.still_young);
+  v = Judge(4, 4, 4, 1);  // two keyframes later
+  EXPECT_FALSE(v.removed);
+  EXPECT_TRUE(v.still_young);
+  v = Judge(4, 4, 5, 1);  // trial over, nobody else shows it
+  EXPECT_TRUE(v.removed);
+  v = Judge(4, 4, 5, 2);  // passed
+  EXPECT_FALSE(v.removed);
+  EXPECT_FALSE(v.still_young);
+}
+
+TEST(RemoveWeakLandmarks, ForgetsWhatIsGoneAndLeavesTheOldAlone) {
+  Map map = ChainOfKeyFrames(8);
+  map.Apply(
+      {edit::AddPoint{CreatedBy(0, 0, SeenBy(0, 0, 0))}, edit::ScorePoint{PointId{0}, 100, 0}});
+  YoungLandmarks young{{PointId{55}}, {LineId{55}}};
+  EXPECT_TRUE(RemoveWeakLandmarks(map, KeyFrameId{7}, kOptions, young).empty());
+  EXPECT_TRUE(young.points.empty());
+  EXPECT_TRUE(young.lines.empty());
+}
+
+// Keyframes 0 to 5; of the 40 landmarks of keyframe 2, `shared` are shown by all, the others by 2
+// and 3 only.
+Map Overlapping(int shared, int octave_of_others = 0) {
+  Map map;
+  for (std::int64_t k = 0; k < 6; ++k) {
+    KeyFrame keyframe = BlankKeyFrame(k, k - 1);
+    IndexedFeatures indexed = *keyframe.frame.indexed;
+    for (PointFeature& point : indexed.features.points)
+      point.octave = k == 2 ? 0 : octave_of_others;
+    keyframe.frame.indexed = std::make_shared<const IndexedFeatures>(std::move(indexed));
+    map.Apply({edit::AddKeyFrame{keyframe}});
+  }
+  for (int i = 0; i < 20; ++i) {
+    const bool point_shared = 2 * i < shared;
+    const bool line_shared = 2 * i + 1 < shared;
+    map.Apply({edit::AddPoint{PointSeenBy(i, point_shared ? SeenBy(0, 5, i) : SeenBy(2, 3, i))},
+               edit::AddLine{LineSeenBy(i, line_shared ? SeenBy(0, 5, i) : SeenBy(2, 3, i))}});
+  }
+  map.CheckInvariants();
+  return map;
+}
+
+std::vector<KeyFrameId> Removed(const Map& map,
+                                std::int64_t centre,
+                                const CleanupOptions& options) {
+  std::vector<KeyFrameId> removed;
+  for (const MapChange& change : RemoveRedundantKeyFrames(map, KeyFrameId{centre}, options)) {
+    removed.push_back(std::get<edit::RemoveKeyFrame>(change).id);
+  }
+  return removed;
+}
+
+TEST(RemoveRedundantKeyFrames, TakesOutOneWhoseLandmarksOthersShow) {
+  const Map map = Overlapping(40);
+  const auto removed = Removed(map, 5, kOptions);
+  ASSERT_EQ(removed.size(), 1U);
+  EXPECT_GT(removed[0], KeyFrameId{0});  // the first,
+  EXPECT_LT(removed[0], KeyFrameId{4});  // the one before the newest and the newest stay
+}
+
+TEST(RemoveRedundantKeyFrames, StopsWhenNoneIsLeftOver) {
+  Map map = Overlapping(40);
+  for (int i = 0; i < 6; ++i) {
+    map.Apply(RemoveRedundantKeyFrames(map, KeyFrameId{5}, kOptions));
+    map.CheckInvariants();
+  }
+  EXPECT_EQ(map.keyframes().size(), 3U);
+  EXPECT_NE(map.Find(KeyFrameId{0}), nullptr);
+  EXPECT_NE(map.Find(KeyFrameId{4}), nullptr);
+  EXPECT_NE(map.Find(KeyFrameId{5}), nullptr);
+}
+
+TEST(RemoveRedundantKeyFrames, CountsTheShareOfLandmarks) {
+  // Keyframe 1 shows only what all show and would go first; without it 3 is judged before 2.
+  Map map = Overlapping(36);
+  map.Apply({edit::RemoveKeyFrame{KeyFrameId{1}}});
+  EXPECT_EQ(Removed(map, 5, kOptions), std::vector<KeyFrameId>{{3}});  // 36 of 40
+  Map less = Overlapping(35);
+  less.Apply({edit::RemoveKeyFrame{KeyFrameId{1}}});
+  EXPECT_TRUE(Removed(less, 5, kOptions).empty());
+  CleanupOptions never = kOptions;
+  never.redundant_share = 1;
+  EXPECT_TRUE(Removed(map, 5, never).empty());
+}
+
+TEST(RemoveRedundantKeyFrames, AFinerViewIsNotReplacedByCoarserOnes) {
+  // Only keyframe 2 shows the points at the finest scale.
+  Map map = Overlapping(40, 2);
+  map.Apply({edit::RemoveKeyFrame{KeyFrameId{1}}, edit::RemoveKeyFrame{KeyFrameId{3}}});
+  EXPECT_TRUE(Removed(map, 5, kOptions).empty());
+  Map near = Overlapping(40, 1);
+  near.Apply({edit::RemoveKeyFrame{KeyFrameId{1}}, edit::RemoveKeyFrame{KeyFrameId{3}}});
+  EXPECT_EQ(Removed(near, 5, kOptions).size(), 1U);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/landmark_creation.h"
+
+#include "tests/support/true_map.h"
+#include <set>
+#include <variant>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+// A true map in which the last keyframe and one before share some landmarks but have also features
+// without any: what CreatePointsFromViews and CreateLinesFromViews are for.
+TrueMap WithFreeFeatures(const SyntheticWorld& world,
+                         const std::vector<Rigid3>& poses,
+                         const SensorModel& sensor) {
+  TrueMap scene = MakeTrueMap(world, poses, sensor);
+  MapEdit edit;
+  for (const auto& [index, id] : scene.point_of) {
+    if (index % 3 != 0) edit.push_back(edit::RemovePoint{id});
+  }
+  for (const auto& [index, id] : scene.line_of) {
+    if (index % 3 != 0) edit.push_back(edit::RemoveLine{id});
+  }
+  scene.map.Apply(edit);
+  scene.map.CheckInvariants();
+  return scene;
+}
+
+template <class Change>
+std::vector<Change> Only(const MapEdit& edit) {
+  std::vector<Change> found;
+  for (const MapChange& change : edit) {
+    if (const auto* c = std::get_if<Change>(&change)) found.push_back(*c);
+  }
+  return found;
+}
+
+// Which landmark of the world each observation is of; a set of one when they agree.
+template <class Landmark>
+std::set<std::size_t> Truths(const TrueMap& scene,
+                             const Landmark& landmark,
+                             std::vector<std::size_t> SyntheticFrame::*truth) {
+  std::set<std::size_t> truths;
+  for (const auto& [keyframe, feature] : landmark.observations) {
+    const SyntheticFrame& sensed = scene.sensed[static_cast<std::size_t>(keyframe.value)];
+    truths.insert((sensed.*truth)[static_cast<std::size_t>(feature)]);
+  }
+  return truths;
+}
+
+double LineError(const PluckerLine& line, const Segment3& truth) {
+  return std::max(line.DistanceTo(truth.start), line.DistanceTo(truth.end));
+}
+
+const SensorModel kStereo{.noise = 0.3, .missed = 0};
+const SensorModel kMono{.depth = false, .noise = 0.3, .missed = 0};
+
+TEST(CreateFromDepth, MakesALandmarkOfEveryFreeFeatureWithGoodDepth) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 80);
+  TrueMap scene = WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(20)}, kStereo);
+  const KeyFrameId id{1};
+  const Frame before = scene.map.Find(id)->frame;
+  const MapEdit edit = CreateFromDepth(scene.map, world.Imaging(), id, {});
+  const auto points = Only<edit::AddPoint>(edit);
+  const auto lines = Only<edit::AddLine>(edit);
+  EXPECT_EQ(points.size() + lines.size(), edit.size());
+  std::size_t free_points = 0;
+  for (std::size_t i = 0; i < before.points.size(); ++i) {
+    const auto& d = before.features().point_disparity[i];
+    free_points += !before.points[i].valid() && d->sigma_px <= 0.1 * d->px;
+  }
+  EXPECT_EQ(points.size(), free_points);
+  EXPECT_GT(lines.size(), 5U);
+  for (const auto& add : points) {
+    EXPECT_EQ(add.point.created_by, id);
+    EXPECT_EQ(add.point.observations.size(), 1U);
+    const auto truths = Truths(scene, add.point, &SyntheticFrame::point_truth);
+    const Eigen::Vector3d truth = world.points[*truths.begin()].position;
+    EXPECT_LT((add.point.position - truth).norm(), 0.1 * truth.norm());
+  }
+  for (const auto& add : lines) {
+    const auto truths = Truths(scene, add.line, &SyntheticFrame::line_truth);
+    const Segment3& truth = world.lines[*truths.begin()].segment;
+    EXPECT_LT(LineError(add.line.line, truth), 0.2 * truth.start.norm());
+    EXPECT_GT(add.line.line.direction.dot(truth.Direction()), 0.8);
+    EXPECT_LT(add.line.start, add.line.end);
+    EXPECT_GT(add.line.information.trace(), 0);
+  }
+  scene.map.Apply(edit);
+  scene.map.CheckInvariants();
+  EXPECT_TRUE(CreateFromDepth(scene.map, world.Imaging(), id, {}).empty());
+}
+
+TEST(CreatePointsFromViews, TriangulatesWhatTwoKeyFramesShow) {
+  for (const SensorModel& sensor : {kMono, kStereo}) {
+    const SyntheticWorld world = MakeSyntheticWorld(400, 0);
+    TrueMap scene = WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(25)}, sensor);
+    const KeyFrameId id{1};
+    const MapEdit edit = CreatePointsFromViews(scene.map, world.Imaging(), id, {});
+    const auto points = Only<edit::AddPoint>(edit);
+    EXPECT_EQ(points.size(), edit.size());
+    EXPECT_GT(points.size(), 80U);
+    std::size_t wrong = 0;
+    for (const auto& add : points) {
+      EXPECT_EQ(add.point.observations.size(), 2U);
+      const auto truths = Truths(scene, add.point, &SyntheticFrame::point_truth);
+      wrong += truths.size() != 1;
+      const Eigen::Vector3d& truth = world.points[*truths.begin()].position;
+      EXPECT_LT((add.point.position - truth).norm(), 0.05 * truth.norm());
+      EXPECT_GT(add.point.reference_distance, 1);
+      EXPECT_NEAR(add.point.view_direction.norm(), 1, 1e-9);
+    }
+    EXPECT_EQ(wrong, 0U);
+    scene.map.Apply(edit);
+    scene.map.CheckInvariants();
+  }
+}
+
+TEST(CreatePointsFromViews, NeedsParallax) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 0);
+  // Turned, not moved.
+  const Rigid3 turned{ExpSo3({0, 0.05, 0.01}), Eigen::Vector3d(0.005, 0, 0)};
+  const TrueMap scene = WithFreeFeatures(world, {Rigid3{}, turned}, kMono);
+  EXPECT_TRUE(CreatePointsFromViews(scene.map, world.Imaging(), KeyFrameId{1}, {}).empty());
+}
+
+TEST(CreatePointsFromViews, WorksWhenTheCameraMovesForward) {
+  // The nearest place that a feature may show lies behind the second camera.
+  const SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  const Rigid3 ahead{Eigen::Quaterniond::Identity(), {0, 0, -1}};
+  const TrueMap scene = WithFreeFeatures(world, {ahead, Rigid3{}}, kMono);
+  EXPECT_GT(CreatePointsFromViews(scene.map, world.Imaging(), KeyFrameId{1}, {}).size(), 30U);
+  const TrueMap forward = WithFreeFeatures(world, {Rigid3{}, ahead}, kMono);
+  EXPECT_GT(CreatePointsFromViews(forward.map, world.Imaging(), KeyFrameId{1}, {}).size(), 30U);
+}
+
+TEST(CreateLinesFromViews, ReconstructsFromAllViews) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 300);
+  TrueMap scene = WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(15), PoseOnPath(30)}, kMono);
+  const KeyFrameId id{2};
+  const MapEdit edit = CreateLinesFromViews(scene.map, world.Imaging(), id, {});
+  const auto lines = Only<edit::AddLine>(edit);
+  EXPECT_EQ(lines.size(), edit.size());
+  EXPECT_GT(lines.size(), 20U);
+  std::size_t of_three = 0;
+  std::size_t wrong = 0;
+  std::size_t exact = 0;
+  for (const auto& add : lines) {
+    of_three += add.line.observations.size() == 3;
+    const auto truths = Truths(scene, add.line, &SyntheticFrame::line_truth);
+    wrong += truths.size() != 1;
+    const Segment3& truth = world.lines[*truths.begin()].segment;
+    exact += LineError(add.line.line, truth) < 0.05 * truth.start.norm();
+    EXPECT_GT(add.line.line.direction.dot(truth.Direction()), 0.7);
+    EXPECT_LT(add.line.start, add.line.end);
+    EXPECT_NEAR(add.line.view_direction.norm(), 1, 1e-9);
+  }
+  EXPECT_EQ(wrong, 0U);
+  EXPECT_GT(of_three, lines.size() / 3);
+  EXPECT_GT(exact, lines.size() * 8 / 10);
+  scene.map.Apply(edit);
+  scene.map.CheckInvariants();
+}
+
+TEST(CreateLinesFromViews, DropsAViewThatContradictsTheOthers) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 150);
+  const std::vector<Rigid3> poses{PoseOnPath(0), PoseOnPath(15), PoseOnPath(30)};
+  TrueMap scene = WithFreeFeatures(world, poses, kMono);
+  const std::size_t good =
+      CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, {}).size();
+  // The first keyframe is not where the map has it: its views fit no line of the other two.
+  scene.map.Apply({edit::SetPose{
+      KeyFrameId{0},
+      ExpSe3((Vector6d() << 0.05, 0.06, -0.08, 0.3, -0.2, 0.2).finished()) * poses[0]}});
+  const MapEdit edit = CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, {});
+  std::size_t from_the_right_pair = 0;
+  for (const auto& add : Only<edit::AddLine>(edit)) {
+    from_the_right_pair +=
+        add.line.observations.size() == 2 && add.line.observations.contains(KeyFrameId{1});
+  }
+  EXPECT_GT(from_the_right_pair, good / 2);
+}
+
+TEST(CreateLinesFromViews, RejectsLinesInTheEpipolarPlane) {
+  // Lines along x seen by cameras displaced along x: the interpretation planes coincide.
+  SyntheticWorld world = MakeSyntheticWorld(200, 0);
+  Rng rng(5);
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Vector3d start(rng.Uniform(-2, 0), rng.Uniform(-2, 2), rng.Uniform(4, 7));
+    world.lines.push_back({{start, start + Eigen::Vector3d(1.5, 0, 0)}, RandomDescriptor(rng)});
+  }
+  const Rigid3 aside{Eigen::Quaterniond::Identity(), {-0.4, 0, 0}};
+  const TrueMap scene = WithFreeFeatures(world, {Rigid3{}, aside}, kStereo);
+  EXPECT_TRUE(CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{1}, {}).empty());
+  const Rigid3 above{Eigen::Quaterniond::Identity(), {0, -0.4, 0}};
+  const TrueMap better = WithFreeFeatures(world, {Rigid3{}, above}, kStereo);
+  EXPECT_GT(CreateLinesFromViews(better.map, world.Imaging(), KeyFrameId{1}, {}).size(), 10U);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/local_mapper.h"
+
+#include "tests/support/true_map.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+// Feeds a mapper with keyframes along the path, whose poses are off by some centimetres and whose
+// matches are those that the truth says the map holds.
+class MapperRun {
+ public:
+  explicit MapperRun(const MappingOptions& options = {})
+      : mapper_(world_.Imaging(), LineWeighting::kCovariance, options) {}
+
+  void Add(int path_frame, double pose_noise) {
+    const KeyFrameId id = map_.NextKeyFrameId();
+    Rng rng(3, "mapper_run", static_cast<std::uint64_t>(id.value));
+    const SyntheticFrame sensed = Sense(world_, PoseOnPath(path_frame), {}, rng);
+    Vector6d twist;
+    twist << RandomVector<3>(rng, 0.2 * pose_noise), RandomVector<3>(rng, pose_noise);
+    if (id == KeyFrameId{0}) twist.setZero();
+    given_error_.push_back(twist.tail<3>().norm());
+    truth_[id] = PoseOnPath(path_frame);
+    KeyFrame keyframe{id,
+                      KeyFrameId{id.value - 1},
+                      MakeFrame(FrameId{path_frame}, ExpSe3(twist) * truth_[id], sensed)};
+    sensed_[id] = sensed;
+    Match(keyframe.frame, sensed);
+    steps_ = mapper_.Add(map_, keyframe, {});
+    map_.CheckInvariants();
+  }
+
+  const Map& map() const { return map_; }
+  const std::vector<MappingStep>& steps() const { return steps_; }
+  double WorstPose() const {
+    double worst = 0;
+    for (const auto& [id, keyframe] : map_.keyframes()) {
+      worst = std::max(worst, CentreDistance(keyframe.frame.cam_from_world, truth_.at(id)));
+    }
+    return worst;
+  }
+  double MeanGivenError() const {
+    double sum = 0;
+    for (const double e : given_error_) sum += e;
+    return sum / static_cast<double>(given_error_.size());
+  }
+  // Share of the points with two or more views all of whose views are of one point of the world.
+  double Purity() const {
+    int pure = 0;
+    int all = 0;
+    for (const auto& [id, point] : map_.points()) {
+      if (point.observations.size() < 2) continue;
+      ++all;
+      pure += TruthsOf(point).size() == 1;
+    }
+    return static_cast<double>(pure) / all;
+  }
+
+ private:
+  std::set<std::size_t> TruthsOf(const MapPoint& point) const {
+    std::set<std::size_t> truths;
+    for (const auto& [keyframe, feature] : point.observations) {
+      truths.insert(sensed_.at(keyframe).point_truth[static_cast<std::size_t>(feature)]);
+    }
+    return truths;
+  }
+
+  // Landmarks of the map by the world's index, from the newest keyframes.
+  void Match(Frame& frame, const SyntheticFrame& sensed) const {
+    std::map<std::size_t, PointId> point_of;
+    std::map<std::size_t, LineId> line_of;
+    for (const auto& [id, keyframe] : map_.keyframes()) {
+      const SyntheticFrame& before = sensed_.at(id);
+      for (std::size_t i = 0; i < before.point_truth.size(); ++i) {
+        if (keyframe.frame.points[i].valid())
+          point_of[before.point_truth[i]] = keyframe.frame.points[i];
+      }
+      for (std::size_t i = 0; i < before.line_truth.size(); ++i) {
+        if (keyframe.frame.lines[i].valid())
+          line_of[before.line_truth[i]] = keyframe.frame.lines[i];
+      }
+    }
+    for (std::size_t i = 0; i < sensed.point_truth.size(); ++i) {
+      const auto it = point_of.find(sensed.point_truth[i]);
+      if (it != point_of.end()) frame.points[i] = it->second;
+    }
+    for (std::size_t i = 0; i < sensed.line_truth.size(); ++i) {
+      const auto it = line_of.find(sensed.line_truth[i]);
+      if (it != line_of.end()) frame.lines[i] = it->second;
+    }
+  }
+
+  SyntheticWorld world_ = MakeSyntheticWorld(400, 100);
+  LocalMapper mapper_;
+  Map map_;
+  std::map<KeyFrameId, SyntheticFrame> sensed_;
+  std::map<KeyFrameId, Rigid3> truth_;
+  std::vector<double> given_error_;
+  std::vector<MappingStep> steps_;
+};
+
+TEST(LocalMapper, KeepsInvariantsAndImprovesPoses) {
+  MapperRun run;
+  for (int k = 0; k < 12; ++k) run.Add(4 * k, 0.03);
+  EXPECT_GT(run.MeanGivenError(), 0.03);
+  EXPECT_LT(run.WorstPose(), 0.02);
+  EXPECT_GT(run.map().points().size(), 200U);
+  EXPECT_GT(run.map().lines().size(), 20U);
+  EXPECT_GT(run.Purity(), 0.98);
+}
+
+TEST(LocalMapper, ReportsItsStepsInOrder) {
+  MapperRun run;
+  run.Add(0, 0);
+  std::vector<std::string> names;
+  for (const MappingStep& step : run.steps()) {
+    names.push_back(step.name);
+    EXPECT_GE(step.milliseconds, 0);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"take_in", "create", "fuse", "adjust", "clean_up"}));
+}
+
+TEST(LocalMapper, TheFirstKeyFrameNeverMoves) {
+  MapperRun run;
+  for (int k = 0; k < 6; ++k) run.Add(4 * k, 0.02);
+  EXPECT_EQ(LogSe3(run.map().Find(KeyFrameId{0})->frame.cam_from_world).norm(), 0);
+}
+
+TEST(LocalMapper, RemovesRedundantKeyFramesWhenAllowed) {
+  MappingOptions keep_all;
+  keep_all.cleanup.redundant_share = 1;
+  MapperRun all(keep_all);
+  MappingOptions thin;
+  thin.cleanup.redundant_share = 0.7;
+  MapperRun few(thin);
+  for (int k = 0; k < 10; ++k) {
+    all.Add(k, 0.005);
+    few.Add(k, 0.005);
+  }
+  EXPECT_EQ(all.map().keyframes().size(), 10U);
+  EXPECT_LT(few.map().keyframes().size(), 10U);
+  for (std::int64_t k = 0; k < 10; ++k) {
+    // Removed or not, each keyframe has a place.
+    EXPECT_LT(CentreDistance(few.map().PoseOf(KeyFrameId{k}), PoseOnPath(static_cast<int>(k))),
+              0.02);
+  }
+}
+
+TEST(LocalMapper, GivesTheSameMapEveryTime) {
+  MapperRun first;
+  MapperRun second;
+  for (int k = 0; k < 6; ++k) {
+    first.Add(4 * k, 0.02);
+    second.Add(4 * k, 0.02);
+  }
+  ASSERT_EQ(first.map().points().size(), second.map().points().size());
+  auto other = second.map().points().begin();
+  for (const auto& [id, point] : first.map().points()) {
+    EXPECT_EQ(id, other->first);
+    EXPECT_EQ(point.position, other->second.position);
+    EXPECT_EQ(point.descriptor, other->second.descriptor);
+    ++other;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/overlay.h"
+#include "plumbline/report/run_files.h"
+#include "plumbline/report/summary.h"
+#include "plumbline/report/timing.h"
+
+#include "tests/io/scratch_folder.h"
+#include "tests/support/moving_poster.h"
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+FrameRecord TimedFrame(std::int64_t id, std::vector<StageTime> times) {
+  FrameRecord record;
+  record.id = FrameId{id};
+  record.stamp_ns = 1'305'031'102'175'304'000 + id;
+  record.times = std::move(times);
+  return record;
+}
+
+TEST(FormatFrames, OneRowForEveryFrame) {
+  FrameRecord tracked = TimedFrame(0, {});
+  tracked.status = FrameStatus::kTracked;
+  tracked.map = MapId{2};
+  tracked.keyframe = true;
+  tracked.counts = {5, 4, 3, 2};
+  FrameRecord lost = TimedFrame(1, {});
+  lost.status = FrameStatus::kLost;
+  lost.reason = "too_few_inliers";
+  FrameRecord skipped = TimedFrame(2, {});
+  skipped.reason = "image_unreadable";
+  EXPECT_EQ(FormatFrames({tracked, lost, skipped}),
+            "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,"
+            "inlier_points,inlier_lines\n"
+            "0,1305031102.175304000,tracked,2,,1,5,4,3,2\n"
+            "1,1305031102.175304001,lost,,too_few_inliers,0,0,0,0,0\n"
+            "2,1305031102.175304002,skipped,,image_unreadable,0,0,0,0,0\n");
+}
+
+TEST(Timing, StatisticsAreOfTheFramesInWhichAStageRan) {
+  std::vector<FrameRecord> frames;
+  for (int i = 1; i <= 100; ++i) {
+    frames.push_back(TimedFrame(i, {{"track", static_cast<double>(i)}, {"total", 2.0 * i}}));
+  }
+  frames[0].times.insert(frames[0].times.begin(), {"map", 7});
+  frames[0].times.insert(frames[0].times.begin(), {"map", 3});  // twice in one frame: 10
+  const auto statistics = TimingStatistics(frames);
+  ASSERT_EQ(statistics.size(), 3U);
+  EXPECT_EQ(statistics[0].stage, "map");
+  EXPECT_EQ(statistics[0].count, 1U);
+  EXPECT_EQ(statistics[0].median, 10);
+  EXPECT_EQ(statistics[1].stage, "track");
+  EXPECT_EQ(statistics[1].count, 100U);
+  EXPECT_EQ(statistics[1].median, 50);
+  EXPECT_EQ(statistics[1].p95, 95);
+  EXPECT_EQ(statistics[1].p99, 99);
+  EXPECT_EQ(statistics[1].max, 100);
+  EXPECT_EQ(statistics[1].mean, 50.5);
+  EXPECT_EQ(statistics[2].stage, "total");
+  EXPECT_TRUE(TimingStatistics({}).empty());
+}
+
+TEST(Timing, FilesHaveAColumnForEachStage) {
+  const std::vector<FrameRecord> frames = {
+      TimedFrame(0, {{"track", 1.5}, {"total", 2}}),
+      TimedFrame(1, {}),
+      TimedFrame(2, {{"track", 1}, {"map", 0.25}, {"map", 0.5}, {"total", 3}})};
+  EXPECT_EQ(FormatTimingCsv(frames),
+            "frame,timestamp,track_ms,map_ms,total_ms\n"
+            "0,1305031102.175304000,1.500,,2.000\n"
+            "1,1305031102.175304001,,,\n"
+            "2,1305031102.175304002,1.000,0.750,3.000\n");
+  const auto json = nlohmann::json::parse(FormatTimingJson(frames));
+  EXPECT_EQ(json["track"]["frames"], 2);
+  EXPECT_EQ(json["total"]["max_ms"], 3);
+  for (const char* key : {"frames", "median_ms", "p95_ms", "p99_ms", "max_ms", "mean_ms"}) {
+    EXPECT_TRUE(json["map"].contains(key)) << key;
+  }
+}
+
+// The poster as a data set, with its true poses.
+class PosterDataset : public Dataset {
+ public:
+  explicit PosterDataset(int frames, bool with_truth = true) : Dataset(Info(frames, with_truth)) {}
+  Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
+    return poster_.Frame(static_cast<int>(i));
+  }
+
+ private:
+  static DatasetInfo Info(int frames, bool with_truth) {
+    DatasetInfo info;
+    info.name = "poster";
+    info.sensor = SensorKind::kStereo;
+    info.calibration = MovingPoster::MakeCalibration();
+    GroundTruth truth;
+    for (int i = 0; i < frames; ++i) {
+      info.stamps_ns.push_back(MovingPoster::StampNs(i));
+      truth.poses.push_back({MovingPoster::StampNs(i),
+                             {Eigen::Quaterniond::Identity(), {i * MovingPoster::kStep, 0, 0}}});
+    }
+    if (with_truth) info.ground_truth = truth;
+    return info;
+  }
+
+  MovingPoster poster_;
+};
+
+// Six frames of the poster: the third skipped, the fifth lost.
+class PosterRun {
+ public:
+  PosterRun() : system_(MovingPoster::MakeCalibration(), {}) {
+    const MovingPoster poster;
+    for (int i = 0; i < 6; ++i) {
+      if (i == 2) {
+        system_.Skip(MovingPoster::StampNs(i), "image_unreadable");
+      } else {
+        system_.Process(i == 4 ? MovingPoster::BlindFrame(i) : poster.Frame(i));
+      }
+    }
+    system_.Finish();
+  }
+  const System& system() const { return system_; }
+
+ private:
+  System system_;
+};
+
+std::size_t Rows(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(CountRun, CountsEveryFrameOnce) {
+  const PosterRun run;
+  const RunCounts counts = CountRun(run.system());
+  EXPECT_EQ(counts.frames, 6);
+  EXPECT_EQ(counts.tracked, 4);
+  EXPECT_EQ(counts.skipped, 1);
+  EXPECT_EQ(counts.lost, 1);
+  EXPECT_EQ(counts.initializing, 0);
+  EXPECT_EQ(counts.maps, 1);
+  EXPECT_GE(counts.keyframes, 1);
+  EXPECT_GT(counts.points, 50);
+}
+
+TEST(Summary, HoldsTheFieldsOfTheInterface) {
+  const PosterRun run;
+  const PosterDataset dataset(6);
+  const std::string text = FormatSummary(
+      {"0.1.0", "some/folder", "slam:\n  seed: 3\n", 3}, run.system(), dataset, {1.5, 2.5, 30});
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["version"], "0.1.0");
+  EXPECT_EQ(json["data"], "some/folder");
+  EXPECT_EQ(json["sensor"], "stereo");
+  EXPECT_EQ(json["seed"], 3);
+  EXPECT_EQ(json["options"], "slam:\n  seed: 3\n");
+  EXPECT_EQ(json["frames"]["in"], 6);
+  EXPECT_EQ(json["frames"]["tracked"], 4);
+  EXPECT_EQ(json["frames"]["lost"], 1);
+  EXPECT_EQ(json["frames"]["skipped"], 1);
+  EXPECT_EQ(json["wall_seconds"], 1.5);
+  EXPECT_EQ(json["cpu_seconds"], 2.5);
+  EXPECT_EQ(json["peak_memory_mb"], 30);
+  for (const char* key : {"maps", "keyframes", "points", "lines", "loops"}) {
+    EXPECT_TRUE(json[key].is_number_integer()) << key;
+  }
+  const auto& accuracy = json["accuracy"];
+  EXPECT_EQ(accuracy["alignment"], "se3");
+  EXPECT_EQ(accuracy["associated"], 4);
+  EXPECT_NEAR(accuracy["coverage"], 4.0 / 6, 1e-9);
+  EXPECT_EQ(accuracy["ate"]["unit"], "m");
+  EXPECT_LT(accuracy["ate"]["rmse"], 0.01);
+  EXPECT_FALSE(accuracy.contains("rpe"));  // shorter than the window
+  for (const char* key : {"median_ms", "p95_ms", "p99_ms"}) {
+    EXPECT_GT(json["timing"]["total"][key], 0) << key;
+  }
+}
+
+TEST(Summary, SaysNullWithoutGroundTruth) {
+  const PosterRun run;
+  const auto json =
+      nlohmann::json::parse(FormatSummary({}, run.system(), PosterDataset(6, false), {}));
+  EXPECT_TRUE(json["accuracy"].is_null());
+}
+
+TEST(RunFiles, AreAllThereAndComplete) {
+  const PosterRun run;
+  const ScratchFolder folder;
+  WriteRunFiles(run.system(), folder.path());
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    names.insert(entry.path().filename().string());
+  }
+  for (const char* name : {"trajectory.txt",
+                           "trajectory_causal.txt",
+                           "keyframes.txt",
+                           "frames.csv",
+                           "timing.csv",
+                           "timing.json",
+                           "map.ply",
+                           "lines.obj"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  EXPECT_EQ(Rows(Contents(folder / "trajectory.txt")), 4U);
+  EXPECT_EQ(Rows(Contents(folder / "trajectory_causal.txt")), 4U);
+  EXPECT_EQ(Rows(Contents(folder / "frames.csv")), 7U);
+  EXPECT_EQ(Rows(Contents(folder / "timing.csv")), 7U);
+  EXPECT_EQ(Contents(folder / "trajectory.txt").substr(0, 12), "1.000000000 ");
+  for (const std::string& name : names) EXPECT_EQ(name.find("tmp"), std::string::npos) << name;
+}
+
+TEST(RunFiles, AreThereWithoutAnyPose) {
+  const System system(MovingPoster::MakeCalibration(), {});
+  const ScratchFolder folder;
+  WriteRunFiles(system, folder.path());
+  EXPECT_EQ(Contents(folder / "trajectory.txt"), "");
+  EXPECT_EQ(Contents(folder / "keyframes.txt"), "");
+  EXPECT_EQ(Rows(Contents(folder / "frames.csv")), 1U);
+}
+
+TEST(RunFiles, SayWhichFileCannotBeWritten) {
+  const PosterRun run;
+  const ScratchFolder folder;
+  const auto file = folder.Write("file", "not a folder");
+  const std::string message = MessageOf([&] { WriteRunFiles(run.system(), file / "below"); });
+  EXPECT_NE(message.find("trajectory.txt"), std::string::npos) << message;
+}
+
+TEST(Overlay, IsWrittenForTheLastFrame) {
+  const PosterRun run;
+  const ScratchFolder folder;
+  WriteFeatureOverlay(run.system().view(), folder / "overlay.png");
+  EXPECT_EQ(Contents(folder / "overlay.png").substr(1, 3), "PNG");
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/mapping_stage.h"
+
+#include "tests/support/synthetic_run.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+SlamOptions WithLag(int lag) {
+  SlamOptions options;
+  options.slam.lag = lag;
+  return options;
+}
+
+NewKeyFrame KeyFrameAt(const SyntheticWorld& world, std::int64_t id, std::int64_t parent) {
+  Rng rng(1, "keyframe", static_cast<std::uint64_t>(id));
+  const Rigid3 pose = PoseOnPath(static_cast<int>(4 * id));
+  return {{KeyFrameId{id},
+           KeyFrameId{parent},
+           MakeFrame(FrameId{id}, pose, Sense(world, pose, {}, rng))},
+          KeyFrameReason::kNone,
+          {}};
+}
+
+TEST(MappingStage, TheFirstKeyFrameTakesEffectAtOnce) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(5));
+  EXPECT_EQ(stage.SnapshotFor(0), nullptr);
+  EXPECT_TRUE(stage.maps().empty());
+  stage.Submit(3, KeyFrameAt(world, 0, -1), true);
+  const auto snapshot = stage.SnapshotFor(3);
+  ASSERT_NE(snapshot, nullptr);
+  EXPECT_EQ(snapshot->centre, KeyFrameId{0});
+  EXPECT_GT(snapshot->points.size(), 50U);
+  EXPECT_FALSE(stage.TakeTimes().empty());
+  EXPECT_TRUE(stage.TakeTimes().empty());
+}
+
+TEST(MappingStage, OthersTakeEffectAfterTheLag) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  for (const int lag : {0, 1, 4}) {
+    MappingStage stage(world.Imaging(), WithLag(lag));
+    stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+    stage.Submit(10, KeyFrameAt(world, 1, 0), false);
+    stage.Submit(11, KeyFrameAt(world, 2, 1), false);
+    EXPECT_EQ(stage.SnapshotFor(10 + lag)->centre, KeyFrameId{0}) << lag;
+    EXPECT_EQ(stage.SnapshotFor(10 + lag + 1)->centre, KeyFrameId{1}) << lag;
+    EXPECT_EQ(stage.SnapshotFor(10 + lag + 2)->centre, KeyFrameId{2}) << lag;
+  }
+}
+
+TEST(MappingStage, TheResultDoesNotDependOnWhenItIsAsked) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage asked(world.Imaging(), WithLag(1));
+  MappingStage not_asked(world.Imaging(), WithLag(1));
+  for (std::int64_t k = 0; k < 5; ++k) {
+    asked.Submit(2 * k, KeyFrameAt(world, k, k - 1), k == 0);
+    asked.SnapshotFor(2 * k + 1);
+    not_asked.Submit(2 * k, KeyFrameAt(world, k, k - 1), k == 0);
+  }
+  asked.Finish();
+  not_asked.Finish();
+  const auto& a = asked.maps().back().points();
+  const auto& b = not_asked.maps().back().points();
+  ASSERT_EQ(a.size(), b.size());
+  for (auto i = a.begin(), j = b.begin(); i != a.end(); ++i, ++j) {
+    EXPECT_EQ(i->second.position, j->second.position);
+  }
+}
+
+TEST(MappingStage, FinishDoesWhatIsLeft) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(50));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  stage.Submit(1, KeyFrameAt(world, 1, 0), false);
+  EXPECT_EQ(stage.maps().back().keyframes().size(), 1U);
+  stage.Finish();
+  EXPECT_EQ(stage.maps().back().keyframes().size(), 2U);
+}
+
+TEST(MappingStage, ANewMapBeginsAfterTheOldOneIsComplete) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(50));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  stage.Submit(1, KeyFrameAt(world, 1, 0), false);
+  stage.Submit(2, KeyFrameAt(world, 2, -1), true);
+  ASSERT_EQ(stage.maps().size(), 2U);
+  EXPECT_EQ(stage.maps()[0].id(), MapId{0});
+  EXPECT_EQ(stage.maps()[1].id(), MapId{1});
+  EXPECT_EQ(stage.maps()[0].keyframes().size(), 2U);
+  EXPECT_EQ(stage.maps()[1].keyframes().size(), 1U);
+  EXPECT_EQ(stage.SnapshotFor(3)->centre, KeyFrameId{2});
+}
+
+// Poses of a run over the synthetic world, as first reported.
+std::vector<Rigid3> Poses(int lag) {
+  SyntheticRun run(MakeSyntheticWorld(300, 60), WithLag(lag));
+  std::vector<Rigid3> poses;
+  for (int i = 0; i < 25; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), {});
+    EXPECT_TRUE(result.cam_from_world) << "frame " << i;
+    poses.push_back(result.cam_from_world.value_or(Rigid3{}));
+  }
+  run.Finish();
+  run.maps().back().CheckInvariants();
+  return poses;
+}
+
+bool SameBits(const std::vector<Rigid3>& a, const std::vector<Rigid3>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.rotation.coeffs() == y.rotation.coeffs() && x.translation == y.translation;
+  });
+}
+
+TEST(TrackingAndMapping, RepeatToTheLastBit) { EXPECT_TRUE(SameBits(Poses(1), Poses(1))); }
+
+TEST(TrackingAndMapping, TheLagIsPartOfTheAlgorithm) {
+  const std::vector<Rigid3> at_once = Poses(0);
+  const std::vector<Rigid3> later = Poses(3);
+  EXPECT_FALSE(SameBits(at_once, later));
+  for (int i = 0; i < 25; ++i) {
+    EXPECT_LT(CentreDistance(at_once[static_cast<std::size_t>(i)], PoseOnPath(i)), 0.03);
+    EXPECT_LT(CentreDistance(later[static_cast<std::size_t>(i)], PoseOnPath(i)), 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/system.h"
+
+#include "tests/support/moving_poster.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+bool SameBits(const Trajectory& a, const Trajectory& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.stamp_ns == y.stamp_ns &&
+           x.world_from_camera.rotation.coeffs() == y.world_from_camera.rotation.coeffs() &&
+           x.world_from_camera.translation == y.world_from_camera.translation;
+  });
+}
+
+std::unique_ptr<System> RunPoster(int frames) {
+  auto system = std::make_unique<System>(MovingPoster::MakeCalibration(), SlamOptions{});
+  const MovingPoster poster;
+  for (int i = 0; i < frames; ++i) system->Process(poster.Frame(i));
+  system->Finish();
+  return system;
+}
+
+TEST(System, FollowsTheCamera) {
+  const auto system = RunPoster(10);
+  ASSERT_EQ(system->frames().size(), 10U);
+  const auto map = system->MainMap();
+  ASSERT_TRUE(map);
+  for (const Trajectory& trajectory :
+       {system->FinalTrajectory(*map), system->CausalTrajectory(*map)}) {
+    ASSERT_EQ(trajectory.size(), 10U);
+    for (int i = 0; i < 10; ++i) {
+      const StampedPose& pose = trajectory[static_cast<std::size_t>(i)];
+      EXPECT_EQ(pose.stamp_ns, MovingPoster::StampNs(i));
+      const Eigen::Vector3d expected(MovingPoster::kStep * i, 0, 0);
+      EXPECT_LT((pose.world_from_camera.translation - expected).norm(), 0.01) << i;
+    }
+  }
+  const Trajectory keyframes = system->KeyFrameTrajectory(*map);
+  EXPECT_EQ(keyframes.front().stamp_ns, MovingPoster::StampNs(0));
+  system->maps().back().CheckInvariants();
+}
+
+TEST(System, TheWorldIsTheFirstKeyFramesCameraAsDelivered) {
+  const MovingPoster poster;
+  for (const double yaw : {0.0, 0.03}) {
+    System system(MovingPoster::MakeCalibration(yaw), SlamOptions{});
+    EXPECT_EQ(system.Process(MovingPoster::BlindFrame(0)).status, FrameStatus::kInitializing);
+    const FrameRecord& first = system.Process(poster.Frame(1));
+    ASSERT_EQ(first.status, FrameStatus::kTracked) << yaw;
+    system.Finish();
+    EXPECT_LT(LogSe3(*first.causal_world_from_camera).norm(), 1e-12);
+    const Trajectory final = system.FinalTrajectory(MapId{0});
+    ASSERT_EQ(final.size(), 1U);
+    EXPECT_LT(LogSe3(final[0].world_from_camera).norm(), 1e-12);
+    EXPECT_LT(LogSe3(system.KeyFrameTrajectory(MapId{0})[0].world_from_camera).norm(), 1e-12);
+    // Inside, the camera is the rectified one.
+    const auto& keyframe = system.maps()[0].keyframes().begin()->second;
+    EXPECT_NEAR(LogSo3(keyframe.frame.cam_from_world.rotation).norm(), yaw, 1e-6);
+  }
+}
+
+TEST(System, CountsSkippedFramesAndGoesOn) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  const MovingPoster poster;
+  for (int i = 0; i < 8; ++i) {
+    if (i == 3) {
+      const FrameRecord& skipped = system.Skip(MovingPoster::StampNs(i), "image_unreadable");
+      EXPECT_EQ(skipped.status, FrameStatus::kSkipped);
+      EXPECT_EQ(skipped.reason, "image_unreadable");
+      EXPECT_FALSE(skipped.map.valid());
+      continue;
+    }
+    EXPECT_EQ(system.Process(poster.Frame(i)).status, FrameStatus::kTracked) << i;
+  }
+  system.Finish();
+  ASSERT_EQ(system.frames().size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(system.frames()[i].id, FrameId{static_cast<std::int64_t>(i)});
+    EXPECT_EQ(system.frames()[i].stamp_ns, MovingPoster::StampNs(static_cast<int>(i)));
+  }
+  EXPECT_EQ(system.FinalTrajectory(MapId{0}).size(), 7U);
+}
+
+TEST(System, LostFramesSayWhyAndHaveNoPose) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  const MovingPoster poster;
+  for (int i = 0; i < 3; ++i) system.Process(poster.Frame(i));
+  const FrameRecord& lost = system.Process(MovingPoster::BlindFrame(3));
+  EXPECT_EQ(lost.status, FrameStatus::kLost);
+  EXPECT_EQ(lost.reason, "too_few_matches");
+  EXPECT_FALSE(lost.causal_world_from_camera);
+  EXPECT_EQ(system.Process(poster.Frame(4)).status, FrameStatus::kTracked);
+  system.Finish();
+  EXPECT_EQ(system.CausalTrajectory(MapId{0}).size(), 4U);
+}
+
+TEST(System, RepeatsToTheLastBit) {
+  const auto a = RunPoster(8);
+  const auto b = RunPoster(8);
+  EXPECT_TRUE(SameBits(a->FinalTrajectory(MapId{0}), b->FinalTrajectory(MapId{0})));
+  EXPECT_TRUE(SameBits(a->CausalTrajectory(MapId{0}), b->CausalTrajectory(MapId{0})));
+  EXPECT_TRUE(SameBits(a->KeyFrameTrajectory(MapId{0}), b->KeyFrameTrajectory(MapId{0})));
+}
+
+TEST(System, WithoutATrackedFrameThereIsNoMap) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  EXPECT_EQ(system.Process(MovingPoster::BlindFrame(0)).reason, "too_few_features");
+  system.Finish();
+  EXPECT_FALSE(system.MainMap());
+  EXPECT_TRUE(system.maps().empty());
+}
+
+TEST(System, RejectsImagesOfAnotherSize) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  SensorFrame small{0, GrayImage(40, 30), GrayImage(40, 30), {}};
+  EXPECT_THROW(system.Process(small), InputError);
+  EXPECT_TRUE(system.frames().empty());
+}
+
+TEST(System, TimesEveryFrame) {
+  const auto system = RunPoster(3);
+  for (const FrameRecord& record : system->frames()) {
+    ASSERT_FALSE(record.times.empty());
+    EXPECT_EQ(record.times.front().stage, "rectify");
+    EXPECT_EQ(record.times.back().stage, "total");
+    EXPECT_GT(record.times.back().milliseconds, 0);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

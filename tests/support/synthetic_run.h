@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/slam/mapping_stage.h"
+#include "plumbline/slam/options.h"
+#include "plumbline/tracking/tracker.h"
+
+#include "tests/support/synthetic_world.h"
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// Tracker and mapping together on frames without images: what System does behind the features.
+class SyntheticRun {
+ public:
+  SyntheticRun(const SyntheticWorld& world, const SlamOptions& options = {})
+      : world_(world),
+        mapping_(world.Imaging(), options),
+        tracker_(world.Imaging(), options.tracking, options.lines.weighting, Rigid3{}) {}
+
+  // The next frame.
+  TrackingResult Step(const SyntheticFrame& sensed) {
+    const std::int64_t frame = next_++;
+    const auto snapshot = mapping_.SnapshotFor(frame);
+    TrackingResult result =
+        tracker_.Track(FrameId{frame}, 50'000'000 * frame, sensed.indexed, snapshot.get());
+    if (result.keyframe) mapping_.Submit(frame, *result.keyframe, result.starts_map);
+    return result;
+  }
+  TrackingResult Step(const Rigid3& cam_from_world, const SensorModel& sensor) {
+    Rng rng(1, "synthetic_run", static_cast<std::uint64_t>(next_));
+    return Step(Sense(world_, cam_from_world, sensor, rng));
+  }
+  // A frame in which nothing is to be seen.
+  TrackingResult StepBlind() { return Step({IndexFeatures(world_.camera, {}), {}, {}}); }
+
+  void Finish() { mapping_.Finish(); }
+  const std::vector<Map>& maps() const { return mapping_.maps(); }
+  const Tracker& tracker() const { return tracker_; }
+
+ private:
+  SyntheticWorld world_;
+  MappingStage mapping_;
+  Tracker tracker_;
+  std::int64_t next_ = 0;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/tracker.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/mapping/local_mapper.h"
+
+#include "tests/support/synthetic_run.h"
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+const SensorModel kPointsOnly{.lines = false};
+const SensorModel kLinesOnly{.points = false};
+
+SyntheticWorld World() { return MakeSyntheticWorld(500, 120); }
+
+// Follows the path; the largest distance from the true position.
+double FollowPath(SyntheticRun& run, int first, int last, const SensorModel& sensor) {
+  double worst = 0;
+  for (int i = first; i <= last; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), sensor);
+    EXPECT_EQ(result.state, TrackerState::kTracking) << "frame " << i;
+    EXPECT_EQ(result.failure, TrackingFailure::kNone) << "frame " << i;
+    if (!result.cam_from_world) return 1e9;
+    worst = std::max(worst, CentreDistance(*result.cam_from_world, PoseOnPath(i)));
+  }
+  return worst;
+}
+
+TEST(Tracker, FollowsASmoothPathWithPointsAndLines) {
+  SyntheticRun run(World());
+  EXPECT_LT(FollowPath(run, 0, 50, {}), 0.03);
+  EXPECT_EQ(run.maps().size(), 1U);
+}
+
+TEST(Tracker, FollowsASmoothPathWithPointsOnly) {
+  SyntheticRun run(World());
+  EXPECT_LT(FollowPath(run, 0, 50, kPointsOnly), 0.03);
+}
+
+TEST(Tracker, FollowsASmoothPathWithLinesOnly) {
+  SlamOptions options;
+  options.tracking.min_initial = 20;
+  SyntheticRun run(MakeSyntheticWorld(0, 200), options);
+  EXPECT_LT(FollowPath(run, 0, 50, kLinesOnly), 0.05);
+}
+
+TEST(Tracker, ExactMeasurementsGiveExactPoses) {
+  SyntheticRun run(World());
+  EXPECT_LT(FollowPath(run, 0, 20, {.noise = 0}), 1e-4);
+}
+
+TEST(Tracker, TheFirstFrameIsTheFirstKeyFrameAtTheGivenPose) {
+  const SyntheticWorld world = World();
+  const Rigid3 world_from_cam{ExpSo3({0.1, 0.2, -0.3}), {1, 2, 3}};
+  Tracker tracker(world.Imaging(), {}, LineWeighting::kCovariance, world_from_cam);
+  EXPECT_EQ(tracker.state(), TrackerState::kInitializing);
+  Rng rng(1);
+  const SyntheticFrame sensed = Sense(world, {}, {}, rng);
+  const TrackingResult result = tracker.Track(FrameId{7}, 123, sensed.indexed, nullptr);
+  ASSERT_TRUE(result.keyframe);
+  EXPECT_TRUE(result.starts_map);
+  EXPECT_EQ(result.keyframe->keyframe.id, KeyFrameId{0});
+  EXPECT_FALSE(result.keyframe->keyframe.parent.valid());
+  EXPECT_EQ(result.keyframe->keyframe.frame.id, FrameId{7});
+  EXPECT_EQ(result.keyframe->keyframe.frame.stamp_ns, 123);
+  EXPECT_LT(LogSe3(*result.cam_from_world * world_from_cam).norm(), 1e-12);
+  EXPECT_EQ(result.reference, KeyFrameId{0});
+  EXPECT_EQ(tracker.state(), TrackerState::kTracking);
+  EXPECT_THROW(tracker.Track(FrameId{8}, 124, sensed.indexed, nullptr), BugError);
+}
+
+TEST(Tracker, DoesNotStartAMapWithTooLittle) {
+  SyntheticRun run(MakeSyntheticWorld(40, 0));  // some half of them in view
+  for (int i = 0; i < 15; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), {});
+    EXPECT_EQ(result.state, TrackerState::kInitializing);
+    EXPECT_EQ(result.failure, TrackingFailure::kTooFewFeatures);
+    EXPECT_FALSE(result.cam_from_world);
+    EXPECT_FALSE(result.keyframe);
+  }
+  EXPECT_TRUE(run.maps().empty());
+}
+
+TEST(Tracker, ReportsPosesRelativeToTheReference) {
+  SyntheticRun run(World());
+  for (int i = 0; i < 30; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), {});
+    ASSERT_TRUE(result.cam_from_world);
+    if (result.keyframe) {
+      EXPECT_EQ(result.reference, result.keyframe->keyframe.id);
+      EXPECT_LT(LogSe3(result.cam_from_reference).norm(), 1e-12);
+    }
+    EXPECT_GE(result.counts.matched_points, result.counts.inlier_points);
+    EXPECT_GE(result.counts.matched_lines, result.counts.inlier_lines);
+    if (i > 0) {
+      EXPECT_GT(result.counts.inlier_points, 100);
+      EXPECT_GT(result.counts.inlier_lines, 15);
+    }
+  }
+}
+
+TEST(Tracker, RecoversAfterABlackout) {
+  SyntheticRun run(World());
+  FollowPath(run, 0, 20, {});
+  for (int i = 21; i <= 25; ++i) {
+    const TrackingResult result = run.StepBlind();
+    EXPECT_EQ(result.state, TrackerState::kLost);
+    EXPECT_EQ(result.failure, TrackingFailure::kTooFewMatches);
+    EXPECT_FALSE(result.cam_from_world);
+    EXPECT_FALSE(result.keyframe);
+  }
+  EXPECT_LT(FollowPath(run, 26, 45, {}), 0.03);
+  EXPECT_EQ(run.maps().size(), 1U);
+}
+
+TEST(Tracker, RecoversWhereItLooksLikeTheLastKeyFrame) {
+  // Back at the keyframe after a blackout, though the prediction is far off.
+  SyntheticRun run(World());
+  FollowPath(run, 0, 12, {});
+  run.StepBlind();
+  const Rigid3 away = ExpSe3((Vector6d() << 0, 0.12, 0.1, 0.2, 0, 0).finished()) * PoseOnPath(12);
+  const TrackingResult result = run.Step(away, {});
+  ASSERT_TRUE(result.cam_from_world);
+  EXPECT_LT(CentreDistance(*result.cam_from_world, away), 0.03);
+}
+
+TEST(Tracker, StartsANewMapAfterTooManyLostFrames) {
+  SlamOptions options;
+  options.tracking.new_map_after = 4;
+  SyntheticRun run(World(), options);
+  FollowPath(run, 0, 10, {});
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(run.StepBlind().state, TrackerState::kLost);
+  EXPECT_EQ(run.StepBlind().state, TrackerState::kInitializing);
+  const TrackingResult restart = run.Step(PoseOnPath(15), {});
+  EXPECT_TRUE(restart.starts_map);
+  ASSERT_TRUE(restart.keyframe);
+  EXPECT_FALSE(restart.keyframe->keyframe.parent.valid());
+  EXPECT_LT(LogSe3(*restart.cam_from_world).norm(), 1e-12);
+  ASSERT_EQ(run.maps().size(), 2U);
+  EXPECT_EQ(run.maps()[1].id(), MapId{1});
+  // From there on poses are relative to where the new map began.
+  for (int i = 16; i < 30; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), {});
+    ASSERT_TRUE(result.cam_from_world);
+    EXPECT_LT(CentreDistance(*result.cam_from_world, PoseOnPath(i) * Inverse(PoseOnPath(15))),
+              0.02);
+  }
+  EXPECT_EQ(run.maps().size(), 2U);
+  run.maps()[1].CheckInvariants();
+}
+
+TEST(Tracker, ReportsWhenTooFewMatchesAgree) {
+  SyntheticRun run(World());
+  FollowPath(run, 0, 5, {});
+  // The same landmarks, each of them somewhere else in the image.
+  Rng rng(3);
+  const SyntheticFrame sensed = Sense(World(), PoseOnPath(6), {}, rng);
+  Features features = sensed.indexed->features;
+  for (PointFeature& point : features.points) {
+    point.px = {rng.Uniform(0, 751), rng.Uniform(0, 479)};
+  }
+  features.lines.clear();
+  features.line_right.clear();
+  const TrackingResult result = run.Step({IndexFeatures(TestCamera(), features), {}, {}});
+  EXPECT_EQ(result.state, TrackerState::kLost);
+  EXPECT_EQ(result.failure, TrackingFailure::kTooFewInliers);
+}
+
+// A tracker with one keyframe in a map whose contents the test may change.
+struct OneKeyFrame {
+  SyntheticWorld world = World();
+  Tracker tracker{world.Imaging(), {}, LineWeighting::kCovariance, Rigid3{}};
+  Map map;
+  Rng rng{2};
+
+  OneKeyFrame() {
+    const TrackingResult start =
+        tracker.Track(FrameId{0}, 0, Sense(world, PoseOnPath(0), {}, rng).indexed, nullptr);
+    LocalMapper mapper(world.Imaging(), LineWeighting::kCovariance, {});
+    mapper.Add(map, start.keyframe->keyframe, start.keyframe->scores);
+  }
+  TrackingResult Step(int i) {
+    const auto snapshot = TakeSnapshot(map, KeyFrameId{0}, 40);
+    return tracker.Track(
+        FrameId{i}, i, Sense(world, PoseOnPath(i), {}, rng).indexed, snapshot.get());
+  }
+};
+
+// Share of the features with a landmark of the map, of those that could have one.
+TEST(Tracker, PrefersLandmarksOfTheMapToThoseMadeOnTheSpot) {
+  OneKeyFrame scene;
+  for (int i = 1; i < 4; ++i) {
+    const TrackingResult result = scene.Step(i);
+    int of_map = 0;
+    for (const PointId id : result.frame.points) of_map += id.valid();
+    int lines_of_map = 0;
+    for (const LineId id : result.frame.lines) lines_of_map += id.valid();
+    EXPECT_GT(of_map, result.counts.inlier_points * 8 / 10) << "frame " << i;
+    // Mapping asks for better depths, so that some lines are only made on the spot.
+    EXPECT_GT(lines_of_map, result.counts.inlier_lines * 4 / 10) << "frame " << i;
+  }
+}
+
+TEST(Tracker, LetsGoOfLandmarksThatTheMapRemoved) {
+  OneKeyFrame scene;
+  const TrackingResult before = scene.Step(1);
+  std::set<PointId> removed_points;
+  std::set<LineId> removed_lines;
+  MapEdit edit;
+  for (std::size_t i = 0; i < before.frame.points.size(); i += 2) {
+    const PointId id = before.frame.points[i];
+    if (id.valid() && removed_points.insert(id).second) edit.push_back(edit::RemovePoint{id});
+  }
+  for (std::size_t i = 0; i < before.frame.lines.size(); i += 2) {
+    const LineId id = before.frame.lines[i];
+    if (id.valid() && removed_lines.insert(id).second) edit.push_back(edit::RemoveLine{id});
+  }
+  ASSERT_GT(removed_points.size(), 50U);
+  ASSERT_GT(removed_lines.size(), 5U);
+  scene.map.Apply(edit);
+  const TrackingResult after = scene.Step(2);
+  ASSERT_TRUE(after.cam_from_world);
+  for (const PointId id : after.frame.points) EXPECT_FALSE(removed_points.contains(id)) << id.value;
+  for (const LineId id : after.frame.lines) EXPECT_FALSE(removed_lines.contains(id)) << id.value;
+}
+
+TEST(Tracker, FollowsLandmarksThatTheMapMerged) {
+  // Two points of the map at one place, of which the frame before showed the one that goes.
+  OneKeyFrame scene;
+  const TrackingResult before = scene.Step(1);
+  std::size_t feature = 0;
+  while (!before.frame.points[feature].valid()) ++feature;
+  const PointId gone = before.frame.points[feature];
+  MapPoint twin = *scene.map.Find(gone);
+  const PointId kept = scene.map.NextPointId();
+  twin.id = kept;
+  MapEdit edit{edit::AddPoint{twin}};  // takes over the observation, by which the first one goes
+  scene.map.Apply(edit);
+  ASSERT_EQ(scene.map.Find(gone), nullptr);
+  for (int i = 2; i < 6; ++i) {
+    const TrackingResult after = scene.Step(i);
+    for (const PointId id : after.frame.points) EXPECT_NE(id, gone);
+  }
+}
+
+TEST(Tracker, ScoresWhatItExpectsAndFinds) {
+  SyntheticRun run(World());
+  bool seen = false;
+  for (int i = 0; i < 40; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), {});
+    if (!result.keyframe || i == 0) continue;
+    seen = true;
+    int visible = 0;
+    int found = 0;
+    for (const auto& [id, score] : result.keyframe->scores.points) {
+      EXPECT_TRUE(id.valid());
+      EXPECT_LE(score.found, score.visible + 1) << id.value;
+      visible += score.visible;
+      found += score.found;
+    }
+    EXPECT_GT(visible, 200);
+    // The sensor misses 5 % and the gates some more.
+    EXPECT_GT(found, visible * 6 / 10);
+    EXPECT_LE(found, visible);
+  }
+  EXPECT_TRUE(seen);
+}
+
+}  // namespace
+}  // namespace plumbline
