@@ -4,6 +4,7 @@
 
 #include "plumbline/base/options.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/map_io.h"
 #include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/timing.h"
@@ -40,6 +41,10 @@ void WriteMap(const System& system, const std::filesystem::path& folder) {
   for (const auto& [id, line] : map.lines()) lines.push_back(line.Interval());
   WritePly(folder / "map.ply", points, lines);
   WriteObjLines(folder / "lines.obj", lines);
+  SaveMap(folder / "map.plb",
+          system.camera(),
+          system.rectifier().rectified_left_from_left(),
+          map);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace plumbline {
 namespace {
 
-// Keyframes' landmarks count as well observed from this many views on.
+// Keyframes' landmarks count as well observed from this many views on (fewer in a young map).
 constexpr int kWellObserved = 3;
 
 template <class LandmarkId, class Candidate>
@@ -57,9 +57,10 @@ template <class LandmarkId, class Landmark>
 int CountWellObserved(const std::vector<LandmarkId>& ids,
                       const MapSnapshot& snapshot,
                       const Landmark*) {
+  const int needed = std::min(kWellObserved, static_cast<int>(snapshot.cam_from_world.size()));
   return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](LandmarkId id) {
     const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
-    return landmark != nullptr && landmark->observation_count >= kWellObserved;
+    return landmark != nullptr && landmark->observation_count >= needed;
   }));
 }
 
@@ -140,6 +141,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
     return Fail(std::move(frame), TrackingFailure::kTooFewFeatures, {});
   }
   frame.cam_from_world = first_cam_from_world_;
+  scores_ = {};
   TrackingResult result;
   result.keyframe = MakeKeyFrame(frame, KeyFrameId{}, KeyFrameReason::kNone);
   result.starts_map = true;
@@ -149,7 +151,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   state_ = NextState(state_, true, 0, options_.new_map_after);
   result.state = state_;
   lost_frames_ = 0;
-  velocity_ = Rigid3{};
+  velocity_.setZero();
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
   last_ = LastFrame{std::move(frame), FrameAssociation(points, lines), newest_keyframe_, Rigid3{}};
@@ -161,7 +163,9 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot) {
   const Rigid3 last_pose = LastPose(snapshot);
   FrameAssociation association;
   TrackingResult result;
-  auto first = FromPrediction(frame, velocity_ * last_pose, snapshot, association);
+  const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
+  const Rigid3 predicted = RetractLeft(last_pose, seconds * velocity_);
+  auto first = FromPrediction(frame, predicted, snapshot, association);
   if (!first) first = FromAppearance(frame, last_pose, snapshot, association, result.counts);
   if (!first) {
     const int matches = result.counts.matched_points + result.counts.matched_lines;
@@ -183,7 +187,7 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot) {
   frame.cam_from_world = pose.cam_from_world;
   frame.points = IdsOfMatches<PointId>(association.point_of_feature, association.points);
   frame.lines = IdsOfMatches<LineId>(association.line_of_feature, association.lines);
-  velocity_ = frame.cam_from_world * Inverse(last_pose);
+  velocity_ = LogSe3(frame.cam_from_world * Inverse(last_pose)) / seconds;
   lost_frames_ = 0;
   state_ = NextState(state_, true, 0, options_.new_map_after);
   result.state = state_;
@@ -356,7 +360,7 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
 TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
   ++lost_frames_;
   state_ = NextState(state_, false, lost_frames_, options_.new_map_after);
-  velocity_ = Rigid3{};
+  velocity_.setZero();
   TrackingResult result;
   result.state = state_;
   result.failure = failure;

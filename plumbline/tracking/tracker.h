@@ -175,7 +175,7 @@ class Tracker {
   Rigid3 first_cam_from_world_;
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<LastFrame> last_;
-  Rigid3 velocity_;  // cam_now_from_cam_before, per frame
+  Vector6d velocity_ = Vector6d::Zero();  // left tangent of the camera motion, per second
   TrackingScores scores_;
   KeyFrameId next_keyframe_{0};
   KeyFrameId newest_keyframe_;
