@@ -41,10 +41,7 @@ void WriteMap(const System& system, const std::filesystem::path& folder) {
   for (const auto& [id, line] : map.lines()) lines.push_back(line.Interval());
   WritePly(folder / "map.ply", points, lines);
   WriteObjLines(folder / "lines.obj", lines);
-  SaveMap(folder / "map.plb",
-          system.camera(),
-          system.rectifier().rectified_left_from_left(),
-          map);
+  SaveMap(folder / "map.plb", system.camera(), system.rectifier().rectified_left_from_left(), map);
 }
 
 }  // namespace
