@@ -217,7 +217,9 @@ Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
 
 // What the last frame showed: its landmarks as they are in the snapshot, and new ones from its
 // depths, at the places that go with its pose of today.
-FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame& frame) const {
+FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
+                                        const Frame& frame,
+                                        double max_relative_sigma) const {
   FrameAssociation result(frame.points.size(), frame.lines.size());
   Frame last = last_->frame;
   last.cam_from_world = LastPose(snapshot);
@@ -226,8 +228,7 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame
     const auto* known = InSnapshot(before.points, before.point_of_feature[i], snapshot);
     if (known != nullptr) {
       result.points.push_back({known->id, *known});
-    } else if (const auto point =
-                   PointFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    } else if (const auto point = PointFromFrame(imaging_.camera, last, i, max_relative_sigma)) {
       result.points.push_back({PointId{}, *point});
     }
   }
@@ -235,8 +236,7 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot, const Frame
     const auto* known = InSnapshot(before.lines, before.line_of_feature[i], snapshot);
     if (known != nullptr) {
       result.lines.push_back({known->id, *known});
-    } else if (const auto line =
-                   LineFromFrame(imaging_.camera, last, i, options_.max_relative_depth_sigma)) {
+    } else if (const auto line = LineFromFrame(imaging_.camera, last, i, max_relative_sigma)) {
       result.lines.push_back({LineId{}, *line});
     }
   }
@@ -254,9 +254,11 @@ std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
                                                     const Rigid3& predicted,
                                                     const MapSnapshot& snapshot,
                                                     FrameAssociation& association) const {
-  const FrameAssociation candidates = LastLandmarks(snapshot, frame);
-  for (const double factor : {1.0, options_.wide_factor}) {
-    association = candidates;
+  for (const bool wide : {false, true}) {
+    const double factor = wide ? options_.wide_factor : 1.0;
+    const double max_sigma =
+        wide ? options_.worst_relative_depth_sigma : options_.max_relative_depth_sigma;
+    association = LastLandmarks(snapshot, frame, max_sigma);
     ProjectionSearchOptions search = options_.search;
     search.point_radius_px = factor * options_.first_radius_px;
     search.line_offset_px = factor * options_.first_radius_px;

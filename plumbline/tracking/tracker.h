@@ -27,7 +27,8 @@ namespace plumbline {
 struct TrackingOptions {
   int min_inliers = 10;  // points + lines a pose needs to be accepted
   int min_initial = 60;  // points with depth + lines with depth that can start a map
-  double max_relative_depth_sigma = 0.15;    // of landmarks made from one frame
+  double max_relative_depth_sigma = 0.05;    // of landmarks made from one frame
+  double worst_relative_depth_sigma = 0.3;   // the same when the first search finds too little
   double close_relative_depth_sigma = 0.05;  // of points that count as near
   double first_radius_px = 12;  // search around the predicted place, from the last frame
   double wide_factor = 3;       // the same when that finds too little
@@ -44,6 +45,10 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
   visit("max_relative_depth_sigma",
         o.max_relative_depth_sigma,
         "depth uncertainty of landmarks from one frame, relative to depth",
+        Range{0.001, 1});
+  visit("worst_relative_depth_sigma",
+        o.worst_relative_depth_sigma,
+        "the same when the first search finds too little",
         Range{0.001, 1});
   visit("close_relative_depth_sigma",
         o.close_relative_depth_sigma,
@@ -146,7 +151,9 @@ class Tracker {
   TrackingResult StartMap(Frame frame);
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot);
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
-  FrameAssociation LastLandmarks(const MapSnapshot& snapshot, const Frame& frame) const;
+  FrameAssociation LastLandmarks(const MapSnapshot& snapshot,
+                                 const Frame& frame,
+                                 double max_relative_sigma) const;
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const Rigid3& predicted,
                                              const MapSnapshot& snapshot,
