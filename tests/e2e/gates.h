@@ -18,9 +18,9 @@ struct Gate {
 
 inline constexpr Gate kMachineHall{"euroc/MH_01_easy_first250", "", 249, 1, 0.005};
 inline constexpr Gate kFloor{"tum/rgbd_dataset_freiburg1_floor_first90", "", 90, 0, 0.005};
-inline constexpr Gate kRoad{"kitti/06_first51", "", 51, 0, 0.09};
+inline constexpr Gate kRoad{"kitti/06_first51", "", 51, 0, 0.06};
 // Lines only: above all, that the track is kept.
 inline constexpr Gate kMachineHallLines{
-    "euroc/MH_01_easy_first250", "--set features.points=false --to 120", 120, 0, 0.2};
+    "euroc/MH_01_easy_first250", "--set features.points=false", 249, 1, 0.01};
 
 }  // namespace plumbline

@@ -3,6 +3,7 @@
 #include "plumbline/mapping/landmark_creation.h"
 
 #include "tests/support/true_map.h"
+#include <algorithm>
 #include <set>
 #include <variant>
 
@@ -58,12 +59,49 @@ double LineError(const PluckerLine& line, const Segment3& truth) {
 const SensorModel kStereo{.noise = 0.3, .missed = 0};
 const SensorModel kMono{.depth = false, .noise = 0.3, .missed = 0};
 
+TEST(CreateFromDepth, FillsUpWithTheBestKnownOfPoorDepths) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 80);
+  TrueMap scene = WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(20)}, kStereo);
+  const KeyFrameId id{1};
+  const Frame& frame = scene.map.Find(id)->frame;
+  int present = 0;
+  for (std::size_t i = 0; i < frame.points.size(); ++i) {
+    present += frame.points[i].valid() && frame.features().point_disparity[i].has_value();
+  }
+  LandmarkCreationOptions options;
+  options.max_relative_depth_sigma = 0.001;  // none is known so well
+  options.min_depth_points = present + 10;
+  const auto relative_sigma = [&](const MapPoint& point) {
+    const auto& d =
+        frame.features()
+            .point_disparity[static_cast<std::size_t>(point.observations.begin()->second)];
+    return d->sigma_px / d->px;
+  };
+  const auto points =
+      Only<edit::AddPoint>(CreateFromDepth(scene.map, world.Imaging(), id, options));
+  ASSERT_EQ(points.size(), 10U);
+  double worst = 0;
+  for (const auto& add : points) worst = std::max(worst, relative_sigma(add.point));
+  options.min_depth_points = 100000;
+  int better = 0;
+  for (const auto& add :
+       Only<edit::AddPoint>(CreateFromDepth(scene.map, world.Imaging(), id, options))) {
+    EXPECT_LE(relative_sigma(add.point), options.worst_relative_depth_sigma);
+    better += relative_sigma(add.point) <= worst;
+  }
+  EXPECT_EQ(better, 10);
+}
+
 TEST(CreateFromDepth, MakesALandmarkOfEveryFreeFeatureWithGoodDepth) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 80);
   TrueMap scene = WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(20)}, kStereo);
   const KeyFrameId id{1};
   const Frame before = scene.map.Find(id)->frame;
-  const MapEdit edit = CreateFromDepth(scene.map, world.Imaging(), id, {});
+  LandmarkCreationOptions options;
+  options.max_relative_depth_sigma = 0.1;
+  options.max_relative_line_depth_sigma = 0.1;
+  options.min_depth_points = 0;
+  const MapEdit edit = CreateFromDepth(scene.map, world.Imaging(), id, options);
   const auto points = Only<edit::AddPoint>(edit);
   const auto lines = Only<edit::AddLine>(edit);
   EXPECT_EQ(points.size() + lines.size(), edit.size());

@@ -181,7 +181,11 @@ struct OneKeyFrame {
   OneKeyFrame() {
     const TrackingResult start =
         tracker.Track(FrameId{0}, 0, Sense(world, PoseOnPath(0), {}, rng).indexed, nullptr);
-    LocalMapper mapper(world.Imaging(), LineWeighting::kCovariance, {});
+    // All depths that are any good make landmarks, so that there are many to track.
+    MappingOptions options;
+    options.creation.max_relative_depth_sigma = 0.1;
+    options.creation.max_relative_line_depth_sigma = 0.1;
+    LocalMapper mapper(world.Imaging(), LineWeighting::kCovariance, options);
     mapper.Add(map, start.keyframe->keyframe, start.keyframe->scores);
   }
   TrackingResult Step(int i) {
