@@ -219,7 +219,10 @@ Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
 // depths, at the places that go with its pose of today.
 FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
                                         const Frame& frame,
-                                        double max_relative_sigma) const {
+                                        bool wide) const {
+  const double worst = options_.worst_relative_depth_sigma;
+  const double point_sigma = wide ? worst : options_.max_relative_depth_sigma;
+  const double line_sigma = wide ? worst : options_.max_relative_line_depth_sigma;
   FrameAssociation result(frame.points.size(), frame.lines.size());
   Frame last = last_->frame;
   last.cam_from_world = LastPose(snapshot);
@@ -228,7 +231,7 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
     const auto* known = InSnapshot(before.points, before.point_of_feature[i], snapshot);
     if (known != nullptr) {
       result.points.push_back({known->id, *known});
-    } else if (const auto point = PointFromFrame(imaging_.camera, last, i, max_relative_sigma)) {
+    } else if (const auto point = PointFromFrame(imaging_.camera, last, i, point_sigma)) {
       result.points.push_back({PointId{}, *point});
     }
   }
@@ -236,7 +239,7 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
     const auto* known = InSnapshot(before.lines, before.line_of_feature[i], snapshot);
     if (known != nullptr) {
       result.lines.push_back({known->id, *known});
-    } else if (const auto line = LineFromFrame(imaging_.camera, last, i, max_relative_sigma)) {
+    } else if (const auto line = LineFromFrame(imaging_.camera, last, i, line_sigma)) {
       result.lines.push_back({LineId{}, *line});
     }
   }
@@ -256,9 +259,7 @@ std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
                                                     FrameAssociation& association) const {
   for (const bool wide : {false, true}) {
     const double factor = wide ? options_.wide_factor : 1.0;
-    const double max_sigma =
-        wide ? options_.worst_relative_depth_sigma : options_.max_relative_depth_sigma;
-    association = LastLandmarks(snapshot, frame, max_sigma);
+    association = LastLandmarks(snapshot, frame, wide);
     ProjectionSearchOptions search = options_.search;
     search.point_radius_px = factor * options_.first_radius_px;
     search.line_offset_px = factor * options_.first_radius_px;

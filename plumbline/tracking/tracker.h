@@ -27,9 +27,10 @@ namespace plumbline {
 struct TrackingOptions {
   int min_inliers = 10;  // points + lines a pose needs to be accepted
   int min_initial = 60;  // points with depth + lines with depth that can start a map
-  double max_relative_depth_sigma = 0.05;    // of landmarks made from one frame
-  double worst_relative_depth_sigma = 0.3;   // the same when the first search finds too little
-  double close_relative_depth_sigma = 0.05;  // of points that count as near
+  double max_relative_depth_sigma = 0.05;       // of points made from one frame
+  double max_relative_line_depth_sigma = 0.15;  // of the ends of lines, whose weights allow for it
+  double worst_relative_depth_sigma = 0.3;      // the same when the first search finds too little
+  double close_relative_depth_sigma = 0.05;     // of points that count as near
   double first_radius_px = 12;  // search around the predicted place, from the last frame
   double wide_factor = 3;       // the same when that finds too little
   int new_map_after = 10;       // lost frames after which a new map starts
@@ -44,7 +45,11 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
   visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
   visit("max_relative_depth_sigma",
         o.max_relative_depth_sigma,
-        "depth uncertainty of landmarks from one frame, relative to depth",
+        "depth uncertainty of points from one frame, relative to depth",
+        Range{0.001, 1});
+  visit("max_relative_line_depth_sigma",
+        o.max_relative_line_depth_sigma,
+        "the same for the ends of lines",
         Range{0.001, 1});
   visit("worst_relative_depth_sigma",
         o.worst_relative_depth_sigma,
@@ -151,9 +156,7 @@ class Tracker {
   TrackingResult StartMap(Frame frame);
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot);
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
-  FrameAssociation LastLandmarks(const MapSnapshot& snapshot,
-                                 const Frame& frame,
-                                 double max_relative_sigma) const;
+  FrameAssociation LastLandmarks(const MapSnapshot& snapshot, const Frame& frame, bool wide) const;
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const Rigid3& predicted,
                                              const MapSnapshot& snapshot,
