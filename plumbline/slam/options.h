@@ -28,7 +28,10 @@ struct ExecutionOptions {
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, ExecutionOptions& o) {
-  visit("mode", o.mode, "inline: all stages one after the other in one thread");
+  visit("mode",
+        o.mode,
+        "inline: all stages one after the other (left and right image in two threads, see "
+        "features.parallel)");
   visit("seed", o.seed, "of everything random", Range{0, 2147483647});
   visit("lag",
         o.lag,
