@@ -20,6 +20,18 @@ void CountShared(const Map& map,
 
 }  // namespace
 
+std::vector<CovisibleKeyFrame> RankByShared(const std::map<KeyFrameId, int>& shared,
+                                            int min_shared) {
+  std::vector<CovisibleKeyFrame> result;
+  for (const auto& [id, count] : shared) {
+    if (count >= min_shared) result.push_back({id, count});
+  }
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+    return a.shared != b.shared ? a.shared > b.shared : a.id > b.id;
+  });
+  return result;
+}
+
 std::vector<CovisibleKeyFrame> Covisible(const Map& map, KeyFrameId id, int min_shared) {
   const KeyFrame* keyframe = map.Find(id);
   if (keyframe == nullptr) return {};
@@ -27,14 +39,7 @@ std::vector<CovisibleKeyFrame> Covisible(const Map& map, KeyFrameId id, int min_
   CountShared(map, keyframe->frame.points, shared);
   CountShared(map, keyframe->frame.lines, shared);
   shared.erase(id);
-  std::vector<CovisibleKeyFrame> result;
-  for (const auto& [other, count] : shared) {
-    if (count >= min_shared) result.push_back({other, count});
-  }
-  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
-    return a.shared != b.shared ? a.shared > b.shared : a.id > b.id;
-  });
-  return result;
+  return RankByShared(shared, min_shared);
 }
 
 }  // namespace plumbline

@@ -4,6 +4,7 @@
 
 #include "plumbline/map/map.h"
 
+#include <map>
 #include <vector>
 
 namespace plumbline {
@@ -12,6 +13,11 @@ struct CovisibleKeyFrame {
   KeyFrameId id;
   int shared = 0;  // points and lines that both show
 };
+
+// Keyframes by the number of landmarks they share with something, most first (ties: newest first),
+// those below min_shared left out.
+std::vector<CovisibleKeyFrame> RankByShared(const std::map<KeyFrameId, int>& shared,
+                                            int min_shared);
 
 // The keyframes that show at least min_shared of the landmarks that `id` shows, most shared first
 // (ties: newest first), without `id` itself. Derived from the observations at each call, O(matches

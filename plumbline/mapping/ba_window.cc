@@ -77,12 +77,7 @@ class WindowBuilder {
     };
     for (const PointId id : points_) count(map_.Find(id)->observations);
     for (const LineId id : lines_) count(map_.Find(id)->observations);
-    std::vector<CovisibleKeyFrame> others;
-    others.reserve(shared.size());
-    for (const auto& [id, n] : shared) others.push_back({id, n});
-    std::sort(others.begin(), others.end(), [](const auto& a, const auto& b) {
-      return a.shared != b.shared ? a.shared > b.shared : a.id > b.id;
-    });
+    std::vector<CovisibleKeyFrame> others = RankByShared(shared, 1);
     if (static_cast<int>(others.size()) > options_.fixed_keyframes) {
       others.resize(static_cast<std::size_t>(options_.fixed_keyframes));
     }

@@ -27,8 +27,11 @@ edit::MoveLine RefitInterval(const Map& map,
   std::vector<double> starts;
   std::vector<double> ends;
   for (const auto& [id, feature] : line.observations) {
-    Frame frame = map.Find(id)->frame;
-    if (const auto it = poses.find(id); it != poses.end()) frame.cam_from_world = it->second;
+    const Frame& in_map = map.Find(id)->frame;
+    const auto it = poses.find(id);
+    Frame frame;  // the features, which are shared, and the new pose; matches are not needed
+    frame.indexed = in_map.indexed;
+    frame.cam_from_world = it != poses.end() ? it->second : in_map.cam_from_world;
     const auto i = static_cast<std::size_t>(feature);
     change.information += LineInformation(imaging.camera, frame, i, target);
     const auto interval = TrimToSegment(
