@@ -21,16 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool Exists(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
-struct ListedImage {
-  std::int64_t stamp_ns = 0;
-  fs::path path;
-};
-
 // camN/data.csv: `nanoseconds,file name`.
 std::vector<ListedImage> ReadList(const fs::path& camera_folder) {
   const fs::path csv = camera_folder / "data.csv";

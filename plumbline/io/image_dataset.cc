@@ -21,11 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool Exists(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
 template <class T>
 void CheckSize(const Image<T>& image, const Camera& camera, const fs::path& path) {
   if (image.width() == camera.width() && image.height() == camera.height()) return;
@@ -107,6 +102,11 @@ std::string NameOf(const fs::path& path) {
 }
 
 }  // namespace
+
+bool Exists(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
 
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files) {
   PLUMBLINE_CHECK(files.size() == info.stamps_ns.size(), "one stamp for each frame");

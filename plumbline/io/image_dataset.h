@@ -4,6 +4,7 @@
 
 #include "plumbline/io/dataset.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +12,15 @@
 #include <vector>
 
 namespace plumbline {
+
+// An entry of a list of images.
+struct ListedImage {
+  std::int64_t stamp_ns = 0;
+  std::filesystem::path path;
+};
+
+// Whether there is such a file or folder; false also where that cannot be found out.
+bool Exists(const std::filesystem::path& path);
 
 // The image files of one frame.
 struct FrameFiles {

@@ -24,11 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-bool Exists(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
 // One row `P0: 12 numbers` of calib.txt, an ideal pinhole; InputError otherwise.
 Matrix34 ReadProjection(const fs::path& file, const std::string& name) {
   for (const TextRow& row : ReadRows(file, ' ')) {

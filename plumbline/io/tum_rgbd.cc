@@ -25,16 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
 
-bool Exists(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
-struct ListedImage {
-  std::int64_t stamp_ns = 0;
-  fs::path path;
-};
-
 // rgb.txt, depth.txt: `seconds file`.
 std::vector<ListedImage> ReadList(const fs::path& list) {
   std::vector<ListedImage> images;
