@@ -14,6 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include <opencv2/core/utility.hpp>
+
 namespace plumbline {
 namespace {
 
@@ -77,6 +79,7 @@ int Dispatch(std::span<const std::string> arguments) {
 }  // namespace plumbline
 
 int main(int argc, char** argv) {
+  cv::setNumThreads(1);  // the threads are ours: OpenCV's would get in the way of other stages
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
     return plumbline::Dispatch(arguments);

@@ -7,35 +7,35 @@
 #include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/summary.h"
-#include "plumbline/slam/system.h"
+#include "plumbline/slam/pipeline.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/progress.h"
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace plumbline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int kOverlays = 6;
-constexpr std::chrono::seconds kLineEvery(5);
-constexpr std::chrono::milliseconds kBarEvery(100);
 
 CommandSyntax Syntax() {
   return {"run",
@@ -50,7 +50,7 @@ CommandSyntax Syntax() {
            {"--to", "N", "end before this frame (default: the end)"},
            {"--stride", "N", "every N-th frame (default 1)"},
            {"--blur", "N", "N x N box filter on every input image"},
-           {"--mode", "inline", "how the stages run; same as --set slam.mode"},
+           {"--mode", "inline|lockstep|live", "how the stages run; same as --set slam.mode"},
            {"--seed", "N", "of everything random; same as --set slam.seed"},
            {"--out", "DIR", "folder for the results (default: plumbline_run)"},
            {"--quiet", "", "print nothing but errors"}}};
@@ -87,56 +87,6 @@ std::vector<std::size_t> ChooseFrames(const CommandLine& line, const Dataset& da
   for (std::size_t i = from; i < to; i += stride) frames.push_back(i);
   return frames;
 }
-
-// Shows how far a run is: a bar on a terminal, a line every few seconds elsewhere.
-class Progress {
- public:
-  Progress(std::size_t total, bool quiet)
-      : total_(total), quiet_(quiet), terminal_(isatty(2) != 0) {}
-
-  void Show(std::size_t done, const FrameRecord& frame, std::size_t keyframes) {
-    const auto now = Clock::now();
-    const bool last = done == total_;
-    const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
-    if (quiet_ || (!last && now - shown_ < interval)) return;
-    shown_ = now;
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    const double fps = static_cast<double>(done) / std::max(seconds, 1e-9);
-    const double left = static_cast<double>(total_ - done) / std::max(fps, 1e-9);
-    const std::string text =
-        fmt::format("{}{}/{} frames  {:.1f} fps  {}  {} keyframes  ETA {:.0f} s",
-                    terminal_ ? Bar(done) : std::string(),
-                    done,
-                    total_,
-                    fps,
-                    NameOf(frame.status),
-                    keyframes,
-                    left);
-    if (terminal_) {
-      std::cerr << '\r' << text << "   " << (last ? "\n" : "") << std::flush;
-    } else {
-      std::cerr << text << '\n';
-    }
-  }
-
-  // A message between two lines of progress.
-  void Say(const std::string& message) const {
-    std::cerr << (terminal_ ? "\n" : "") << "plumbline: " << message << '\n';
-  }
-
- private:
-  std::string Bar(std::size_t done) const {
-    constexpr std::size_t kWidth = 24;
-    const std::size_t filled = kWidth * done / std::max<std::size_t>(total_, 1);
-    return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] ";
-  }
-
-  std::size_t total_;
-  bool quiet_;
-  bool terminal_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_ = start_;
-};
 
 struct RunSetup {
   SlamOptions options;
@@ -179,45 +129,92 @@ SensorFrame Blurred(SensorFrame frame, int size) {
   return frame;
 }
 
+// Frames that are shown with their features, kept until there is time to draw them.
+class KeptViews {
+ public:
+  explicit KeptViews(const std::vector<std::size_t>& frames) {
+    for (std::size_t k = 0; k < kOverlays; ++k) {
+      const std::size_t position = k * (frames.size() - 1) / (kOverlays - 1);
+      wanted_[position] = frames[position];
+    }
+  }
+
+  void Offer(std::size_t position, const FrameView& view) {
+    const auto it = wanted_.find(position);
+    if (it != wanted_.end() && !view.images.left.empty()) views_.emplace_back(it->second, view);
+  }
+
+  void Write(const std::filesystem::path& folder) const {
+    for (const auto& [frame, view] : views_) {
+      WriteFeatureOverlay(view, folder / fmt::format("overlay_{:06}.png", frame));
+    }
+  }
+
+ private:
+  static constexpr std::size_t kOverlays = 6;
+  std::map<std::size_t, std::size_t> wanted_;  // position in the run -> index in the data set
+  std::vector<std::pair<std::size_t, FrameView>> views_;
+};
+
+// Waits until a frame is due that was taken `since_first_ns` after the first one. Live only: other
+// modes go as fast as they can.
+class Player {
+ public:
+  explicit Player(RunMode mode) : live_(mode == RunMode::kLive) {}
+
+  void WaitFor(std::int64_t since_first_ns) {
+    if (!live_) return;
+    if (since_first_ns == 0) start_ = Clock::now();
+    std::this_thread::sleep_until(start_ + std::chrono::nanoseconds(since_first_ns));
+  }
+
+ private:
+  bool live_;
+  Clock::time_point start_;
+};
+
 void ProcessFrames(const Dataset& dataset,
                    const std::vector<std::size_t>& frames,
                    const RunSetup& setup,
                    System& system) {
-  std::set<std::size_t> with_overlay;
-  for (int k = 0; k < kOverlays; ++k) {
-    with_overlay.insert(static_cast<std::size_t>(k) * (frames.size() - 1) / (kOverlays - 1));
-  }
   Progress progress(frames.size(), setup.quiet);
-  std::size_t keyframes = 0;
+  KeptViews views(frames);
+  Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
+    const auto position = static_cast<std::size_t>(record.id.value);
+    if (record.reason == Pipeline::kDropped) {
+      progress.Say(fmt::format("frame {} dropped: tracking is behind", frames[position]));
+    }
+    views.Offer(position, view);
+    progress.Show(record);
+  });
+  Player player(setup.options.slam.mode);
   for (std::size_t k = 0; k < frames.size() && stop_requested == 0; ++k) {
     auto frame = dataset.Read(frames[k]);
-    if (!frame) {
-      progress.Say(fmt::format(
-          "frame {} skipped: {}: {}", frames[k], frame.error().path.string(), frame.error().why));
-      progress.Show(k + 1, system.Skip(dataset.stamp_ns(frames[k]), "image_unreadable"), keyframes);
+    const std::int64_t stamp_ns = dataset.stamp_ns(frames[k]);
+    player.WaitFor(stamp_ns - dataset.stamp_ns(frames[0]));
+    if (frame) {
+      pipeline.Feed(Blurred(*frame, setup.blur));
       continue;
     }
-    const FrameRecord& record = system.Process(Blurred(*frame, setup.blur));
-    keyframes += record.keyframe;
-    if (with_overlay.contains(k)) {
-      WriteFeatureOverlay(system.view(),
-                          setup.folder / fmt::format("overlay_{:06}.png", frames[k]));
-    }
-    progress.Show(k + 1, record, keyframes);
+    progress.Say(fmt::format(
+        "frame {} skipped: {}: {}", frames[k], frame.error().path.string(), frame.error().why));
+    pipeline.Skip(stamp_ns, "image_unreadable");
   }
-  system.Finish();
+  pipeline.Finish();
+  views.Write(setup.folder);
 }
 
 void PrintResult(const System& system, const Dataset& dataset, const RunSetup& setup) {
   const RunCounts counts = CountRun(system);
-  std::cout << fmt::format("frames {}: {} tracked, {} lost, {} skipped{}\n",
-                           counts.frames,
-                           counts.tracked,
-                           counts.lost,
-                           counts.skipped,
-                           counts.initializing > 0
-                               ? fmt::format(", {} before a map", counts.initializing)
-                               : std::string());
+  std::cout << fmt::format(
+      "frames {}: {} tracked, {} lost, {} skipped{}{}\n",
+      counts.frames,
+      counts.tracked,
+      counts.lost,
+      counts.skipped,
+      counts.dropped > 0 ? fmt::format(" ({} dropped)", counts.dropped) : std::string(),
+      counts.initializing > 0 ? fmt::format(", {} before a map", counts.initializing)
+                              : std::string());
   std::cout << fmt::format(
       "map: {} keyframes, {} points, {} lines{}\n",
       counts.keyframes,

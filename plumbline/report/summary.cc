@@ -4,6 +4,7 @@
 
 #include "plumbline/base/options.h"
 #include "plumbline/report/timing.h"
+#include "plumbline/slam/pipeline.h"
 
 #include <numbers>
 
@@ -68,6 +69,7 @@ RunCounts CountRun(const System& system) {
     counts.tracked += frame.status == FrameStatus::kTracked;
     counts.lost += frame.status == FrameStatus::kLost;
     counts.skipped += frame.status == FrameStatus::kSkipped;
+    counts.dropped += frame.reason == Pipeline::kDropped;
     counts.initializing += frame.status == FrameStatus::kInitializing;
   }
   counts.maps = static_cast<int>(system.maps().size());
@@ -101,11 +103,13 @@ std::string FormatSummary(const RunDescription& description,
   json["version"] = description.version;
   json["data"] = description.data_path;
   json["sensor"] = NameOf(dataset.sensor());
+  json["mode"] = NameOf(system.options().slam.mode);
   json["seed"] = description.seed;
   json["frames"] = {{"in", counts.frames},
                     {"tracked", counts.tracked},
                     {"lost", counts.lost},
                     {"skipped", counts.skipped},
+                    {"dropped", counts.dropped},
                     {"initializing", counts.initializing}};
   json["maps"] = counts.maps;
   json["keyframes"] = counts.keyframes;

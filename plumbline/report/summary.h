@@ -23,6 +23,7 @@ ResourceUse MeasureResources();
 
 struct RunCounts {
   int frames = 0, tracked = 0, lost = 0, skipped = 0, initializing = 0;
+  int dropped = 0;  // of the skipped ones, those that a live run had no time for
   int keyframes = 0, points = 0, lines = 0, maps = 0;
 };
 RunCounts CountRun(const System& system);

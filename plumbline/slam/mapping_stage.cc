@@ -2,47 +2,120 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/mapping_stage.h"
 
-#include <limits>
-#include <utility>
+#include "plumbline/base/error.h"
 
 namespace plumbline {
 namespace {
 
 constexpr int kSnapshotKeyFrames = 40;
+constexpr std::size_t kBehind = 2;  // waiting keyframes
 
 }  // namespace
 
 MappingStage::MappingStage(const ImagingModel& imaging, const SlamOptions& options)
-    : mapper_(imaging, options.lines.weighting, options.mapping), lag_(options.slam.lag) {}
+    : mode_(options.slam.mode),
+      lag_(options.slam.lag),
+      mapper_(imaging, options.lines.weighting, options.mapping) {
+  if (mode_ != RunMode::kInline) worker_ = std::jthread([this] { WorkUntilStopped(); });
+}
+
+MappingStage::~MappingStage() {
+  const std::lock_guard lock(mutex_);
+  stop_ = true;
+  task_added_.notify_all();
+}
 
 void MappingStage::Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map) {
-  if (!starts_map) {
-    pending_.push_back({frame, std::move(keyframe)});
-    return;
+  ++submitted_;
+  if (mode_ != RunMode::kLive || starts_map) {
+    dues_.push_back({starts_map ? frame : frame + 1 + lag_, submitted_});
   }
-  Finish();
-  mapper_.StartNewMap();
-  maps_.emplace_back(MapId{static_cast<std::int64_t>(maps_.size())});
-  Process(keyframe);
+  const std::lock_guard lock(mutex_);
+  tasks_.push_back({submitted_, std::move(keyframe), starts_map});
+  task_added_.notify_one();
 }
 
 std::shared_ptr<const MapSnapshot> MappingStage::SnapshotFor(std::int64_t frame) {
-  while (!pending_.empty() && pending_.front().frame + 1 + lag_ <= frame) {
-    Process(pending_.front().keyframe);
-    pending_.pop_front();
+  std::int64_t wanted = 0;
+  for (const Due& due : dues_) {
+    if (due.frame <= frame) wanted = due.task;
   }
-  return snapshot_;
+  while (!dues_.empty() && dues_.front().task <= wanted) dues_.pop_front();
+  WaitFor(wanted);
+  const std::lock_guard lock(mutex_);
+  if (mode_ == RunMode::kLive) wanted = Done();
+  while (!versions_.empty() && versions_.front().task < wanted) versions_.pop_front();
+  return versions_.empty() ? nullptr : versions_.front().snapshot;
 }
 
-void MappingStage::Finish() { SnapshotFor(std::numeric_limits<std::int64_t>::max()); }
+bool MappingStage::Behind() const {
+  const std::lock_guard lock(mutex_);
+  return tasks_.size() >= kBehind;
+}
 
-std::vector<MappingStep> MappingStage::TakeTimes() { return std::exchange(times_, {}); }
+void MappingStage::Finish() {
+  WaitFor(submitted_);
+  dues_.clear();
+  const std::lock_guard lock(mutex_);
+  while (versions_.size() > 1) versions_.pop_front();
+}
 
-void MappingStage::Process(const NewKeyFrame& keyframe) {
+const std::vector<Map>& MappingStage::maps() const {
+  if (mode_ != RunMode::kInline) {
+    const std::lock_guard lock(mutex_);
+    PLUMBLINE_CHECK(Done() == submitted_, "maps are complete only after Finish");
+  }
+  return maps_;
+}
+
+std::vector<MappingStep> MappingStage::TakeTimes() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(times_, {});
+}
+
+void MappingStage::WaitFor(std::int64_t task) {
+  std::unique_lock lock(mutex_);
+  if (mode_ == RunMode::kInline) {
+    while (Done() < task) DoNext(lock);
+  } else {
+    task_done_.wait(lock, [&] { return failure_ != nullptr || Done() >= task; });
+  }
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void MappingStage::WorkUntilStopped() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    task_added_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
+    if (stop_) return;
+    try {
+      DoNext(lock);
+    } catch (...) {  // rethrown in the tracker's thread
+      lock.lock();
+      failure_ = std::current_exception();
+      task_done_.notify_all();
+      return;
+    }
+    task_done_.notify_all();
+  }
+}
+
+// Takes in the next keyframe, without holding the lock meanwhile.
+void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
+  const Task task = std::move(tasks_.front());
+  tasks_.pop_front();
+  lock.unlock();
+  if (task.starts_map) {
+    mapper_.StartNewMap();
+    maps_.emplace_back(MapId{static_cast<std::int64_t>(maps_.size())});
+  }
   Map& map = maps_.back();
-  const auto times = mapper_.Add(map, keyframe.keyframe, keyframe.scores);
+  const KeyFrame& keyframe = task.keyframe.keyframe;
+  const auto times = mapper_.Add(map, keyframe, task.keyframe.scores);
+  auto snapshot = TakeSnapshot(map, keyframe.id, kSnapshotKeyFrames);
+  lock.lock();
+  versions_.push_back({task.number, std::move(snapshot)});
   times_.insert(times_.end(), times.begin(), times.end());
-  snapshot_ = TakeSnapshot(map, keyframe.keyframe.id, kSnapshotKeyFrames);
 }
 
 }  // namespace plumbline

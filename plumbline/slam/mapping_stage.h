@@ -9,9 +9,14 @@
 #include "plumbline/slam/options.h"
 #include "plumbline/tracking/tracker.h"
 
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -19,42 +24,79 @@ namespace plumbline {
 // The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
 //
 // When a keyframe takes effect is part of the algorithm, not of the machine's speed: one made at
-// frame f is in the snapshot from frame f + 1 + lag on, the first one of a map at once. Here the
-// work is done when the snapshot is asked for, in the caller's thread.
+// frame f is in the snapshot from frame f + 1 + lag on, the first one of a map at once. Inline, the
+// work is done when the snapshot is asked for, in the caller's thread. In lockstep a thread of its
+// own begins as soon as a keyframe comes, and the caller waits for exactly the snapshot that the
+// frame is due: the same bytes. Live, the caller gets the newest snapshot there is and waits only
+// for the first keyframe of a map.
+//
+// All functions are for one thread, the tracker's.
 class MappingStage {
  public:
   MappingStage(const ImagingModel& imaging, const SlamOptions& options);
+  // Leaves undone what has not begun.
+  ~MappingStage();
+  MappingStage(const MappingStage&) = delete;
+  MappingStage& operator=(const MappingStage&) = delete;
 
   // Opens a new map when `starts_map`; frames count from 0.
   void Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
 
   // The map around its newest keyframe as frame `frame` may know it; null before the first
-  // keyframe.
+  // keyframe. Rethrows what mapping threw.
   std::shared_ptr<const MapSnapshot> SnapshotFor(std::int64_t frame);
 
-  // Does all work that is left.
+  // Whether so many keyframes wait that a live tracker should make none it can do without.
+  bool Behind() const;
+
+  // Does all work that is left. Rethrows what mapping threw.
   void Finish();
 
-  // Empty before the first keyframe; the last one is the map in use.
-  const std::vector<Map>& maps() const { return maps_; }
+  // Empty before the first keyframe; the last one is the map in use. With a thread, only after
+  // Finish (BugError).
+  const std::vector<Map>& maps() const;
 
   // Time of the mapping steps done since the last call.
   std::vector<MappingStep> TakeTimes();
 
  private:
-  struct Pending {
-    std::int64_t frame = 0;
+  // A keyframe to be taken in. Tasks are numbered from 1 in the order of submission.
+  struct Task {
+    std::int64_t number = 0;
     NewKeyFrame keyframe;
+    bool starts_map = false;
+  };
+  struct Due {
+    std::int64_t frame = 0;  // the first that is to see it
+    std::int64_t task = 0;
+  };
+  struct Version {
+    std::int64_t task = 0;  // the last one in it
+    std::shared_ptr<const MapSnapshot> snapshot;
   };
 
-  void Process(const NewKeyFrame& keyframe);
+  void WaitFor(std::int64_t task);
+  void WorkUntilStopped();
+  void DoNext(std::unique_lock<std::mutex>& lock);
+  std::int64_t Done() const { return versions_.empty() ? 0 : versions_.back().task; }
 
-  LocalMapper mapper_;
+  RunMode mode_;
   std::int64_t lag_;
+  // The tracker's side.
+  std::int64_t submitted_ = 0;
+  std::deque<Due> dues_;  // of tasks later than the one last asked for; live: of first keyframes
+  // The worker's side.
+  LocalMapper mapper_;
   std::vector<Map> maps_;
-  std::deque<Pending> pending_;
-  std::shared_ptr<const MapSnapshot> snapshot_;
+  // Between the two, guarded by mutex_.
+  mutable std::mutex mutex_;
+  std::condition_variable task_added_, task_done_;
+  std::deque<Task> tasks_;
+  std::deque<Version> versions_;  // from the one in use on
   std::vector<MappingStep> times_;
+  std::exception_ptr failure_;
+  bool stop_ = false;
+  std::jthread worker_;  // none inline; last, so that it ends first
 };
 
 }  // namespace plumbline

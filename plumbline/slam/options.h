@@ -15,13 +15,15 @@
 
 namespace plumbline {
 
-enum class RunMode { kInline };
+enum class RunMode { kInline, kLockstep, kLive };
 constexpr auto EnumNames(std::type_identity<RunMode>) {
-  return std::array{std::pair{RunMode::kInline, "inline"}};
+  return std::array{std::pair{RunMode::kInline, "inline"},
+                    std::pair{RunMode::kLockstep, "lockstep"},
+                    std::pair{RunMode::kLive, "live"}};
 }
 
 struct ExecutionOptions {
-  RunMode mode = RunMode::kInline;
+  RunMode mode = RunMode::kLockstep;
   int seed = 0;
   int lag = 1;
 };
@@ -30,8 +32,8 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, ExecutionOptions& o) {
   visit("mode",
         o.mode,
-        "inline: all stages one after the other (left and right image in two threads, see "
-        "features.parallel)");
+        "inline: stages one after the other; lockstep: each in its own thread, same results; "
+        "live: never waits for a slower stage, may drop frames");
   visit("seed", o.seed, "of everything random", Range{0, 2147483647});
   visit("lag",
         o.lag,

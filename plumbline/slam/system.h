@@ -7,8 +7,10 @@
 #include "plumbline/image/image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/map/map.h"
+#include "plumbline/slam/front_end.h"
 #include "plumbline/slam/mapping_stage.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/stage_clock.h"
 #include "plumbline/tracking/tracker.h"
 
 #include <cstdint>
@@ -28,11 +30,6 @@ constexpr auto EnumNames(std::type_identity<FrameStatus>) {
                     std::pair{FrameStatus::kSkipped, "skipped"}};
 }
 
-struct StageTime {
-  std::string stage;
-  double milliseconds = 0;
-};
-
 struct FrameRecord {
   FrameId id;
   std::int64_t stamp_ns = 0;
@@ -44,7 +41,9 @@ struct FrameRecord {
   std::optional<Rigid3> causal_world_from_camera;  // as first reported, camera as delivered
   FrameCounts counts;
   bool keyframe = false;
-  std::vector<StageTime> times;  // "total" last
+  // In order, "total" last: from the frame's arrival to its end. map_* are steps of mapping that
+  // ended since the last frame, inline within "map", otherwise beside.
+  std::vector<StageTime> times;
 };
 
 // What Process tells of a frame beside its record, for display.
@@ -53,10 +52,12 @@ struct FrameView {
   Frame frame;  // features; matches where tracked
 };
 
-// The whole pipeline for one camera: feed frames in order, then Finish.
+// The whole of SLAM for one camera: feed frames in order, then Finish.
 //
 // Poses are world_from_camera of the left camera as delivered (before rectification); the world is
-// that camera at the first keyframe of each map. Not thread-safe.
+// that camera at the first keyframe of each map. How mapping runs beside tracking is up to
+// slam.mode (see MappingStage); Pipeline adds a thread for tracking. Not thread-safe but for
+// Measure.
 class System {
  public:
   // Throws InputError for a calibration that cannot be used.
@@ -65,21 +66,28 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  // Throws InputError when an image has another size than the calibration says.
+  // Measure and Track. Throws InputError when an image has another size than the calibration says.
   const FrameRecord& Process(SensorFrame frame);
-  // A frame that could not be read.
+  // What can be done ahead, in another thread than the rest; see FrontEnd.
+  MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}) const {
+    return front_end_.Measure(std::move(frame), std::move(clock));
+  }
+  const FrameRecord& Track(MeasuredFrame frame);
+  // A frame that could not be read, or was left out.
   const FrameRecord& Skip(std::int64_t stamp_ns, const std::string& reason);
   // Completes the mapping of all frames so far.
   void Finish();
 
   const std::vector<FrameRecord>& frames() const { return frames_; }
+  // Complete after Finish, and not to be asked for before but inline (BugError).
   const std::vector<Map>& maps() const { return mapping_.maps(); }
-  const RectifiedCamera& camera() const { return rectifier_.camera(); }
-  const Rectifier& rectifier() const { return rectifier_; }
+  const SlamOptions& options() const { return options_; }
+  const RectifiedCamera& camera() const { return rectifier().camera(); }
+  const Rectifier& rectifier() const { return front_end_.rectifier(); }
   // The last processed frame.
   const FrameView& view() const { return view_; }
 
-  // Poses of the camera as delivered, by the map as it is now; frames in order of time.
+  // Poses of the camera as delivered, after Finish; frames in order of time.
   Trajectory FinalTrajectory(MapId map) const;
   Trajectory KeyFrameTrajectory(MapId map) const;
   Trajectory CausalTrajectory(MapId map) const;
@@ -91,12 +99,11 @@ class System {
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
 
   SlamOptions options_;
-  Rectifier rectifier_;
+  FrontEnd front_end_;
   ImagingModel imaging_;
-  ValidRegion left_valid_;
-  ValidRegion right_valid_;
   MappingStage mapping_;
   Tracker tracker_;
+  std::int64_t maps_started_ = 0;
   std::vector<FrameRecord> frames_;
   FrameView view_;
 };

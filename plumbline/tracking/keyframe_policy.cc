@@ -12,6 +12,7 @@ KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
     return situation.tracked_landmarks < ratio * situation.reference_landmarks;
   };
   if (fewer_than(options.critical_ratio)) return KeyFrameReason::kAlmostLost;
+  if (situation.mapping_behind) return KeyFrameReason::kNone;
   if (situation.frames_since_keyframe < options.min_frames) return KeyFrameReason::kNone;
   if (fewer_than(options.min_landmark_ratio)) return KeyFrameReason::kFewLandmarks;
   if (needs_close) return KeyFrameReason::kNeedsClosePoints;

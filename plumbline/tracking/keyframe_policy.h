@@ -38,6 +38,7 @@ struct KeyFrameSituation {
   int reference_landmarks = 0;  // well observed points and lines of the last keyframe
   int close_tracked = 0;        // points with good disparity that show a map point
   int close_untracked = 0;      // and that show none
+  bool mapping_behind = false;  // live: mapping has not finished earlier keyframes
 };
 
 // Whether a tracked frame should become a keyframe, and why. A pure function.

@@ -116,7 +116,8 @@ Tracker::Tracker(const ImagingModel& imaging,
 TrackingResult Tracker::Track(FrameId id,
                               std::int64_t stamp_ns,
                               std::shared_ptr<const IndexedFeatures> indexed,
-                              const MapSnapshot* snapshot) {
+                              const MapSnapshot* snapshot,
+                              bool mapping_behind) {
   Frame frame;
   frame.id = id;
   frame.stamp_ns = stamp_ns;
@@ -125,7 +126,7 @@ TrackingResult Tracker::Track(FrameId id,
   frame.indexed = std::move(indexed);
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
-  return Follow(std::move(frame), *snapshot);
+  return Follow(std::move(frame), *snapshot, mapping_behind);
 }
 
 TrackingResult Tracker::StartMap(Frame frame) {
@@ -158,7 +159,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   return result;
 }
 
-TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot) {
+TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind) {
   ++frames_since_keyframe_;
   const Rigid3 last_pose = LastPose(snapshot);
   FrameAssociation association;
@@ -195,8 +196,9 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot) {
   result.reference = snapshot.centre;
   result.cam_from_reference =
       frame.cam_from_world * Inverse(snapshot.cam_from_world.at(snapshot.centre));
-  const KeyFrameReason reason =
-      DecideKeyFrame(Situation(frame, association, snapshot), options_.keyframes);
+  KeyFrameSituation situation = Situation(frame, association, snapshot);
+  situation.mapping_behind = mapping_behind;
+  const KeyFrameReason reason = DecideKeyFrame(situation, options_.keyframes);
   if (reason != KeyFrameReason::kNone) {
     result.keyframe = MakeKeyFrame(frame, snapshot.centre, reason);
     result.reference = newest_keyframe_;

@@ -137,11 +137,13 @@ class Tracker {
           LineWeighting weighting,
           const Rigid3& world_from_first_cam);
 
-  // snapshot: null exactly while the tracker has no map.
+  // snapshot: null exactly while the tracker has no map. mapping_behind: make no keyframe that
+  // can be done without.
   TrackingResult Track(FrameId id,
                        std::int64_t stamp_ns,
                        std::shared_ptr<const IndexedFeatures> indexed,
-                       const MapSnapshot* snapshot);
+                       const MapSnapshot* snapshot,
+                       bool mapping_behind = false);
 
   TrackerState state() const { return state_; }
 
@@ -154,7 +156,7 @@ class Tracker {
   };
 
   TrackingResult StartMap(Frame frame);
-  TrackingResult Follow(Frame frame, const MapSnapshot& snapshot);
+  TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind);
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
   FrameAssociation LastLandmarks(const MapSnapshot& snapshot, const Frame& frame, bool wide) const;
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,

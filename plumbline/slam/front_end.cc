@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/front_end.h"
+
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+std::shared_ptr<const IndexedFeatures> Index(const RectifiedCamera& camera, Features features) {
+  std::vector<Eigen::Vector2d> positions;
+  positions.reserve(features.points.size());
+  for (const PointFeature& point : features.points) positions.push_back(point.px);
+  PointGrid grid(positions, camera.width, camera.height);
+  return std::make_shared<const IndexedFeatures>(
+      IndexedFeatures{std::move(features), std::move(grid)});
+}
+
+ValidRegion RegionOf(const GrayImage& mask) {
+  return mask.empty() ? ValidRegion(0, 0) : ValidRegion(mask);
+}
+
+}  // namespace
+
+FrontEnd::FrontEnd(const Calibration& calibration,
+                   const RectifierOptions& rectification,
+                   const FeatureOptions& features)
+    : options_(features),
+      rectifier_(calibration, rectification),
+      left_valid_(RegionOf(rectifier_.left_mask())),
+      right_valid_(RegionOf(rectifier_.right_mask())) {}
+
+MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock) const {
+  MeasuredFrame measured;
+  measured.stamp_ns = frame.stamp_ns;
+  measured.images = rectifier_.Apply(std::move(frame));
+  clock.Done("rectify");
+
+  FeatureInput input;
+  input.left = &measured.images.left;
+  input.left_valid = &left_valid_;
+  if (measured.images.right) {
+    input.right = &*measured.images.right;
+    input.right_valid = &right_valid_;
+  }
+  if (measured.images.depth) input.depth = &*measured.images.depth;
+  const RectifiedCamera& camera = rectifier_.camera();
+  measured.indexed = Index(camera, ExtractFeatures(camera, input, options_));
+  clock.Done("features");
+  measured.clock = std::move(clock);
+  return measured;
+}
+
+}  // namespace plumbline

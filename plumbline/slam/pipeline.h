@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/image.h"
+#include "plumbline/slam/system.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace plumbline {
+
+// Feeds frames to a System in the way its slam.mode says.
+//
+//   inline    Feed does everything, in the caller's thread.
+//   lockstep  Feed measures features in the caller's thread and leaves tracking to another one,
+//             which is at most two frames behind; when it is, Feed waits. Same bytes as inline.
+//   live      Feed only hands the frame over. Two frames may wait; one more, and the oldest of
+//             them is left out (FrameStatus::kSkipped, reason kDropped). Not reproducible.
+//
+// One thread feeds. The observer is called for every frame in order, in the thread that tracks, and
+// gets the frame's record and view; it must be quick in live mode. What a stage throws comes out of
+// the next Feed, Skip or Finish; after that the pipeline takes no more frames.
+class Pipeline {
+ public:
+  using Observer = std::function<void(const FrameRecord&, const FrameView&)>;
+  static constexpr const char* kDropped = "dropped";
+  static constexpr std::size_t kMaxWaiting = 2;
+
+  Pipeline(System& system, Observer observer);
+  // Leaves undone what has not begun, unless Finish was called.
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  void Feed(SensorFrame frame);
+  // A frame that could not be read.
+  void Skip(std::int64_t stamp_ns, const std::string& reason);
+  // Does all that waits, and the mapping that belongs to it.
+  void Finish();
+
+ private:
+  // A frame on its way to tracking: measured, raw (live), or neither: left out for `reason`.
+  struct Job {
+    std::int64_t stamp_ns = 0;
+    std::optional<MeasuredFrame> measured;
+    std::optional<SensorFrame> raw;
+    StageClock clock;  // of a raw frame, since its arrival
+    std::string reason;
+  };
+
+  void Hand(Job job);
+  void DropOldest();
+  std::size_t Waiting() const;
+  void Do(Job job);
+  void WorkUntilStopped();
+  void RethrowFailure();
+
+  System& system_;
+  Observer observer_;
+  RunMode mode_;
+  std::mutex mutex_;
+  std::condition_variable job_added_, job_taken_;
+  std::deque<Job> jobs_;
+  bool busy_ = false;
+  bool stop_ = false;
+  std::exception_ptr failure_;
+  std::jthread worker_;  // none inline; last, so that it ends first
+};
+
+}  // namespace plumbline

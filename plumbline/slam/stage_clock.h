@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+struct StageTime {
+  std::string stage;
+  double milliseconds = 0;
+};
+
+// Times the stages that one frame passes, one after the other, from the moment it is made.
+class StageClock {
+ public:
+  // Ends the stage that began when the last one ended.
+  void Done(const std::string& stage) {
+    const auto now = Clock::now();
+    times_.push_back({stage, Milliseconds(now - last_)});
+    last_ = now;
+  }
+  // A time measured elsewhere, not a part of the sum.
+  void Add(const std::string& stage, double milliseconds) {
+    times_.push_back({stage, milliseconds});
+  }
+  // All stages, and "total" from the beginning to the last one's end.
+  std::vector<StageTime> Finish() {
+    times_.push_back({"total", Milliseconds(last_ - start_)});
+    return std::exchange(times_, {});
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double Milliseconds(Clock::duration d) {
+    return std::chrono::duration<double, std::milli>(d).count();
+  }
+
+  std::vector<StageTime> times_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+}  // namespace plumbline
