@@ -3,15 +3,19 @@
 #include "plumbline/slam/mapping_stage.h"
 
 #include "tests/support/synthetic_run.h"
+#include <chrono>
+#include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 namespace plumbline {
 namespace {
 
-SlamOptions WithLag(int lag) {
+SlamOptions WithLag(int lag, RunMode mode = RunMode::kInline) {
   SlamOptions options;
   options.slam.lag = lag;
+  options.slam.mode = mode;
   return options;
 }
 
@@ -76,6 +80,7 @@ TEST(MappingStage, FinishDoesWhatIsLeft) {
   MappingStage stage(world.Imaging(), WithLag(50));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
+  EXPECT_EQ(stage.SnapshotFor(2)->centre, KeyFrameId{0});
   EXPECT_EQ(stage.maps().back().keyframes().size(), 1U);
   stage.Finish();
   EXPECT_EQ(stage.maps().back().keyframes().size(), 2U);
@@ -87,17 +92,87 @@ TEST(MappingStage, ANewMapBeginsAfterTheOldOneIsComplete) {
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
   stage.Submit(2, KeyFrameAt(world, 2, -1), true);
+  EXPECT_EQ(stage.SnapshotFor(3)->centre, KeyFrameId{2});
   ASSERT_EQ(stage.maps().size(), 2U);
   EXPECT_EQ(stage.maps()[0].id(), MapId{0});
   EXPECT_EQ(stage.maps()[1].id(), MapId{1});
   EXPECT_EQ(stage.maps()[0].keyframes().size(), 2U);
   EXPECT_EQ(stage.maps()[1].keyframes().size(), 1U);
+}
+
+class MappingStageWithThread : public ::testing::TestWithParam<RunMode> {};
+INSTANTIATE_TEST_SUITE_P(Modes,
+                         MappingStageWithThread,
+                         ::testing::Values(RunMode::kLockstep, RunMode::kLive),
+                         [](const auto& mode) { return std::string(NameOf(mode.param)); });
+
+TEST_P(MappingStageWithThread, WaitsForTheFirstKeyFrameOfAMap) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(5, GetParam()));
+  EXPECT_EQ(stage.SnapshotFor(0), nullptr);
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  EXPECT_EQ(stage.SnapshotFor(1)->centre, KeyFrameId{0});
+  stage.Submit(1, KeyFrameAt(world, 1, 0), false);
+  stage.Submit(2, KeyFrameAt(world, 2, -1), true);
   EXPECT_EQ(stage.SnapshotFor(3)->centre, KeyFrameId{2});
+  stage.Finish();
+  ASSERT_EQ(stage.maps().size(), 2U);
+  EXPECT_EQ(stage.maps()[0].keyframes().size(), 2U);
+}
+
+TEST_P(MappingStageWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  for (std::int64_t k = 1; k < 8; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
+  EXPECT_THROW(stage.maps(), BugError);
+  stage.Finish();
+  EXPECT_EQ(stage.maps().back().keyframes().size(), 8U);
+  stage.maps().back().CheckInvariants();
+}
+
+TEST_P(MappingStageWithThread, RethrowsWhatMappingThrew) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  stage.Submit(1, KeyFrameAt(world, 0, -1), false);  // there already
+  EXPECT_THROW(stage.Finish(), BugError);
+  EXPECT_THROW(stage.Finish(), BugError);
+}
+
+TEST_P(MappingStageWithThread, EndsWithWorkLeft) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  for (std::int64_t k = 1; k < 8; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
+}
+
+TEST(MappingStage, InLockstepASnapshotIsNotNewerThanItsFrameMayKnow) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(1, RunMode::kLockstep));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  stage.Submit(10, KeyFrameAt(world, 1, 0), false);
+  stage.Submit(11, KeyFrameAt(world, 2, 1), false);
+  // Long done, but not due.
+  while (stage.Behind()) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(stage.SnapshotFor(11)->centre, KeyFrameId{0});
+  EXPECT_EQ(stage.SnapshotFor(12)->centre, KeyFrameId{1});
+  EXPECT_EQ(stage.SnapshotFor(20)->centre, KeyFrameId{2});
+}
+
+TEST(MappingStage, LiveTheNewestSnapshotCounts) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(50, RunMode::kLive));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  stage.Submit(1, KeyFrameAt(world, 1, 0), false);
+  stage.Finish();
+  EXPECT_EQ(stage.SnapshotFor(1)->centre, KeyFrameId{1});
 }
 
 // Poses of a run over the synthetic world, as first reported.
-std::vector<Rigid3> Poses(int lag) {
-  SyntheticRun run(MakeSyntheticWorld(300, 60), WithLag(lag));
+std::vector<Rigid3> Poses(int lag, RunMode mode = RunMode::kInline) {
+  SyntheticRun run(MakeSyntheticWorld(300, 60), WithLag(lag, mode));
   std::vector<Rigid3> poses;
   for (int i = 0; i < 25; ++i) {
     const TrackingResult result = run.Step(PoseOnPath(i), {});
@@ -116,6 +191,19 @@ bool SameBits(const std::vector<Rigid3>& a, const std::vector<Rigid3>& b) {
 }
 
 TEST(TrackingAndMapping, RepeatToTheLastBit) { EXPECT_TRUE(SameBits(Poses(1), Poses(1))); }
+
+TEST(TrackingAndMapping, InLockstepAreTheSameToTheLastBit) {
+  for (const int lag : {0, 1, 3}) {
+    EXPECT_TRUE(SameBits(Poses(lag), Poses(lag, RunMode::kLockstep))) << lag;
+  }
+}
+
+TEST(TrackingAndMapping, LiveFollowToo) {
+  const std::vector<Rigid3> poses = Poses(1, RunMode::kLive);
+  for (int i = 0; i < 25; ++i) {
+    EXPECT_LT(CentreDistance(poses[static_cast<std::size_t>(i)], PoseOnPath(i)), 0.03);
+  }
+}
 
 TEST(TrackingAndMapping, TheLagIsPartOfTheAlgorithm) {
   const std::vector<Rigid3> at_once = Poses(0);

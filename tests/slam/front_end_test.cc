@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/front_end.h"
+
+#include "tests/support/moving_poster.h"
+#include <future>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {}, {});
+  const MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(2));
+  EXPECT_EQ(measured.stamp_ns, MovingPoster::StampNs(2));
+  EXPECT_EQ(measured.images.left.width(), MovingPoster::kWidth);
+  const Features& features = measured.indexed->features;
+  EXPECT_GT(features.lines.size(), 20U);
+  int near = 0;
+  for (const auto& disparity : features.point_disparity) {
+    near += disparity && std::abs(disparity->px - MovingPoster::kDisparityPx) < 0.5;
+  }
+  EXPECT_GT(near, 100);
+}
+
+TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {}, {});
+  const MovingPoster poster;
+  const auto measure = [&] { return front_end.Measure(poster.Frame(1)); };
+  auto other = std::async(std::launch::async, measure);
+  const MeasuredFrame a = measure();
+  const MeasuredFrame b = other.get();
+  const auto& points_a = a.indexed->features.points;
+  const auto& points_b = b.indexed->features.points;
+  ASSERT_EQ(points_a.size(), points_b.size());
+  for (std::size_t i = 0; i < points_a.size(); ++i) {
+    EXPECT_EQ(points_a[i].px, points_b[i].px);
+    EXPECT_EQ(points_a[i].descriptor, points_b[i].descriptor);
+  }
+}
+
+TEST(FrontEnd, ItsClockGoesOn) {
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {}, {});
+  StageClock clock;
+  clock.Done("wait");
+  MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(0), clock);
+  const std::vector<StageTime> times = measured.clock.Finish();
+  ASSERT_EQ(times.size(), 4U);
+  EXPECT_EQ(times[0].stage, "wait");
+  EXPECT_EQ(times[1].stage, "rectify");
+  EXPECT_EQ(times[2].stage, "features");
+  EXPECT_EQ(times[3].stage, "total");
+  const double sum = times[0].milliseconds + times[1].milliseconds + times[2].milliseconds;
+  EXPECT_NEAR(times[3].milliseconds, sum, 1e-6);
+}
+
+}  // namespace
+}  // namespace plumbline

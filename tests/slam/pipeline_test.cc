@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/pipeline.h"
+
+#include "tests/support/moving_poster.h"
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+SlamOptions InMode(RunMode mode) {
+  SlamOptions options;
+  options.slam.mode = mode;
+  return options;
+}
+
+struct Outcome {
+  std::vector<std::string> status;
+  std::vector<std::int64_t> stamps;
+  Trajectory causal, final, keyframes;
+};
+
+// A run over the poster; `gap` is what the feeder waits between frames.
+Outcome RunPoster(RunMode mode, int frames, std::chrono::milliseconds gap = {}) {
+  System system(MovingPoster::MakeCalibration(), InMode(mode));
+  const MovingPoster poster;
+  Outcome outcome;
+  Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
+    outcome.status.push_back(std::string(NameOf(record.status)) + record.reason);
+    outcome.stamps.push_back(record.stamp_ns);
+    EXPECT_EQ(view.images.left.empty(), record.status == FrameStatus::kSkipped);
+  });
+  for (int i = 0; i < frames; ++i) {
+    if (i == 4) {
+      pipeline.Skip(MovingPoster::StampNs(i), "image_unreadable");
+    } else {
+      pipeline.Feed(poster.Frame(i));
+    }
+    std::this_thread::sleep_for(gap);
+  }
+  pipeline.Finish();
+  outcome.causal = system.CausalTrajectory(MapId{0});
+  outcome.final = system.FinalTrajectory(MapId{0});
+  outcome.keyframes = system.KeyFrameTrajectory(MapId{0});
+  return outcome;
+}
+
+bool SameBits(const Trajectory& a, const Trajectory& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.stamp_ns == y.stamp_ns &&
+           x.world_from_camera.rotation.coeffs() == y.world_from_camera.rotation.coeffs() &&
+           x.world_from_camera.translation == y.world_from_camera.translation;
+  });
+}
+
+TEST(Pipeline, LockstepGivesTheBitsOfInline) {
+  const Outcome inline_run = RunPoster(RunMode::kInline, 15);
+  const Outcome lockstep = RunPoster(RunMode::kLockstep, 15);
+  EXPECT_EQ(inline_run.status, lockstep.status);
+  EXPECT_EQ(inline_run.stamps, lockstep.stamps);
+  EXPECT_EQ(inline_run.final.size(), 14U);
+  EXPECT_TRUE(SameBits(inline_run.causal, lockstep.causal));
+  EXPECT_TRUE(SameBits(inline_run.final, lockstep.final));
+  EXPECT_TRUE(SameBits(inline_run.keyframes, lockstep.keyframes));
+}
+
+TEST(Pipeline, LiveTracksEveryFrameThatLeavesItTime) {
+  const Outcome live = RunPoster(RunMode::kLive, 6, std::chrono::milliseconds(400));
+  const std::vector<std::string> expected = {
+      "tracked", "tracked", "tracked", "tracked", "skippedimage_unreadable", "tracked"};
+  EXPECT_EQ(live.status, expected);
+}
+
+// A pipeline whose worker stands still from its first frame on until it is released.
+class LiveTest : public ::testing::Test {
+ protected:
+  void Release() {
+    {
+      const std::lock_guard lock(mutex_);
+      released_ = true;
+    }
+    changed_.notify_all();
+  }
+  void WaitUntilBusy() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !reasons_.empty(); });
+  }
+
+  System system_{MovingPoster::MakeCalibration(), InMode(RunMode::kLive)};
+  MovingPoster poster_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool released_ = false;
+  std::vector<std::string> reasons_;
+  std::vector<std::int64_t> stamps_;
+  std::unique_ptr<Pipeline> pipeline_ =
+      std::make_unique<Pipeline>(system_, [this](const FrameRecord& record, const FrameView&) {
+        std::unique_lock lock(mutex_);
+        reasons_.push_back(record.reason);
+        stamps_.push_back(record.stamp_ns);
+        changed_.notify_all();
+        changed_.wait(lock, [&] { return released_; });
+      });
+};
+
+TEST_F(LiveTest, DropsTheOldestWaitingFrameAndSaysSoInOrder) {
+  pipeline_->Feed(poster_.Frame(0));
+  WaitUntilBusy();
+  for (int i = 1; i <= 4; ++i) pipeline_->Feed(poster_.Frame(i));  // never blocks
+  Release();
+  pipeline_->Finish();
+  EXPECT_EQ(reasons_, (std::vector<std::string>{"", "dropped", "dropped", "", ""}));
+  ASSERT_EQ(stamps_.size(), 5U);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(stamps_[static_cast<std::size_t>(i)], MovingPoster::StampNs(i));
+  }
+}
+
+TEST_F(LiveTest, FramesThatCannotBeReadTakeNoPlaceInTheQueue) {
+  pipeline_->Feed(poster_.Frame(0));
+  WaitUntilBusy();
+  pipeline_->Feed(poster_.Frame(1));
+  pipeline_->Skip(MovingPoster::StampNs(2), "image_unreadable");
+  pipeline_->Feed(poster_.Frame(3));
+  Release();
+  pipeline_->Finish();
+  EXPECT_EQ(reasons_, (std::vector<std::string>{"", "", "image_unreadable", ""}));
+}
+
+TEST_F(LiveTest, EndsWithFramesWaiting) {
+  pipeline_->Feed(poster_.Frame(0));
+  WaitUntilBusy();
+  pipeline_->Feed(poster_.Frame(1));
+  Release();
+  pipeline_.reset();
+  EXPECT_LE(reasons_.size(), 2U);
+}
+
+class PipelineFailure : public ::testing::TestWithParam<RunMode> {};
+INSTANTIATE_TEST_SUITE_P(Modes,
+                         PipelineFailure,
+                         ::testing::Values(RunMode::kInline, RunMode::kLockstep, RunMode::kLive),
+                         [](const auto& mode) { return std::string(NameOf(mode.param)); });
+
+TEST_P(PipelineFailure, ComesOutOfFeedOrFinish) {
+  System system(MovingPoster::MakeCalibration(), InMode(GetParam()));
+  Pipeline pipeline(system, [](const FrameRecord&, const FrameView&) {});
+  const auto feed = [&] {
+    pipeline.Feed(MovingPoster().Frame(0));
+    pipeline.Feed({MovingPoster::StampNs(1), GrayImage(40, 30), GrayImage(40, 30), {}});
+    pipeline.Finish();
+  };
+  EXPECT_THROW(feed(), InputError);
+}
+
+TEST_P(PipelineFailure, OfTheObserverDoesToo) {
+  System system(MovingPoster::MakeCalibration(), InMode(GetParam()));
+  Pipeline pipeline(system, [](const FrameRecord&, const FrameView&) {
+    throw InputError("no place to write to");
+  });
+  const auto feed = [&] {
+    pipeline.Skip(MovingPoster::StampNs(0), "image_unreadable");
+    pipeline.Finish();
+  };
+  EXPECT_THROW(feed(), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline
