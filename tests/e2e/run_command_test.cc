@@ -44,9 +44,9 @@ TEST(Run, WritesTheSameBytesEveryTime) {
     if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
     const ScratchFolder folder;
     for (const char* run : {"first", "second"}) {
-      // The second time with other machine conditions: features one after the other.
+      // The second time with other threads: all of it one after the other.
       const std::string threads =
-          run == std::string("second") ? " --set features.parallel=false" : "";
+          run == std::string("second") ? " --mode inline --set features.parallel=false" : "";
       const Outcome outcome = RunProgram(
           folder,
           "run " + Quoted(*data) + " --to 40 --quiet" + threads + " --out " + Quoted(folder / run));
@@ -189,8 +189,8 @@ TEST(Run, EndsEarlyAndWritesEverythingWhenAsked) {
     const ScratchFolder folder;
     const fs::path out = folder / "run";
     const pid_t child = Start({"run", data->string(), "--quiet", "--out", out.string()});
-    // The first overlay image tells that frames are being processed.
-    for (int i = 0; i < 600 && !fs::exists(out / "overlay_000000.png"); ++i) {
+    // The options are written just before the first frame.
+    for (int i = 0; i < 600 && !fs::exists(out / "options.yaml"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     std::this_thread::sleep_for(std::chrono::seconds(1));

@@ -4,11 +4,14 @@
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/report/timing.h"
+#include "plumbline/slam/pipeline.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/moving_poster.h"
 #include <algorithm>
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -148,11 +151,33 @@ TEST(CountRun, CountsEveryFrameOnce) {
   EXPECT_GT(counts.points, 50);
 }
 
+TEST(SecondsSinceProcessStart, GoesOnWithTime) {
+  const auto before = SecondsSinceProcessStart();
+  ASSERT_TRUE(before);
+  EXPECT_GT(*before, -0.02);  // the start is known to a tick
+  EXPECT_LT(*before, 600);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_GT(*SecondsSinceProcessStart() - *before, 0.04);
+}
+
+TEST(CountRun, TellsDroppedFramesFromOthersThatWereSkipped) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  system.Skip(MovingPoster::StampNs(0), "image_unreadable");
+  system.Skip(MovingPoster::StampNs(1), Pipeline::kDropped);
+  system.Finish();
+  const RunCounts counts = CountRun(system);
+  EXPECT_EQ(counts.skipped, 2);
+  EXPECT_EQ(counts.dropped, 1);
+}
+
 TEST(Summary, HoldsTheFieldsOfTheInterface) {
   const PosterRun run;
   const PosterDataset dataset(6);
   const std::string text = FormatSummary(
-      {"0.1.0", "some/folder", "slam:\n  seed: 3\n", 3}, run.system(), dataset, {1.5, 2.5, 30});
+      {"0.1.0", "some/folder", "slam:\n  seed: 3\n", 3},
+      run.system(),
+      dataset,
+      {.wall_seconds = 1.5, .first_pose_seconds = 0.2, .cpu_seconds = 2.5, .peak_memory_mb = 30});
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json["version"], "0.1.0");
   EXPECT_EQ(json["data"], "some/folder");
@@ -163,6 +188,9 @@ TEST(Summary, HoldsTheFieldsOfTheInterface) {
   EXPECT_EQ(json["frames"]["tracked"], 4);
   EXPECT_EQ(json["frames"]["lost"], 1);
   EXPECT_EQ(json["frames"]["skipped"], 1);
+  EXPECT_EQ(json["frames"]["dropped"], 0);
+  EXPECT_EQ(json["mode"], "lockstep");
+  EXPECT_EQ(json["first_pose_seconds"], 0.2);
   EXPECT_EQ(json["wall_seconds"], 1.5);
   EXPECT_EQ(json["cpu_seconds"], 2.5);
   EXPECT_EQ(json["peak_memory_mb"], 30);

@@ -11,13 +11,12 @@ namespace plumbline {
 
 // A file or folder of the real sequences: in the folder that the environment variable
 // PLUMBLINE_DATA names, or else beside the source tree. nullopt when it is not there; skip the test
-// then.
+// then. For test programs with REAL_DATA in their plumbline_tests().
 inline std::optional<std::filesystem::path> FindData(const std::string& name) {
   namespace fs = std::filesystem;
   const char* from_environment = std::getenv("PLUMBLINE_DATA");
-  const fs::path source = fs::path(__FILE__).parent_path().parent_path().parent_path();
-  const fs::path root =
-      from_environment != nullptr ? fs::path(from_environment) : source / ".." / "shared" / "data";
+  const fs::path root = from_environment != nullptr ? fs::path(from_environment)
+                                                    : fs::path(PLUMBLINE_DATA_BESIDE_SOURCE);
   if (!fs::exists(root / name)) return std::nullopt;
   return root / name;
 }

@@ -17,10 +17,16 @@ namespace plumbline {
 // Tracker and mapping together on frames without images: what System does behind the features.
 class SyntheticRun {
  public:
-  SyntheticRun(const SyntheticWorld& world, const SlamOptions& options = {})
+  SyntheticRun(const SyntheticWorld& world, const SlamOptions& options = InlineOptions())
       : world_(world),
         mapping_(world.Imaging(), options),
         tracker_(world.Imaging(), options.tracking, options.lines.weighting, Rigid3{}) {}
+
+  static SlamOptions InlineOptions() {
+    SlamOptions options;
+    options.slam.mode = RunMode::kInline;
+    return options;
+  }
 
   // The next frame.
   TrackingResult Step(const SyntheticFrame& sensed) {

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tests/e2e/gates.h"
+#include "tests/e2e/program.h"
+#include "tests/support/data_folder.h"
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+
+// summary.json of a run over a gate's sequence; null (and a failure) when the run failed.
+inline nlohmann::json Summary(const Gate& gate,
+                              const std::filesystem::path& data,
+                              const std::string& mode) {
+  const ScratchFolder folder;
+  const Outcome outcome = RunProgram(folder,
+                                     "run " + Quoted(data) + " " + gate.settings + " --mode " +
+                                         mode + " --quiet --out " + Quoted(folder / "run"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  if (outcome.code != 0) return nullptr;
+  return nlohmann::json::parse(Contents(folder / "run/summary.json"));
+}
+
+}  // namespace plumbline
