@@ -11,11 +11,13 @@ endif()
 
 # Interface target: every own target links it. No -ffast-math (it breaks Eigen 3.4 with GCC 12), no
 # contraction to FMA (Debug and Release agree), 16-byte Eigen alignment (ABI of the system libraries).
+# Users of the installed library get the language level and what changes the layout of types.
 add_library(plumbline_flags INTERFACE)
-target_compile_options(plumbline_flags INTERFACE -ffp-contract=off)
+target_compile_features(plumbline_flags INTERFACE cxx_std_20)
+target_compile_options(plumbline_flags INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
 target_compile_definitions(plumbline_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
 if(PLUMBLINE_MARCH)
-  target_compile_options(plumbline_flags INTERFACE -march=${PLUMBLINE_MARCH})
+  target_compile_options(plumbline_flags INTERFACE $<BUILD_INTERFACE:-march=${PLUMBLINE_MARCH}>)
 endif()
 if(PLUMBLINE_SANITIZE)
   target_compile_options(plumbline_flags INTERFACE -fsanitize=${PLUMBLINE_SANITIZE}

@@ -1,0 +1,33 @@
+# `cmake --install BUILD --prefix DIR`: the program, the static libraries, their headers, and the package
+# that find_package(plumbline) finds. Targets keep their names: plumbline::slam, plumbline::io, ...;
+# plumbline::plumbline is all of them.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plumbline)
+
+add_library(plumbline_all INTERFACE)
+set_target_properties(plumbline_all PROPERTIES EXPORT_NAME plumbline)
+foreach(module IN LISTS PLUMBLINE_MODULES)
+  set_target_properties(plumbline_${module} PROPERTIES EXPORT_NAME ${module})
+  target_link_libraries(plumbline_all INTERFACE plumbline_${module})
+endforeach()
+set(targets ${PLUMBLINE_MODULES})
+list(TRANSFORM targets PREPEND plumbline_)
+install(TARGETS plumbline_flags plumbline_all ${targets} EXPORT plumbline_targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS plumbline RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(EXPORT plumbline_targets NAMESPACE plumbline:: DESTINATION ${package_dir})
+
+# Headers need Eigen alone (tests: package.PublicHeadersNeedEigenAlone); those that bring a heavier
+# library along are for our own .cc files.
+install(DIRECTORY plumbline DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
+        PATTERN log.h EXCLUDE PATTERN opencv_bridge.h EXCLUDE PATTERN "ceres_*.h" EXCLUDE)
+
+configure_package_config_file(cmake/plumbline-config.cmake.in plumbline-config.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(plumbline-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/plumbline-config.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/plumbline-config-version.cmake
+        DESTINATION ${package_dir})
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tracks a sequence and prints where the camera was: consumer PATH
+#include <plumbline/io/dataset.h>
+#include <plumbline/slam/system.h>
+
+#include <iostream>
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const auto dataset = plumbline::OpenDataset(argv[1]);
+  plumbline::System system(dataset->calibration(), plumbline::SlamOptions{});
+  for (std::size_t i = 0; i < dataset->size(); ++i) {
+    if (auto frame = dataset->Read(i)) system.Process(*frame);
+  }
+  system.Finish();
+  for (const auto& pose : system.FinalTrajectory(plumbline::MapId{0})) {
+    std::cout << pose.stamp_ns << ' ' << pose.world_from_camera.translation.transpose() << '\n';
+  }
+}
