@@ -329,7 +329,7 @@ PoseEstimate Tracker::WithLocalMap(const Frame& frame,
   association = std::move(with_map);
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
-  const PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
+  PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
   Score(expected, association);
   return estimate;
 }
