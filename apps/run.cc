@@ -4,6 +4,7 @@
 #include "plumbline/image/box_filter.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/report/html_report.h"
 #include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/summary.h"
@@ -144,10 +145,15 @@ class KeptViews {
     if (it != wanted_.end() && !view.images.left.empty()) views_.emplace_back(it->second, view);
   }
 
-  void Write(const std::filesystem::path& folder) const {
+  // Writes the overlays; returns the same images for the report.
+  std::vector<SampleImage> Write(const std::filesystem::path& folder) const {
+    std::vector<SampleImage> samples;
     for (const auto& [frame, view] : views_) {
-      WriteFeatureOverlay(view, folder / fmt::format("overlay_{:06}.png", frame));
+      const std::string name = fmt::format("overlay_{:06}.png", frame);
+      WriteFeatureOverlay(view, folder / name);
+      samples.push_back(MakeSampleImage(view.frame.id, view, name));
     }
+    return samples;
   }
 
  private:
@@ -177,10 +183,10 @@ class Player {
 std::optional<double> ProcessFrames(const Dataset& dataset,
                                     const std::vector<std::size_t>& frames,
                                     const RunSetup& setup,
-                                    System& system) {
+                                    System& system,
+                                    KeptViews& views) {
   std::optional<double> first_pose;
   Progress progress(frames.size(), setup.quiet);
-  KeptViews views(frames);
   Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
     const auto position = static_cast<std::size_t>(record.id.value);
     if (record.reason == Pipeline::kDropped) {
@@ -206,7 +212,6 @@ std::optional<double> ProcessFrames(const Dataset& dataset,
     pipeline.Skip(stamp_ns, "image_unreadable");
   }
   pipeline.Finish();
-  views.Write(setup.folder);
   return first_pose;
 }
 
@@ -261,19 +266,22 @@ int RunCommand(std::span<const std::string> arguments) {
   std::signal(SIGINT, RequestStop);
   std::signal(SIGTERM, RequestStop);
   System system(dataset->calibration(), setup.options);
-  const auto first_pose = ProcessFrames(*dataset, frames, setup, system);
+  KeptViews views(frames);
+  const auto first_pose = ProcessFrames(*dataset, frames, setup, system, views);
 
   WriteRunFiles(system, setup.folder);
   ResourceUse resources = MeasureResources();
   resources.first_pose_seconds = first_pose;
   resources.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  WriteFileAtomically(
-      setup.folder / "summary.json",
-      FormatSummary(
-          {PLUMBLINE_VERSION, line.Positional(0), setup.options_yaml, setup.options.slam.seed},
-          system,
-          *dataset,
-          resources));
+  const RunDescription description{PLUMBLINE_VERSION,
+                                   line.Positional(0),
+                                   setup.options_yaml,
+                                   setup.options.slam.seed,
+                                   {arguments.begin(), arguments.end()}};
+  WriteFileAtomically(setup.folder / "summary.json",
+                      FormatSummary(description, system, *dataset, resources));
+  const auto samples = views.Write(setup.folder);
+  WriteHtmlReport(system, *dataset, {description, resources, {}, samples}, setup.folder);
   if (!setup.quiet) PrintResult(system, *dataset, setup);
   return 0;
 }

@@ -145,6 +145,7 @@ void CompareMotions(const Trajectory& estimate,
         static_cast<double>(poses[b].stamp_ns - poses[a].stamp_ns) * kSecondsPerNanosecond;
     translation.push_back(error.translation.norm() / seconds);
     rotation.push_back(AngularDistance(error.rotation, Eigen::Quaterniond::Identity()) / seconds);
+    result.relative.push_back({a, b, translation.back(), rotation.back()});
   }
   result.rpe = StatisticsOf(std::move(translation));
   result.roe = StatisticsOf(std::move(rotation));

@@ -71,11 +71,19 @@ struct EvaluatedPose {
   double rotation_error = 0;  // radians
 };
 
+// Error of the motion from one evaluated pose to another, a window later.
+struct RelativeError {
+  std::size_t from = 0, to = 0;  // indices into TrajectoryError::poses
+  double translation = 0;        // metres per second
+  double rotation = 0;           // radians per second
+};
+
 struct TrajectoryError {
   std::size_t estimated = 0;                   // poses of the estimate
   Similarity3 reference_from_estimate;         // the alignment
   std::optional<AlignmentFailure> degenerate;  // positions do not determine the alignment
   std::vector<EvaluatedPose> poses;            // those associated, in time order
+  std::vector<RelativeError> relative;         // those that span the window, in time order
   ErrorStatistics ate;                         // positions after alignment, metres
   std::optional<ErrorStatistics> rpe;  // metres per second; nullopt: no pair spans the window
   std::optional<ErrorStatistics> roe;  // radians per second

@@ -106,15 +106,21 @@ RunCounts CountRun(const System& system) {
 }
 
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
-                                                      const Dataset& dataset) {
-  const auto main = system.MainMap();
-  if (!main || !dataset.info().ground_truth) return std::nullopt;
+                                                      const Dataset& dataset,
+                                                      MapId map) {
+  if (!dataset.info().ground_truth) return std::nullopt;
   TrajectoryErrorOptions options;
   if (dataset.sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
   if (dataset.info().format == DatasetFormat::kKitti) options.max_gap_ns = kKittiGapNs;
   return CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
-                             system.FinalTrajectory(*main),
+                             system.FinalTrajectory(map),
                              options);
+}
+
+std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
+                                                      const Dataset& dataset) {
+  const auto main = system.MainMap();
+  return main ? CompareWithGroundTruth(system, dataset, *main) : std::nullopt;
 }
 
 std::string FormatSummary(const RunDescription& description,
@@ -148,7 +154,8 @@ std::string FormatSummary(const RunDescription& description,
   json["cpu_seconds"] = resources.cpu_seconds;
   json["peak_memory_mb"] = resources.peak_memory_mb;
   json["options"] = description.options_yaml;
-  return json.dump(2) + "\n";
+  // A path need not be UTF-8; what is not becomes a replacement character.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace plumbline

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace plumbline {
 
@@ -33,8 +34,12 @@ struct RunCounts {
 };
 RunCounts CountRun(const System& system);
 
-// The main map's final trajectory against the data set's ground truth: SE(3) alignment, Sim(3) for
-// mono, windows of 3 s. nullopt without ground truth, trajectory, or common time.
+// The final trajectory of a map, or of the main one, against the data set's ground truth: SE(3)
+// alignment, Sim(3) for mono, windows of 3 s. nullopt without ground truth, trajectory, or common
+// time.
+std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
+                                                      const Dataset& dataset,
+                                                      MapId map);
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system, const Dataset& dataset);
 
 struct RunDescription {
@@ -42,6 +47,7 @@ struct RunDescription {
   std::string data_path;
   std::string options_yaml;
   int seed = 0;
+  std::vector<std::string> arguments = {};  // of the command
 };
 
 // summary.json.

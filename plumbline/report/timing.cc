@@ -66,6 +66,20 @@ std::vector<StageStatistics> TimingStatistics(const std::vector<FrameRecord>& fr
   return result;
 }
 
+std::vector<std::optional<double>> StageMilliseconds(const std::vector<FrameRecord>& frames,
+                                                     const std::string& stage) {
+  std::vector<std::optional<double>> column;
+  column.reserve(frames.size());
+  for (const FrameRecord& frame : frames) {
+    std::optional<double> sum;
+    for (const StageTime& time : frame.times) {
+      if (time.stage == stage) sum = sum.value_or(0) + time.milliseconds;
+    }
+    column.push_back(sum);
+  }
+  return column;
+}
+
 std::string FormatTimingCsv(const std::vector<FrameRecord>& frames) {
   const std::vector<std::string> stages = StageNames(frames);
   std::string text = "frame,timestamp";

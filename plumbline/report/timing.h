@@ -4,6 +4,7 @@
 
 #include "plumbline/slam/system.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct StageStatistics {
 
 // One entry for each stage, in the order of first appearance; "total" is the whole frame.
 std::vector<StageStatistics> TimingStatistics(const std::vector<FrameRecord>& frames);
+
+// Milliseconds of one stage in every frame; nullopt where it did not run.
+std::vector<std::optional<double>> StageMilliseconds(const std::vector<FrameRecord>& frames,
+                                                     const std::string& stage);
 
 // A row for each frame, a column for each stage; empty where the stage did not run.
 std::string FormatTimingCsv(const std::vector<FrameRecord>& frames);

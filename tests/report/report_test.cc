@@ -7,7 +7,7 @@
 #include "plumbline/slam/pipeline.h"
 
 #include "tests/io/scratch_folder.h"
-#include "tests/support/moving_poster.h"
+#include "tests/report/poster_run.h"
 #include <algorithm>
 #include <chrono>
 #include <set>
@@ -86,53 +86,6 @@ TEST(Timing, FilesHaveAColumnForEachStage) {
     EXPECT_TRUE(json["map"].contains(key)) << key;
   }
 }
-
-// The poster as a data set, with its true poses.
-class PosterDataset : public Dataset {
- public:
-  explicit PosterDataset(int frames, bool with_truth = true) : Dataset(Info(frames, with_truth)) {}
-  Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
-    return poster_.Frame(static_cast<int>(i));
-  }
-
- private:
-  static DatasetInfo Info(int frames, bool with_truth) {
-    DatasetInfo info;
-    info.name = "poster";
-    info.sensor = SensorKind::kStereo;
-    info.calibration = MovingPoster::MakeCalibration();
-    GroundTruth truth;
-    for (int i = 0; i < frames; ++i) {
-      info.stamps_ns.push_back(MovingPoster::StampNs(i));
-      truth.poses.push_back({MovingPoster::StampNs(i),
-                             {Eigen::Quaterniond::Identity(), {i * MovingPoster::kStep, 0, 0}}});
-    }
-    if (with_truth) info.ground_truth = truth;
-    return info;
-  }
-
-  MovingPoster poster_;
-};
-
-// Six frames of the poster: the third skipped, the fifth lost.
-class PosterRun {
- public:
-  PosterRun() : system_(MovingPoster::MakeCalibration(), {}) {
-    const MovingPoster poster;
-    for (int i = 0; i < 6; ++i) {
-      if (i == 2) {
-        system_.Skip(MovingPoster::StampNs(i), "image_unreadable");
-      } else {
-        system_.Process(i == 4 ? MovingPoster::BlindFrame(i) : poster.Frame(i));
-      }
-    }
-    system_.Finish();
-  }
-  const System& system() const { return system_; }
-
- private:
-  System system_;
-};
 
 std::size_t Rows(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/html_report.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/report/report_page.h"
+
+#include <chrono>
+#include <utility>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+// Puts `value` in the place of a mark that the page holds once.
+void Fill(std::string& page, std::string_view mark, std::string_view value) {
+  const std::size_t place = page.find(mark);
+  PLUMBLINE_CHECK(place != std::string::npos, "a mark is missing in the page");
+  page.replace(place, mark.size(), value);
+}
+
+}  // namespace
+
+std::string EscapeHtml(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string EscapeScriptJson(std::string_view json) {
+  // In JSON "<" stands within strings only, where the escape means the same.
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      escaped += "\\u003c";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string FormatHtmlReport(const System& system,
+                             const Dataset& dataset,
+                             const ReportContext& context) {
+  std::string page(ReportPage());
+  // In this order, for either text may hold a mark: that of the title stands before the data.
+  Fill(page, "{{DATA}}", EscapeScriptJson(FormatReportData(system, dataset, context)));
+  Fill(page, "{{TITLE}}", EscapeHtml(dataset.info().name));
+  return page;
+}
+
+void WriteHtmlReport(const System& system,
+                     const Dataset& dataset,
+                     ReportContext context,
+                     const std::filesystem::path& folder) {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  context.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
+  WriteFileAtomically(folder / "report.html", FormatHtmlReport(system, dataset, context));
+}
+
+}  // namespace plumbline

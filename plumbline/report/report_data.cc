@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/report_data.h"
+
+#include "plumbline/base/options.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/report/base64.h"
+#include "plumbline/report/run_scene.h"
+#include "plumbline/report/timing.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// Few digits keep the page small.
+Json Rounded(double value, int decimals) {
+  if (!std::isfinite(value)) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale;
+}
+
+// Numbers as little-endian float32 in base64.
+class Floats {
+ public:
+  void Add(double value) {
+    static_assert(std::endian::native == std::endian::little);
+    const auto bytes = std::bit_cast<std::array<char, 4>>(static_cast<float>(value));
+    bytes_.append(bytes.data(), bytes.size());
+  }
+  template <class Vector>
+  void Add(const Eigen::MatrixBase<Vector>& v) {
+    for (Eigen::Index i = 0; i < v.size(); ++i) Add(v(i));
+  }
+  std::string Encoded() const { return EncodeBase64(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+std::string Positions(const std::vector<Rigid3>& poses, const Vector3d& origin) {
+  Floats floats;
+  for (const Rigid3& pose : poses) floats.Add(pose.translation - origin);
+  return floats.Encoded();
+}
+
+Json Options(const std::string& yaml) {
+  SlamOptions defaults, used;
+  const OptionTable default_table(defaults);
+  OptionTable used_table(used);
+  used_table.LoadText(yaml, "options");
+  Json list = Json::array();
+  for (const OptionField& field : used_table.fields()) {
+    list.push_back({{"key", field.key},
+                    {"value", used_table.Value(field.key)},
+                    {"default", default_table.Value(field.key)},
+                    {"help", field.help}});
+  }
+  return list;
+}
+
+// A word as a shell would read it back.
+std::string ShellWord(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+-@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+Json Run(const Dataset& dataset, const ReportContext& context) {
+  const RunDescription& description = context.description;
+  std::string command = "plumbline run";
+  for (const std::string& word : description.arguments) command += " " + ShellWord(word);
+  const auto rate = dataset.calibration().rate_hz;
+  return {{"name", dataset.info().name},
+          {"path", description.data_path},
+          {"format", NameOf(dataset.info().format)},
+          {"sensor", NameOf(dataset.sensor())},
+          {"frames_in_sequence", dataset.size()},
+          {"rate_hz", rate ? Json(*rate) : Json(nullptr)},
+          {"version", description.version},
+          {"date", context.date},
+          {"seed", description.seed},
+          {"command", description.arguments.empty() ? Json(nullptr) : Json(command)},
+          {"notes", dataset.info().notes},
+          {"wall_seconds", Rounded(context.resources.wall_seconds, 3)},
+          {"cpu_seconds", Rounded(context.resources.cpu_seconds, 3)},
+          {"peak_memory_mb", Rounded(context.resources.peak_memory_mb, 1)},
+          {"options", Options(description.options_yaml)}};
+}
+
+Json Counts(const RunCounts& c) {
+  return {{"frames", c.frames},
+          {"tracked", c.tracked},
+          {"lost", c.lost},
+          {"skipped", c.skipped},
+          {"initializing", c.initializing},
+          {"maps", c.maps},
+          {"keyframes", c.keyframes},
+          {"points", c.points},
+          {"lines", c.lines}};
+}
+
+template <class Value>
+Json Column(const std::vector<FrameRecord>& frames, Value value) {
+  Json column = Json::array();
+  for (const FrameRecord& frame : frames) column.push_back(value(frame));
+  return column;
+}
+
+Json Frames(const std::vector<FrameRecord>& frames) {
+  using F = FrameRecord;
+  const std::int64_t start = frames.empty() ? 0 : frames.front().stamp_ns;
+  return {{"seconds",
+           Column(frames,
+                  [&](const F& f) {
+                    return Rounded(static_cast<double>(f.stamp_ns - start) * 1e-9, 4);
+                  })},
+          {"state", Column(frames, [](const F& f) { return NameOf(f.status); })},
+          {"reason", Column(frames, [](const F& f) { return f.reason; })},
+          {"map",
+           Column(frames,
+                  [](const F& f) { return f.map.valid() ? Json(f.map.value) : Json(nullptr); })},
+          {"keyframe", Column(frames, [](const F& f) { return f.keyframe ? 1 : 0; })},
+          {"matched_points", Column(frames, [](const F& f) { return f.counts.matched_points; })},
+          {"inlier_points", Column(frames, [](const F& f) { return f.counts.inlier_points; })},
+          {"matched_lines", Column(frames, [](const F& f) { return f.counts.matched_lines; })},
+          {"inlier_lines", Column(frames, [](const F& f) { return f.counts.inlier_lines; })}};
+}
+
+Json Stages(const std::vector<FrameRecord>& frames) {
+  Json stages = Json::array();
+  for (const StageStatistics& s : TimingStatistics(frames)) {
+    Json column = Json::array();
+    for (const std::optional<double>& ms : StageMilliseconds(frames, s.stage)) {
+      column.push_back(ms ? Rounded(*ms, 3) : Json(nullptr));
+    }
+    stages.push_back({{"name", s.stage},
+                      {"frames", s.count},
+                      {"median", Rounded(s.median, 3)},
+                      {"p95", Rounded(s.p95, 3)},
+                      {"p99", Rounded(s.p99, 3)},
+                      {"max", Rounded(s.max, 3)},
+                      {"mean", Rounded(s.mean, 3)},
+                      {"milliseconds", std::move(column)}});
+  }
+  return stages;
+}
+
+Json Statistics(const std::optional<ErrorStatistics>& s, double factor) {
+  if (!s) return nullptr;
+  return {{"rmse", s->rmse * factor},
+          {"mean", s->mean * factor},
+          {"median", s->median * factor},
+          {"max", s->max * factor},
+          {"count", s->count}};
+}
+
+Json Error(const MapScene& map, SensorKind sensor) {
+  if (!map.error) return nullptr;
+  const TrajectoryError& error = *map.error;
+  Json frames = Json::array(), position = Json::array(), rotation = Json::array();
+  for (const EvaluatedPose& pose : error.poses) {
+    frames.push_back(map.frames[pose.row]);
+    position.push_back(Rounded(pose.position_error, 6));
+    rotation.push_back(Rounded(pose.rotation_error * kDegrees, 4));
+  }
+  Json from = Json::array(), to = Json::array(), rpe = Json::array(), roe = Json::array();
+  for (const RelativeError& r : error.relative) {
+    from.push_back(map.frames[error.poses[r.from].row]);
+    to.push_back(map.frames[error.poses[r.to].row]);
+    rpe.push_back(Rounded(r.translation, 6));
+    roe.push_back(Rounded(r.rotation * kDegrees, 5));
+  }
+  return {{"alignment", sensor == SensorKind::kMono ? "Sim(3)" : "SE(3)"},
+          {"degenerate", error.degenerate.has_value()},
+          {"window_seconds", 3},
+          {"ate", Statistics(error.ate, 1)},
+          {"rpe", Statistics(error.rpe, 1)},
+          {"roe", Statistics(error.roe, kDegrees)},
+          {"frames", std::move(frames)},
+          {"position", std::move(position)},
+          {"rotation", std::move(rotation)},
+          {"relative_from", std::move(from)},
+          {"relative_to", std::move(to)},
+          {"relative_position", std::move(rpe)},
+          {"relative_rotation", std::move(roe)}};
+}
+
+Json MapData(const MapScene& map, const Vector3d& origin, SensorKind sensor) {
+  Floats points, lines, keyframes;
+  for (const Vector3d& point : map.points) points.Add(point - origin);
+  for (const Segment3& line : map.lines) {
+    lines.Add(line.start - origin);
+    lines.Add(line.end - origin);
+  }
+  for (const Rigid3& pose : map.keyframe_poses) {
+    keyframes.Add(pose.translation - origin);
+    keyframes.Add(pose.rotation.coeffs());  // x y z w
+  }
+  return {{"id", map.id.value},
+          {"point_count", map.point_count},
+          {"line_count", map.line_count},
+          {"frames", map.frames},
+          {"positions", Positions(map.poses, origin)},
+          {"keyframe_frames", map.keyframe_frames},
+          {"keyframes", keyframes.Encoded()},
+          {"points", points.Encoded()},
+          {"lines", lines.Encoded()},
+          {"error", Error(map, sensor)}};
+}
+
+Json Scene(const System& system, const Dataset& dataset) {
+  const RunScene scene = MakeRunScene(system, dataset);
+  Json maps = Json::array();
+  for (const MapScene& map : scene.maps) {
+    maps.push_back(MapData(map, scene.origin, dataset.sensor()));
+  }
+  Floats reference;
+  for (const StampedPose& pose : scene.reference) {
+    reference.Add(pose.world_from_camera.translation - scene.origin);
+  }
+  const RectifiedCamera& camera = system.camera();
+  return {{"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}},
+          {"up", {scene.up.x(), scene.up.y(), scene.up.z()}},
+          {"has_ground_truth", dataset.info().ground_truth.has_value()},
+          {"reference", reference.Encoded()},
+          {"main", scene.main ? Json(*scene.main) : Json(nullptr)},
+          {"maps", std::move(maps)},
+          // Of the image plane at unit depth: left, top, right, bottom.
+          {"frustum",
+           {-camera.cx / camera.fx,
+            -camera.cy / camera.fy,
+            (camera.width - camera.cx) / camera.fx,
+            (camera.height - camera.cy) / camera.fy}}};
+}
+
+std::string Pixels(const std::vector<Eigen::Vector2d>& points) {
+  Floats floats;
+  for (const Eigen::Vector2d& point : points) floats.Add(point);
+  return floats.Encoded();
+}
+
+std::string Pixels(const std::vector<Segment2>& segments) {
+  Floats floats;
+  for (const Segment2& segment : segments) {
+    floats.Add(segment.start);
+    floats.Add(segment.end);
+  }
+  return floats.Encoded();
+}
+
+Json Samples(const std::vector<SampleImage>& samples) {
+  Json list = Json::array();
+  for (const SampleImage& sample : samples) {
+    list.push_back({{"frame", sample.frame.value},
+                    {"file", sample.file},
+                    {"width", sample.width},
+                    {"height", sample.height},
+                    {"image", "data:image/jpeg;base64," + EncodeBase64(sample.jpeg)},
+                    {"matched_points", Pixels(sample.matched_points)},
+                    {"other_points", Pixels(sample.other_points)},
+                    {"matched_lines", Pixels(sample.matched_lines)},
+                    {"other_lines", Pixels(sample.other_lines)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string FormatReportData(const System& system,
+                             const Dataset& dataset,
+                             const ReportContext& context) {
+  Json json;
+  json["run"] = Run(dataset, context);
+  json["counts"] = Counts(CountRun(system));
+  json["frames"] = Frames(system.frames());
+  json["stages"] = Stages(system.frames());
+  json["scene"] = Scene(system, dataset);
+  json["samples"] = Samples(context.samples);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace plumbline

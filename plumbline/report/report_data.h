@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/io/dataset.h"
+#include "plumbline/report/sample_image.h"
+#include "plumbline/report/summary.h"
+#include "plumbline/slam/system.h"
+
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// What the page tells beside what System and Dataset know.
+struct ReportContext {
+  RunDescription description;
+  ResourceUse resources;
+  std::string date;  // shown as it is
+  std::vector<SampleImage> samples;
+};
+
+// All that report.html shows, as one JSON object. Its keys are those that report_page.js reads; in
+// short: "run" (what was run, with which options), "counts", "frames" (columns, one entry a frame),
+// "stages" (times), "scene" (maps, trajectories, errors; arrays of float32 in base64, metres,
+// relative to "origin"), "samples" (images as data: URIs, with their features).
+//
+// Text that is not UTF-8 is repaired.
+//
+//   cost  O(frames + landmarks)
+std::string FormatReportData(const System& system,
+                             const Dataset& dataset,
+                             const ReportContext& context);
+
+}  // namespace plumbline

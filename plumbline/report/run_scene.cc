@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/run_scene.h"
+
+#include "plumbline/report/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline {
+namespace {
+
+using Eigen::Vector3d;
+
+// Every how many of `count` things are shown when at most `limit` may be.
+std::size_t StepFor(std::size_t count, std::size_t limit) {
+  return std::max<std::size_t>(1, (count + limit - 1) / std::max<std::size_t>(limit, 1));
+}
+
+std::size_t FrameAt(const std::vector<FrameRecord>& frames, std::int64_t stamp_ns) {
+  const auto at = std::partition_point(
+      frames.begin(), frames.end(), [&](const FrameRecord& f) { return f.stamp_ns < stamp_ns; });
+  return static_cast<std::size_t>(at - frames.begin());
+}
+
+void TakePoses(const System& system,
+               const Trajectory& trajectory,
+               const Similarity3& world_from_map,
+               std::vector<std::size_t>& frames,
+               std::vector<Rigid3>& poses) {
+  for (const StampedPose& pose : trajectory) {
+    frames.push_back(FrameAt(system.frames(), pose.stamp_ns));
+    poses.push_back(TransformPose(world_from_map, pose.world_from_camera));
+  }
+}
+
+MapScene MakeMapScene(const System& system, const Dataset& dataset, const Map& map) {
+  MapScene scene;
+  scene.id = map.id();
+  scene.error = CompareWithGroundTruth(system, dataset, map.id());
+  const Similarity3 world_from_map =
+      scene.error ? scene.error->reference_from_estimate : Similarity3();
+  TakePoses(system, system.FinalTrajectory(map.id()), world_from_map, scene.frames, scene.poses);
+  TakePoses(system,
+            system.KeyFrameTrajectory(map.id()),
+            world_from_map,
+            scene.keyframe_frames,
+            scene.keyframe_poses);
+  for (const auto& [id, point] : map.points()) {
+    scene.points.push_back(world_from_map * point.position);
+  }
+  for (const auto& [id, line] : map.lines()) {
+    const Segment3 segment = line.Interval();
+    scene.lines.push_back({world_from_map * segment.start, world_from_map * segment.end});
+  }
+  scene.point_count = scene.points.size();
+  scene.line_count = scene.lines.size();
+  return scene;
+}
+
+template <class T>
+void KeepEvery(std::size_t step, std::vector<T>& things) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < things.size(); i += step) things[kept++] = things[i];
+  things.resize(kept);
+}
+
+void Thin(const RunSceneLimits& limits, RunScene& scene) {
+  std::size_t points = 0, lines = 0;
+  for (const MapScene& map : scene.maps) {
+    points += map.point_count;
+    lines += map.line_count;
+  }
+  for (MapScene& map : scene.maps) {
+    KeepEvery(StepFor(points, limits.points), map.points);
+    KeepEvery(StepFor(lines, limits.lines), map.lines);
+  }
+  KeepEvery(StepFor(scene.reference.size(), limits.reference), scene.reference);
+}
+
+// The ground truth from the first to the last frame of the run.
+Trajectory ReferenceDuring(const std::vector<FrameRecord>& frames, const Dataset& dataset) {
+  Trajectory during;
+  if (!dataset.info().ground_truth || frames.empty()) return during;
+  for (const StampedPose& pose : dataset.info().ground_truth->OfCamera(dataset.calibration())) {
+    if (pose.stamp_ns >= frames.front().stamp_ns && pose.stamp_ns <= frames.back().stamp_ns) {
+      during.push_back(pose);
+    }
+  }
+  return during;
+}
+
+Vector3d UpAxis(const MapScene& map) {
+  constexpr double kDecisive = 0.8;
+  Vector3d sum = Vector3d::Zero();
+  for (const Rigid3& pose : map.poses) sum -= pose.rotation * Vector3d::UnitY();
+  int axis = 0;
+  const double largest = sum.cwiseAbs().maxCoeff(&axis);
+  if (largest <= kDecisive * static_cast<double>(map.poses.size())) {
+    return map.error ? Vector3d(0, 0, 1) : Vector3d(0, -1, 0);
+  }
+  Vector3d up = Vector3d::Zero();
+  up(axis) = std::copysign(1.0, sum(axis));
+  return up;
+}
+
+}  // namespace
+
+RunScene MakeRunScene(const System& system, const Dataset& dataset, const RunSceneLimits& limits) {
+  RunScene scene;
+  scene.reference = ReferenceDuring(system.frames(), dataset);
+  if (!scene.reference.empty()) {
+    scene.origin = scene.reference.front().world_from_camera.translation;
+    scene.up = {0, 0, 1};
+  }
+  const auto main = system.MainMap();
+  for (const Map& map : system.maps()) {
+    if (main == map.id()) scene.main = scene.maps.size();
+    scene.maps.push_back(MakeMapScene(system, dataset, map));
+  }
+  if (scene.main) {
+    const MapScene& map = scene.maps[*scene.main];
+    scene.up = UpAxis(map);
+    scene.origin = map.poses.front().translation;
+  }
+  Thin(limits, scene);
+  return scene;
+}
+
+}  // namespace plumbline

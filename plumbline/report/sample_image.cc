@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/sample_image.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/image/opencv_bridge.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace plumbline {
+namespace {
+
+constexpr int kMaxWidth = 1280;
+constexpr int kJpegQuality = 80;
+
+std::string EncodeJpeg(const GrayImage& image) {
+  cv::Mat pixels = AsMat(image);
+  if (pixels.cols > kMaxWidth) {
+    const double scale = static_cast<double>(kMaxWidth) / pixels.cols;
+    cv::Mat smaller;
+    cv::resize(pixels, smaller, {}, scale, scale, cv::INTER_AREA);
+    pixels = smaller;
+  }
+  std::vector<unsigned char> bytes;
+  PLUMBLINE_CHECK(cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}),
+                  "a grey image can be encoded");
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+SampleImage MakeSampleImage(FrameId frame, const FrameView& view, const std::string& file) {
+  SampleImage sample;
+  sample.frame = frame;
+  sample.file = file;
+  sample.width = view.images.left.width();
+  sample.height = view.images.left.height();
+  sample.jpeg = EncodeJpeg(view.images.left);
+  const Features& features = view.frame.features();
+  for (std::size_t i = 0; i < features.points.size(); ++i) {
+    const bool matched = view.frame.points[i].valid();
+    (matched ? sample.matched_points : sample.other_points).push_back(features.points[i].px);
+  }
+  for (std::size_t i = 0; i < features.lines.size(); ++i) {
+    const bool matched = view.frame.lines[i].valid();
+    (matched ? sample.matched_lines : sample.other_lines).push_back(features.lines[i].segment);
+  }
+  return sample;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+#include "plumbline/slam/system.h"
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// The rectified left image of one frame and the features found in it, kept for report.html.
+struct SampleImage {
+  FrameId frame;
+  std::string file;           // name of the overlay image that shows the same
+  int width = 0, height = 0;  // of the image; positions are in its pixels
+  std::string jpeg;           // the image, grey, made smaller where it is very wide
+  std::vector<Eigen::Vector2d> matched_points, other_points;
+  std::vector<Segment2> matched_lines, other_lines;
+};
+
+// Of a frame that has just been processed. Cost: encoding the image, some milliseconds.
+SampleImage MakeSampleImage(FrameId frame, const FrameView& view, const std::string& file);
+
+}  // namespace plumbline

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/html_report.h"
+
+#include "plumbline/base/options_io.h"
+#include "plumbline/report/base64.h"
+
+#include "tests/io/scratch_folder.h"
+#include "tests/report/poster_run.h"
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <regex>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// What a browser hands to the scripts as the data of the page.
+nlohmann::json DataOf(const std::string& page) {
+  const std::string open = "<script id=\"run-data\" type=\"application/json\">";
+  const std::size_t begin = page.find(open) + open.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+std::string Decode(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : base64) {
+    const std::size_t value = digits.find(c);
+    if (value == std::string::npos) break;
+    bits = bits << 6 | static_cast<unsigned>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      bytes += static_cast<char>(bits >> count & 255U);
+    }
+  }
+  return bytes;
+}
+
+std::vector<float> FloatsOf(const nlohmann::json& base64) {
+  const std::string bytes = Decode(base64.get<std::string>());
+  std::vector<float> values(bytes.size() / sizeof(float));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+std::string OptionsYaml(SlamOptions options = {}) { return OptionTable(options).Dump(); }
+
+ReportContext ContextOf(const PosterRun& run) {
+  return {{"0.1.0", "some/folder", OptionsYaml(), 3, {"some/folder", "--quiet"}},
+          {1.5, 2.5, 30},
+          "2026-01-02 03:04 UTC",
+          {run.sample()}};
+}
+
+TEST(Base64, EncodesEveryLengthAsTheStandardSays) {
+  // RFC 4648, section 10.
+  EXPECT_EQ(EncodeBase64(""), "");
+  EXPECT_EQ(EncodeBase64("f"), "Zg==");
+  EXPECT_EQ(EncodeBase64("fo"), "Zm8=");
+  EXPECT_EQ(EncodeBase64("foo"), "Zm9v");
+  EXPECT_EQ(EncodeBase64("foob"), "Zm9vYg==");
+  EXPECT_EQ(EncodeBase64("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(EncodeBase64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(EncodeBase64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(HtmlReport, HoldsTheWholeRun) {
+  const PosterRun run;
+  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  EXPECT_EQ(json["run"]["date"], "2026-01-02 03:04 UTC");
+  EXPECT_EQ(json["run"]["command"], "plumbline run some/folder --quiet");
+  EXPECT_EQ(json["run"]["peak_memory_mb"], 30);
+  EXPECT_EQ(json["counts"]["frames"], 6);
+  EXPECT_EQ(json["counts"]["tracked"], 4);
+  const auto& frames = json["frames"];
+  for (const auto& [name, column] : frames.items()) EXPECT_EQ(column.size(), 6U) << name;
+  EXPECT_EQ(frames["state"],
+            nlohmann::json({"tracked", "tracked", "skipped", "tracked", "lost", "tracked"}));
+  EXPECT_NEAR(frames["seconds"][5], 0.25, 1e-9);
+  EXPECT_EQ(frames["reason"][2], "image_unreadable");
+  EXPECT_TRUE(frames["map"][2].is_null());
+  for (const auto& stage : json["stages"]) {
+    EXPECT_EQ(stage["milliseconds"].size(), 6U) << stage["name"];
+    EXPECT_TRUE(stage["milliseconds"][2].is_null());
+  }
+}
+
+TEST(HtmlReport, HoldsTheMapRelativeToItsOrigin) {
+  const PosterRun run;
+  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  const auto& scene = json["scene"];
+  ASSERT_EQ(scene["maps"].size(), 1U);
+  EXPECT_EQ(scene["main"], 0);
+  const auto& map = scene["maps"][0];
+  EXPECT_EQ(map["frames"], nlohmann::json({0, 1, 3, 5}));
+  EXPECT_EQ(FloatsOf(map["points"]).size(), 3U * map["point_count"].get<std::size_t>());
+  EXPECT_EQ(FloatsOf(map["lines"]).size(), 6U * map["line_count"].get<std::size_t>());
+  EXPECT_EQ(FloatsOf(map["keyframes"]).size(), 7U * map["keyframe_frames"].size());
+  EXPECT_EQ(map["point_count"], json["counts"]["points"]);
+  const auto positions = FloatsOf(map["positions"]);
+  ASSERT_EQ(positions.size(), 12U);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(positions[static_cast<std::size_t>(axis)], 0);
+  EXPECT_NEAR(positions[9] + scene["origin"][0].get<double>(), 5 * MovingPoster::kStep, 0.01);
+  EXPECT_EQ(FloatsOf(scene["reference"]).size(), 18U);
+  EXPECT_EQ(map["error"]["frames"], map["frames"]);
+  EXPECT_EQ(map["error"]["position"].size(), 4U);
+  EXPECT_LT(map["error"]["ate"]["rmse"], 0.01);
+}
+
+TEST(HtmlReport, TellsTheOptionsThatDifferFromTheDefaults) {
+  const PosterRun run;
+  SlamOptions options;
+  options.slam.lag = 3;
+  ReportContext context = ContextOf(run);
+  context.description.options_yaml = OptionsYaml(options);
+  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context));
+  std::vector<std::string> different;
+  for (const auto& option : json["run"]["options"]) {
+    if (option["value"] != option["default"]) different.push_back(option["key"]);
+    EXPECT_NE(option["help"], "") << option["key"];
+  }
+  EXPECT_THAT(different, testing::ElementsAre("slam.lag"));
+}
+
+TEST(HtmlReport, ShowsSampleImagesWithTheirFeatures) {
+  const PosterRun run;
+  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  ASSERT_EQ(json["samples"].size(), 1U);
+  const auto& sample = json["samples"][0];
+  EXPECT_EQ(sample["frame"], 3);
+  EXPECT_EQ(sample["file"], "overlay_000003.png");
+  EXPECT_EQ(sample["width"], MovingPoster::kWidth);
+  const std::string start = "data:image/jpeg;base64,";
+  ASSERT_EQ(sample["image"].get<std::string>().substr(0, start.size()), start);
+  EXPECT_EQ(Decode(sample["image"].get<std::string>().substr(start.size())).substr(0, 2),
+            "\xff\xd8");
+  const auto matched = FloatsOf(sample["matched_points"]);
+  EXPECT_EQ(matched.size(), 2U * json["frames"]["inlier_points"][3].get<std::size_t>());
+  for (const float x : matched) {
+    EXPECT_GE(x, 0);
+    EXPECT_LE(x, MovingPoster::kWidth);
+  }
+}
+
+TEST(HtmlReport, EscapesNamesFromOutside) {
+  const PosterRun run;
+  const std::string hostile = "</script><script>alert('x')</script>&\"<!--{{TITLE}}{{DATA}}";
+  ReportContext context = ContextOf(run);
+  context.description.data_path = "/data/" + hostile;
+  context.description.arguments = {hostile, "it's"};
+  const PosterDataset dataset(6, true, hostile);
+  const std::string page = FormatHtmlReport(run.system(), dataset, context);
+  EXPECT_THAT(page, Not(HasSubstr("alert('x')</script>")));
+  EXPECT_THAT(page, HasSubstr("<title>&lt;/script&gt;&lt;script&gt;alert(&#39;x&#39;)"));
+  EXPECT_THAT(page, Not(HasSubstr("<!--{{")));
+  const auto json = DataOf(page);
+  EXPECT_EQ(json["run"]["name"], hostile);
+  EXPECT_EQ(json["run"]["path"], "/data/" + hostile);
+  EXPECT_THAT(json["run"]["command"].get<std::string>(), HasSubstr("'it'\\''s'"));
+}
+
+TEST(HtmlReport, RepairsNamesThatAreNotUtf8) {
+  const PosterRun run;
+  ReportContext context = ContextOf(run);
+  context.description.data_path = "/data/\xff\xfe";
+  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context));
+  EXPECT_EQ(json["run"]["path"], "/data/\uFFFD\uFFFD");
+  EXPECT_NO_THROW(nlohmann::json::parse(
+      FormatSummary(context.description, run.system(), PosterDataset(6), {})));
+}
+
+TEST(HtmlReport, NeedsNothingFromElsewhere) {
+  const PosterRun run;
+  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run));
+  for (const char* word : {"http:", "https:", "src=\"/", "@import", "url(", "fetch(", "{{"}) {
+    EXPECT_THAT(page, Not(HasSubstr(word)));
+  }
+  // Style and scripts stand in the page itself.
+  EXPECT_THAT(page, HasSubstr("--estimate:"));
+  EXPECT_THAT(page, HasSubstr("class MapView"));
+  EXPECT_THAT(page, HasSubstr("class Plot"));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(HtmlReport, SaysThatThereIsNoGroundTruth) {
+  const PosterRun run;
+  const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6, false), ContextOf(run)));
+  EXPECT_EQ(json["scene"]["has_ground_truth"], false);
+  EXPECT_TRUE(json["scene"]["maps"][0]["error"].is_null());
+  EXPECT_EQ(json["scene"]["reference"], "");
+  EXPECT_EQ(json["scene"]["up"], nlohmann::json({0, -1, 0}));
+}
+
+TEST(HtmlReport, IsMadeWithoutAnyFrame) {
+  const System system(MovingPoster::MakeCalibration(), {});
+  const auto json = DataOf(FormatHtmlReport(system, PosterDataset(6), {}));
+  EXPECT_TRUE(json["scene"]["main"].is_null());
+  EXPECT_TRUE(json["scene"]["maps"].empty());
+  EXPECT_TRUE(json["stages"].empty());
+  EXPECT_TRUE(json["samples"].empty());
+  EXPECT_TRUE(json["frames"]["seconds"].empty());
+}
+
+TEST(HtmlReport, IsMadeForOneFrameAndWithoutLines) {
+  SlamOptions options;
+  options.features.lines = false;
+  System system(MovingPoster::MakeCalibration(), options);
+  system.Process(MovingPoster().Frame(0));
+  system.Finish();
+  const auto json = DataOf(FormatHtmlReport(system, PosterDataset(6), {}));
+  EXPECT_EQ(json["counts"]["lines"], 0);
+  EXPECT_EQ(json["scene"]["maps"][0]["lines"], "");
+  EXPECT_EQ(json["scene"]["maps"][0]["frames"], nlohmann::json({0}));
+  EXPECT_EQ(json["scene"]["maps"][0]["error"]["degenerate"], true);
+}
+
+TEST(HtmlReport, IsWrittenWithTheDate) {
+  const PosterRun run;
+  const ScratchFolder folder;
+  WriteHtmlReport(run.system(), PosterDataset(6), ContextOf(run), folder.path());
+  const auto json = DataOf(Contents(folder / "report.html"));
+  const std::string date = json["run"]["date"];
+  EXPECT_TRUE(std::regex_match(date, std::regex(R"(20\d\d-\d\d-\d\d \d\d:\d\d UTC)"))) << date;
+  EXPECT_NE(date, "2026-01-02 03:04 UTC");
+  const std::string message = MessageOf(
+      [&] { WriteHtmlReport(run.system(), PosterDataset(6), ContextOf(run), folder / "nowhere"); });
+  EXPECT_THAT(message, HasSubstr("report.html"));
+}
+
+}  // namespace
+}  // namespace plumbline
