@@ -9,8 +9,10 @@ function make(tag, attributes, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes || {})) {
     if (value === null || value === undefined || value === false) continue;
-    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else element.setAttribute(name, value === true ? "" : value);
+    if (name.startsWith("on"))
+      element.addEventListener(name.slice(2), value);
+    else
+      element.setAttribute(name, value === true ? "" : value);
   }
   for (const child of children.flat()) {
     if (child !== null && child !== undefined) element.append(child);
@@ -23,7 +25,10 @@ function color(name) {
   return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 }
 
-// A number with `digits` significant digits, without exponent.
+// The same as a value for style sheets, which follows a change between light and dark.
+const paint = (name) => `var(--${name})`;
+
+// A number with `count` significant digits, without exponent.
 function digits(value, count = 3) {
   if (value === null || value === undefined || !isFinite(value)) return "–";
   if (value === 0) return "0";
@@ -38,7 +43,7 @@ function whole(value) {
 
 // A length or speed in metres as it is read best.
 function lengthUnit(largest) {
-  return largest < 0.1 ? { factor: 1000, name: "mm" } : { factor: 1, name: "m" };
+  return largest < 0.1 ? {factor: 1000, name: "mm"} : {factor: 1, name: "m"};
 }
 function metres(value, count = 3) {
   const unit = lengthUnit(Math.abs(value));
@@ -75,7 +80,8 @@ function ticks(low, high, count) {
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const list = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
-    list.push({ value: i * step, label: (i * step).toFixed(decimals).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "−") });
+    const label = (i * step).toFixed(decimals).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "−");
+    list.push({value: i * step, label});
   }
   return list;
 }
@@ -85,8 +91,10 @@ function nearestIndex(list, value) {
   let low = 0, high = list.length - 1;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (list[middle] < value) low = middle + 1;
-    else high = middle;
+    if (list[middle] < value)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return low > 0 && value - list[low - 1] < list[low] - value ? low - 1 : low;
 }
@@ -107,10 +115,10 @@ class Plot {
   constructor(host, spec) {
     this.spec = spec;
     this.cursor = spec.cursor || new Shared(null);
-    this.box = make("div", { class: "plot" });
-    this.canvas = make("canvas", { tabindex: 0, role: "img", "aria-label": spec.label });
-    this.over = make("canvas", { class: "over", "aria-hidden": "true" });
-    this.tip = make("div", { class: "tip", role: "status", hidden: true });
+    this.box = make("div", {class: "plot"});
+    this.canvas = make("canvas", {tabindex: 0, role: "img", "aria-label": spec.label});
+    this.over = make("canvas", {class: "over", "aria-hidden": "true"});
+    this.tip = make("div", {class: "tip", role: "status", hidden: true});
     this.box.append(this.canvas, this.over, this.tip);
     host.append(this.box);
     // In the next frame: drawing sets the height, which must not happen while sizes are observed.
@@ -125,7 +133,8 @@ class Plot {
 
   fit() {
     const width = this.box.clientWidth;
-    const height = typeof this.spec.height === "function" ? this.spec.height(width) : this.spec.height;
+    const {height: wanted} = this.spec;
+    const height = typeof wanted === "function" ? wanted(width) : wanted;
     this.box.style.height = height + "px";
     const ratio = window.devicePixelRatio || 1;
     for (const canvas of [this.canvas, this.over]) {
@@ -148,17 +157,24 @@ class Plot {
     if (!(x1 > x0)) [x0, x1] = [x0 - 0.5, x0 + 0.5];
     if (!(y1 > y0)) [y0, y1] = [y0, y0 + 1];
     if (this.spec.equal) {
-      const scale = Math.max((x1 - x0) / (this.right - this.left), (y1 - y0) / (this.bottom - this.top));
-      const dx = (scale * (this.right - this.left) - (x1 - x0)) / 2;
-      const dy = (scale * (this.bottom - this.top) - (y1 - y0)) / 2;
+      const width = this.right - this.left, height = this.bottom - this.top;
+      const scale = Math.max((x1 - x0) / width, (y1 - y0) / height);
+      const dx = (scale * width - (x1 - x0)) / 2, dy = (scale * height - (y1 - y0)) / 2;
       [x0, x1, y0, y1] = [x0 - dx, x1 + dx, y0 - dy, y1 + dy];
     }
-    Object.assign(this, { x0, x1, y0, y1 });
+    Object.assign(this, {x0, x1, y0, y1});
   }
 
-  X(x) { return this.left + (x - this.x0) / (this.x1 - this.x0) * (this.right - this.left); }
-  Y(y) { return this.bottom - (y - this.y0) / (this.y1 - this.y0) * (this.bottom - this.top); }
-  xAt(pixel) { return this.x0 + (pixel - this.left) / (this.right - this.left) * (this.x1 - this.x0); }
+  // Pixels of data, and back.
+  X(x) {
+    return this.left + (x - this.x0) / (this.x1 - this.x0) * (this.right - this.left);
+  }
+  Y(y) {
+    return this.bottom - (y - this.y0) / (this.y1 - this.y0) * (this.bottom - this.top);
+  }
+  xAt(pixel) {
+    return this.x0 + (pixel - this.left) / (this.right - this.left) * (this.x1 - this.x0);
+  }
 
   draw() {
     if (this.box.clientWidth === 0) return;
@@ -175,7 +191,8 @@ class Plot {
     c.restore();
     c.strokeStyle = color("rule");
     c.lineWidth = 1;
-    c.strokeRect(this.left + 0.5, this.top + 0.5, this.right - this.left - 1, this.bottom - this.top - 1);
+    c.strokeRect(
+        this.left + 0.5, this.top + 0.5, this.right - this.left - 1, this.bottom - this.top - 1);
     this.drawCursor(false);
   }
 
@@ -224,7 +241,8 @@ class Plot {
     if (x < this.left - 1 || x > this.right + 1) return;
     c.strokeStyle = color("ink-soft");
     c.lineWidth = 1;
-    if (!this.spec.equal) this.stroke(c, [[Math.round(x) + 0.5, this.top], [Math.round(x) + 0.5, this.bottom]]);
+    const column = Math.round(x) + 0.5;
+    if (!this.spec.equal) this.stroke(c, [[column, this.top], [column, this.bottom]]);
     if (y !== null) {
       c.beginPath();
       c.arc(x, y, 5, 0, 7);
@@ -238,11 +256,13 @@ class Plot {
   }
 
   showTip(index, x, y) {
-    this.tip.replaceChildren(...this.spec.read(index).map((row) => row.head
-      ? make("div", { class: "head" }, row.head)
-      : make("div", { class: "row" },
-             row.color ? make("span", { class: "key", style: "background:" + row.color }) : null,
-             make("span", { class: "what" }, row.what), make("span", { class: "much" }, row.much))));
+    this.tip.replaceChildren(...this.spec.read(index).map(
+        (row) => row.head ?
+            make("div", {class: "head"}, row.head) :
+            make(
+                "div", {class: "row"},
+                row.color ? make("span", {class: "key", style: "background:" + row.color}) : null,
+                make("span", {class: "what"}, row.what), make("span", {class: "much"}, row.much))));
     this.tip.hidden = false;
     const width = this.tip.offsetWidth, height = this.tip.offsetHeight;
     const left = x + 14 + width > this.width ? x - 14 - width : x + 14;
@@ -271,7 +291,7 @@ class Plot {
     this.canvas.addEventListener("pointerdown", (event) => {
       if (!this.spec.time || event.pointerType !== "mouse" || event.button !== 0) return;
       const [x] = at(event);
-      this.drag = { from: x, to: x };
+      this.drag = {from: x, to: x};
       this.canvas.setPointerCapture(event.pointerId);
     });
     this.canvas.addEventListener("pointerup", () => {
@@ -279,17 +299,21 @@ class Plot {
       this.drag = null;
       if (!drag) return;
       const times = [this.xAt(drag.from), this.xAt(drag.to)].sort((a, b) => a - b);
-      if (Math.abs(drag.to - drag.from) > 8) timeStretch.set(times);
-      else this.drawCursor(true);
+      if (Math.abs(drag.to - drag.from) > 8)
+        timeStretch.set(times);
+      else
+        this.drawCursor(true);
     });
-    this.canvas.addEventListener("pointercancel", () => { this.drag = null; });
+    this.canvas.addEventListener("pointercancel", () => {
+      this.drag = null;
+    });
     if (this.spec.time) this.canvas.addEventListener("dblclick", () => timeStretch.set(null));
   }
 
   onKey(event) {
     const last = this.spec.count - 1;
     const now = this.cursor.value;
-    const steps = { ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10, Home: -1e9, End: 1e9 };
+    const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10, Home: -1e9, End: 1e9};
     if (event.key === "Escape") {
       this.cursor.set(null, this);
       if (this.spec.time) timeStretch.set(null);
@@ -319,8 +343,10 @@ function drawLine(plot, points, style) {
       continue;
     }
     const at = [plot.X(x), plot.Y(y)];
-    if (open) c.lineTo(...at);
-    else c.moveTo(...at);
+    if (open)
+      c.lineTo(...at);
+    else
+      c.moveTo(...at);
     alone = open ? null : at;
     open = true;
   }
@@ -343,7 +369,8 @@ function drawArea(plot, points, style) {
   const zero = plot.Y(0);
   points.forEach(([x, y], i) => {
     if (y === null) return;
-    const from = i > 0 ? (points[i - 1][0] + x) / 2 : x - (points.length > 1 ? (points[1][0] - x) / 2 : 0.5);
+    const ahead = points.length > 1 && i === 0 ? (points[1][0] - x) / 2 : 0.5;
+    const from = i > 0 ? (points[i - 1][0] + x) / 2 : x - ahead;
     const to = i + 1 < points.length ? (points[i + 1][0] + x) / 2 : 2 * x - from;
     // Rows of whole pixels: no seams between neighbours.
     const left = Math.floor(plot.X(from)), right = Math.max(left + 1, Math.floor(plot.X(to)));
@@ -376,21 +403,46 @@ function drawStack(plot, x, values, colors) {
   }
 }
 
-// A legend of [{color, text, kind}], kind one of the classes of .key.
+// A legend of [{color, text, kind}], kind one of the classes of .key, colour by paint().
 function makeLegend(entries) {
-  return make("ul", { class: "legend" }, entries.map((entry) => make("li", {},
-    make("span", { class: "key " + (entry.kind || ""),
-                   style: `background-color:${entry.color};border-color:${entry.color}` }),
-    entry.text)));
+  return make(
+      "ul", {class: "legend"},
+      entries.map(
+          (entry) => make(
+              "li", {}, make("span", {
+                class: "key " + (entry.kind || ""),
+                style: `background-color:${entry.color};border-color:${entry.color}`
+              }),
+              entry.text)));
 }
 
 // Buttons of which one is pressed: [{text, value}].
 function makeChoice(label, entries, value, onChange) {
-  const buttons = entries.map((entry) => make("button", {
-    type: "button", "aria-pressed": String(entry.value === value),
-    onclick: () => {
-      buttons.forEach((button, i) => button.setAttribute("aria-pressed", String(entries[i] === entry)));
-      onChange(entry.value);
-    } }, entry.text));
-  return make("div", { class: "choice", role: "group", "aria-label": label }, buttons);
+  const buttons = entries.map(
+      (entry) => make(
+          "button", {
+            type: "button",
+            "aria-pressed": String(entry.value === value),
+            onclick: () => {
+              buttons.forEach((button, i) => {
+                button.setAttribute("aria-pressed", String(entries[i] === entry));
+              });
+              onChange(entry.value);
+            }
+          },
+          entry.text));
+  return make("div", {class: "choice", role: "group", "aria-label": label}, buttons);
+}
+
+// Buttons each of which is pressed or not, at first pressed: [{text, value}].
+function makeToggles(label, entries, onChange) {
+  const buttons = entries.map(({text, value}) => {
+    const press = (event) => {
+      const pressed = event.target.getAttribute("aria-pressed") !== "true";
+      event.target.setAttribute("aria-pressed", String(pressed));
+      onChange(value, pressed);
+    };
+    return make("button", {type: "button", "aria-pressed": "true", onclick: press}, text);
+  });
+  return make("div", {class: "choice", role: "group", "aria-label": label}, buttons);
 }

@@ -231,15 +231,18 @@ Json Scene(const System& system, const Dataset& dataset) {
   for (const MapScene& map : scene.maps) {
     maps.push_back(MapData(map, scene.origin, dataset.sensor()));
   }
-  Floats reference;
+  const std::int64_t start = system.frames().empty() ? 0 : system.frames().front().stamp_ns;
+  Floats reference, reference_seconds;
   for (const StampedPose& pose : scene.reference) {
     reference.Add(pose.world_from_camera.translation - scene.origin);
+    reference_seconds.Add(static_cast<double>(pose.stamp_ns - start) * 1e-9);
   }
   const RectifiedCamera& camera = system.camera();
   return {{"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}},
           {"up", {scene.up.x(), scene.up.y(), scene.up.z()}},
           {"has_ground_truth", dataset.info().ground_truth.has_value()},
           {"reference", reference.Encoded()},
+          {"reference_seconds", reference_seconds.Encoded()},
           {"main", scene.main ? Json(*scene.main) : Json(nullptr)},
           {"maps", std::move(maps)},
           // Of the image plane at unit depth: left, top, right, bottom.

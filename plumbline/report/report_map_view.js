@@ -59,7 +59,8 @@ const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const subtract = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const times = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const cross =
+    (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const norm = (a) => Math.sqrt(dot(a, a));
 const unit = (a) => times(a, 1 / Math.max(norm(a), 1e-12));
 const vectorAt = (array, i) => [array[3 * i], array[3 * i + 1], array[3 * i + 2]];
@@ -82,17 +83,20 @@ function multiply(a, b) {
 
 function perspective(fieldOfView, aspect, near, far) {
   const f = 1 / Math.tan(fieldOfView / 2);
-  return new Float32Array([f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1,
-                           0, 0, 2 * far * near / (near - far), 0]);
+  return new Float32Array([
+    f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0,
+    2 * far * near / (near - far), 0
+  ]);
 }
 
 function lookAt(eye, target, up) {
   const back = unit(subtract(eye, target));
   const right = unit(cross(up, back));
   const above = cross(back, right);
-  return new Float32Array([right[0], above[0], back[0], 0, right[1], above[1], back[1], 0,
-                           right[2], above[2], back[2], 0,
-                           -dot(right, eye), -dot(above, eye), -dot(back, eye), 1]);
+  return new Float32Array([
+    right[0], above[0], back[0], 0, right[1], above[1], back[1], 0, right[2], above[2], back[2], 0,
+    -dot(right, eye), -dot(above, eye), -dot(back, eye), 1
+  ]);
 }
 
 // [[start, end], ...] as the vertices of the line shader.
@@ -100,7 +104,8 @@ function segmentVertices(segments) {
   const vertices = new Float32Array(segments.length * 42);
   let at = 0;
   for (const [a, b] of segments) {
-    for (const [from, to, side] of [[a, b, 1], [a, b, -1], [b, a, 1], [a, b, -1], [b, a, -1], [b, a, 1]]) {
+    for (const [from, to, side] of [
+             [a, b, 1], [a, b, -1], [b, a, 1], [a, b, -1], [b, a, -1], [b, a, 1]]) {
       // Seen from the other end, the sides change places.
       vertices.set(from, at);
       vertices.set(to, at + 3);
@@ -128,15 +133,16 @@ function colorNumbers(name) {
 class MapView {
   // Throws an Error where there is no WebGL.
   constructor(host, label) {
-    this.canvas = make("canvas", { tabindex: 0, role: "img", "aria-label": label });
-    const options = { antialias: true, alpha: false, preserveDrawingBuffer: true };
+    this.canvas = make("canvas", {tabindex: 0, role: "img", "aria-label": label});
+    const options = {antialias: true, alpha: false, preserveDrawingBuffer: true};
     const gl = this.gl = this.canvas.getContext("webgl", options);
     if (!gl) throw new Error("no WebGL");
     host.append(this.canvas);
     this.pointProgram = this.program(POINT_SHADER, POINT_COLORS);
     this.lineProgram = this.program(LINE_SHADER, LINE_COLORS);
     this.buffers = {};
-    this.visible = { points: true, lines: true, keyframes: true, trajectory: true, reference: true, grid: true };
+    this.visible =
+        {points: true, lines: true, keyframes: true, trajectory: true, reference: true, grid: true};
     this.byHeight = true;
     this.marker = null;
     new ResizeObserver(() => this.request()).observe(this.canvas);
@@ -147,15 +153,18 @@ class MapView {
   program(vertexSource, fragmentSource) {
     const gl = this.gl;
     const program = gl.createProgram();
-    for (const [kind, source] of [[gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
+    for (const [kind, source] of [
+             [gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS))
+        throw new Error(gl.getShaderInfoLog(shader));
       gl.attachShader(program, shader);
     }
     gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS))
+      throw new Error(gl.getProgramInfoLog(program));
     return program;
   }
 
@@ -186,42 +195,43 @@ class MapView {
     const id = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, id);
     gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
-    this.buffers[name] = { id, count: data.length / stride };
+    this.buffers[name] = {id, count: data.length / stride};
   }
 
   // Centre, size and range of heights; a few points far away count little.
   measure(scene) {
-    const places = scene.places;
+    const {places, up} = scene;
+    const landmarks = [];
+    for (let i = 0; i < scene.points.length / 3; ++i) landmarks.push(vectorAt(scene.points, i));
+    for (const ends of scene.lines) landmarks.push(...ends);
     const axes = [0, 1, 2].map((axis) => {
-      const points = scene.points.filter((_, i) => i % 3 === axis);
-      const path = places.map((p) => p[axis]);
-      const low = Math.min(...path.length ? [quantile(path, 0), quantile(path, 1)] : [quantile(points, 0.1)],
-                           points.length ? quantile(points, 0.1) : Infinity);
-      const high = Math.max(...path.length ? [quantile(path, 0), quantile(path, 1)] : [quantile(points, 0.9)],
-                            points.length ? quantile(points, 0.9) : -Infinity);
-      return [low, high];
+      const of = (list) => list.map((place) => place[axis]);
+      const path = of(places), rest = landmarks.length ? of(landmarks) : path;
+      return [
+        Math.min(quantile(path, 0), quantile(rest, 0.1)),
+        Math.max(quantile(path, 1), quantile(rest, 0.9))
+      ];
     });
     this.centre = axes.map(([low, high]) => (low + high) / 2);
-    this.radius = Math.max(0.5, norm(axes.map(([low, high]) => (high - low) / 2)));
-    const heights = new Float32Array(scene.points.length / 3);
-    for (let i = 0; i < heights.length; ++i) heights[i] = dot(vectorAt(scene.points, i), scene.up);
-    const pathHeights = places.map((p) => dot(p, scene.up));
-    this.heights = heights.length ? [quantile(heights, 0.03), quantile(heights, 0.97)] : [0, 1];
-    this.floor = heights.length ? this.heights[0] : Math.min(0, ...pathHeights);
+    this.radius = Math.max(0.1, norm(axes.map(([low, high]) => (high - low) / 2)));
+    const heights = (landmarks.length ? landmarks : places).map((place) => dot(place, up));
+    this.heights = [quantile(heights, 0.03), quantile(heights, 0.97)];
+    this.floor = this.heights[0];
     // A frame of the world: east and north span the ground.
     const helper = Math.abs(scene.up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
     this.north = unit(cross(scene.up, helper));
     this.east = cross(this.north, scene.up);
     const pathRadius = places.reduce((most, p) => Math.max(most, norm(subtract(p, places[0]))), 0);
-    this.frustumDepth = Math.max(0.012 * this.radius, Math.min(0.035 * this.radius, 0.12 * pathRadius));
+    this.frustumDepth =
+        Math.max(0.012 * this.radius, Math.min(0.035 * this.radius, 0.12 * pathRadius));
   }
 
   // The edges of the pyramid that a keyframe sees.
-  frustum({ place, turn }) {
+  frustum({place, turn}) {
     const [left, top, right, bottom] = this.scene.frustum;
     const depth = this.frustumDepth;
-    const corners = [[left, top], [right, top], [right, bottom], [left, bottom]]
-      .map(([x, y]) => add(place, rotate(turn, [x * depth, y * depth, depth])));
+    const corners = [[left, top], [right, top], [right, bottom], [left, bottom]].map(
+        ([x, y]) => add(place, rotate(turn, [x * depth, y * depth, depth])));
     return corners.flatMap((corner, i) => [[place, corner], [corner, corners[(i + 1) % 4]]]);
   }
 
@@ -229,8 +239,9 @@ class MapView {
     const step = this.gridStep = tickStep(2 * this.radius, 12);
     const half = Math.ceil(1.2 * this.radius / step);
     const middle = [this.east, this.north].map((axis) => Math.round(dot(this.centre, axis) / step));
-    const at = (i, j) => add(add(times(this.east, (middle[0] + i) * step), times(this.north, (middle[1] + j) * step)),
-                             times(this.scene.up, this.floor));
+    const at = (i, j) => add(
+        add(times(this.east, (middle[0] + i) * step), times(this.north, (middle[1] + j) * step)),
+        times(this.scene.up, this.floor));
     const lines = [];
     for (let i = -half; i <= half; ++i) {
       lines.push([at(i, -half), at(i, half)], [at(-half, i), at(half, i)]);
@@ -241,8 +252,10 @@ class MapView {
   // The first view: from behind and above the cameras.
   reset() {
     const forward = [0, 0, 0];
-    for (const { turn } of this.scene.keyframes) {
-      rotate(turn, [0, 0, 1]).forEach((value, i) => { forward[i] += value; });
+    for (const {turn} of this.scene.keyframes) {
+      rotate(turn, [0, 0, 1]).forEach((value, i) => {
+        forward[i] += value;
+      });
     }
     const x = -dot(forward, this.east), y = -dot(forward, this.north);
     const level = Math.hypot(x, y) > 0.2 * Math.max(1, this.scene.keyframes.length);
@@ -281,7 +294,8 @@ class MapView {
     const eye = add(this.target, times(this.eyeDirection(), this.distance));
     this.near = 0.01 * this.distance;
     const far = 50 * (this.distance + this.radius);
-    return multiply(perspective(0.8, aspect, this.near, far), lookAt(eye, this.target, this.scene.up));
+    return multiply(
+        perspective(0.8, aspect, this.near, far), lookAt(eye, this.target, this.scene.up));
   }
 
   render() {
@@ -311,11 +325,13 @@ class MapView {
     if (this.marker) {
       gl.disable(gl.DEPTH_TEST);
       const r = 0.5 * this.frustumDepth;
-      this.fill("marker", segmentVertices([0, 1, 2].map((axis) => {
-        const arm = [0, 0, 0];
-        arm[axis] = r;
-        return [subtract(this.marker, arm), add(this.marker, arm)];
-      })), 7);
+      this.fill(
+          "marker", segmentVertices([0, 1, 2].map((axis) => {
+            const arm = [0, 0, 0];
+            arm[axis] = r;
+            return [subtract(this.marker, arm), add(this.marker, arm)];
+          })),
+          7);
       this.drawLines("marker", matrix, "ink", 3 * ratio);
       gl.deleteBuffer(this.buffers.marker.id);
       delete this.buffers.marker;
@@ -334,8 +350,10 @@ class MapView {
     gl.uniform3fv(uniform("up"), this.scene.up);
     gl.uniform2fv(uniform("heights"), this.heights);
     gl.uniform1f(uniform("size"), size);
-    const names = this.byHeight ? ["ramp-low", "ramp-mid", "ramp-high"] : Array(3).fill("plain-point");
-    ["low", "middle", "high"].forEach((name, i) => gl.uniform3fv(uniform(name), colorNumbers(names[i])));
+    const names =
+        this.byHeight ? ["ramp-low", "ramp-mid", "ramp-high"] : Array(3).fill("plain-point");
+    ["low", "middle", "high"].forEach(
+        (name, i) => gl.uniform3fv(uniform(name), colorNumbers(names[i])));
     gl.drawArrays(gl.POINTS, 0, buffer.count);
     gl.disableVertexAttribArray(place);
   }
@@ -345,12 +363,13 @@ class MapView {
     const uniform = (key) => gl.getUniformLocation(program, key);
     gl.useProgram(program);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer.id);
-    const attributes = [["place", 3, 0], ["other", 3, 12], ["side", 1, 24]].map(([key, count, offset]) => {
-      const index = gl.getAttribLocation(program, key);
-      gl.enableVertexAttribArray(index);
-      gl.vertexAttribPointer(index, count, gl.FLOAT, false, 28, offset);
-      return index;
-    });
+    const attributes =
+        [["place", 3, 0], ["other", 3, 12], ["side", 1, 24]].map(([key, count, offset]) => {
+          const index = gl.getAttribLocation(program, key);
+          gl.enableVertexAttribArray(index);
+          gl.vertexAttribPointer(index, count, gl.FLOAT, false, 28, offset);
+          return index;
+        });
     gl.uniformMatrix4fv(uniform("clip_from_world"), false, matrix);
     gl.uniform2f(uniform("viewport"), this.canvas.width, this.canvas.height);
     gl.uniform1f(uniform("width"), width);
@@ -379,7 +398,8 @@ class MapView {
   }
 
   zoom(factor) {
-    this.distance = Math.max(0.005 * this.radius, Math.min(40 * this.radius, this.distance * factor));
+    this.distance =
+        Math.max(0.005 * this.radius, Math.min(40 * this.radius, this.distance * factor));
     this.request();
   }
 
@@ -416,16 +436,18 @@ class MapView {
       if (document.activeElement !== canvas && !event.ctrlKey) return;
       event.preventDefault();
       this.zoom(Math.exp(0.0012 * event.deltaY * (event.deltaMode === 1 ? 30 : 1)));
-    }, { passive: false });
+    }, {passive: false});
     canvas.addEventListener("keydown", (event) => this.onKey(event));
   }
 
   onKey(event) {
-    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
     if (event.key in arrows) {
       const [dx, dy] = arrows[event.key];
-      if (event.shiftKey) this.move(-40 * dx, -40 * dy);
-      else this.turn(-0.1 * dx, -0.1 * dy);
+      if (event.shiftKey)
+        this.move(-40 * dx, -40 * dy);
+      else
+        this.turn(-0.1 * dx, -0.1 * dy);
     } else if (event.key === "+" || event.key === "=") {
       this.zoom(0.85);
     } else if (event.key === "-") {

@@ -207,7 +207,8 @@ TEST(Run, EndsEarlyAndWritesEverythingWhenAsked) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), frames + 1);
     const std::string poses = Contents(out / "trajectory.txt");
     EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), summary["frames"]["tracked"]);
-    for (const char* name : {"trajectory_causal.txt", "keyframes.txt", "timing.json", "map.ply"}) {
+    for (const char* name :
+         {"trajectory_causal.txt", "keyframes.txt", "timing.json", "map.ply", "report.html"}) {
       EXPECT_TRUE(fs::exists(out / name)) << name;
     }
   }

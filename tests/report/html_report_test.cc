@@ -7,9 +7,7 @@
 
 #include "tests/io/scratch_folder.h"
 #include "tests/report/poster_run.h"
-#include <algorithm>
-#include <bit>
-#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <regex>
 #include <vector>
@@ -193,6 +191,20 @@ TEST(HtmlReport, NeedsNothingFromElsewhere) {
   EXPECT_THAT(page, HasSubstr("class MapView"));
   EXPECT_THAT(page, HasSubstr("class Plot"));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(HtmlReport, HasScriptsThatParse) {
+  if (std::system("node --version > /dev/null 2>&1") != 0) {  // NOLINT(concurrency-mt-unsafe)
+    GTEST_SKIP() << "node is not installed";
+  }
+  const PosterRun run;
+  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run));
+  const std::size_t begin = page.rfind("<script>") + 8;
+  const ScratchFolder folder;
+  const auto file =
+      folder.Write("page.js", page.substr(begin, page.find("</script>", begin) - begin));
+  const std::string command = "node --check '" + file.string() + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);  // NOLINT(concurrency-mt-unsafe)
 }
 
 TEST(HtmlReport, SaysThatThereIsNoGroundTruth) {
