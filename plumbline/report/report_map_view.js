@@ -128,19 +128,15 @@ function colorNumbers(name) {
   return [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16) / 255);
 }
 
-// The view. `scene`: {up, frustum, layers: {points, lines, keyframes, frames, trajectory: [[a, b]],
-// gaps: [[a, b]], reference: [[a, b]]}}; see MapView.setScene.
+// A canvas that shows a map from every side. Draws only when something has changed.
 class MapView {
   // Throws an Error where there is no WebGL.
   constructor(host, label) {
     this.canvas = make("canvas", {tabindex: 0, role: "img", "aria-label": label});
-    const options = {antialias: true, alpha: false, preserveDrawingBuffer: true};
-    const gl = this.gl = this.canvas.getContext("webgl", options);
-    if (!gl) throw new Error("no WebGL");
+    this.gl = this.canvas.getContext("webgl", {antialias: true, alpha: false});
+    if (!this.gl) throw new Error("no WebGL");
     host.append(this.canvas);
-    this.pointProgram = this.program(POINT_SHADER, POINT_COLORS);
-    this.lineProgram = this.program(LINE_SHADER, LINE_COLORS);
-    this.buffers = {};
+    this.prepare();
     this.visible =
         {points: true, lines: true, keyframes: true, trajectory: true, reference: true, grid: true};
     this.byHeight = true;
@@ -148,6 +144,18 @@ class MapView {
     new ResizeObserver(() => this.request()).observe(this.canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.request());
     this.listen();
+    // The browser may take the context away and give it back, emptied.
+    this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.prepare();
+      this.upload();
+    });
+  }
+
+  prepare() {
+    this.pointProgram = this.program(POINT_SHADER, POINT_COLORS);
+    this.lineProgram = this.program(LINE_SHADER, LINE_COLORS);
+    this.buffers = {};
   }
 
   program(vertexSource, fragmentSource) {
@@ -178,7 +186,12 @@ class MapView {
   setScene(scene) {
     this.scene = scene;
     this.measure(scene);
-    const gl = this.gl;
+    this.upload();
+    this.reset();
+  }
+
+  upload() {
+    const {gl, scene} = this;
     for (const buffer of Object.values(this.buffers)) gl.deleteBuffer(buffer.id);
     this.buffers = {};
     this.fill("points", scene.points, 3);
@@ -187,7 +200,7 @@ class MapView {
     }
     this.fill("keyframes", segmentVertices(scene.keyframes.flatMap((k) => this.frustum(k))), 7);
     this.fill("grid", segmentVertices(this.gridLines()), 7);
-    this.reset();
+    this.request();
   }
 
   fill(name, data, stride) {
@@ -261,7 +274,7 @@ class MapView {
     const level = Math.hypot(x, y) > 0.2 * Math.max(1, this.scene.keyframes.length);
     this.yaw = (level ? Math.atan2(y, x) : -1.2) + 0.5;
     this.pitch = 0.6;
-    this.distance = 2.1 * this.radius;
+    this.distance = 2.2 * this.radius;
     this.target = this.centre.slice();
     this.request();
   }

@@ -58,7 +58,7 @@ std::string OptionsYaml(SlamOptions options = {}) { return OptionTable(options).
 
 ReportContext ContextOf(const PosterRun& run) {
   return {{"0.1.0", "some/folder", OptionsYaml(), 3, {"some/folder", "--quiet"}},
-          {1.5, 2.5, 30},
+          {.wall_seconds = 1.5, .cpu_seconds = 2.5, .peak_memory_mb = 30},
           "2026-01-02 03:04 UTC",
           {run.sample()}};
 }
