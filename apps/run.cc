@@ -151,7 +151,7 @@ class KeptViews {
     for (const auto& [frame, view] : views_) {
       const std::string name = fmt::format("overlay_{:06}.png", frame);
       WriteFeatureOverlay(view, folder / name);
-      samples.push_back(MakeSampleImage(view.frame.id, view, name));
+      samples.push_back(MakeSampleImage(view, name));
     }
     return samples;
   }

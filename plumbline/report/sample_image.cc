@@ -30,9 +30,9 @@ std::string EncodeJpeg(const GrayImage& image) {
 
 }  // namespace
 
-SampleImage MakeSampleImage(FrameId frame, const FrameView& view, const std::string& file) {
+SampleImage MakeSampleImage(const FrameView& view, const std::string& file) {
   SampleImage sample;
-  sample.frame = frame;
+  sample.frame = view.frame.id;
   sample.file = file;
   sample.width = view.images.left.width();
   sample.height = view.images.left.height();

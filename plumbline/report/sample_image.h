@@ -23,6 +23,6 @@ struct SampleImage {
 };
 
 // Of a frame that has just been processed. Cost: encoding the image, some milliseconds.
-SampleImage MakeSampleImage(FrameId frame, const FrameView& view, const std::string& file);
+SampleImage MakeSampleImage(const FrameView& view, const std::string& file);
 
 }  // namespace plumbline

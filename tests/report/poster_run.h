@@ -53,7 +53,7 @@ class PosterRun {
       } else {
         const FrameRecord& record =
             system_.Process(i == 4 ? MovingPoster::BlindFrame(i) : poster.Frame(i));
-        if (i == 3) sample_ = MakeSampleImage(record.id, system_.view(), "overlay_000003.png");
+        if (i == 3) sample_ = MakeSampleImage(system_.view(), "overlay_000003.png");
       }
     }
     system_.Finish();
