@@ -269,6 +269,7 @@ int RunCommand(std::span<const std::string> arguments) {
   KeptViews views(frames);
   const auto first_pose = ProcessFrames(*dataset, frames, setup, system, views);
 
+  const auto samples = views.Write(setup.folder);
   WriteRunFiles(system, setup.folder);
   ResourceUse resources = MeasureResources();
   resources.first_pose_seconds = first_pose;
@@ -280,7 +281,6 @@ int RunCommand(std::span<const std::string> arguments) {
                                    {arguments.begin(), arguments.end()}};
   WriteFileAtomically(setup.folder / "summary.json",
                       FormatSummary(description, system, *dataset, resources));
-  const auto samples = views.Write(setup.folder);
   WriteHtmlReport(system, *dataset, {description, resources, {}, samples}, setup.folder);
   if (!setup.quiet) PrintResult(system, *dataset, setup);
   return 0;

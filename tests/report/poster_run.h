@@ -51,8 +51,7 @@ class PosterRun {
       if (i == 2) {
         system_.Skip(MovingPoster::StampNs(i), "image_unreadable");
       } else {
-        const FrameRecord& record =
-            system_.Process(i == 4 ? MovingPoster::BlindFrame(i) : poster.Frame(i));
+        system_.Process(i == 4 ? MovingPoster::BlindFrame(i) : poster.Frame(i));
         if (i == 3) sample_ = MakeSampleImage(system_.view(), "overlay_000003.png");
       }
     }
