@@ -16,8 +16,12 @@ function tile(name, value, unit, ...more) {
 
 function missingFrames() {
   const {lost, skipped, initializing} = data.counts;
-  return [[lost, "lost"], [skipped, "skipped"], [initializing, "before a map"]]
-      .filter(([count]) => count > 0)
+  const dropped = frames.reason.filter((reason) => reason === "dropped").length;
+  return [
+    [lost, "lost"],
+    [skipped, dropped > 0 ? `skipped, ${whole(dropped)} of them dropped` : "skipped"],
+    [initializing, "before a map"]
+  ].filter(([count]) => count > 0)
       .map(([count, what]) => `${whole(count)} ${what}`);
 }
 
