@@ -89,6 +89,7 @@ void PrintCalibration(const DatasetInfo& info) {
     Row("camera", "missing: give --camera FILE, or put a camera.yaml into the folder");
     return;
   }
+  Row("calibration", info.calibration_source);
   Row("camera", Describe(c.left, c.rectified));
   if (c.right) {
     Row("right camera", Describe(*c.right, c.rectified));

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"
-#include "plumbline/io/camera_file.h"
+#include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/text_rows.h"
 
 #include <system_error>

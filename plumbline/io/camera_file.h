@@ -5,6 +5,7 @@
 #include "plumbline/geometry/calibration.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,23 +27,27 @@ namespace plumbline {
 //   baseline: 0.11                              # metres
 //   body_from_left: [16 numbers]                # optional, body = frame of the ground truth
 //
-// Throws InputError "path:line: key: expected ..., found ...".
-Calibration ReadCameraFile(const std::filesystem::path& path);
+// or one of another program, told apart by its keys: EuRoC's sensor.yaml (one camera), Kalibr's
+// camchain.yaml (kalibr.h) and settings of ORB-SLAM2 and 3 (orb_slam_settings.h).
+//
+// Throws InputError "source:line: key: expected ..., found ...".
 Calibration ParseCamera(const std::string& yaml, const std::string& source);
 
+// A calibration and what it was read from, for people: "rig/camchain.yaml (Kalibr camchain)".
+struct CameraFile {
+  Calibration calibration;
+  std::string source;
+};
+CameraFile ReadCameraFile(const std::filesystem::path& path);
+
 // The same for a path or, where there is no such file, the name of a built-in camera.
-Calibration FindCamera(const std::string& path_or_name);
+CameraFile FindCamera(const std::string& path_or_name);
+
+// The camera file that lies in a folder of images: camera.yaml or camchain.yaml, of any format.
+std::optional<std::filesystem::path> CameraFileIn(const std::filesystem::path& folder);
 
 // Names of the camera files of configs/cameras, which are part of the program.
 std::vector<std::string> BuiltInCameras();
-
-// What a EuRoC sensor.yaml says of one camera.
-struct EurocSensor {
-  Camera camera;
-  Rigid3 body_from_camera;  // T_BS
-  double rate_hz = 0;
-};
-EurocSensor ReadEurocSensor(const std::filesystem::path& path);
 
 // A calibration as a camera file; ParseCamera of it gives the same numbers.
 std::string FormatCamera(const Calibration& calibration);

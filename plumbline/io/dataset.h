@@ -58,6 +58,7 @@ struct DatasetInfo {
   std::vector<SensorKind> available;        // what the data offers, richest first
   std::vector<std::int64_t> stamps_ns;      // one per frame, strictly increasing
   Calibration calibration;                  // `right` and `depth_factor` only where used
+  std::string calibration_source;           // what it was read from, for people
   bool has_calibration = true;              // false only with DatasetOptions::allow_missing_camera
   std::optional<GroundTruth> ground_truth;  // nullopt: none is delivered
   std::vector<std::string> notes;           // what is missing or left out, one sentence each

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
@@ -71,30 +72,30 @@ std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
   return files;
 }
 
-Calibration ReadCalibration(const fs::path& mav, const DatasetOptions& options, bool stereo) {
+CameraFile ReadCalibration(const fs::path& path,
+                           const fs::path& mav,
+                           const DatasetOptions& options,
+                           SensorKind sensor) {
   const fs::path left_file = mav / "cam0" / "sensor.yaml";
-  Calibration calibration;
-  if (options.camera) {
-    calibration = FindCamera(*options.camera);
-    if (!calibration.body_from_left && Exists(left_file)) {
-      calibration.body_from_left = ReadEurocSensor(left_file).body_from_camera;
+  if (std::optional<CameraFile> camera = GivenCamera(path, options, sensor)) {
+    if (!camera->calibration.body_from_left && Exists(left_file)) {
+      camera->calibration.body_from_left = ReadEurocSensor(left_file).body_from_camera;
     }
-    if (stereo && !calibration.right) {
-      throw InputError(*options.camera + ": expected a stereo camera, found no key 'right'");
-    }
-    if (!stereo) calibration.right.reset();
-    return calibration;
+    return *camera;
   }
+  CameraFile camera{{}, left_file.string()};
   const EurocSensor left = ReadEurocSensor(left_file);
-  calibration.left = left.camera;
-  calibration.rate_hz = left.rate_hz;
-  calibration.body_from_left = left.body_from_camera;
-  if (stereo) {
+  camera.calibration.left = left.camera;
+  camera.calibration.rate_hz = left.rate_hz;
+  camera.calibration.body_from_left = left.body_from_camera;
+  if (sensor == SensorKind::kStereo) {
     const EurocSensor right = ReadEurocSensor(mav / "cam1" / "sensor.yaml");
-    calibration.right = right.camera;
-    calibration.right_from_left = Inverse(right.body_from_camera) * left.body_from_camera;
+    camera.calibration.right = right.camera;
+    camera.calibration.right_from_left = Inverse(right.body_from_camera) * left.body_from_camera;
+    camera.source += " and that of cam1";
   }
-  return calibration;
+  camera.source += " (EuRoC sensor.yaml)";
+  return camera;
 }
 
 }  // namespace
@@ -108,7 +109,7 @@ std::unique_ptr<Dataset> OpenEuroc(const fs::path& path, const DatasetOptions& o
   if (Exists(mav / "cam1" / "data.csv")) available.insert(available.begin(), SensorKind::kStereo);
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kEuroc, std::move(available), options);
   const bool stereo = info.sensor == SensorKind::kStereo;
-  info.calibration = ReadCalibration(mav, options, stereo);
+  UseCamera(ReadCalibration(path, mav, options, info.sensor), info);
 
   const std::vector<ListedImage> left = ReadList(mav / "cam0");
   std::vector<FrameFiles> files;

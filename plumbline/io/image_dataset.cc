@@ -3,7 +3,6 @@
 #include "plumbline/io/image_dataset.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/io/camera_file.h"
 
 #include <algorithm>
 #include <array>
@@ -160,6 +159,27 @@ DatasetInfo DescribeDataset(const fs::path& path,
                                  fmt::join(names, ", ")));
   }
   return info;
+}
+
+std::optional<CameraFile> GivenCamera(const fs::path& folder,
+                                      const DatasetOptions& options,
+                                      std::optional<SensorKind> sensor) {
+  const std::optional<fs::path> file = CameraFileIn(folder);
+  if (!options.camera && !file) return std::nullopt;
+  CameraFile camera = options.camera ? FindCamera(*options.camera) : ReadCameraFile(*file);
+  if (sensor == SensorKind::kStereo && !camera.calibration.right) {
+    throw InputError((options.camera ? *options.camera : file->string()) +
+                     ": expected a stereo camera, found one camera");
+  }
+  return camera;
+}
+
+void UseCamera(CameraFile camera, DatasetInfo& info) {
+  info.has_calibration = true;
+  info.calibration = std::move(camera.calibration);
+  info.calibration_source = std::move(camera.source);
+  if (info.sensor != SensorKind::kStereo) info.calibration.right.reset();
+  if (info.sensor != SensorKind::kRgbd) info.calibration.depth_factor.reset();
 }
 
 std::string SensorName(SensorKind sensor) {

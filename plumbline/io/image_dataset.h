@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/io/camera_file.h"
 #include "plumbline/io/dataset.h"
 
 #include <cstdint>
@@ -40,6 +41,16 @@ DatasetInfo DescribeDataset(const std::filesystem::path& path,
                             DatasetFormat format,
                             std::vector<SensorKind> available,
                             const DatasetOptions& options);
+
+// The camera file that the user names or that was put into the data set's folder (CameraFileIn);
+// nullopt where there is neither. InputError when `sensor` is stereo and it has one camera only.
+std::optional<CameraFile> GivenCamera(const std::filesystem::path& folder,
+                                      const DatasetOptions& options,
+                                      std::optional<SensorKind> sensor = std::nullopt);
+
+// Takes the calibration for info.sensor: without the second camera or the depth factor where they
+// are not used.
+void UseCamera(CameraFile camera, DatasetInfo& info);
 
 // Name shown to users.
 std::string SensorName(SensorKind sensor);

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,10 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<Calibration> ReadCalibration(const fs::path& path, const DatasetOptions& options) {
-  std::error_code error;
-  if (options.camera) return FindCamera(*options.camera);
-  if (fs::exists(path / "camera.yaml", error)) return ReadCameraFile(path / "camera.yaml");
+std::optional<CameraFile> ReadCalibration(const fs::path& path, const DatasetOptions& options) {
+  if (std::optional<CameraFile> camera = GivenCamera(path, options)) return camera;
   if (options.allow_missing_camera) return std::nullopt;
   throw InputError(NoCalibration(path));
 }
@@ -30,11 +27,9 @@ std::optional<Calibration> ReadCalibration(const fs::path& path, const DatasetOp
 
 std::unique_ptr<Dataset> OpenImageFolder(const fs::path& path, const DatasetOptions& options) {
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kImages, {SensorKind::kMono}, options);
-  const std::optional<Calibration> calibration = ReadCalibration(path, options);
-  info.has_calibration = calibration.has_value();
-  info.calibration = calibration.value_or(Calibration{});
-  info.calibration.right.reset();
-  info.calibration.depth_factor.reset();
+  std::optional<CameraFile> camera = ReadCalibration(path, options);
+  info.has_calibration = false;
+  if (camera) UseCamera(*std::move(camera), info);
   if (!info.calibration.rate_hz) {
     if (info.has_calibration) {
       throw InputError(

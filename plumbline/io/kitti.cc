@@ -66,25 +66,19 @@ std::pair<int, int> ImageSize(const fs::path& path, const std::vector<FrameFiles
   throw InputError(path.string() + ": expected images in image_0, found none that can be decoded");
 }
 
-Calibration ReadCalibration(const fs::path& path,
-                            const DatasetOptions& options,
-                            const std::vector<FrameFiles>& files,
-                            bool stereo) {
-  Calibration calibration;
-  if (options.camera) {
-    calibration = FindCamera(*options.camera);
-    if (stereo && !calibration.right) {
-      throw InputError(*options.camera + ": expected a stereo camera, found no key 'right'");
-    }
-    if (!stereo) calibration.right.reset();
-    return calibration;
-  }
+CameraFile ReadCalibration(const fs::path& path,
+                           const DatasetOptions& options,
+                           const std::vector<FrameFiles>& files,
+                           SensorKind sensor) {
+  if (std::optional<CameraFile> camera = GivenCamera(path, options, sensor)) return *camera;
   const fs::path file = path / "calib.txt";
+  CameraFile camera{{}, file.string() + " (KITTI calib.txt)"};
+  Calibration& calibration = camera.calibration;
   const Matrix34 left = ReadProjection(file, "P0");
   const auto [width, height] = ImageSize(path, files);
   calibration.left = ToCamera(left, width, height);
   calibration.rectified = true;
-  if (stereo) {
+  if (sensor == SensorKind::kStereo) {
     const Matrix34 right = ReadProjection(file, "P1");
     calibration.right = ToCamera(right, width, height);
     const double baseline = -right(0, 3) / right(0, 0);
@@ -94,7 +88,7 @@ Calibration ReadCalibration(const fs::path& path,
     }
     calibration.right_from_left.translation.x() = -baseline;
   }
-  return calibration;
+  return camera;
 }
 
 // Number of the frame, from the file name, to the file.
@@ -157,7 +151,7 @@ std::unique_ptr<Dataset> OpenKitti(const fs::path& path, const DatasetOptions& o
     if (stereo) frame.right = ImageAt(right, path / "image_1", i);
     files.push_back(std::move(frame));
   }
-  info.calibration = ReadCalibration(path, options, files, stereo);
+  UseCamera(ReadCalibration(path, options, files, info.sensor), info);
   info.ground_truth = ReadGroundTruth(path, info.stamps_ns);
   return MakeImageDataset(std::move(info), std::move(files));
 }

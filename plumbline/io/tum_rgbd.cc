@@ -90,9 +90,8 @@ std::optional<std::string> CameraOfName(const std::string& name) {
   return std::string("tum_fr") + number;
 }
 
-std::optional<Calibration> ReadCalibration(const fs::path& path, const DatasetOptions& options) {
-  if (options.camera) return FindCamera(*options.camera);
-  if (Exists(path / "camera.yaml")) return ReadCameraFile(path / "camera.yaml");
+std::optional<CameraFile> ReadCalibration(const fs::path& path, const DatasetOptions& options) {
+  if (std::optional<CameraFile> camera = GivenCamera(path, options)) return camera;
   const std::string name = fs::absolute(path / ".").lexically_normal().parent_path().filename();
   if (const std::optional<std::string> camera = CameraOfName(name)) return FindCamera(*camera);
   if (options.allow_missing_camera) return std::nullopt;
@@ -102,22 +101,20 @@ std::optional<Calibration> ReadCalibration(const fs::path& path, const DatasetOp
 }  // namespace
 
 std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& options) {
-  std::optional<Calibration> calibration = ReadCalibration(path, options);
+  std::optional<CameraFile> camera = ReadCalibration(path, options);
   const bool has_depth = Exists(path / "depth.txt");
-  const bool has_factor = !calibration || calibration->depth_factor.has_value();
+  const bool has_factor = !camera || camera->calibration.depth_factor.has_value();
   if (has_depth && !has_factor && options.sensor == SensorKind::kRgbd) {
     throw InputError(path.string() + ": expected depth_factor in the camera file, found none");
   }
   std::vector<SensorKind> available = {SensorKind::kMono};
   if (has_depth && has_factor) available.insert(available.begin(), SensorKind::kRgbd);
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kTum, std::move(available), options);
-  info.has_calibration = calibration.has_value();
-  info.calibration = calibration.value_or(Calibration{});
-  info.calibration.right.reset();
+  info.has_calibration = false;
+  if (camera) UseCamera(*std::move(camera), info);
   if (has_depth && !has_factor) {
     info.notes.emplace_back("the depth images are not used: no depth_factor in the camera file");
   }
-  if (info.sensor == SensorKind::kMono) info.calibration.depth_factor.reset();
 
   const std::vector<ListedImage> color = ReadList(path / "rgb.txt");
   std::vector<FrameFiles> files;

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/camera_file.h"
 
+#include "plumbline/io/dataset.h"
+
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/euroc_calibration.h"
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -109,59 +113,236 @@ TEST(ParseCamera, BadFilesAreNamedByLineAndKey) {
   }
 }
 
-TEST(FindCamera, KnowsTheBuiltInCameras) {
-  EXPECT_THAT(BuiltInCameras(), ElementsAre("icl_nuim", "tum_fr1", "tum_fr2", "tum_fr3"));
-  for (const std::string& name : BuiltInCameras()) {
-    const Calibration c = FindCamera(name);
-    EXPECT_EQ(c.left.width(), 640) << name;
-    EXPECT_EQ(c.rate_hz, 30) << name;
-    EXPECT_EQ(c.depth_factor, 5000) << name;
-  }
-  EXPECT_EQ(FindCamera("tum_fr1").left.intrinsics().fx, 517.306408);
-  EXPECT_EQ(FindCamera("icl_nuim").left.intrinsics().fy, 480);
-  EXPECT_THAT(MessageOf([] { FindCamera("tum_fr4"); }),
-              HasSubstr("tum_fr4: no such camera file; built-in cameras: icl_nuim, tum_fr1"));
-}
+// The stereo pair of EuRoC as other programs write it down. The ORB-SLAM2 form holds a
+// rectification computed by OpenCV, with other numbers of decimals than the rest.
+constexpr char kKalibr[] = R"(cam0:
+  cam_overlaps: [1]
+  camera_model: pinhole
+  distortion_coeffs: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]
+  distortion_model: radtan
+  intrinsics: [458.654, 457.296, 367.215, 248.375]
+  resolution: [752, 480]
+  rostopic: /cam0/image_raw
+cam1:
+  T_cn_cnm1:
+  - [0.99999725647745, 0.00231206719242016, 0.000376008102350993, -0.110073808127139]
+  - [-0.00231713572328462, 0.999898048506528, 0.0140898358466973, 0.000399121547014457]
+  - [-0.000343393120588828, -0.0140906684526704, 0.999900662638179, -0.000853702503351319]
+  - [0.0, 0.0, 0.0, 1.0]
+  cam_overlaps: [0]
+  camera_model: pinhole
+  distortion_coeffs: [-0.28368365, 0.07451284, -0.00010473, -3.55590700e-05]
+  distortion_model: radtan
+  intrinsics: [457.587, 456.134, 379.999, 255.238]
+  resolution: [752, 480]
+  rostopic: /cam1/image_raw
+)";
+constexpr char kOrbSlam3[] = R"(%YAML:1.0
+File.version: "1.0"
+Camera.type: "PinHole"
+Camera1.fx: 458.654
+Camera1.fy: 457.296
+Camera1.cx: 367.215
+Camera1.cy: 248.375
+Camera1.k1: -0.28340811
+Camera1.k2: 0.07395907
+Camera1.p1: 0.00019359
+Camera1.p2: 1.76187114e-05
+Camera2.fx: 457.587
+Camera2.fy: 456.134
+Camera2.cx: 379.999
+Camera2.cy: 255.238
+Camera2.k1: -0.28368365
+Camera2.k2: 0.07451284
+Camera2.p1: -0.00010473
+Camera2.p2: -3.55590700e-05
+Camera.width: 752
+Camera.height: 480
+Camera.fps: 20
+Camera.RGB: 1
+Stereo.ThDepth: 60.0
+Stereo.T_c1_c2: !!opencv-matrix
+  rows: 4
+  cols: 4
+  dt: f
+  data: [0.999997256477797,-0.002317135723275,-0.000343393120620,0.110074137800478,
+         0.002312067192432,0.999898048506528,-0.014090668452683,-0.000156612054392,
+         0.000376008102320,0.014089835846691,0.999900662638081,0.000889382785432,
+         0,0,0,1.000000000000000]
+ORBextractor.nFeatures: 1200
+)";
+constexpr char kOrbSlam2[] = R"(%YAML:1.0
 
-TEST(FindCamera, ReadsAFile) {
-  const ScratchFolder folder;
-  EXPECT_EQ(FindCamera(folder.Write("my.yaml", kMono).string()).left.intrinsics().fx, 500);
-}
+#---- rectified camera
+Camera.fx: 435.2046959714599
+Camera.fy: 435.2046959714599
+Camera.cx: 367.4517211914062
+Camera.cy: 252.2008514404297
+Camera.k1: 0.0
+Camera.k2: 0.0
+Camera.p1: 0.0
+Camera.p2: 0.0
+Camera.width: 752
+Camera.height: 480
+Camera.fps: 20.0
+Camera.bf: 47.90639384423901
+Camera.RGB: 1
+ThDepth: 35
+LEFT.height: 480
+LEFT.width: 752
+LEFT.D: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data:[-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0.0]
+LEFT.K: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [458.654, 0.0, 367.215, 0.0, 457.296, 248.375, 0.0, 0.0, 1.0]
+LEFT.R:  !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [0.999966347530033, -0.001422739138722922, 0.008079580483432283, 0.001365741834644127, 0.9999741760894847, 0.007055629199258132, -0.008089410156878961, -0.007044357138835809, 0.9999424675829176]
+LEFT.P:  !!opencv-matrix
+   rows: 3
+   cols: 4
+   dt: d
+   data: [435.2046959714599, 0, 367.4517211914062, 0,  0, 435.2046959714599, 252.2008514404297, 0,  0, 0, 1, 0]
+RIGHT.height: 480
+RIGHT.width: 752
+RIGHT.D: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data:[-0.28368365, 0.07451284, -0.00010473, -3.555907e-05, 0.0]
+RIGHT.K: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [457.587, 0.0, 379.999, 0.0, 456.134, 255.238, 0.0, 0.0, 1]
+RIGHT.R:  !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [0.9999633526194376, -0.003625811871560086, 0.007755443660172947, 0.003680398547259526, 0.9999684752771629, -0.007035845251224894, -0.007729688520722713, 0.007064130529506649, 0.999945173484644]
+RIGHT.P:  !!opencv-matrix
+   rows: 3
+   cols: 4
+   dt: d
+   data: [435.2046959714599, 0, 367.4517211914062, -47.90639384423901, 0, 435.2046959714599, 252.2008514404297, 0, 0, 0, 1, 0]
+)";
 
-TEST(ReadEurocSensor, ReadsTheRealCamera) {
-  const auto folder = FindData("euroc/MH_01_easy_first250/mav0");
-  if (!folder) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+TEST(ParseCamera, TheSameRigInEveryFormatIsTheSameCalibration) {
   const Calibration expected = EurocCalibration();
-  const EurocSensor left = ReadEurocSensor(*folder / "cam0" / "sensor.yaml");
-  const EurocSensor right = ReadEurocSensor(*folder / "cam1" / "sensor.yaml");
-  EXPECT_EQ(left.camera, expected.left);
-  EXPECT_EQ(right.camera, *expected.right);
-  EXPECT_EQ(left.rate_hz, 20);
-  EXPECT_LT(LogSe3(Inverse(right.body_from_camera) * left.body_from_camera *
-                   Inverse(expected.right_from_left))
-                .norm(),
-            1e-14);
+  for (const std::string& text : {FormatCamera(expected),
+                                  std::string(kKalibr),
+                                  std::string(kOrbSlam3),
+                                  std::string(kOrbSlam2)}) {
+    const Calibration c = ParseCamera(text, "rig.yaml");
+    EXPECT_EQ(c.left, expected.left) << text;
+    EXPECT_EQ(c.right, expected.right) << text;
+    EXPECT_LT(LogSe3(c.right_from_left * Inverse(expected.right_from_left)).norm(), 1e-6) << text;
+    EXPECT_FALSE(c.rectified);
+    EXPECT_FALSE(c.depth_factor);
+  }
 }
 
-TEST(ReadEurocSensor, BadFilesAreNamed) {
-  const ScratchFolder folder;
-  const std::string good =
-      "T_BS:\n  cols: 4\n  rows: 4\n  data: [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n"
-      "rate_hz: 20\nresolution: [752, 480]\ncamera_model: pinhole\nintrinsics: [1, 1, 1, 1]\n"
-      "distortion_model: equidistant\ndistortion_coefficients: [0, 0, 0, 0]\n";
-  const auto message = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
-    if (!from.empty()) text.replace(text.find(from), from.size(), to);
-    return MessageOf([&] { ReadEurocSensor(folder.Write("sensor.yaml", text)); });
+TEST(ParseCamera, ASensorOfEurocIsOneCamera) {
+  const Calibration c = ParseCamera(
+      "T_BS: {rows: 4, cols: 4, data: [1,0,0,2, 0,1,0,0, 0,0,1,0, 0,0,0,1]}\n"
+      "camera_model: pinhole\nrate_hz: 20\nresolution: [752, 480]\nintrinsics: [5, 6, 7, 8]\n"
+      "distortion_model: radial-tangential\ndistortion_coefficients: [1, 2, 3, 4]\n",
+      "sensor.yaml");
+  EXPECT_EQ(c.left.intrinsics().fy, 6);
+  EXPECT_EQ(c.body_from_left->translation.x(), 2);
+  EXPECT_EQ(c.rate_hz, 20);
+  EXPECT_FALSE(c.right);
+}
+
+TEST(ParseCamera, AKittiCalibrationIsNamedAsOne) {
+  EXPECT_EQ(MessageOf([] { ParseCamera("P0: 1 0 0\nP1: 1 0 0\n", "calib.txt"); }),
+            "calib.txt:1: P0: expected a camera file, found a KITTI calib.txt; it is read with the "
+            "images of its folder, as it has no image size");
+}
+
+TEST(FindCamera, KnowsTheBuiltInCameras) {
+  EXPECT_THAT(BuiltInCameras(),
+              ElementsAre("euroc",
+                          "icl_nuim",
+                          "kitti_00",
+                          "kitti_03",
+                          "kitti_04",
+                          "tum_fr1",
+                          "tum_fr2",
+                          "tum_fr3",
+                          "tum_vi_512"));
+  for (const std::string& name : BuiltInCameras()) {
+    const auto [c, source] = FindCamera(name);
+    const bool rgbd = name.starts_with("tum_fr") || name == "icl_nuim";
+    EXPECT_TRUE(c.rate_hz) << name;
+    EXPECT_EQ(c.depth_factor, rgbd ? std::optional(5000.0) : std::nullopt) << name;
+    EXPECT_EQ(c.right.has_value(), !rgbd) << name;
+    EXPECT_EQ(c.rectified, name.starts_with("kitti")) << name;
+    EXPECT_EQ(source, name + " (built-in camera)");
+  }
+  EXPECT_EQ(FindCamera("tum_fr1").calibration.left.intrinsics().fx, 517.306408);
+  EXPECT_EQ(FindCamera("icl_nuim").calibration.left.intrinsics().fy, 480);
+  EXPECT_THAT(
+      MessageOf([] { FindCamera("tum_fr4"); }),
+      HasSubstr("tum_fr4: no such camera file; built-in cameras: euroc, icl_nuim, kitti_00"));
+}
+
+// The right camera lies within a few degrees and millimetres of the left camera's x axis.
+TEST(FindCamera, BuiltInPairsStandSideBySide) {
+  for (const char* name : {"euroc", "kitti_00", "kitti_03", "kitti_04", "tum_vi_512"}) {
+    const Rigid3 motion = FindCamera(name).calibration.right_from_left;
+    const double baseline = motion.translation.norm();
+    EXPECT_GT(-motion.translation.x() / baseline, 0.999) << name;
+    EXPECT_NEAR(baseline, std::string_view(name).starts_with("kitti") ? 0.5372 : 0.105, 0.006);
+    EXPECT_LT(AngularDistance(motion.rotation, Eigen::Quaterniond::Identity()), 0.05) << name;
+  }
+}
+
+TEST(FindCamera, BuiltInNumbersAreThoseOfTheData) {
+  struct Case {
+    const char* name;
+    const char* data;
   };
-  EXPECT_EQ(message("", ""), "no error");
-  EXPECT_THAT(message("pinhole", "omni"),
-              HasSubstr("sensor.yaml:7: camera_model: expected pinhole"));
-  EXPECT_THAT(message("equidistant", "fov"),
-              HasSubstr("sensor.yaml:9: distortion_model: expected"));
-  EXPECT_THAT(message("T_BS", "T_SB"), HasSubstr("T_BS: expected a group of keys"));
-  EXPECT_THAT(message("0,0,0,1]", "0,0,0]"), HasSubstr("T_BS.data: expected 16 numbers, found 15"));
-  EXPECT_THAT(message("rate_hz: 20\n", ""), HasSubstr("rate_hz: expected a value, found none"));
+  for (const Case& c :
+       {Case{"euroc", "euroc/MH_01_easy_first250"}, {"kitti_04", "kitti/06_first51"}}) {
+    const auto folder = FindData(c.data);
+    if (!folder) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+    const Calibration expected = OpenDataset(*folder)->calibration();
+    const Calibration found = FindCamera(c.name).calibration;
+    EXPECT_EQ(found.left, expected.left) << c.name;
+    EXPECT_EQ(found.right, expected.right) << c.name;
+    EXPECT_EQ(found.rectified, expected.rectified) << c.name;
+    EXPECT_LT(LogSe3(found.right_from_left * Inverse(expected.right_from_left)).norm(), 1e-12);
+    EXPECT_EQ(found.body_from_left.has_value(), expected.body_from_left.has_value());
+    if (!found.body_from_left) continue;
+    EXPECT_EQ(found.rate_hz, expected.rate_hz) << c.name;
+    EXPECT_LT(LogSe3(*found.body_from_left * Inverse(*expected.body_from_left)).norm(), 1e-12);
+  }
+}
+
+TEST(FindCamera, ReadsAFileAndTellsItsFormat) {
+  const ScratchFolder folder;
+  const std::string ours = folder.Write("my.yaml", kMono).string();
+  const std::string kalibr = folder.Write("camchain.yaml", kKalibr).string();
+  EXPECT_EQ(FindCamera(ours).calibration.left.intrinsics().fx, 500);
+  EXPECT_EQ(FindCamera(ours).source, ours + " (Plumbline camera file)");
+  EXPECT_EQ(FindCamera(kalibr).source, kalibr + " (Kalibr camchain)");
+}
+
+TEST(CameraFileIn, PrefersOurName) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(CameraFileIn(folder.path()));
+  folder.Write("camchain.yaml", kKalibr);
+  EXPECT_EQ(CameraFileIn(folder.path()), folder / "camchain.yaml");
+  folder.Write("camera.yaml", kMono);
+  EXPECT_EQ(CameraFileIn(folder.path()), folder / "camera.yaml");
 }
 
 }  // namespace

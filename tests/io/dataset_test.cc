@@ -81,6 +81,28 @@ TEST(OpenDataset, MissingImageFilesFailFrameByFrame) {
   EXPECT_TRUE(OpenDataset(folder.path(), {.sensor = SensorKind::kMono})->Read(2));
 }
 
+TEST(OpenDataset, ACameraFileInTheFolderGoesFirst) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  EXPECT_THAT(OpenDataset(folder.path())->info().calibration_source,
+              HasSubstr("cam0/sensor.yaml and that of cam1 (EuRoC sensor.yaml)"));
+  const std::string camera =
+      "  camera_model: pinhole\n  intrinsics: [7, 7, 4, 3]\n  resolution: [8, 6]\n"
+      "  distortion_model: none\n";
+  const auto file = folder.Write("camchain.yaml", "cam0:\n" + camera);
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
+              HasSubstr("camchain.yaml: expected a stereo camera, found one camera"));
+  folder.Write("camchain.yaml",
+               "cam0:\n" + camera + "cam1:\n" + camera +
+                   "  T_cn_cnm1: [[1, 0, 0, -0.3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_EQ(dataset->info().calibration_source, file.string() + " (Kalibr camchain)");
+  EXPECT_EQ(dataset->calibration().left.intrinsics().fx, 7);
+  EXPECT_EQ(dataset->calibration().right_from_left.translation.x(), -0.3);
+  // The body of the ground truth is that of the data.
+  EXPECT_EQ(dataset->calibration().body_from_left->translation.x(), 0.5);
+}
+
 TEST(OpenDataset, RefusesImagesOfAnotherSize) {
   const ScratchFolder folder;
   WriteEuroc(folder);

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/io/yaml_section.h"
+
+namespace plumbline {
+
+// Reads a camchain.yaml as the calibration tool Kalibr writes it: cam0 becomes the left camera,
+// cam1, where there is one, the right camera with right_from_left = T_cn_cnm1. Further cameras, the
+// place of an inertial sensor (T_cam_imu), time shifts and topics do not matter here. Models:
+// pinhole with radtan, equidistant or no distortion. Throws InputError naming the key for others.
+Calibration ReadKalibr(const YamlSection& root);
+
+}  // namespace plumbline

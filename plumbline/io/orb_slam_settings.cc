@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/orb_slam_settings.h"
+
+#include "plumbline/io/camera_section.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+enum class Projection { kPinhole, kFisheye, kRectified };
+
+Projection ReadProjection(const YamlSection& root) {
+  if (!root.Has("Camera.type")) return Projection::kPinhole;
+  const std::string name = root.Text("Camera.type");
+  if (name == "PinHole" || name == "Pinhole") return Projection::kPinhole;
+  if (name == "KannalaBrandt8") return Projection::kFisheye;
+  if (name == "Rectified") return Projection::kRectified;
+  root.Fail("Camera.type", "expected PinHole, KannalaBrandt8 or Rectified, found '" + name + "'");
+}
+
+// One of two keys of a size: the first that is there.
+int ReadLength(const YamlSection& root, const std::string& key, const std::string& other) {
+  const std::string& found = root.Has(key) ? key : other;
+  if (!root.Has(found)) {
+    root.Fail(found, "expected the size of the images in pixels, found none; add the row");
+  }
+  return CheckedLength(root, found, root.Number(found));
+}
+
+// Coefficients prefix + "k1", ...; all zero is no distortion.
+void ReadDistortion(const YamlSection& root,
+                    const std::string& prefix,
+                    Projection projection,
+                    CameraIntrinsics& intrinsics) {
+  if (projection == Projection::kRectified) return;
+  const bool fisheye = projection == Projection::kFisheye;
+  const std::array<const char*, 5> names =
+      fisheye ? std::array{"k1", "k2", "k3", "k4", ""} : std::array{"k1", "k2", "p1", "p2", "k3"};
+  const std::size_t needed = 4;
+  const auto given = [&](const char* name) { return root.Has(prefix + name); };
+  if (!fisheye && std::none_of(names.begin(), names.end(), given)) return;
+  for (std::size_t i = 0; i < needed; ++i) {
+    intrinsics.distortion[i] = root.Number(prefix + names[i]);
+  }
+  if (!fisheye && given(names[4])) intrinsics.distortion[4] = root.Number(prefix + names[4]);
+  intrinsics.model = fisheye ? DistortionModel::kEquidistant : DistortionModel::kRadTan;
+  const bool ideal = std::all_of(
+      intrinsics.distortion.begin(), intrinsics.distortion.end(), [](double k) { return k == 0; });
+  if (ideal && !fisheye) intrinsics.model = DistortionModel::kNone;
+}
+
+Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection projection) {
+  CameraIntrinsics intrinsics;
+  intrinsics.width = ReadLength(root, "Camera.width", "LEFT.width");
+  intrinsics.height = ReadLength(root, "Camera.height", "LEFT.height");
+  intrinsics.fx = root.Number(prefix + "fx");
+  intrinsics.fy = root.Number(prefix + "fy");
+  intrinsics.cx = root.Number(prefix + "cx");
+  intrinsics.cy = root.Number(prefix + "cy");
+  ReadDistortion(root, prefix, projection, intrinsics);
+  return CheckedCamera(root, prefix + "fx", intrinsics);
+}
+
+// A camera of the old stereo form, and how it is turned and shifted into the rectified pair.
+struct RectifiedBy {
+  Camera camera;
+  Eigen::Quaterniond rotation;  // rectified from raw
+  double shift = 0;             // of the rectified camera, metres along x
+};
+
+RectifiedBy ReadRectification(const YamlSection& root, const std::string& side) {
+  const Eigen::MatrixXd K = root.Matrix(side + "K", 3, 3);
+  const bool pinhole = K(0, 1) == 0 && K(1, 0) == 0 && K.row(2) == Eigen::RowVector3d(0, 0, 1);
+  if (!pinhole) root.Fail(side + "K", "expected fx 0 cx, 0 fy cy, 0 0 1");
+  CameraIntrinsics intrinsics;
+  intrinsics.fx = K(0, 0);
+  intrinsics.fy = K(1, 1);
+  intrinsics.cx = K(0, 2);
+  intrinsics.cy = K(1, 2);
+  intrinsics.width = ReadLength(root, side + "width", "Camera.width");
+  intrinsics.height = ReadLength(root, side + "height", "Camera.height");
+  const std::vector<double> d = root.Child(side + "D").Numbers("data", {4, 5});
+  std::copy(d.begin(), d.end(), intrinsics.distortion.begin());
+  if (std::any_of(d.begin(), d.end(), [](double k) { return k != 0; })) {
+    intrinsics.model = DistortionModel::kRadTan;
+  }
+  const Eigen::MatrixXd P = root.Matrix(side + "P", 3, 4);
+  if (!(P(0, 0) > 0) || P(1, 3) != 0 || P(2, 3) != 0) {
+    root.Fail(side + "P", "expected the projection of a camera shifted along x");
+  }
+  return {
+      CheckedCamera(root, side + "K", intrinsics), root.Rotation(side + "R"), P(0, 3) / P(0, 0)};
+}
+
+void ReadRectifiedPair(const YamlSection& root, Calibration& calibration) {
+  const RectifiedBy left = ReadRectification(root, "LEFT.");
+  const RectifiedBy right = ReadRectification(root, "RIGHT.");
+  const double along_x = right.shift - left.shift;
+  if (!(along_x < 0)) root.Fail("RIGHT.P", "expected a right camera, found one left of LEFT.P");
+  const Eigen::Quaterniond raw_right_from_rectified = right.rotation.conjugate();
+  calibration.left = left.camera;
+  calibration.right = right.camera;
+  calibration.right_from_left = {(raw_right_from_rectified * left.rotation).normalized(),
+                                 raw_right_from_rectified * Eigen::Vector3d(along_x, 0, 0)};
+}
+
+// The pair of one camera and a baseline.
+void MakeRectifiedPair(const YamlSection& root, const std::string& key, Calibration& calibration) {
+  if (!calibration.left.IsIdeal()) {
+    root.Fail(key, "expected a rectified camera with it (no distortion), or a second camera");
+  }
+  const double value = root.Positive(key);
+  const double baseline = key == "Camera.bf" ? value / calibration.left.intrinsics().fx : value;
+  calibration.rectified = true;
+  calibration.right = calibration.left;
+  calibration.right_from_left.translation.x() = -baseline;
+}
+
+// The first of `keys` that the file has.
+std::optional<std::string> FirstOf(const YamlSection& root, const std::vector<std::string>& keys) {
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return root.Has(key); });
+  return found == keys.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+Calibration ReadOrbSlamSettings(const YamlSection& root) {
+  Calibration calibration;
+  if (root.Has("Camera.fps")) calibration.rate_hz = root.Positive("Camera.fps");
+  if (root.Has("LEFT.K")) {
+    ReadRectifiedPair(root, calibration);
+    return calibration;
+  }
+  const Projection projection = ReadProjection(root);
+  const std::string first = root.Has("Camera1.fx") ? "Camera1." : "Camera.";
+  calibration.left = ReadCamera(root, first, projection);
+  if (root.Has("Camera2.fx")) {
+    calibration.right = ReadCamera(root, "Camera2.", projection);
+    const bool old = root.Has("Tlr") && !root.Has("Stereo.T_c1_c2");
+    calibration.right_from_left =
+        Inverse(old ? root.Motion("Tlr", 3) : root.Motion("Stereo.T_c1_c2"));
+    return calibration;
+  }
+  calibration.rectified = projection == Projection::kRectified;
+  if (const auto factor = FirstOf(root, {"RGBD.DepthMapFactor", "DepthMapFactor"})) {
+    calibration.depth_factor = root.Positive(*factor);
+  } else if (const auto baseline = FirstOf(root, {"Stereo.b", "Camera.bf"})) {
+    MakeRectifiedPair(root, *baseline, calibration);
+  }
+  return calibration;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/kalibr.h"
+
+#include "plumbline/io/camera_file.h"
+
+#include "tests/io/scratch_folder.h"
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+// One camera; `name` stands for the indent of its keys.
+std::string CameraText(const std::string& name, const std::string& more) {
+  return name + ":\n  camera_model: pinhole\n  intrinsics: [190, 191, 254, 256]\n" +
+         "  distortion_model: equidistant\n  distortion_coeffs: [0.1, 0.2, 0.3, 0.4]\n" +
+         "  resolution: [512, 500]\n  timeshift_cam_imu: 0.001\n" + more;
+}
+
+const std::string kPair =
+    CameraText("cam0", "") +
+    CameraText("cam1",
+               "  T_cn_cnm1:\n  - [1, 0, 0, -0.1]\n  - [0, 0, -1, 0.02]\n  - [0, 1, 0, 0.03]\n"
+               "  - [0, 0, 0, 1]\n");
+
+TEST(ReadKalibr, OneCameraIsMonocular) {
+  const Calibration c = ParseCamera(CameraText("cam0", ""), "camchain.yaml");
+  EXPECT_EQ(c.left,
+            Camera({.fx = 190,
+                    .fy = 191,
+                    .cx = 254,
+                    .cy = 256,
+                    .width = 512,
+                    .height = 500,
+                    .model = DistortionModel::kEquidistant,
+                    .distortion = {0.1, 0.2, 0.3, 0.4}}));
+  EXPECT_FALSE(c.right);
+  EXPECT_FALSE(c.rectified);
+  EXPECT_FALSE(c.body_from_left);
+}
+
+TEST(ReadKalibr, TheSecondCameraStandsWhereItsMotionSays) {
+  const Calibration c = ParseCamera(kPair, "camchain.yaml");
+  ASSERT_TRUE(c.right);
+  // T_cn_cnm1 takes points of cam0 to cam1.
+  const Eigen::Vector3d in_right = c.right_from_left * Eigen::Vector3d(1, 2, 3);
+  EXPECT_LT((in_right - Eigen::Vector3d(0.9, -2.98, 2.03)).norm(), 1e-12);
+}
+
+TEST(ReadKalibr, BadFilesAreNamedByLineAndKey) {
+  const auto message = [](const std::string& from, const std::string& to) {
+    std::string text = kPair;
+    text.replace(text.find(from), from.size(), to);
+    return MessageOf([&] { ParseCamera(text, "camchain.yaml"); });
+  };
+  EXPECT_EQ(message("cam0", "cam0"), "no error");
+  for (const char* model : {"omni", "ds", "eucm"}) {
+    EXPECT_EQ(
+        message("pinhole", model),
+        std::string("camchain.yaml:2: cam0.camera_model: expected pinhole, found '") + model + "'");
+  }
+  EXPECT_EQ(message("equidistant", "fov"),
+            "camchain.yaml:4: cam0.distortion_model: expected radtan, equidistant or none, found "
+            "'fov'");
+  EXPECT_THAT(message("0.3, 0.4]", "0.3]"),
+              HasSubstr("camchain.yaml:5: cam0.distortion_coeffs: expected 4 numbers, found 3"));
+  EXPECT_THAT(message("[512, 500]", "[512]"), HasSubstr("cam0.resolution: expected 2 numbers"));
+  EXPECT_THAT(message("T_cn_cnm1", "T_cam_imu"),
+              HasSubstr("camchain.yaml:9: cam1.T_cn_cnm1: expected 16 numbers, found no list"));
+  EXPECT_THAT(message("[0, 0, 0, 1]", "[0, 0, 0]"),
+              HasSubstr("cam1.T_cn_cnm1: expected 4 rows of 4 numbers, found a row of 3"));
+  EXPECT_THAT(message("[0, 1, 0, 0.03]", "[0, 2, 0, 0.03]"),
+              HasSubstr("cam1.T_cn_cnm1: expected a rigid motion"));
+  EXPECT_THAT(message("cam0:", "cam2:"), HasSubstr("cam0: expected a group of keys, found none"));
+}
+
+}  // namespace
+}  // namespace plumbline
