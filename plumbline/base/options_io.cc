@@ -149,21 +149,41 @@ struct Setting {
   int line;
 };
 
-// The leaves of a YAML map, depth first in the order of the file, with dotted keys.
-void Flatten(const YAML::Node& map, const std::string& prefix, std::vector<Setting>& settings) {
-  for (const auto& entry : map) {
-    const YAML::Node& value = entry.second;
-    const int line = entry.first.Mark().line + 1;
-    const std::string key = prefix + (entry.first.IsScalar() ? entry.first.Scalar() : "[...]");
-    if (value.IsMap()) {
-      Flatten(value, key + ".", settings);
-    } else if (value.IsNull()) {
-      settings.push_back({key, std::nullopt, line});
-    } else {
-      settings.push_back({key, value.IsScalar() ? value.Scalar() : "[...]", line});
+// Collects the leaves of a YAML map, depth first in the order of the file, with dotted keys. Groups
+// may repeat others by YAML's aliases, even themselves: a limit keeps that from growing without
+// end.
+class Flattener {
+ public:
+  explicit Flattener(std::string source) : source_(std::move(source)) {}
+
+  void Add(const YAML::Node& map, const std::string& prefix) {
+    constexpr int kMaxEntries = 10000;
+    constexpr std::size_t kMaxPrefix = 1000;
+    for (const auto& entry : map) {
+      const YAML::Node& value = entry.second;
+      const int line = entry.first.Mark().line + 1;
+      if (++entries_ > kMaxEntries || prefix.size() > kMaxPrefix) {
+        throw InputError(source_ + ":" + std::to_string(line) +
+                         ": expected options, found groups without end");
+      }
+      const std::string key = prefix + (entry.first.IsScalar() ? entry.first.Scalar() : "[...]");
+      if (value.IsMap()) {
+        Add(value, key + ".");
+      } else if (value.IsNull()) {
+        settings_.push_back({key, std::nullopt, line});
+      } else {
+        settings_.push_back({key, value.IsScalar() ? value.Scalar() : "[...]", line});
+      }
     }
   }
-}
+
+  const std::vector<Setting>& settings() const { return settings_; }
+
+ private:
+  std::string source_;
+  std::vector<Setting> settings_;
+  int entries_ = 0;
+};
 
 }  // namespace
 
@@ -210,9 +230,9 @@ void OptionTable::LoadText(const std::string& text, const std::string& source) {
   if (!root.IsMap() && !root.IsNull()) {
     throw InputError(source + ":1: expected options as 'key: value', found other YAML");
   }
-  std::vector<Setting> settings;
-  Flatten(root, "", settings);
-  for (const Setting& setting : settings) {
+  Flattener flattener(source);
+  flattener.Add(root, "");
+  for (const Setting& setting : flattener.settings()) {
     const std::string where = source + ":" + std::to_string(setting.line);
     // A group without options, e.g. all of them commented out, is allowed.
     if (setting.text || !IsGroup(setting.key)) {

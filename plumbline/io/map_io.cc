@@ -79,8 +79,8 @@ struct Format {
     for (T& item : items) Transfer(archive, item);
   }
 
-  // Every item takes a byte or more: a damaged count cannot ask for more memory than the file is
-  // long.
+  // Every item takes a byte or more. Items are made one by one as they are read: a damaged count
+  // cannot ask for more memory than what the file holds.
   template <class Archive>
   static std::size_t TransferCount(Archive& archive, std::size_t count) {
     auto stored = static_cast<std::uint32_t>(count);
@@ -94,8 +94,10 @@ struct Format {
   template <class Archive, class T>
   static void Transfer(Archive& archive, std::vector<T>& items) {
     const std::size_t count = TransferCount(archive, items.size());
-    if constexpr (Archive::kReading) items.resize(count);
-    for (T& item : items) Transfer(archive, item);
+    for (std::size_t i = 0; i < count; ++i) {
+      if constexpr (Archive::kReading) items.emplace_back();
+      Transfer(archive, items[i]);
+    }
   }
 
   template <class Archive, class T>
@@ -110,12 +112,16 @@ struct Format {
 
   template <class Archive>
   static void Transfer(Archive& archive, Observations& observations) {
-    std::vector<std::pair<std::int64_t, std::int32_t>> items;
-    for (const auto& [keyframe, feature] : observations)
-      items.emplace_back(keyframe.value, feature);
-    const std::size_t count = TransferCount(archive, items.size());
-    if constexpr (Archive::kReading) items.resize(count);
-    for (auto& [keyframe, feature] : items) {
+    const std::size_t count = TransferCount(archive, observations.size());
+    auto next = observations.begin();
+    for (std::size_t i = 0; i < count; ++i) {
+      std::int64_t keyframe = 0;
+      std::int32_t feature = 0;
+      if constexpr (!Archive::kReading) {
+        keyframe = next->first.value;
+        feature = next->second;
+        ++next;
+      }
       archive(keyframe);
       archive(feature);
       if constexpr (Archive::kReading) observations.emplace(KeyFrameId{keyframe}, feature);
@@ -246,9 +252,9 @@ void CheckLandmarks(const std::vector<Landmark>& landmarks,
 
 void Check(const StoredMap& stored, const std::string& source) {
   const RectifiedCamera& c = stored.camera;
-  constexpr int kMaxSize = 100000;
-  if (!(c.fx > 0) || !(c.fy > 0) || c.width <= 0 || c.height <= 0 || c.width > kMaxSize ||
-      c.height > kMaxSize) {
+  constexpr std::int64_t kMaxPixels = 100'000'000;  // the grid of each keyframe takes 1 MB then
+  if (!(c.fx > 0) || !(c.fy > 0) || c.width <= 0 || c.height <= 0 ||
+      std::int64_t{c.width} * c.height > kMaxPixels) {
     FailMap(source, "no valid camera");
   }
   CheckKeyFrames(stored, source);

@@ -187,6 +187,21 @@ TEST(OptionTable, BadYamlIsNamedByFileLineKeyAndWhatIsAllowed) {
   for (const Case& c : cases) EXPECT_THAT(ErrorOfYaml(c.yaml), HasSubstr(c.message)) << c.yaml;
 }
 
+TEST(OptionTable, GroupsThatRepeatWithoutEndAreRefused) {
+  EXPECT_EQ(ErrorOfYaml("ba: &a\n  ba: *a\n"),
+            "my.yaml:2: expected options, found groups without end");
+  // Ten times ten times ten ... groups.
+  std::string yaml = "a0: &a0 {}\n";
+  for (int level = 1; level < 12; ++level) {
+    yaml += "a" + std::to_string(level) + ": &a" + std::to_string(level) + " {";
+    for (int i = 0; i < 10; ++i) {
+      yaml += "b" + std::to_string(i) + ": *a" + std::to_string(level - 1) + ", ";
+    }
+    yaml += "}\n";
+  }
+  EXPECT_THAT(ErrorOfYaml(yaml), HasSubstr("expected options, found groups without end"));
+}
+
 TEST(OptionTable, BadSettingsOfTheCommandLineAreNamed) {
   EXPECT_EQ(ErrorOfSet("seed"), "--set: expected KEY=VALUE, found 'seed'");
   EXPECT_EQ(ErrorOfSet("=1"), "--set: expected KEY=VALUE, found '=1'");

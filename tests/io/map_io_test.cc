@@ -14,6 +14,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace plumbline {
 namespace {
@@ -175,6 +176,36 @@ TEST(LoadMap, TellsWhatIsWrong) {
   EXPECT_THAT(MessageOf([&] { LoadMap(folder / "none.plb"); }), HasSubstr("no such file"));
 }
 
+// The header that makes `body` a map file.
+std::string WithHeader(const std::string& body) {
+  const auto* data = reinterpret_cast<const std::uint8_t*>(body.data());
+  ByteWriter header;
+  for (const char c : std::string("PLBMAP\r\n")) header(static_cast<std::uint8_t>(c));
+  header(std::uint32_t{1});
+  header(Crc32({data, body.size()}));
+  header(static_cast<std::uint64_t>(body.size()));
+  return header.bytes() + body;
+}
+
+// A count within the size of the file, of items that would take a hundred times as much memory.
+TEST(LoadMap, CountsDoNotAllocateWhatTheFileDoesNotHold) {
+  const ScratchFolder folder;
+  SaveMap(folder / "m.plb", kCamera, kRotation, Map(MapId{0}));
+  std::string body = Contents(folder / "m.plb").substr(24);
+  const std::size_t counts = body.size() - 12;  // of keyframes, points and lines
+  body.resize(4'000'000, '\0');
+  body.replace(counts, 4, std::string("\0\0\x38\0", 4));  // 3'670'016 keyframes
+  const auto file = folder.Write("forged.plb", WithHeader(body));
+  const auto peak_mb = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+  };
+  const auto before = peak_mb();
+  EXPECT_THAT(MessageOf([&] { LoadMap(file); }), HasSubstr("forged.plb: ends early"));
+  EXPECT_LT(peak_mb() - before, 200);
+}
+
 // Any body with a right checksum: an error or a map that agrees with itself, never a crash.
 TEST(LoadMap, SurvivesForgedContents) {
   const ScratchFolder folder;
@@ -184,13 +215,7 @@ TEST(LoadMap, SurvivesForgedContents) {
   for (std::size_t at = 0; at < body.size(); at += 7) {
     std::string forged = body;
     forged[at] = static_cast<char>(forged[at] ^ 0x41);
-    const auto* data = reinterpret_cast<const std::uint8_t*>(forged.data());
-    ByteWriter header;
-    for (const char c : std::string("PLBMAP\r\n")) header(static_cast<std::uint8_t>(c));
-    header(std::uint32_t{1});
-    header(Crc32({data, forged.size()}));
-    header(static_cast<std::uint64_t>(forged.size()));
-    const auto file = folder.Write("forged.plb", header.bytes() + forged);
+    const auto file = folder.Write("forged.plb", WithHeader(forged));
     refused += MessageOf([&] { LoadMap(file).map.CheckInvariants(); }) == "no error" ? 0 : 1;
   }
   EXPECT_GT(refused, 10);
