@@ -90,7 +90,7 @@ struct DatasetOptions {
   std::optional<SensorKind> sensor = std::nullopt;     // nullopt: the richest the data offers
   std::optional<DatasetFormat> format = std::nullopt;  // nullopt: found out from the folder
   // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1"; takes the
-  // place of the calibration found with the data.
+  // place of a camera file in the folder (CameraFileIn) and of the calibration of the data.
   std::optional<std::string> camera = std::nullopt;
   // Open the data even where there is no calibration, to look at it. `calibration` is a placeholder
   // then. Off: InputError.
