@@ -101,10 +101,10 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   evaluation.frames_delivered = FramesOfRun(line.Positional(1));
   if (!evaluation.frames_delivered) evaluation.frames_delivered = evaluation.reference.frames;
 
-  std::cout << EvaluationTable(evaluation);
   if (const auto path = line.Value("--json"))
     WriteFileAtomically(*path, EvaluationJson(evaluation));
   if (const auto path = line.Value("--plot")) WriteFigure(*path, TrajectoryFigure(*error));
+  std::cout << EvaluationTable(evaluation);
   return 0;
 }
 

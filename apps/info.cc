@@ -20,14 +20,13 @@ namespace plumbline {
 namespace {
 
 CommandSyntax Syntax() {
-  return {
-      "info",
-      "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
-      {"PATH"},
-      {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
-       {"--format", "auto|euroc|tum|kitti|images", "how the data is stored (auto)"},
-       {"--camera", "FILE", "camera file (ours, Kalibr's, ORB-SLAM's, EuRoC's) or built-in name"},
-       {"--check", "", "decode every image and name those that cannot be used"}}};
+  return {"info",
+          "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
+          {"PATH"},
+          {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
+           {"--format", "auto|euroc|tum|kitti|images", "how the data is stored (auto)"},
+           {"--camera", "FILE", "camera file or name of a built-in camera"},
+           {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
 template <class Enum>

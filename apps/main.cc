@@ -97,7 +97,9 @@ int main(int argc, char** argv) {
   plumbline::SetUpProcess();
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-    return plumbline::Dispatch(arguments);
+    const int code = plumbline::Dispatch(arguments);
+    if (!std::cout.flush()) throw plumbline::InputError("cannot write to standard output");
+    return code;
   } catch (const plumbline::InputError& error) {
     std::cerr << "plumbline: " << error.what() << "\n";
     return 2;

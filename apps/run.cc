@@ -237,6 +237,9 @@ void PrintResult(const System& system, const Dataset& dataset, const RunSetup& s
                              error->ate.rmse,
                              error->poses.size(),
                              100.0 * counts.tracked / std::max(counts.frames, 1));
+  } else if (counts.tracked > 0) {
+    std::cout << (dataset.info().ground_truth ? "no errors: the ground truth covers no pose\n"
+                                              : "no errors: no ground truth with the data\n");
   }
   std::cout << "results in " << setup.folder.string() << '\n';
 }
@@ -258,6 +261,7 @@ int RunCommand(std::span<const std::string> arguments) {
   }
   const std::vector<std::size_t> frames = ChooseFrames(line, *dataset);
   MakeFolder(setup.folder);
+  RemoveEarlierRun(setup.folder);
   WriteFileAtomically(setup.folder / "options.yaml", setup.options_yaml);
   if (!setup.quiet) {
     for (const std::string& note : dataset->info().notes)

@@ -125,7 +125,10 @@ std::unique_ptr<Dataset> OpenEuroc(const fs::path& path, const DatasetOptions& o
   if (Exists(truth)) {
     info.ground_truth = GroundTruth{ReadTrajectory(truth).poses, GroundTruth::Frame::kBody, truth};
     if (!info.calibration.body_from_left) {
-      throw InputError(truth.string() + ": expected body_from_left in the camera file, found none");
+      info.ground_truth.reset();
+      info.notes.emplace_back(
+          "the ground truth is not used: it is of a body, and the camera file has no "
+          "body_from_left");
     }
   }
   return MakeImageDataset(std::move(info), std::move(files));

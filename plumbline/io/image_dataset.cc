@@ -63,6 +63,13 @@ class ImageDataset : public Dataset {
     return frame;
   }
 
+  // Reads the first frame that can be read: a calibration of another size shows before the run.
+  void CheckFirstFrame() const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (Read(i)) return;
+    }
+  }
+
  private:
   std::vector<FrameFiles> files_;
 };
@@ -124,6 +131,13 @@ std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFil
                     files.size(),
                     files.front().left.string()));
   }
+  const char* other = info.sensor == SensorKind::kStereo ? "right" : "depth";
+  if (missing_other == files.size()) {
+    throw InputError(fmt::format("{}: expected {} images, found none of the {} listed",
+                                 info.path.string(),
+                                 other,
+                                 missing_other));
+  }
   if (missing_left > 0) {
     info.notes.push_back(fmt::format("{} of {} {}images do not exist",
                                      missing_left,
@@ -131,12 +145,12 @@ std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFil
                                      info.sensor == SensorKind::kStereo ? "left " : ""));
   }
   if (missing_other > 0) {
-    info.notes.push_back(fmt::format("{} of {} {} images do not exist",
-                                     missing_other,
-                                     files.size(),
-                                     info.sensor == SensorKind::kStereo ? "right" : "depth"));
+    info.notes.push_back(
+        fmt::format("{} of {} {} images do not exist", missing_other, files.size(), other));
   }
-  return std::make_unique<ImageDataset>(std::move(info), std::move(files));
+  auto dataset = std::make_unique<ImageDataset>(std::move(info), std::move(files));
+  dataset->CheckFirstFrame();
+  return dataset;
 }
 
 DatasetInfo DescribeDataset(const fs::path& path,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/run_files.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/map_io.h"
@@ -9,6 +10,8 @@
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/timing.h"
 
+#include <regex>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -44,7 +47,33 @@ void WriteMap(const System& system, const std::filesystem::path& folder) {
   SaveMap(folder / "map.plb", system.camera(), system.rectifier().rectified_left_from_left(), map);
 }
 
+// Whether a run writes a file of this name, or of a temporary name that becomes it.
+bool IsRunFile(const std::string& name) {
+  static const std::regex temporary(R"(\.(.+)\.[0-9]+\.tmp(\.[a-z]+))");
+  static const std::regex written(
+      R"((trajectory|trajectory_causal|keyframes)(_map[0-9]+)?\.txt|overlay_[0-9]+\.png|)"
+      R"(options\.yaml|(frames|timing)\.csv|(timing|summary)\.json|map\.(plb|ply)|lines\.obj|)"
+      R"(report\.html)");
+  std::smatch parts;
+  return std::regex_match(
+      std::regex_match(name, parts, temporary) ? parts.str(1) + parts.str(2) : name, written);
+}
+
 }  // namespace
+
+void RemoveEarlierRun(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (IsRunFile(entry.path().filename().string())) old.push_back(entry.path());
+  }
+  if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
+  for (const std::filesystem::path& path : old) {
+    if (!std::filesystem::remove(path, error) && error) {
+      throw InputError("cannot remove " + path.string() + " of an earlier run: " + error.message());
+    }
+  }
+}
 
 std::string FormatFrames(const std::vector<FrameRecord>& frames) {
   std::string text =

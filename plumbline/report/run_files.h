@@ -13,6 +13,11 @@ namespace plumbline {
 // frames.csv: what came of every input frame.
 std::string FormatFrames(const std::vector<FrameRecord>& frames);
 
+// Removes the files of an earlier run from a folder, and what a killed one left behind under
+// temporary names, so that a run's folder never holds files of two runs. Other files stay. Throws
+// InputError when a file cannot be removed.
+void RemoveEarlierRun(const std::filesystem::path& folder);
+
 // Writes trajectory.txt, trajectory_causal.txt, keyframes.txt (of the map with most frames; others
 // as
 // *_map<k>.txt), frames.csv, timing.csv, timing.json, map.plb, map.ply and lines.obj. Each file is

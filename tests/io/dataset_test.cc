@@ -103,9 +103,28 @@ TEST(OpenDataset, ACameraFileInTheFolderGoesFirst) {
   EXPECT_EQ(dataset->calibration().body_from_left->translation.x(), 0.5);
 }
 
+TEST(OpenDataset, GroundTruthOfABodyNeedsItsPlace) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  for (const char* sensor : {"cam0/sensor.yaml", "cam1/sensor.yaml"}) {
+    std::filesystem::remove(folder / ("mav0/" + std::string(sensor)));
+  }
+  folder.Write("camera.yaml",
+               "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrectified: true\nbaseline: 0.1\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_FALSE(dataset->info().ground_truth);
+  EXPECT_THAT(dataset->info().notes,
+              ElementsAre("the ground truth is not used: it is of a body, and the camera file has "
+                          "no body_from_left"));
+}
+
 TEST(OpenDataset, RefusesImagesOfAnotherSize) {
   const ScratchFolder folder;
   WriteEuroc(folder);
+  folder.Write("mav0/cam1/data/1.png", Png(8, 7, 1));
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
+              HasSubstr("cam1/data/1.png: expected an image of 8x6 pixels as in the calibration"));
+  folder.Write("mav0/cam1/data/1.png", Png(8, 6, 1));
   folder.Write("mav0/cam0/data/2.png", Png(9, 6, 1));
   const auto dataset = OpenDataset(folder.path());
   EXPECT_THAT(MessageOf([&] { (void)dataset->Read(1); }),

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/e2e/poster_sequence.h"
+#include "tests/e2e/program.h"
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+const std::string kLeftList = "sequence/mav0/cam0/data.csv";
+const std::string kLeftImage = "sequence/mav0/cam0/data/0.png";
+const std::string kTruth = "sequence/mav0/state_groundtruth_estimate0/data.csv";
+
+// One line on stderr, nothing on stdout, exit code 2.
+void ExpectRefused(const Outcome& outcome, const std::string& message, const std::string& what) {
+  EXPECT_EQ(outcome.code, 2) << what;
+  EXPECT_EQ(outcome.out, "") << what;
+  EXPECT_THAT(outcome.err, StartsWith("plumbline: ")) << what;
+  EXPECT_THAT(outcome.err, HasSubstr(message)) << what;
+  EXPECT_THAT(outcome.err, EndsWith("\n")) << what;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+// A sequence in which `spoil` breaks something is refused before anything is written.
+struct Fault {
+  std::string what;
+  std::function<void(const ScratchFolder&)> spoil;
+  std::string message;
+  std::string arguments = "";  // FOLDER stands for the test's folder
+};
+
+std::function<void(const ScratchFolder&)> Put(const std::string& file, const std::string& text) {
+  return [=](const ScratchFolder& folder) { folder.Write(file, text); };
+}
+
+std::function<void(const ScratchFolder&)> Remove(const std::string& path) {
+  return [=](const ScratchFolder& folder) { fs::remove_all(folder / path); };
+}
+
+void ExpectRefused(const std::vector<Fault>& faults) {
+  for (const Fault& fault : faults) {
+    const ScratchFolder folder;
+    const fs::path sequence = WritePosterSequence(folder, 12);
+    fault.spoil(folder);
+    const std::string arguments =
+        std::regex_replace(fault.arguments, std::regex("FOLDER"), folder.path().string());
+    const Outcome outcome = RunProgram(
+        folder, "run " + Quoted(sequence) + " --out " + Quoted(folder / "out") + arguments);
+    ExpectRefused(outcome, fault.message, fault.what);
+    EXPECT_FALSE(fs::exists(folder / "out")) << fault.what;
+  }
+}
+
+TEST(BadInput, FilesThatAreMissing) {
+  ExpectRefused(
+      {{"nothing at the path", Remove("sequence"), "sequence: no such file or folder"},
+       {"empty folder",
+        [](const ScratchFolder& folder) {
+          fs::remove_all(folder / "sequence");
+          fs::create_directories(folder / "sequence");
+        },
+        "sequence: expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
+        "sequence (image_0/, calib.txt) or a folder of images, found none of them"},
+       {"no calibration",
+        Remove("sequence/mav0/cam0/sensor.yaml"),
+        "mav0/cam0/sensor.yaml: no such file"},
+       {"no calibration of the right camera",
+        Remove("sequence/mav0/cam1/sensor.yaml"),
+        "mav0/cam1/sensor.yaml: no such file"},
+       {"a calibration of one camera",
+        Put("sequence/camera.yaml", "size: [400, 300]\nintrinsics: [300, 300, 200, 150]\n"),
+        "sequence/camera.yaml: expected a stereo camera, found one camera"},
+       {"no list", Remove(kLeftList), "cam0/data.csv: no such file"},
+       {"no left images",
+        Remove("sequence/mav0/cam0/data"),
+        "sequence: expected images, found none of the 12 listed"},
+       {"no right images",
+        Remove("sequence/mav0/cam1/data"),
+        "sequence: expected right images, found none of the 12 listed"},
+       {"no right camera",
+        Remove("sequence/mav0/cam1"),
+        "sequence: expected data for stereo, found data for mono only",
+        " --sensor stereo"},
+       {"an unknown format",
+        Remove("none"),
+        "--format: expected euroc, tum, kitti or images, found bag",
+        " --format bag"}});
+}
+
+TEST(BadInput, FilesThatAreBroken) {
+  const std::string row = "1000000000,0.png\n";
+  ExpectRefused(
+      {{"calibration that is none",
+        Put("sequence/mav0/cam0/sensor.yaml", "resolution: [400\n"),
+        "cam0/sensor.yaml:2: expected YAML"},
+       {"calibration without a key",
+        Put("sequence/mav0/cam0/sensor.yaml", "camera_model: pinhole\n"),
+        "cam0/sensor.yaml:1: distortion_model: expected a value, found none"},
+       {"a row cut off",
+        Put(kLeftList, "#t,f\n" + row + "1050000000\n"),
+        "cam0/data.csv:3: expected a time stamp and a file name, found 1 columns"},
+       {"a row without a time",
+        Put(kLeftList, row + "now,1.png\n"),
+        "cam0/data.csv:2: expected a time stamp in whole nanoseconds, found 'now'"},
+       {"a time that comes again",
+        Put(kLeftList, row + row),
+        "cam0/data.csv:2: expected time stamps that increase, found the same time stamp again"},
+       {"a time that goes back",
+        Put(kLeftList, row + "900000000,1.png\n"),
+        "cam0/data.csv:2: expected time stamps that increase, found one that goes back"},
+       {"ground truth cut off",
+        Put(kTruth, "1000000000,1,2,3,1,0\n"),
+        "estimate0/data.csv:1: expected at least 8 columns"},
+       {"ground truth that is no rotation",
+        Put(kTruth, "1000000000,1,2,3,1,1,0,0\n"),
+        "estimate0/data.csv:1: expected a unit quaternion, found one of norm 1.41421"},
+       {"images of another size than the calibration's",
+        Put("sequence/camera.yaml",
+            "size: [640, 480]\nintrinsics: [300, 300, 200, 150]\nrectified: true\nbaseline: 0.1\n"),
+        "cam0/data/0.png: expected an image of 640x480 pixels as in the calibration, found "
+        "400x300"}});
+}
+
+TEST(BadInput, OptionsThatAreWrong) {
+  const auto nothing = [](const ScratchFolder&) {};
+  ExpectRefused(
+      {{"an unknown flag",
+        nothing,
+        "unknown option --stide; the nearest is --stride",
+        " --stide 2"},
+       {"an unknown option",
+        nothing,
+        "--set tracking.min_inlier=5: unknown option 'tracking.min_inlier'; did you mean "
+        "'tracking.min_inliers'?",
+        " --set tracking.min_inlier=5"},
+       {"a word for a number",
+        nothing,
+        "tracking.min_inliers: expected a whole number",
+        " --set tracking.min_inliers=many"},
+       {"a number out of range",
+        nothing,
+        "tracking.min_inliers: expected a whole number",
+        " --set tracking.min_inliers=-3"},
+       {"a word that is no choice",
+        nothing,
+        "features.line_detector: expected one of lsd | edlines",
+        " --set features.line_detector=lds"},
+       {"a setting without a value",
+        nothing,
+        "--set: expected KEY=VALUE, found 'features.points'",
+        " --set features.points"},
+       {"an unknown key in a file",
+        Put("sequence/options.yaml", "features:\n  points: true\n  pionts: true\n"),
+        "options.yaml:3: unknown option 'features.pionts'; did you mean 'features.points'?",
+        " --config FOLDER/sequence/options.yaml"},
+       {"a file of options that is missing", nothing, "none.yaml", " --config none.yaml"},
+       {"an unknown camera", nothing, "eurok: no such camera file; built-in", " --camera eurok"},
+       {"frames beyond the end", nothing, "--from 12: the sequence has 12 frames", " --from 12"},
+       {"half a frame",
+        nothing,
+        "--stride: expected a whole number of at least 1",
+        " --stride 0.5"},
+       {"a sensor that is not there",
+        nothing,
+        "expected data for rgbd, found data for stereo, mono only",
+        " --sensor rgbd"}});
+}
+
+TEST(BadInput, OutputThatCannotBeWritten) {
+  const ScratchFolder folder;
+  const std::string run = "run " + Quoted(WritePosterSequence(folder, 2)) + " --out ";
+  const fs::path file = folder.Write("file", "text");
+  ExpectRefused(RunProgram(folder, run + Quoted(file)),
+                "cannot make the folder " + file.string(),
+                "a file of this name");
+  ExpectRefused(RunProgram(folder, run + Quoted(file / "below")),
+                "cannot make the folder " + (file / "below").string() + ": Not a directory",
+                "below a file");
+  ExpectRefused(RunProgram(folder, run + "/proc/plumbline"),
+                "cannot make the folder /proc/plumbline: No such file or directory",
+                "a file system that takes no folders");
+  ExpectRefused(RunProgram(folder,
+                           "evaluate " + Quoted(folder / kTruth) + " " + Quoted(folder / kTruth) +
+                               " --reference-frame camera --json " + Quoted(file / "x.json")),
+                "cannot write " + (file / "x.json").string() + ": Not a directory",
+                "a table below a file");
+  EXPECT_EQ(Contents(file), "text");
+  if (::geteuid() == 0) return;  // root may write anywhere
+  fs::create_directories(folder / "locked");
+  fs::permissions(folder / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  ExpectRefused(
+      RunProgram(folder, run + Quoted(folder / "locked")), "Permission denied", "no permission");
+}
+
+TEST(BadInput, MoreThanOneCommandKnows) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 12);
+  const fs::path empty = folder.Write("empty.txt", "");
+  const fs::path late = folder.Write("late.txt", "9.0 0 0 0 0 0 0 1\n9.1 0 0 0 0 0 0 1\n");
+  fs::create_directories(folder / "nothing");
+  const std::string evaluate = "evaluate " + Quoted(sequence) + " ";
+  ExpectRefused(RunProgram(folder, evaluate + Quoted(folder / "none.txt")),
+                "none.txt: no such file",
+                "no estimate");
+  ExpectRefused(RunProgram(folder, evaluate + Quoted(empty)),
+                "empty.txt: expected poses, found no rows",
+                "an empty estimate");
+  ExpectRefused(RunProgram(folder, evaluate + Quoted(late)),
+                "no pose of the estimate has a reference pose at its time: the reference covers "
+                "1.000000000 to 1.550000000, the estimate 9.000000000 to 9.100000000",
+                "another time");
+  ExpectRefused(RunProgram(folder, "evaluate " + Quoted(folder / "nothing") + " " + Quoted(late)),
+                "nothing: expected ground truth (mav0/state_groundtruth_estimate0/data.csv, "
+                "groundtruth.txt or poses.txt), found none",
+                "no ground truth");
+  ExpectRefused(RunProgram(folder, "evaluate " + Quoted(sequence)), "expected ESTIMATE", "one");
+  ExpectRefused(RunProgram(folder, "info " + Quoted(folder / "nothing")),
+                "nothing: expected a EuRoC",
+                "info");
+  ExpectRefused(RunProgram(folder, "rum"), "unknown command 'rum'; did you mean 'run'?", "rum");
+  ExpectRefused(RunProgram(folder, "config --set features.pionts=false"),
+                "did you mean 'features.points'?",
+                "config");
+}
+
+// What the data lacks but a run does not need.
+TEST(BadInput, ARunGoesOnWithoutGroundTruth) {
+  struct Case {
+    std::function<void(const ScratchFolder&)> spoil;
+    std::string said;
+  };
+  const std::vector<Case> cases = {
+      {Remove(kTruth), "no errors: no ground truth with the data"},
+      {Put(kTruth, "9000000000,0,0,0,1,0,0,0\n9050000000,0,0,0,1,0,0,0\n"),
+       "no errors: the ground truth covers no pose"}};
+  for (const Case& c : cases) {
+    const ScratchFolder folder;
+    const fs::path sequence = WritePosterSequence(folder, 6);
+    c.spoil(folder);
+    const Outcome outcome =
+        RunProgram(folder, "run " + Quoted(sequence) + " --out " + Quoted(folder / "out"));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("frames 6: 6 tracked"));
+    EXPECT_THAT(outcome.out, HasSubstr(c.said));
+    const auto summary = nlohmann::json::parse(Contents(folder / "out/summary.json"));
+    EXPECT_TRUE(summary["accuracy"].is_null());
+  }
+}
+
+TEST(BadInput, UnreadableImagesAndMissingPartnersAreNamedAndLeftOut) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 8);
+  folder.Write(kLeftImage, "not an image");
+  fs::remove(folder / "sequence/mav0/cam1/data/3.png");
+  std::string right = PosterList(8);
+  right.erase(right.find("1250000000"), std::string("1250000000,5.png\n").size());
+  folder.Write("sequence/mav0/cam1/data.csv", right);
+  const Outcome outcome =
+      RunProgram(folder, "run " + Quoted(sequence) + " --out " + Quoted(folder / "out"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err,
+              HasSubstr("plumbline: 1 left images without a right one are left out\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("plumbline: 1 of 7 right images do not exist\n"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("frame 0 skipped: " + (folder / kLeftImage).string() +
+                        ": not an image this program can decode\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("cam1/data/3.png: no such file\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("frames 7: 5 tracked, 0 lost, 2 skipped"));
+}
+
+}  // namespace
+}  // namespace plumbline
