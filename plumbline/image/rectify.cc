@@ -24,6 +24,7 @@ constexpr double kMaxZoom = 1.3;
 constexpr double kMaxTangent = 3.732;
 
 // Rotations of a declared-rectified pair: what rounding in a calibration file may leave.
+constexpr double kMinBaseline = 1e-6;  // metres
 constexpr double kMaxRectifiedAngle = 1e-3;
 constexpr double kMaxRectifiedTilt = 0.02;
 
@@ -129,7 +130,8 @@ void CheckPair(const Calibration& calibration) {
   }
   const Eigen::Vector3d centre = Inverse(calibration.right_from_left).translation;
   // Written so that NaN fails.
-  if (!(centre.x() > 0 && centre.x() > centre.tail<2>().norm() && std::isfinite(centre.x()))) {
+  if (!(centre.x() > kMinBaseline && centre.x() > centre.tail<2>().norm() &&
+        std::isfinite(centre.x()))) {
     throw InputError(
         "calibration: expected the right camera to the right (+x) of the left one, found it at (" +
         std::to_string(centre.x()) + ", " + std::to_string(centre.y()) + ", " +
