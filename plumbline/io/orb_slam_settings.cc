@@ -28,7 +28,7 @@ Projection ReadProjection(const YamlSection& root) {
 
 // One of two keys of a size: the first that is there.
 int ReadLength(const YamlSection& root, const std::string& key, const std::string& other) {
-  const std::string& found = root.Has(key) ? key : other;
+  const std::string& found = root.Has(other) && !root.Has(key) ? other : key;
   if (!root.Has(found)) {
     root.Fail(found, "expected the size of the images in pixels, found none; add the row");
   }

@@ -148,7 +148,7 @@ TEST(ReadOrbSlamSettings, BadFilesAreNamedByLineAndKey) {
   EXPECT_THAT(message(kOld, "Camera.cx: 320\n", ""),
               HasSubstr("Camera.cx: expected a value, found none"));
   EXPECT_THAT(message(kOld, "Camera.width: 640\n", ""),
-              HasSubstr("LEFT.width: expected the size of the images in pixels, found none"));
+              HasSubstr("Camera.width: expected the size of the images in pixels, found none"));
   EXPECT_THAT(message(kOld, "640", "640.5"), HasSubstr("Camera.width: expected whole numbers"));
   EXPECT_THAT(message(kOld + kLens, "Camera.p1: 0.001\n", ""),
               HasSubstr("Camera.p1: expected a value, found none"));
