@@ -11,8 +11,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plumbline;
   const std::string text(AsText(data, size));
-  SlamOptions options;
-  OptionTable table(options);
+  static SlamOptions options;
+  static OptionTable table(options);
+  options = SlamOptions();
   try {
     if (!text.starts_with('=')) {
       table.LoadText(text, "input");

@@ -65,9 +65,17 @@ class ImageDataset : public Dataset {
 
   // Reads the first frame that can be read: a calibration of another size shows before the run.
   void CheckFirstFrame() const {
+    std::optional<ImageFailure> first;
     for (std::size_t i = 0; i < size(); ++i) {
-      if (Read(i)) return;
+      const Expected<SensorFrame, ImageFailure> frame = Read(i);
+      if (frame) return;
+      if (!first) first = frame.error();
     }
+    throw InputError(fmt::format("{}: expected images, found none of {} that can be read: {}: {}",
+                                 info().path.string(),
+                                 size(),
+                                 first->path.string(),
+                                 first->why));
   }
 
  private:

@@ -32,8 +32,8 @@ struct FrameFiles {
 
 // A data set whose frames are image files. files[i] belongs to info.stamps_ns[i]. Images listed but
 // missing become a note; InputError when there are no frames, or no left, no right or no depth
-// image exists at all. An image of another size than the calibration's is an InputError when it is
-// read; the first frame that can be read is read right away.
+// image exists or can be read at all. An image of another size than the calibration's is an
+// InputError when it is read; the first frame that can be read is read right away.
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files);
 
 // Fills name, path, format, available and sensor: the sensor asked for, or the richest. InputError

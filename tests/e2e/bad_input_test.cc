@@ -130,6 +130,13 @@ TEST(BadInput, FilesThatAreBroken) {
        {"ground truth that is no rotation",
         Put(kTruth, "1000000000,1,2,3,1,1,0,0\n"),
         "estimate0/data.csv:1: expected a unit quaternion, found one of norm 1.41421"},
+       {"images that are none",
+        [](const ScratchFolder& folder) {
+          for (int i = 0; i < 12; ++i) {
+            folder.Write("sequence/mav0/cam0/data/" + std::to_string(i) + ".png", "text");
+          }
+        },
+        "sequence: expected images, found none of 12 that can be read: "},
        {"images of another size than the calibration's",
         Put("sequence/camera.yaml",
             "size: [640, 480]\nintrinsics: [300, 300, 200, 150]\nrectified: true\nbaseline: 0.1\n"),
@@ -172,6 +179,10 @@ TEST(BadInput, OptionsThatAreWrong) {
        {"a file of options that is missing", nothing, "none.yaml", " --config none.yaml"},
        {"an unknown camera", nothing, "eurok: no such camera file; built-in", " --camera eurok"},
        {"frames beyond the end", nothing, "--from 12: the sequence has 12 frames", " --from 12"},
+       {"a mode that is not there",
+        nothing,
+        "slam.mode: expected one of inline | ",
+        " --mode outline"},
        {"half a frame",
         nothing,
         "--stride: expected a whole number of at least 1",

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -117,11 +118,13 @@ TEST(RunFolder, StandardOutputThatIsFullIsAnError) {
 }
 
 TEST(RunFolder, ARunThatIsAskedToStopWritesEverything) {
-  for (const int signal : {SIGTERM, SIGINT}) {
+  for (const auto& [signal, mode] :
+       {std::pair(SIGTERM, "inline"), std::pair(SIGINT, "lockstep"), std::pair(SIGTERM, "live")}) {
     const ScratchFolder folder;
     const fs::path out = folder / "run";
     const fs::path sequence = WritePosterSequence(folder, 4000);
-    const pid_t child = StartProgram({"run", sequence.string(), "--quiet", "--out", out.string()});
+    const pid_t child =
+        StartProgram({"run", sequence.string(), "--mode", mode, "--quiet", "--out", out.string()});
     // The options are written just before the first frame.
     EXPECT_TRUE(WaitForFile(out / "options.yaml"));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
