@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <system_error>
 
@@ -132,7 +133,7 @@ std::optional<std::int64_t> ParseSeconds(std::string_view text) {
     int exponent = 0;
     const char* end = exponent_text.data() + exponent_text.size();
     const auto result = std::from_chars(exponent_text.data(), end, exponent);
-    if (result.ec != std::errc() || result.ptr != end || std::abs(exponent) > 40) {
+    if (result.ec != std::errc() || result.ptr != end || exponent < -40 || exponent > 40) {
       return std::nullopt;
     }
     point += exponent;
@@ -143,9 +144,10 @@ std::optional<std::int64_t> ParseSeconds(std::string_view text) {
   const bool round_up = count < digits.size() && digits[count] >= '5';
   digits.resize(count, '0');
   if (digits.empty()) return round_up ? 1 : 0;
-  std::optional<std::int64_t> whole = ParseNanoseconds(digits);
-  if (whole && round_up) ++*whole;
-  return whole;
+  const std::optional<std::int64_t> whole = ParseNanoseconds(digits);
+  if (!whole || !round_up) return whole;
+  if (*whole == std::numeric_limits<std::int64_t>::max()) return std::nullopt;
+  return *whole + 1;
 }
 
 std::optional<std::int64_t> ParseNanoseconds(std::string_view text) {

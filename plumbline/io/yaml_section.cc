@@ -109,14 +109,6 @@ YamlSection YamlSection::Parse(const std::string& yaml, const std::string& sourc
 
 bool YamlSection::Has(const std::string& key) const { return place_->node[key].IsDefined(); }
 
-std::vector<std::string> YamlSection::Keys() const {
-  std::vector<std::string> keys;
-  for (const auto& entry : place_->node) {
-    keys.push_back(entry.first.IsScalar() ? entry.first.Scalar() : "[...]");
-  }
-  return keys;
-}
-
 void YamlSection::Fail(const std::string& key, const std::string& message) const {
   place_->Fail(place_->node[key], key, message);
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,8 +24,6 @@ class YamlSection {
   static YamlSection Parse(const std::string& yaml, const std::string& source);
 
   bool Has(const std::string& key) const;
-  // The keys with their dots as they stand in the file, in its order.
-  std::vector<std::string> Keys() const;
   [[noreturn]] void Fail(const std::string& key, const std::string& message) const;
 
   YamlSection Child(const std::string& key) const;

@@ -55,7 +55,9 @@ TEST(ParseSeconds, RefusesWhatIsNotATime) {
                            ".",
                            "1 2",
                            "9223372036.854775808",
-                           "1403636584763555584.0"}) {
+                           "1403636584763555584.0",
+                           "9223372036.8547758075",
+                           "1e-2147483648"}) {
     EXPECT_EQ(ParseSeconds(text), std::nullopt) << text;
   }
 }
