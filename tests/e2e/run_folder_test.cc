@@ -141,7 +141,8 @@ TEST(RunFolder, ARunThatIsAskedToStopWritesEverything) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), frames + 1);
     const std::string poses = Contents(out / "trajectory.txt");
     EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), summary["frames"]["tracked"]);
-    for (const char* name : {"trajectory_causal.txt", "keyframes.txt", "timing.json", "map.plb"}) {
+    for (const char* name :
+         {"trajectory_causal.txt", "keyframes.txt", "timing.json", "map.plb", "report.html"}) {
       EXPECT_TRUE(fs::exists(out / name)) << name;
     }
     for (const std::string& name : FilesOf(out)) EXPECT_NE(name.front(), '.') << name;
