@@ -179,25 +179,12 @@ class Player {
   Clock::time_point start_;
 };
 
-// Returns the time of the first pose, from the start of the process.
-std::optional<double> ProcessFrames(const Dataset& dataset,
-                                    const std::vector<std::size_t>& frames,
-                                    const RunSetup& setup,
-                                    System& system,
-                                    KeptViews& views) {
-  std::optional<double> first_pose;
-  Progress progress(frames.size(), setup.quiet);
-  Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
-    const auto position = static_cast<std::size_t>(record.id.value);
-    if (record.reason == Pipeline::kDropped) {
-      progress.Say(fmt::format("frame {} dropped: tracking is behind", frames[position]));
-    }
-    if (!first_pose && record.status == FrameStatus::kTracked) {
-      first_pose = SecondsSinceProcessStart();
-    }
-    views.Offer(position, view);
-    progress.Show(record);
-  });
+// Reads the frames and feeds them, until there are no more or somebody asks to stop.
+void FeedFrames(const Dataset& dataset,
+                const std::vector<std::size_t>& frames,
+                const RunSetup& setup,
+                const Progress& progress,
+                Pipeline& pipeline) {
   Player player(setup.options.slam.mode);
   for (std::size_t k = 0; k < frames.size() && stop_requested == 0; ++k) {
     auto frame = dataset.Read(frames[k]);
@@ -211,8 +198,44 @@ std::optional<double> ProcessFrames(const Dataset& dataset,
         "frame {} skipped: {}: {}", frames[k], frame.error().path.string(), frame.error().why));
     pipeline.Skip(stamp_ns, "image_unreadable");
   }
-  pipeline.Finish();
-  return first_pose;
+}
+
+struct Progressed {
+  std::optional<double> first_pose_seconds;  // from the start of the process
+  std::optional<InputError> failure;         // why not all frames were taken
+};
+
+// Bad input in the middle, such as an image of another size, ends a run; what was done until then
+// is kept. Throws when that is nothing.
+Progressed ProcessFrames(const Dataset& dataset,
+                         const std::vector<std::size_t>& frames,
+                         const RunSetup& setup,
+                         System& system,
+                         KeptViews& views) {
+  Progressed result;
+  Progress progress(frames.size(), setup.quiet);
+  Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
+    const auto position = static_cast<std::size_t>(record.id.value);
+    if (record.reason == Pipeline::kDropped) {
+      progress.Say(fmt::format("frame {} dropped: tracking is behind", frames[position]));
+    }
+    if (!result.first_pose_seconds && record.status == FrameStatus::kTracked) {
+      result.first_pose_seconds = SecondsSinceProcessStart();
+    }
+    views.Offer(position, view);
+    progress.Show(record);
+  });
+  const auto keeping_failure = [&](const auto& step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      if (!result.failure) result.failure = error;
+    }
+  };
+  keeping_failure([&] { FeedFrames(dataset, frames, setup, progress, pipeline); });
+  keeping_failure([&] { pipeline.Finish(); });
+  if (result.failure && system.frames().empty()) throw InputError(*result.failure);
+  return result;
 }
 
 void PrintResult(const System& system, const Dataset& dataset, const RunSetup& setup) {
@@ -271,12 +294,12 @@ int RunCommand(std::span<const std::string> arguments) {
   std::signal(SIGTERM, RequestStop);
   System system(dataset->calibration(), setup.options);
   KeptViews views(frames);
-  const auto first_pose = ProcessFrames(*dataset, frames, setup, system, views);
+  const Progressed progressed = ProcessFrames(*dataset, frames, setup, system, views);
 
   const auto samples = views.Write(setup.folder);
   WriteRunFiles(system, setup.folder);
   ResourceUse resources = MeasureResources();
-  resources.first_pose_seconds = first_pose;
+  resources.first_pose_seconds = progressed.first_pose_seconds;
   resources.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const RunDescription description{PLUMBLINE_VERSION,
                                    line.Positional(0),
@@ -287,6 +310,7 @@ int RunCommand(std::span<const std::string> arguments) {
                       FormatSummary(description, system, *dataset, resources));
   WriteHtmlReport(system, *dataset, {description, resources, {}, samples}, setup.folder);
   if (!setup.quiet) PrintResult(system, *dataset, setup);
+  if (progressed.failure) throw InputError(*progressed.failure);
   return 0;
 }
 

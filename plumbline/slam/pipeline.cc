@@ -40,9 +40,9 @@ void Pipeline::Finish() {
   if (mode_ != RunMode::kInline) {
     std::unique_lock lock(mutex_);
     job_taken_.wait(lock, [&] { return failure_ || (jobs_.empty() && !busy_); });
-    RethrowFailure();
   }
   system_.Finish();
+  RethrowFailure();
 }
 
 void Pipeline::Hand(Job job) {

@@ -44,7 +44,8 @@ class Pipeline {
   void Feed(SensorFrame frame);
   // A frame that could not be read.
   void Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Does all that waits, and the mapping that belongs to it.
+  // Does all that waits, and the mapping that belongs to it. After a failure: completes the mapping
+  // of the frames before, then rethrows.
   void Finish();
 
  private:

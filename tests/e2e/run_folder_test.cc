@@ -149,6 +149,24 @@ TEST(RunFolder, ARunThatIsAskedToStopWritesEverything) {
   }
 }
 
+TEST(RunFolder, HoldsWhatWasDoneBeforeAnImageOfAnotherSize) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 12);
+  WriteGrayPng(sequence / "mav0/cam1/data/7.png", GrayImage(40, 30, 90));
+  for (const char* mode : {"inline", "lockstep"}) {
+    const fs::path out = folder / mode;
+    const Outcome outcome =
+        RunProgram(folder, RunArguments(sequence, out, std::string(" --mode ") + mode));
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, testing::HasSubstr("400x300"));
+    EXPECT_THAT(outcome.err, testing::HasSubstr("40x30"));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    const std::string poses = Contents(out / "trajectory.txt");
+    EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 7);
+    EXPECT_EQ(nlohmann::json::parse(Contents(out / "summary.json"))["frames"]["in"], 7);
+  }
+}
+
 // Killed once while frames are processed, once while results are written.
 TEST(RunFolder, ARunThatIsKilledLeavesWholeFilesAndAFolderToUseAgain) {
   const ScratchFolder folder;
