@@ -20,7 +20,7 @@ struct SingleView {
 SingleView ExtractView(const GrayImage& image,
                        const ValidRegion* valid,
                        const FeatureOptions& options) {
-  constexpr double kLbdBlurPx = 1;
+  constexpr double kLineBlurPx = 1;
   const ValidRegion whole(image.width(), image.height());
   const ValidRegion& region = valid ? *valid : whole;
   SingleView view;
@@ -30,9 +30,10 @@ SingleView ExtractView(const GrayImage& image,
   }
   if (options.lines) {
     const GradientImage gradient = ComputeGradient(image);
+    const GradientImage smooth = ComputeGradient(image, kLineBlurPx);
     view.lines = DetectLines(
-        image, gradient, region, options.line_detector, options.line_count, options.line);
-    DescribeLines(ComputeGradient(image, kLbdBlurPx), &view.lines);
+        {image, gradient, smooth, region}, options.line_detector, options.line_count, options.line);
+    DescribeLines(smooth, &view.lines);
   }
   return view;
 }

@@ -20,7 +20,7 @@ struct FeatureOptions {
   int point_count = 1000;
   bool lines = true;
   int line_count = 200;
-  LineDetector line_detector = LineDetector::kLsd;
+  LineDetector line_detector = LineDetector::kDrawing;
   bool parallel = true;  // left and right image in two threads; same result
   OrbOptions orb;
   LineDetectionOptions line;

@@ -8,95 +8,143 @@
 namespace plumbline {
 namespace {
 
-constexpr int kRows = kLbdBands * kLbdBandWidth;
-constexpr int kMaxColumns = 40;
+// Rows of samples parallel to the line, two pixels apart: the smoothed gradient holds no more.
+constexpr int kRowStep = 2;
+constexpr int kRows = (kLbdBands * kLbdBandWidth + kRowStep - 1) / kRowStep;
+// Samples along the line: one a pixel, fewer on longer lines.
+constexpr int kMaxColumns = 96;
+// Fixed point: of directions, and of pixel coordinates (16 bits below the point).
+constexpr int kUnit = 256;
+constexpr double kOne = 65536;
 
-// Sums over one row of pixels parallel to the line, divided by their number: gradient along the
-// normal by sign, gradient along the line by sign.
+// Distance across from the line, pixels.
+constexpr double RowOffset(int row) { return kRowStep * (row - 0.5 * (kRows - 1)); }
+constexpr double BandOffset(int band) { return kLbdBandWidth * (band - 0.5 * (kLbdBands - 1)); }
+
+// The rows that belong to a band and its two neighbours, and their weights (section 3.1 there): a
+// Gaussian over the whole region with deviation half its width, times one over the three bands with
+// deviation of one band.
+struct BandWeights {
+  int begin = 0;
+  int end = 0;
+  std::array<float, kRows> weight{};
+};
+
+std::array<BandWeights, kLbdBands> MakeWeights() {
+  constexpr double kGlobalSigma = 0.5 * (kLbdBands * kLbdBandWidth - 1);
+  constexpr double kLocalSigma = kLbdBandWidth;
+  std::array<BandWeights, kLbdBands> bands;
+  for (int b = 0; b < kLbdBands; ++b) {
+    BandWeights& band = bands[static_cast<std::size_t>(b)];
+    band.begin = kRows;
+    for (int row = 0; row < kRows; ++row) {
+      const double global = RowOffset(row) / kGlobalSigma;
+      const double local = (RowOffset(row) - BandOffset(b)) / kLocalSigma;
+      if (std::abs(local) > 1.5) continue;
+      band.begin = std::min(band.begin, row);
+      band.end = row + 1;
+      band.weight[static_cast<std::size_t>(row)] =
+          static_cast<float>(std::exp(-0.5 * (global * global + local * local)));
+    }
+  }
+  return bands;
+}
+
+// Mean over a row of samples of the positive and of the negative part of the gradient across the
+// line, and of that along it.
 struct RowSums {
-  std::array<double, 4> value{};
+  std::array<float, 4> value{};
   bool valid = false;
 };
 
-// Weights across the line (section 3.1 there): a Gaussian over the whole region with deviation half
-// its width, and one over a band and its neighbours with deviation of one band.
-double GlobalWeight(int row) {
-  constexpr double kSigma = 0.5 * (kRows - 1);
-  const double d = row - 0.5 * (kRows - 1);
-  return std::exp(-0.5 * d * d / (kSigma * kSigma));
-}
+using RegionSums = std::array<RowSums, kRows>;
 
-double LocalWeight(double distance) {
-  constexpr double kSigma = kLbdBandWidth;
-  return std::exp(-0.5 * distance * distance / (kSigma * kSigma));
-}
-
-struct Weights {
-  std::array<double, kRows> global{};
-  // Of row r for band b, for rows of the band and its two neighbours.
-  std::array<std::array<double, kRows>, kLbdBands> local{};
+// The samples of one row.
+struct RowSamples {
+  std::array<std::int16_t, kMaxColumns> dx;
+  std::array<std::int16_t, kMaxColumns> dy;
+  int size = 0;
 };
 
-Weights MakeWeights() {
-  Weights weights;
-  for (int row = 0; row < kRows; ++row) {
-    weights.global[static_cast<std::size_t>(row)] = GlobalWeight(row);
-    for (int band = 0; band < kLbdBands; ++band) {
-      const double center = (band + 0.5) * kLbdBandWidth - 0.5;
-      weights.local[static_cast<std::size_t>(band)][static_cast<std::size_t>(row)] =
-          LocalWeight(row - center);
+// Takes samples at `columns` places from `first` on; those outside the image are left out.
+void TakeSamples(const GradientImage& gradient,
+                 const Eigen::Vector2d& first,
+                 const Eigen::Vector2d& step,
+                 int columns,
+                 RowSamples* row) {
+  const Eigen::Vector2d last = first + (columns - 1) * step;
+  const Eigen::Array2d limit(gradient.width() - 0.75, gradient.height() - 0.75);
+  const auto inside = [&](const Eigen::Vector2d& px) {
+    return (px.array() > -0.25).all() && (px.array() < limit).all();
+  };
+  auto x = static_cast<std::int64_t>((first.x() + 0.5) * kOne);
+  auto y = static_cast<std::int64_t>((first.y() + 0.5) * kOne);
+  const auto step_x = static_cast<std::int64_t>(step.x() * kOne);
+  const auto step_y = static_cast<std::int64_t>(step.y() * kOne);
+  const std::int16_t* dx = gradient.dx.data();
+  const std::int16_t* dy = gradient.dy.data();
+  const std::int64_t width = gradient.width();
+  std::size_t n = 0;
+  if (inside(first) && inside(last)) {
+    for (; n < static_cast<std::size_t>(columns); ++n, x += step_x, y += step_y) {
+      const std::int64_t i = (y >> 16) * width + (x >> 16);
+      row->dx[n] = dx[i];
+      row->dy[n] = dy[i];
+    }
+  } else {
+    for (int column = 0; column < columns; ++column, x += step_x, y += step_y) {
+      if (x < 0 || y < 0 || x >> 16 >= width || y >> 16 >= gradient.height()) continue;
+      const std::int64_t i = (y >> 16) * width + (x >> 16);
+      row->dx[n] = dx[i];
+      row->dy[n] = dy[i];
+      ++n;
     }
   }
-  return weights;
+  row->size = static_cast<int>(n);
 }
 
-using RegionSums = std::array<RowSums, kRows>;
+// In whole numbers, so that the compiler may add in any order and use vector instructions.
+RowSums SumSamples(const RowSamples& row, std::int16_t direction_x, std::int16_t direction_y) {
+  int across_sum = 0;
+  int across_size = 0;
+  int along_sum = 0;
+  int along_size = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(row.size); ++i) {
+    const int across = row.dy[i] * direction_x - row.dx[i] * direction_y;
+    const int along = row.dx[i] * direction_x + row.dy[i] * direction_y;
+    across_sum += across;
+    across_size += std::abs(across);
+    along_sum += along;
+    along_size += std::abs(along);
+  }
+  RowSums sums;
+  if (row.size == 0) return sums;
+  sums.valid = true;
+  // Sum of the positive and of the negative parts from the sum and the sum of magnitudes.
+  const float scale = 0.5F / static_cast<float>(kUnit * row.size);
+  sums.value = {scale * static_cast<float>(across_size + across_sum),
+                scale * static_cast<float>(across_size - across_sum),
+                scale * static_cast<float>(along_size + along_sum),
+                scale * static_cast<float>(along_size - along_sum)};
+  return sums;
+}
 
 RegionSums SumRows(const GradientImage& gradient, const Segment2& segment) {
   RegionSums sums;
+  RowSamples samples;
   const double length = segment.Length();
   const Eigen::Vector2d direction = segment.Direction();
   const Eigen::Vector2d normal(-direction.y(), direction.x());
   const int columns = std::clamp(static_cast<int>(std::ceil(length)), 1, kMaxColumns);
   const Eigen::Vector2d step = direction * (length / columns);
-  const auto dx = static_cast<float>(direction.x());
-  const auto dy = static_cast<float>(direction.y());
-  // Pixel coordinates step in fixed point: 16 bits below the point.
-  constexpr double kOne = 65536;
-  const auto step_x = static_cast<std::int64_t>(step.x() * kOne);
-  const auto step_y = static_cast<std::int64_t>(step.y() * kOne);
+  const auto direction_x = static_cast<std::int16_t>(std::lround(kUnit * direction.x()));
+  const auto direction_y = static_cast<std::int16_t>(std::lround(kUnit * direction.y()));
   for (int row = 0; row < kRows; ++row) {
-    const Eigen::Vector2d first = segment.start + 0.5 * step + (row - 0.5 * (kRows - 1)) * normal;
-    auto fixed_x = static_cast<std::int64_t>((first.x() + 0.5) * kOne);
-    auto fixed_y = static_cast<std::int64_t>((first.y() + 0.5) * kOne);
-    float across_sum = 0;
-    float across_size = 0;
-    float along_sum = 0;
-    float along_size = 0;
-    int count = 0;
-    for (int column = 0; column < columns; ++column, fixed_x += step_x, fixed_y += step_y) {
-      const std::int64_t x = fixed_x >> 16;
-      const std::int64_t y = fixed_y >> 16;
-      if (x < 0 || y < 0 || x >= gradient.width() || y >= gradient.height()) continue;
-      const auto gx = static_cast<float>(gradient.dx.row(static_cast<int>(y))[x]);
-      const auto gy = static_cast<float>(gradient.dy.row(static_cast<int>(y))[x]);
-      const float across = gy * dx - gx * dy;
-      const float along = gx * dx + gy * dy;
-      across_sum += across;
-      across_size += std::abs(across);
-      along_sum += along;
-      along_size += std::abs(along);
-      ++count;
-    }
-    if (count == 0) continue;
-    RowSums& out = sums[static_cast<std::size_t>(row)];
-    out.valid = true;
-    const double scale = 0.5 / count;
-    // Sum of the positive and of the negative parts from the sum and the sum of magnitudes.
-    out.value = {scale * static_cast<double>(across_size + across_sum),
-                 scale * static_cast<double>(across_size - across_sum),
-                 scale * static_cast<double>(along_size + along_sum),
-                 scale * static_cast<double>(along_size - along_sum)};
+    // The samples of one row lie between those of the next.
+    const double shift = row % 2 == 0 ? 0.25 : 0.75;
+    const Eigen::Vector2d first = segment.start + shift * step + RowOffset(row) * normal;
+    TakeSamples(gradient, first, step, columns, &samples);
+    sums[static_cast<std::size_t>(row)] = SumSamples(samples, direction_x, direction_y);
   }
   return sums;
 }
@@ -125,36 +173,34 @@ void Normalize(LbdVector* vector, std::size_t first) {
 }  // namespace
 
 LbdVector ComputeLbdVector(const GradientImage& gradient, const Segment2& segment) {
-  static const Weights kWeights = MakeWeights();
+  static const std::array<BandWeights, kLbdBands> kWeights = MakeWeights();
   LbdVector result{};
   const double length = segment.Length();
   // A line that long has left every image; this also keeps the pixel coordinates inside int.
   if (!(length > 0) || !(length < 1e6) || !(segment.start.norm() < 1e6)) return result;
   const RegionSums sums = SumRows(gradient, segment);
-  for (int band = 0; band < kLbdBands; ++band) {
-    const int begin = std::max(0, (band - 1) * kLbdBandWidth);
-    const int end = std::min(kRows, (band + 2) * kLbdBandWidth);
-    std::array<double, 4> sum{};
-    std::array<double, 4> squares{};
+  for (std::size_t b = 0; b < kLbdBands; ++b) {
+    const BandWeights& band = kWeights[b];
+    std::array<float, 4> sum{};
+    std::array<float, 4> squares{};
     int count = 0;
-    for (int row = begin; row < end; ++row) {
-      const auto r = static_cast<std::size_t>(row);
+    for (auto r = static_cast<std::size_t>(band.begin); r < static_cast<std::size_t>(band.end);
+         ++r) {
       if (!sums[r].valid) continue;
-      const double weight = kWeights.global[r] * kWeights.local[static_cast<std::size_t>(band)][r];
       for (std::size_t k = 0; k < 4; ++k) {
-        const double v = weight * sums[r].value[k];
+        const float v = band.weight[r] * sums[r].value[k];
         sum[k] += v;
         squares[k] += v * v;
       }
       ++count;
     }
     if (count == 0) continue;
+    const float scale = 1 / static_cast<float>(count);
     for (std::size_t k = 0; k < 4; ++k) {
-      const double mean = sum[k] / count;
-      const double variance = std::max(0.0, squares[k] / count - mean * mean);
-      const auto base = static_cast<std::size_t>(8 * band);
-      result[base + k] = static_cast<float>(mean);
-      result[base + 4 + k] = static_cast<float>(std::sqrt(variance));
+      const float mean = scale * sum[k];
+      const float variance = std::max(0.0F, scale * squares[k] - mean * mean);
+      result[8 * b + k] = mean;
+      result[8 * b + 4 + k] = std::sqrt(variance);
     }
   }
   Normalize(&result, 0);

@@ -20,8 +20,9 @@ using LbdVector = std::array<float, static_cast<std::size_t>(8 * kLbdBands)>;
 // Line band descriptor (Zhang and Koch, JVCIR 2013): gradients of 9 bands of 7 pixels parallel to
 // the segment, in the frame (direction, normal) of the directed segment, summed over the rows of
 // pixels by sign, weighted by a local and a global Gaussian across the line. Pixels outside the
-// image are left out of the sums. Long segments are sampled every few pixels: the cost is bounded,
-// about 8 microseconds. A segment of zero length or outside the image gives all zeros.
+// image are left out of the sums. Samples are 2 pixels apart across the line and 1 along it, more
+// on long segments: the cost is bounded,
+// about 4 microseconds. A segment of zero length or outside the image gives all zeros.
 LbdVector ComputeLbdVector(const GradientImage& gradient, const Segment2& segment);
 
 // 256 bits: for each of 32 pairs of bands, which of the two has the larger value in each of the 8

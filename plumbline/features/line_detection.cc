@@ -2,64 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/line_detection.h"
 
+#include "plumbline/features/line_merging.h"
 #include "plumbline/features/line_refinement.h"
-#include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
-
-#include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/edge_drawing.hpp>
 
 namespace plumbline {
 namespace {
 
 constexpr double kBorderPx = 3;
-constexpr double kDegree = std::numbers::pi / 180;
-
-std::vector<Segment2> RawSegments(const GrayImage& image,
-                                  LineDetector detector,
-                                  const LineDetectionOptions& options) {
-  std::vector<cv::Vec4f> lines;
-  if (detector == LineDetector::kLsd) {
-    const auto lsd = cv::createLineSegmentDetector(cv::LSD_REFINE_NONE, options.lsd_scale);
-    lsd->detect(AsMat(image), lines);
-  } else {
-    const auto drawing = cv::ximgproc::createEdgeDrawing();
-    drawing->detectEdges(AsMat(image));
-    drawing->detectLines(lines);
-  }
-  std::vector<Segment2> segments;
-  segments.reserve(lines.size());
-  for (const cv::Vec4f& l : lines) {
-    Segment2 segment{{static_cast<double>(l[0]), static_cast<double>(l[1])},
-                     {static_cast<double>(l[2]), static_cast<double>(l[3])}};
-    if (detector == LineDetector::kLsd) {
-      // LSD gives (x + 1/2) / scale for the meeting point of four pixels of its smaller image,
-      // whose place in the full image is (x + 1) / scale - 1/2.
-      const double shift = 0.5 / options.lsd_scale - 0.5;
-      segment.start.array() += shift;
-      segment.end.array() += shift;
-    }
-    segments.push_back(segment);
-  }
-  return segments;
-}
+constexpr double kSettledPx = 0.5;
 
 // The longest part of the segment that keeps its distance from invalid pixels.
 std::optional<Segment2> ClipToValid(const Segment2& segment, const ValidRegion& valid) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(segment.Length())));
-  const auto at = [&](int i) -> Eigen::Vector2d {
+  const auto at = [&](int i, int steps) -> Eigen::Vector2d {
     return segment.start + static_cast<double>(i) / steps * (segment.end - segment.start);
   };
+  const double length = segment.Length();
+  // Most segments lie well inside: a look every few pixels tells.
+  const int looks = 1 + static_cast<int>(length / (2 * kBorderPx));
+  int inside = 0;
+  while (inside <= looks && valid.Contains(at(inside, looks), kBorderPx)) ++inside;
+  if (inside > looks) return segment;
+  const int steps = std::max(1, static_cast<int>(std::ceil(length)));
   int best_begin = 0;
   int best_end = -1;
   int begin = 0;
   for (int i = 0; i <= steps; ++i) {
-    if (!valid.Contains(at(i), kBorderPx)) {
+    if (!valid.Contains(at(i, steps), kBorderPx)) {
       begin = i + 1;
     } else if (i - begin > best_end - best_begin) {
       best_begin = begin;
@@ -67,7 +40,7 @@ std::optional<Segment2> ClipToValid(const Segment2& segment, const ValidRegion& 
     }
   }
   if (best_end <= best_begin) return std::nullopt;
-  return Segment2{at(best_begin), at(best_end)};
+  return Segment2{at(best_begin, steps), at(best_end, steps)};
 }
 
 // Directed, moved onto the edge; nullopt when too weak, too short or not an edge.
@@ -80,12 +53,15 @@ std::optional<LineFeature> MakeLine(const GradientImage& gradient,
   line.segment = MeanNormalGradient(gradient, segment) > 0 ? segment.Reversed() : segment;
   line.sigma_px = std::max(options.min_sigma_px, 1.0);
   if (options.refine) {
-    // Twice: the first fit may have looked along a normal that is a few degrees off.
+    // Again when that moved it: the first fit looked along a normal that was a few degrees off.
     for (const int range : {3, 2}) {
       const std::optional<RefinedSegment> refined = RefineSegment(gradient, line.segment, range);
       if (!refined) return std::nullopt;
+      const double moved = std::max((refined->segment.start - line.segment.start).norm(),
+                                    (refined->segment.end - line.segment.end).norm());
       line.segment = refined->segment;
       line.sigma_px = std::max(options.min_sigma_px, refined->sigma_px);
+      if (moved < kSettledPx) break;
     }
   }
   line.response = -MeanNormalGradient(gradient, line.segment);
@@ -93,50 +69,24 @@ std::optional<LineFeature> MakeLine(const GradientImage& gradient,
   return line;
 }
 
-// The segment that covers both when b continues (or overlaps) a on the same straight edge.
-std::optional<Segment2> Join(const GradientImage& gradient,
-                             const LineFeature& a,
-                             const LineFeature& b,
-                             const LineDetectionOptions& options) {
-  const Eigen::Vector2d direction = a.segment.Direction();
-  if (direction.dot(b.segment.Direction()) < std::cos(options.merge_angle_deg * kDegree)) {
-    return std::nullopt;
-  }
-  const Eigen::Vector3d line = LineThrough(a.segment);
-  if (std::abs(LineDistance(line, b.segment.start)) > options.merge_offset_px ||
-      std::abs(LineDistance(line, b.segment.end)) > options.merge_offset_px) {
-    return std::nullopt;
-  }
-  const double a_length = a.segment.Length();
-  const double b0 = direction.dot(b.segment.start - a.segment.start);
-  const double b1 = direction.dot(b.segment.end - a.segment.start);
-  const double gap = std::max(b0 - a_length, -b1);
-  if (gap > options.merge_gap * std::min(a_length, b.segment.Length())) return std::nullopt;
-  if (gap > 2) {  // the edge must be there in the gap too
-    const Segment2 between = b0 > a_length ? Segment2{a.segment.end, b.segment.start}
-                                           : Segment2{b.segment.end, a.segment.start};
-    if (-MeanNormalGradient(gradient, between) < 0.4 * std::min(a.response, b.response)) {
-      return std::nullopt;
-    }
-  }
-  return Segment2{b0 < 0 ? b.segment.start : a.segment.start,
-                  b1 > a_length ? b.segment.end : a.segment.end};
-}
-
-// Joins pieces to the longest segment they continue until nothing changes. `lines` longest first.
+// One collinear neighbour after the other is joined to the longest segment it continues, where
+// the result is still found to be an edge. `lines` longest first.
 std::vector<LineFeature> MergeLines(const GradientImage& gradient,
-                                    std::vector<LineFeature> lines,
+                                    const std::vector<LineFeature>& lines,
                                     const LineDetectionOptions& options) {
+  const LineMergeLimits limits{options.merge_angle_deg, options.merge_offset_px, options.merge_gap};
+  const CollinearIndex index(lines);
   std::vector<bool> used(lines.size(), false);
   std::vector<LineFeature> merged;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (used[i]) continue;
     LineFeature line = lines[i];
+    used[i] = true;
     for (bool grown = true; grown;) {
       grown = false;
-      for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      for (const std::size_t j : index.Near(line.segment, limits)) {
         if (used[j]) continue;
-        const std::optional<Segment2> joined = Join(gradient, line, lines[j], options);
+        const std::optional<Segment2> joined = Join(gradient, line, lines[j], limits);
         if (!joined) continue;
         const std::optional<LineFeature> candidate = MakeLine(gradient, *joined, 0, options);
         if (!candidate) continue;
@@ -149,7 +99,6 @@ std::vector<LineFeature> MergeLines(const GradientImage& gradient,
   }
   return merged;
 }
-
 void SortByLength(std::vector<LineFeature>* lines) {
   std::stable_sort(lines->begin(), lines->end(), [](const LineFeature& a, const LineFeature& b) {
     return a.segment.Length() > b.segment.Length();
@@ -191,34 +140,24 @@ std::vector<LineFeature> SelectLines(const std::vector<LineFeature>& lines,
 
 }  // namespace
 
-double MeanNormalGradient(const GradientImage& gradient, const Segment2& segment) {
-  const double length = segment.Length();
-  if (!(length > 0)) return 0;
-  const Eigen::Vector2d direction = segment.Direction();
-  const Eigen::Vector2d normal(-direction.y(), direction.x());
-  const int samples = std::clamp(static_cast<int>(length / 2), 4, 64);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (int i = 0; i < samples; ++i) {
-    sum += GradientAt(gradient, segment.start + (i + 0.5) / samples * length * direction);
-  }
-  return normal.dot(sum) / samples;
-}
-
-std::vector<LineFeature> DetectLines(const GrayImage& image,
-                                     const GradientImage& gradient,
-                                     const ValidRegion& valid,
+std::vector<LineFeature> DetectLines(const LineImage& input,
                                      LineDetector detector,
                                      int count,
                                      const LineDetectionOptions& options) {
   constexpr int kMinSide = 16;
+  const auto& [image, gradient, smooth, valid] = input;
   if (count <= 0 || std::min(image.width(), image.height()) < kMinSide) return {};
   PLUMBLINE_CHECK(gradient.width() == image.width() && gradient.height() == image.height(),
                   "gradient of the same image");
+  PLUMBLINE_CHECK(smooth.width() == image.width() && smooth.height() == image.height(),
+                  "smooth gradient of the same image");
   const double min_length = options.min_length * std::max(image.width(), image.height());
   // Pieces may be shorter when they can still be joined.
   const double min_piece = options.merge ? 0.6 * min_length : min_length;
+  const RawSegmentOptions raw_options{
+      detector, options.detection_scale, min_piece, options.min_contrast};
   std::vector<LineFeature> lines;
-  for (const Segment2& raw : RawSegments(image, detector, options)) {
+  for (const Segment2& raw : FindRawSegments(image, smooth, raw_options)) {
     if (raw.Length() < min_piece) continue;
     const std::optional<Segment2> clipped = ClipToValid(raw, valid);
     if (!clipped) continue;

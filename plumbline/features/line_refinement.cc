@@ -7,19 +7,20 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 namespace plumbline {
 namespace {
 
-constexpr int kMaxSamples = 50;
-constexpr int kMinSamples = 6;
+constexpr std::size_t kMaxSamples = 48;
+constexpr std::size_t kMinSamples = 6;
 constexpr double kMinInliers = 0.5;
 
-struct EdgePoint {
-  double along = 0;   // from the midpoint, px
-  double across = 0;  // along the normal, px
-  double weight = 0;
+// Where the edge was found.
+struct EdgePoints {
+  std::array<float, kMaxSamples> along;   // from the midpoint, px
+  std::array<float, kMaxSamples> across;  // along the normal, px
+  std::array<float, kMaxSamples> weight;
+  std::size_t size = 0;
 };
 
 // Looks for the edge along rows or columns of pixels, whichever cross it more squarely: then the
@@ -35,18 +36,15 @@ class EdgeFinder {
         range_(std::min(kMaxReach, static_cast<int>(range_px * std::numbers::sqrt2 + 0.5))) {}
 
   // Places of the edge on about `samples` rows (columns) of the segment of this length.
-  std::vector<EdgePoint> Find(double length, int samples) const {
-    std::vector<EdgePoint> edges;
-    edges.reserve(static_cast<std::size_t>(samples));
+  EdgePoints Find(double length, std::size_t samples) const {
+    EdgePoints edges;
     const double major = by_rows_ ? direction_.y() : direction_.x();
-    for (int i = 0; i < samples; ++i) {
-      const double wanted = ((i + 0.5) / samples - 0.5) * length;
-      const Eigen::Vector2d near = middle_ + wanted * direction_;
-      const double grid = std::round(by_rows_ ? near.y() : near.x());
-      const double along = (grid - (by_rows_ ? middle_.y() : middle_.x())) / major;
-      if (const std::optional<EdgePoint> edge = FindOn(static_cast<int>(grid), along)) {
-        edges.push_back(*edge);
-      }
+    const double middle = by_rows_ ? middle_.y() : middle_.x();
+    const double step = length / static_cast<double>(samples);
+    double wanted = 0.5 * (step - length);
+    for (std::size_t i = 0; i < samples; ++i, wanted += step) {
+      const double grid = std::floor(middle + wanted * major + 0.5);
+      FindOn(static_cast<int>(grid), (grid - middle) / major, &edges);
     }
     return edges;
   }
@@ -55,38 +53,40 @@ class EdgeFinder {
   static constexpr int kMaxReach = 10;
 
   // On one row (column) of pixels that the segment's line crosses at `along`.
-  std::optional<EdgePoint> FindOn(int grid, double along) const {
-    const Eigen::Vector2d crossing = middle_ + along * direction_;
-    const double place = by_rows_ ? crossing.x() : crossing.y();
-    const int center = static_cast<int>(std::lround(place));
-    const int first = center - range_;
+  void FindOn(int grid, double along, EdgePoints* edges) const {
+    const double place =
+        by_rows_ ? middle_.x() + along * direction_.x() : middle_.y() + along * direction_.y();
+    if (!(std::abs(place) < 1e6)) return;
+    const int first = static_cast<int>(std::floor(place + 0.5)) - range_;
     const int limit = by_rows_ ? gradient_.width() : gradient_.height();
     const int other_limit = by_rows_ ? gradient_.height() : gradient_.width();
-    if (first < 0 || center + range_ >= limit || grid < 0 || grid >= other_limit) {
-      return std::nullopt;
-    }
+    if (first < 0 || first + 2 * range_ >= limit || grid < 0 || grid >= other_limit) return;
     const int count = 2 * range_ + 1;
-    std::array<float, static_cast<std::size_t>(2 * kMaxReach + 1)> slope{};
-    std::size_t best = 0;
+    const std::ptrdiff_t step = by_rows_ ? 1 : gradient_.width();
+    const std::ptrdiff_t start = by_rows_ ? gradient_.dx.row(grid) - gradient_.dx.data() + first
+                                          : gradient_.dx.row(first) - gradient_.dx.data() + grid;
+    const std::int16_t* dx = gradient_.dx.data() + start;
+    const std::int16_t* dy = gradient_.dy.data() + start;
+    std::array<float, static_cast<std::size_t>(2 * kMaxReach + 1)> slope;
     const auto nx = static_cast<float>(normal_.x() / kSobelGain);
     const auto ny = static_cast<float>(normal_.y() / kSobelGain);
-    for (int k = 0; k < count; ++k) {
-      const int x = by_rows_ ? first + k : grid;
-      const int y = by_rows_ ? grid : first + k;
+    std::size_t best = 0;
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      slope[i] = -nx * static_cast<float>(gradient_.dx.at(x, y)) -
-                 ny * static_cast<float>(gradient_.dy.at(x, y));
+      slope[i] = -nx * static_cast<float>(dx[k * step]) - ny * static_cast<float>(dy[k * step]);
       if (slope[i] > slope[best]) best = i;
     }
-    if (best == 0 || static_cast<int>(best) == count - 1 || slope[best] < 1) return std::nullopt;
+    if (best == 0 || static_cast<int>(best) == count - 1 || slope[best] < 1) return;
     const float curvature = slope[best - 1] - 2 * slope[best] + slope[best + 1];
-    if (curvature >= 0) return std::nullopt;
+    if (curvature >= 0) return;
     const float peak = 0.5F * (slope[best - 1] - slope[best + 1]) / curvature;
     const double offset = first + static_cast<int>(best) + static_cast<double>(peak) - place;
     // A step along the row (column) goes partly across and partly along the segment.
-    return EdgePoint{along + offset * (by_rows_ ? direction_.x() : direction_.y()),
-                     offset * (by_rows_ ? normal_.x() : normal_.y()),
-                     static_cast<double>(slope[best])};
+    const std::size_t n = edges->size++;
+    edges->along[n] =
+        static_cast<float>(along + offset * (by_rows_ ? direction_.x() : direction_.y()));
+    edges->across[n] = static_cast<float>(offset * (by_rows_ ? normal_.x() : normal_.y()));
+    edges->weight[n] = slope[best];
   }
 
   const GradientImage& gradient_;
@@ -107,71 +107,90 @@ struct LineFit {
 };
 
 // The line through two of the edge points, one near each end, that has most of the others close by.
-LineFit FirstGuess(const std::vector<EdgePoint>& edges) {
-  constexpr std::size_t kTries = 5;     // at each end
-  constexpr double kClose = 0.5 * 0.5;  // square pixels
-  const std::size_t third = edges.size() / 3;
+LineFit FirstGuess(const EdgePoints& edges) {
+  constexpr std::size_t kTries = 3;      // at each end
+  constexpr float kClose = 0.5F * 0.5F;  // square pixels
+  const std::size_t third = edges.size / 3;
   LineFit best;
-  double best_cost = std::numeric_limits<double>::infinity();
+  float best_cost = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < kTries; ++i) {
     for (std::size_t j = 0; j < kTries; ++j) {
-      const EdgePoint& a = edges[i * third / kTries];
-      const EdgePoint& b = edges[edges.size() - 1 - j * third / kTries];
-      if (std::abs(b.along - a.along) < 1) continue;
-      LineFit guess;
-      guess.slope = (b.across - a.across) / (b.along - a.along);
-      guess.offset = a.across - guess.slope * a.along;
-      double cost = 0;
-      for (const EdgePoint& e : edges) {
-        const double r = e.across - guess.offset - guess.slope * e.along;
-        cost += e.weight * std::min(r * r, kClose);
+      const std::size_t a = i * third / (kTries - 1);
+      const std::size_t b = edges.size - 1 - j * third / (kTries - 1);
+      const float width = edges.along[b] - edges.along[a];
+      if (std::abs(width) < 1) continue;
+      const float slope = (edges.across[b] - edges.across[a]) / width;
+      const float offset = edges.across[a] - slope * edges.along[a];
+      float cost = 0;
+      for (std::size_t k = 0; k < edges.size; ++k) {
+        const float r = edges.across[k] - offset - slope * edges.along[k];
+        cost += edges.weight[k] * std::min(r * r, kClose);
       }
       if (cost >= best_cost) continue;
       best_cost = cost;
-      best = guess;
+      best.offset = static_cast<double>(offset);
+      best.slope = static_cast<double>(slope);
     }
   }
   return best;
 }
 
+// Robust deviation of the edge points from the line: from the median of the residuals.
+double Scatter(const EdgePoints& edges, const LineFit& fit) {
+  std::array<float, kMaxSamples> residuals;
+  const auto offset = static_cast<float>(fit.offset);
+  const auto slope = static_cast<float>(fit.slope);
+  for (std::size_t i = 0; i < edges.size; ++i) {
+    residuals[i] = std::abs(edges.across[i] - offset - slope * edges.along[i]);
+  }
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(edges.size / 2);
+  std::nth_element(
+      residuals.begin(), middle, residuals.begin() + static_cast<std::ptrdiff_t>(edges.size));
+  return 1.4826 * static_cast<double>(*middle);
+}
+
+// One weighted fit; points `limit` or more away from the line so far do not count. False when too
+// few are left.
+bool Reweighted(const EdgePoints& edges, double limit, LineFit* fit) {
+  double s0 = 0;
+  double s1 = 0;
+  double s2 = 0;
+  double t0 = 0;
+  double t1 = 0;
+  double squares = 0;
+  const double scale = 1 / (limit * limit);
+  for (std::size_t i = 0; i < edges.size; ++i) {
+    const auto along = static_cast<double>(edges.along[i]);
+    const auto across = static_cast<double>(edges.across[i]);
+    const double r = across - fit->offset - fit->slope * along;
+    const double tukey = std::max(0.0, 1 - r * r * scale);
+    const double w = static_cast<double>(edges.weight[i]) * tukey * tukey;
+    s0 += w;
+    s1 += w * along;
+    s2 += w * along * along;
+    t0 += w * across;
+    t1 += w * along * across;
+    squares += w * w;
+  }
+  const double determinant = s0 * s2 - s1 * s1;
+  if (s0 <= 0 || determinant <= 1e-9 * s0 * s0) return false;
+  fit->offset = (s2 * t0 - s1 * t1) / determinant;
+  fit->slope = (s0 * t1 - s1 * t0) / determinant;
+  fit->inliers = s0 * s0 / squares;
+  fit->offset_variance = s2 / determinant * s0 / fit->inliers;
+  fit->slope_variance = s0 / determinant * s0 / fit->inliers;
+  return true;
+}
+
 // Weighted straight line through the edge points, outliers pushed out by Tukey weights.
-std::optional<LineFit> FitLine(const std::vector<EdgePoint>& edges) {
+std::optional<LineFit> FitLine(const EdgePoints& edges) {
   LineFit fit = FirstGuess(edges);
   double limit = 1;
-  std::vector<double> residuals(edges.size());
-  for (int iteration = 0; iteration < 4; ++iteration) {
-    double s0 = 0;
-    double s1 = 0;
-    double s2 = 0;
-    double t0 = 0;
-    double t1 = 0;
-    double squares = 0;
-    for (const EdgePoint& e : edges) {
-      const double r = e.across - fit.offset - fit.slope * e.along;
-      const double u = r / limit;
-      if (std::abs(u) >= 1) continue;
-      const double w = e.weight * (1 - u * u) * (1 - u * u);
-      s0 += w;
-      s1 += w * e.along;
-      s2 += w * e.along * e.along;
-      t0 += w * e.across;
-      t1 += w * e.along * e.across;
-      squares += w * w;
+  for (int round = 0; round < 2; ++round) {
+    for (int iteration = 0; iteration < 2; ++iteration) {
+      if (!Reweighted(edges, limit, &fit)) return std::nullopt;
     }
-    const double determinant = s0 * s2 - s1 * s1;
-    if (s0 <= 0 || determinant <= 1e-9 * s0 * s0) return std::nullopt;
-    fit.offset = (s2 * t0 - s1 * t1) / determinant;
-    fit.slope = (s0 * t1 - s1 * t0) / determinant;
-    const double effective = s0 * s0 / squares;
-    fit.inliers = effective;
-    fit.offset_variance = s2 / determinant * s0 / effective;
-    fit.slope_variance = s0 / determinant * s0 / effective;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      residuals[i] = std::abs(edges[i].across - fit.offset - fit.slope * edges[i].along);
-    }
-    const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-    std::nth_element(residuals.begin(), middle, residuals.end());
-    fit.scatter = 1.4826 * *middle;
+    fit.scatter = Scatter(edges, fit);
     limit = std::max(4 * fit.scatter, 0.3);
   }
   return fit;
@@ -179,23 +198,42 @@ std::optional<LineFit> FitLine(const std::vector<EdgePoint>& edges) {
 
 }  // namespace
 
+double MeanNormalGradient(const GradientImage& gradient, const Segment2& segment) {
+  constexpr int kMaxSamples = 32;
+  const double length = segment.Length();
+  if (!(length > 0)) return 0;
+  const int samples = std::clamp(static_cast<int>(length / 2), 4, kMaxSamples);
+  const Eigen::Vector2d step = (segment.end - segment.start) / samples;
+  Eigen::Vector2d px = segment.start + 0.5 * step + Eigen::Vector2d(0.5, 0.5);
+  int dx = 0;
+  int dy = 0;
+  for (int i = 0; i < samples; ++i, px += step) {
+    if (!(px.x() >= 0 && px.y() >= 0 && px.x() < gradient.width() && px.y() < gradient.height())) {
+      continue;
+    }
+    const int x = static_cast<int>(px.x());
+    const int y = static_cast<int>(px.y());
+    dx += gradient.dx.at(x, y);
+    dy += gradient.dy.at(x, y);
+  }
+  return (step.x() * dy - step.y() * dx) / (length * kSobelGain);
+}
+
 std::optional<RefinedSegment> RefineSegment(const GradientImage& gradient,
                                             const Segment2& segment,
                                             int range_px) {
   const double length = segment.Length();
-  if (length < 1 || range_px < 1 || range_px > 7) return std::nullopt;
+  if (!(length >= 1) || !(length < 1e6) || range_px < 1 || range_px > 7) return std::nullopt;
   const Eigen::Vector2d direction = segment.Direction();
   const Eigen::Vector2d normal(-direction.y(), direction.x());
   const Eigen::Vector2d middle = segment.Midpoint();
-  const int samples = std::clamp(static_cast<int>(length / 2), kMinSamples, kMaxSamples);
-  const std::vector<EdgePoint> edges =
-      EdgeFinder(gradient, segment, range_px).Find(length, samples);
-  if (static_cast<double>(edges.size()) < std::max<double>(kMinSamples, kMinInliers * samples)) {
-    return std::nullopt;
-  }
+  const std::size_t samples =
+      std::clamp(static_cast<std::size_t>(length / 2), kMinSamples, kMaxSamples);
+  const double needed = kMinInliers * static_cast<double>(samples);
+  const EdgePoints edges = EdgeFinder(gradient, segment, range_px).Find(length, samples);
+  if (edges.size < kMinSamples || static_cast<double>(edges.size) < needed) return std::nullopt;
   const std::optional<LineFit> fit = FitLine(edges);
-  if (!fit || fit->inliers < kMinInliers * samples || fit->scatter > 1.5 ||
-      std::abs(fit->slope) > 0.3) {
+  if (!fit || fit->inliers < needed || fit->scatter > 1.5 || std::abs(fit->slope) > 0.3) {
     return std::nullopt;
   }
   const double half = 0.5 * length;

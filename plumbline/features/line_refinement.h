@@ -9,6 +9,10 @@
 
 namespace plumbline {
 
+// Mean over the segment of the gradient component along the image normal (-dy, dx) of LineThrough,
+// in grey levels per pixel: negative when the bright side is on the left.
+double MeanNormalGradient(const GradientImage& gradient, const Segment2& segment);
+
 struct RefinedSegment {
   Segment2 segment;
   double sigma_px = 0;  // deviation of an end point across the line, from the scatter of the fit

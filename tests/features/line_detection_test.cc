@@ -19,21 +19,27 @@ GrayImage EdgeImage(double tilt, double dark = 60, double bright = 160) {
 }
 
 std::vector<LineFeature> Detect(const GrayImage& image,
-                                LineDetector detector = LineDetector::kLsd,
+                                LineDetector detector = LineDetector::kDrawing,
                                 int count = 200,
                                 const LineDetectionOptions& options = {}) {
-  return DetectLines(image,
-                     ComputeGradient(image),
-                     ValidRegion(image.width(), image.height()),
-                     detector,
-                     count,
-                     options);
+  const ValidRegion whole(image.width(), image.height());
+  return DetectLines(
+      {image, ComputeGradient(image), ComputeGradient(image, 1), whole}, detector, count, options);
+}
+
+std::vector<LineFeature> DetectInside(const GrayImage& image, const GrayImage& mask) {
+  return DetectLines({image, ComputeGradient(image), ComputeGradient(image, 1), ValidRegion(mask)},
+                     LineDetector::kDrawing,
+                     200,
+                     {});
 }
 
 class LineDetectors : public testing::TestWithParam<LineDetector> {};
-INSTANTIATE_TEST_SUITE_P(Both,
+INSTANTIATE_TEST_SUITE_P(Each,
                          LineDetectors,
-                         testing::Values(LineDetector::kLsd, LineDetector::kEdlines));
+                         testing::Values(LineDetector::kDrawing,
+                                         LineDetector::kLsd,
+                                         LineDetector::kEdlines));
 
 TEST_P(LineDetectors, PlaceAnEdgeWithinATenthOfAPixel) {
   for (const double tilt : {0.0, 0.3, -0.8}) {
@@ -45,6 +51,20 @@ TEST_P(LineDetectors, PlaceAnEdgeWithinATenthOfAPixel) {
     }
     EXPECT_GT(lines[0].segment.Length(), 180);
     EXPECT_GT(lines[0].response, 10);
+  }
+}
+
+TEST_P(LineDetectors, PlaceAnEdgeAtHalfSizeToo) {
+  LineDetectionOptions options;
+  options.detection_scale = 0.5;
+  for (const double tilt : {0.0, 0.3, -0.8}) {
+    const auto lines = Detect(EdgeImage(tilt), GetParam(), 200, options);
+    ASSERT_EQ(lines.size(), 1U) << tilt;
+    for (const Eigen::Vector2d& end : {lines[0].segment.start, lines[0].segment.end}) {
+      const double error = (end.x() - kEdgeX - tilt * (end.y() - 120)) / std::hypot(1, tilt);
+      EXPECT_NEAR(error, 0, 0.1) << tilt;
+    }
+    EXPECT_GT(lines[0].segment.Length(), 180);
   }
 }
 
@@ -100,24 +120,21 @@ TEST(LineDetection, DropsTheEdgeOfTheMaskAndCutsLinesThere) {
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 320; ++x) mask.at(x, y) = 0;
   }
-  const auto cut =
-      DetectLines(image, ComputeGradient(image), ValidRegion(mask), LineDetector::kLsd, 200, {});
+  const auto cut = DetectInside(image, mask);
   ASSERT_EQ(cut.size(), 1U);
   EXPECT_GE(std::min(cut[0].segment.start.y(), cut[0].segment.end.y()), 62);
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 152; ++x) mask.at(x, y) = 0;
   }
-  EXPECT_TRUE(
-      DetectLines(image, ComputeGradient(image), ValidRegion(mask), LineDetector::kLsd, 200, {})
-          .empty());
+  EXPECT_TRUE(DetectInside(image, mask).empty());
 }
 
 TEST(LineDetection, KeepsNoMoreThanAskedAndFromAllOverTheImage) {
   const GrayImage image = Render(640, 480, SquareTexture(500, 640, 480));
   LineDetectionOptions options;
   options.min_length = 0.02;
-  const auto all = Detect(image, LineDetector::kLsd, 1000, options);
-  const auto few = Detect(image, LineDetector::kLsd, 40, options);
+  const auto all = Detect(image, LineDetector::kDrawing, 1000, options);
+  const auto few = Detect(image, LineDetector::kDrawing, 40, options);
   ASSERT_GT(all.size(), 80U);
   EXPECT_EQ(few.size(), 40U);
   for (const bool right : {false, true}) {
@@ -128,13 +145,6 @@ TEST(LineDetection, KeepsNoMoreThanAskedAndFromAllOverTheImage) {
       EXPECT_GE(quarter, 4);
     }
   }
-}
-
-TEST(MeanNormalGradient, HasTheSignOfLineDistance) {
-  const GradientImage gradient = ComputeGradient(EdgeImage(0));
-  EXPECT_LT(MeanNormalGradient(gradient, {{kEdgeX, 50}, {kEdgeX, 150}}), -10);
-  EXPECT_GT(MeanNormalGradient(gradient, {{kEdgeX, 150}, {kEdgeX, 50}}), 10);
-  EXPECT_EQ(MeanNormalGradient(gradient, {{5, 5}, {5, 5}}), 0);
 }
 
 }  // namespace

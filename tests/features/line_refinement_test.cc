@@ -76,5 +76,13 @@ TEST(RefineSegment, PredictsItsScatterUnderNoise) {
   EXPECT_LT(predicted / kTrials, 2.5 * actual);
 }
 
+TEST(MeanNormalGradient, HasTheSignOfLineDistance) {
+  const GradientImage gradient = ComputeGradient(
+      Render(320, 240, [](const Eigen::Vector2d& p) { return p.x() > 151.25 ? 160.0 : 60.0; }));
+  EXPECT_LT(MeanNormalGradient(gradient, {{151.25, 50}, {151.25, 150}}), -10);
+  EXPECT_GT(MeanNormalGradient(gradient, {{151.25, 150}, {151.25, 50}}), 10);
+  EXPECT_EQ(MeanNormalGradient(gradient, {{5, 5}, {5, 5}}), 0);
+}
+
 }  // namespace
 }  // namespace plumbline

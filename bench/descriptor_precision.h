@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace plumbline::bench {
+
+// Prints how well our LBD and OpenCV's tell lines apart, on the same lines.
+void PrintDescriptorPrecision(const std::string& data);
+
+}  // namespace plumbline::bench

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/lbd.h"
+#include "plumbline/features/line_detection.h"
+
+#include "bench/example_image.h"
+
+#include <benchmark/benchmark.h>
+
+namespace plumbline::bench {
+namespace {
+
+// Arguments: detector; size at which it looks, percent.
+void WholeFrontEnd(benchmark::State& state) {
+  const ExampleImage example = MakeExampleImage();
+  const auto detector = static_cast<LineDetector>(state.range(0));
+  LineDetectionOptions options;
+  options.detection_scale = static_cast<double>(state.range(1)) / 100;
+  std::size_t lines = 0;
+  for (auto _ : state) {
+    const GradientImage gradient = ComputeGradient(example.image);
+    const GradientImage smooth = ComputeGradient(example.image, 1);
+    auto found =
+        DetectLines({example.image, gradient, smooth, example.valid}, detector, 200, options);
+    DescribeLines(smooth, &found);
+    lines = found.size();
+    benchmark::DoNotOptimize(found);
+  }
+  state.SetLabel(example.name);
+  state.counters["lines"] = static_cast<double>(lines);
+}
+
+// The same arguments; the detector alone.
+void RawSegments(benchmark::State& state) {
+  const ExampleImage example = MakeExampleImage();
+  const GradientImage smooth = ComputeGradient(example.image, 1);
+  RawSegmentOptions options;
+  options.detector = static_cast<LineDetector>(state.range(0));
+  options.scale = static_cast<double>(state.range(1)) / 100;
+  std::size_t segments = 0;
+  for (auto _ : state) {
+    const auto found = FindRawSegments(example.image, smooth, options);
+    segments = found.size();
+    benchmark::DoNotOptimize(found);
+  }
+  state.SetLabel(example.name);
+  state.counters["segments"] = static_cast<double>(segments);
+}
+
+void Detectors(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Unit(benchmark::kMillisecond)->ArgNames({"detector", "percent"});
+  for (const auto& [detector, name] : EnumNames(std::type_identity<LineDetector>{})) {
+    for (const int percent : {100, 50}) benchmark->Args({static_cast<int>(detector), percent});
+  }
+}
+BENCHMARK(WholeFrontEnd)->Apply(Detectors);
+BENCHMARK(RawSegments)->Apply(Detectors);
+
+}  // namespace
+}  // namespace plumbline::bench

@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/segment_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+
+namespace plumbline {
+namespace {
+
+constexpr int kBorder = 3;             // pixels around the image where no edge is looked for
+constexpr std::array kMaxTurn{5, 12};  // tangent of the largest angle of gradient and normal
+constexpr int kUnit = 256;             // fixed point of slopes
+constexpr float kMaxResidual = 1;      // of an edge point from the line predicted, px
+constexpr double kMaxScatter = 0.4;    // RMS of all edge points, px
+constexpr double kMinDensity = 0.75;   // of edge points on a segment
+
+// What has been done at a pixel.
+enum Mark : std::uint8_t { kFree = 0, kTried = 1, kDrawn = 2 };
+
+// The gradient seen along one axis: edges that run along the major axis within about 45 degrees.
+// Such an edge is minor = f(major), and `across` (the derivative along the minor axis) is large.
+struct AxisView {
+  const std::int16_t* across;
+  const std::int16_t* along;
+  std::ptrdiff_t major_step, minor_step;
+  int major_size, minor_size;
+
+  std::ptrdiff_t Index(int major, int minor) const {
+    return major * major_step + minor * minor_step;
+  }
+};
+
+AxisView FlatEdges(const GradientImage& g) {
+  return {g.dy.data(), g.dx.data(), 1, g.width(), g.width(), g.height()};
+}
+
+AxisView SteepEdges(const GradientImage& g) {
+  return {g.dx.data(), g.dy.data(), g.width(), 1, g.height(), g.width()};
+}
+
+struct Anchor {
+  std::int16_t x, y;
+  bool steep;
+  std::int16_t strength;
+};
+
+// Least squares of minor = offset + slope * major over the points so far, major from the anchor.
+struct LineSums {
+  double n = 0, m = 0, v = 0, mm = 0, mv = 0, vv = 0;
+
+  void Add(double major, double minor) {
+    n += 1;
+    m += major;
+    v += minor;
+    mm += major * major;
+    mv += major * minor;
+    vv += minor * minor;
+  }
+};
+
+struct Fit {
+  float offset = 0;
+  float slope = 0;
+  float reach = 0;  // kMaxResidual along the minor axis
+  int turn = 0;     // slope times kUnit
+  double scatter = 0;
+};
+
+Fit FitSums(const LineSums& s) {
+  const double spread = s.mm - s.m * s.m / s.n;
+  const double slope = (s.mv - s.m * s.v / s.n) / spread;
+  const double offset = (s.v - slope * s.m) / s.n;
+  const double squares = s.vv - s.v * s.v / s.n - slope * slope * spread;
+  return {static_cast<float>(offset),
+          static_cast<float>(slope),
+          kMaxResidual * static_cast<float>(std::sqrt(1 + slope * slope)),
+          static_cast<int>(slope * kUnit),
+          std::sqrt(std::max(0.0, squares / s.n) / (1 + slope * slope))};
+}
+
+// Whether the edge seems to go on straight from here, at least on one side: whether the gradient
+// a few pixels further on is turned little. A quick look that spares most walks.
+bool Promising(const AxisView& view, int major, int minor) {
+  constexpr int kAhead = 4;
+  const std::ptrdiff_t here = view.Index(major, minor);
+  const int across = view.across[here];
+  const int along = view.along[here];
+  const int slope = kAhead * along / across;
+  if (minor - kAhead < kBorder || minor + kAhead >= view.minor_size - kBorder) return true;
+  for (const int side : {-1, 1}) {
+    const int ahead = major + side * kAhead;
+    if (ahead < 0 || ahead >= view.major_size) continue;
+    const std::ptrdiff_t i = view.Index(ahead, minor - side * slope);
+    const int dot = across * view.across[i] + along * view.along[i];
+    const int cross = across * view.along[i] - along * view.across[i];
+    if (std::abs(cross) * kMaxTurn[1] <= dot * kMaxTurn[0]) return true;
+  }
+  return false;
+}
+
+// One edge followed both ways from its anchor.
+class Walk {
+ public:
+  Walk(const AxisView& view, const Image<std::uint8_t>& marks, int min_slope)
+      : view_(view), marks_(marks), min_rise_(min_slope * kUnit) {}
+
+  // False when there is no straight edge. `path`: index of each edge pixel.
+  bool Follow(int major, int minor, std::vector<std::ptrdiff_t>* path) {
+    const std::ptrdiff_t i = view_.Index(major, minor);
+    const std::ptrdiff_t step = view_.minor_step;
+    sign_ = view_.across[i] > 0 ? 1 : -1;
+    const auto sum = [&](const std::int16_t* g) {
+      return static_cast<float>(g[i - step] + 2 * g[i] + g[i + step]);
+    };
+    anchor_major_ = major;
+    anchor_minor_ = minor;
+    fit_.slope = std::clamp(-sum(view_.along) / sum(view_.across), -1.2F, 1.2F);
+    fit_.reach = 1.5F * kMaxResidual;
+    fit_.turn = static_cast<int>(fit_.slope * kUnit);
+    fitted_at_ = 0;
+    const std::optional<float> start = EdgeNear(major, 0);
+    if (!start) return false;
+    last_minor_ = *start;
+    AddPoint(major, *start, path);
+    last_major_[0] = last_major_[1] = major;
+    last_seen_ = major;
+    Extend(1, path);
+    last_minor_ = *start;
+    last_seen_ = major;
+    Extend(0, path);
+    if (sums_.n < kSeedPoints) return false;
+    fit_ = FitSums(sums_);
+    return true;
+  }
+
+  // Along the line.
+  double Length() const {
+    return (last_major_[1] - last_major_[0]) * std::sqrt(1.0 + fit_.slope * fit_.slope);
+  }
+  double Scatter() const { return fit_.scatter; }
+  double Density() const { return sums_.n / (last_major_[1] - last_major_[0] + 1.0); }
+  bool Rising() const { return sign_ > 0; }  // brighter at larger minor coordinates
+  // The end with the smaller (0) or larger (1) major coordinate: (major, minor).
+  Eigen::Vector2d End(int side) const {
+    const int major = last_major_[static_cast<std::size_t>(side)];
+    return {static_cast<double>(major),
+            static_cast<double>(anchor_minor_) + fit_.offset +
+                static_cast<double>(fit_.slope) * (major - anchor_major_)};
+  }
+
+ private:
+  static constexpr int kSeedPoints = 6;
+  static constexpr float kMaxSlope = 1.5F;
+
+  // Minor coordinate, from the anchor's, of the edge at this major coordinate near `guess`.
+  std::optional<float> EdgeNear(int major, float guess) const {
+    const int center = Nearest(guess);
+    if (center < kBorder || center >= view_.minor_size - kBorder) return std::nullopt;
+    const std::ptrdiff_t first = view_.Index(major, center - 2);
+    const int turn = fit_.turn;
+    std::array<int, 5> rise;  // derivative across the line times kUnit, positive at the edge
+    for (std::size_t k = 0; k < 5; ++k) {
+      const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(k) * view_.minor_step;
+      rise[k] = sign_ * (view_.across[i] * kUnit - turn * view_.along[i]);
+    }
+    std::size_t best = 2;
+    if (rise[1] > rise[best]) best = 1;
+    if (rise[3] > rise[best]) best = 3;
+    const int peak = rise[best];
+    const int before = rise[best - 1];
+    const int after = rise[best + 1];
+    if (peak < min_rise_ || peak < before || peak < after) return std::nullopt;
+    const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(best) * view_.minor_step;
+    const int turned = view_.along[i] * kUnit + turn * view_.across[i];
+    if (std::abs(turned) * kMaxTurn[1] > peak * kMaxTurn[0]) return std::nullopt;
+    if (marks_.data()[i] == kDrawn) return std::nullopt;
+    const int bend = 2 * peak - before - after;
+    const float offset =
+        bend > 0 ? 0.5F * static_cast<float>(after - before) / static_cast<float>(bend) : 0.0F;
+    const float place = static_cast<float>(center - anchor_minor_ - 2 + static_cast<int>(best));
+    if (std::abs(place + offset - guess) > fit_.reach) return std::nullopt;
+    return place + offset;
+  }
+
+  void AddPoint(int major, float minor, std::vector<std::ptrdiff_t>* path) {
+    sums_.Add(major - anchor_major_, minor);
+    path->push_back(view_.Index(major, Nearest(minor)));
+  }
+
+  // Minor coordinate of the pixel nearest to this place, which is relative to the anchor. Exact
+  // from -1/2 on; further outside all that counts is that it is outside.
+  int Nearest(float place) const {
+    return static_cast<int>(static_cast<float>(anchor_minor_) + place + 0.5F);
+  }
+
+  // Walks towards smaller (side 0) or larger (side 1) major coordinates. Every miss is a debt that
+  // a point pays back; the points behind a gap count once it is paid.
+  void Extend(int side, std::vector<std::ptrdiff_t>* path) {
+    const int direction = side == 1 ? 1 : -1;
+    int& last = last_major_[static_cast<std::size_t>(side)];
+    int debt = 0;
+    State before_gap;
+    State before_bend{sums_, path->size(), last};
+    for (int major = last + direction; major >= kBorder && major < view_.major_size - kBorder;
+         major += direction) {
+      const std::optional<float> edge = EdgeNear(major, Guess(major));
+      if (!edge) {
+        if (debt == 0) before_gap = {sums_, path->size(), last};
+        if (++debt > std::min(static_cast<int>(sums_.n) / kPointsPerMiss, kMaxGap)) break;
+        continue;
+      }
+      last_minor_ = *edge;
+      last_seen_ = major;
+      AddPoint(major, *edge, path);
+      if (debt > 0 && --debt > 0) continue;
+      last = major;
+      if (sums_.n < kSeedPoints || sums_.n < 1.25 * fitted_at_) continue;
+      fit_ = FitSums(sums_);
+      fitted_at_ = sums_.n;
+      if (fit_.scatter > kMaxScatter || std::abs(fit_.slope) > kMaxSlope) {
+        Restore(before_bend, &last, path);
+        return;
+      }
+      before_bend = {sums_, path->size(), last};
+    }
+    if (debt > 0) Restore(before_gap, &last, path);
+  }
+
+  float Guess(int major) const {
+    return sums_.n < kSeedPoints
+               ? last_minor_ + fit_.slope * static_cast<float>(major - last_seen_)
+               : fit_.offset + fit_.slope * static_cast<float>(major - anchor_major_);
+  }
+
+  struct State {
+    LineSums sums;
+    std::size_t path = 0;
+    int last = 0;
+  };
+
+  void Restore(const State& state, int* last, std::vector<std::ptrdiff_t>* path) {
+    sums_ = state.sums;
+    path->resize(state.path);
+    *last = state.last;
+    if (sums_.n >= kSeedPoints) fit_ = FitSums(sums_);
+    fitted_at_ = sums_.n;
+  }
+
+  static constexpr int kMaxGap = 8;         // px
+  static constexpr int kPointsPerMiss = 4;  // needed on the line for each pixel of a gap
+
+  const AxisView& view_;
+  const Image<std::uint8_t>& marks_;
+  int min_rise_;
+  int sign_ = 1;
+  int anchor_major_ = 0;
+  int anchor_minor_ = 0;
+  Fit fit_;
+  double fitted_at_ = 0;
+  LineSums sums_;
+  float last_minor_ = 0;
+  std::array<int, 2> last_major_{};
+  int last_seen_ = 0;
+};
+
+// 1 where the derivative `across` a row of pixels is at least `min_strength`, not below that along
+// the edge, and larger than beside it; `before` and `after` are the neighbours across. Written so
+// that it becomes vector code.
+void MarkMaxima(const std::int16_t* across,
+                const std::int16_t* along,
+                std::ptrdiff_t step,
+                int min_strength,
+                std::vector<std::uint8_t>* maxima) {
+  const std::int16_t* before = across - step;
+  const std::int16_t* after = across + step;
+  const auto least = static_cast<std::int16_t>(min_strength);
+  const auto size = [](std::int16_t v) { return static_cast<std::int16_t>(v < 0 ? -v : v); };
+  std::uint8_t* out = maxima->data();
+  const std::size_t count = maxima->size();
+  for (std::size_t x = 0; x < count; ++x) {
+    const std::int16_t value = size(across[x]);
+    out[x] = static_cast<std::uint8_t>((value >= least) & (value >= size(along[x])) &
+                                       (value >= size(before[x])) & (value > size(after[x])));
+  }
+}
+
+// Local maxima of the gradient on every `step`-th row (steep edges) and column (flat edges).
+std::vector<Anchor> FindAnchors(const GradientImage& gradient, int min_strength, int step) {
+  std::vector<Anchor> anchors;
+  const int width = gradient.width();
+  std::vector<std::uint8_t> maxima(static_cast<std::size_t>(width - 2 * kBorder));
+  const auto collect = [&](int y, int every, const std::int16_t* across, bool steep) {
+    const int count = static_cast<int>(maxima.size());
+    for (int x = 0; x < count; x += every) {
+      if (maxima[static_cast<std::size_t>(x)] == 0) continue;
+      anchors.push_back({static_cast<std::int16_t>(x + kBorder),
+                         static_cast<std::int16_t>(y),
+                         steep,
+                         static_cast<std::int16_t>(std::abs(across[x]))});
+    }
+  };
+  for (int y = kBorder; y < gradient.height() - kBorder; ++y) {
+    const std::int16_t* dx = gradient.dx.row(y) + kBorder;
+    const std::int16_t* dy = gradient.dy.row(y) + kBorder;
+    MarkMaxima(dy, dx, width, min_strength, &maxima);
+    collect(y, step, dy, false);
+    if (y % step != 0) continue;
+    MarkMaxima(dx, dy, 1, min_strength, &maxima);
+    collect(y, 1, dx, true);
+  }
+  return anchors;
+}
+
+// Strongest first; equal ones in order. By counting, strengths in steps of 1/8 grey level.
+std::vector<Anchor> StrongestFirst(const std::vector<Anchor>& anchors) {
+  constexpr std::size_t kBins = 1024;
+  const auto bin = [](const Anchor& a) {
+    return kBins - 1 - std::min(kBins - 1, static_cast<std::size_t>(a.strength));
+  };
+  std::array<std::size_t, kBins + 1> begin{};
+  for (const Anchor& a : anchors) ++begin[bin(a) + 1];
+  for (std::size_t i = 0; i < kBins; ++i) begin[i + 1] += begin[i];
+  std::vector<Anchor> sorted(anchors.size());
+  for (const Anchor& a : anchors) sorted[begin[bin(a)]++] = a;
+  return sorted;
+}
+
+Segment2 Directed(const Walk& walk, bool steep) {
+  const auto place = [&](int side) {
+    const Eigen::Vector2d end = walk.End(side);
+    return steep ? Eigen::Vector2d(end.y(), end.x()) : end;
+  };
+  // With y down a line that runs down has its left at larger x, one that runs right at smaller y.
+  const Segment2 segment{place(0), place(1)};
+  return walk.Rising() == steep ? segment : segment.Reversed();
+}
+
+}  // namespace
+
+std::vector<Segment2> DrawSegments(const GradientImage& gradient,
+                                   const SegmentDrawingLimits& limits) {
+  std::vector<Segment2> segments;
+  if (std::min(gradient.width(), gradient.height()) <= 2 * kBorder) return segments;
+  const int min_slope = std::max(1, static_cast<int>(limits.min_gradient * kSobelGain));
+  const std::array<AxisView, 2> views{FlatEdges(gradient), SteepEdges(gradient)};
+  Image<std::uint8_t> marks(gradient.width(), gradient.height(), kFree);
+  std::vector<std::ptrdiff_t> path;
+  // The shortest segment, at 45 degrees, still has two anchors.
+  constexpr double kMaxStep = 6;
+  const int step =
+      static_cast<int>(std::clamp(limits.min_length / (2 * std::numbers::sqrt2), 1.0, kMaxStep));
+  for (const Anchor& anchor : StrongestFirst(FindAnchors(gradient, min_slope, step))) {
+    if (marks.at(anchor.x, anchor.y) != kFree) continue;
+    const AxisView& view = views[anchor.steep ? 1 : 0];
+    const int major = anchor.steep ? anchor.y : anchor.x;
+    const int minor = anchor.steep ? anchor.x : anchor.y;
+    if (!Promising(view, major, minor)) continue;
+    path.clear();
+    Walk walk(view, marks, min_slope);
+    const bool good = walk.Follow(major, minor, &path) && walk.Length() >= limits.min_length &&
+                      walk.Scatter() <= kMaxScatter && walk.Density() >= kMinDensity;
+    for (const std::ptrdiff_t i : path) {
+      std::uint8_t* mark = marks.data() + i;
+      if (!good) {
+        *mark = std::max<std::uint8_t>(*mark, kTried);
+        continue;
+      }
+      mark[-view.minor_step] = mark[0] = mark[view.minor_step] = kDrawn;
+    }
+    if (good) segments.push_back(Directed(walk, anchor.steep));
+  }
+  return segments;
+}
+
+}  // namespace plumbline

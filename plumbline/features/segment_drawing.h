@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+#include "plumbline/image/gradient.h"
+
+#include <vector>
+
+namespace plumbline {
+
+struct SegmentDrawingLimits {
+  double min_length = 15;   // pixels of this image
+  double min_gradient = 2;  // across the line, at every pixel of it; grey levels per pixel
+};
+
+// Straight edges, directed with the bright side on the left, by drawing them pixel by pixel.
+//
+// Anchors are local maxima of the gradient on every sixth row and column (closer together for short
+// segments), strongest first. From an anchor the edge is followed both ways, one column (row, for
+// steep edges) at a time: the next edge point is the sub-pixel maximum of the gradient across the
+// line next to where the line fitted to the points so far predicts it. Points whose gradient is
+// turned by more than 22.5 degrees are missed; the walk ends after too many of those in a row,
+// where the edge bends, and at edges drawn before. The idea of fitting while drawing, with jumps
+// over gaps, is that of ELSED (Suarez et al., Pattern Recognition 127, 2022), of edge drawing that
+// of Topal and Akinlar (2012); searching along the predicted line instead of from pixel to pixel is
+// ours: docs/methods/line-front-end.md.
+//
+// `gradient` should be that of a smoothed image (sigma about 1). Cost: about 1 ms for 752x480.
+std::vector<Segment2> DrawSegments(const GradientImage& gradient,
+                                   const SegmentDrawingLimits& limits);
+
+}  // namespace plumbline
