@@ -73,13 +73,12 @@ void DescribeByOpenCv(const GrayImage& image, std::vector<LineFeature>* lines) {
 
 View Describe(GrayImage image, const ValidRegion& valid) {
   View view;
-  const GradientImage gradient = ComputeGradient(image);
-  const GradientImage smooth = ComputeGradient(image, 1);
-  view.ours = DetectLines({image, gradient, smooth, valid}, LineDetector::kDrawing, 200, {});
+  const GradientImage gradient = ComputeGradient(image, kLineBlurPx);
+  view.ours = DetectLines(image, gradient, valid, LineDetector::kDrawing, 200, {});
   view.opencv = view.ours;
-  DescribeLines(smooth, &view.ours);  // warm
+  DescribeLines(gradient, &view.ours);  // warm
   const double start = CpuMilliseconds();
-  DescribeLines(smooth, &view.ours);
+  DescribeLines(gradient, &view.ours);
   const double middle = CpuMilliseconds();
   DescribeByOpenCv(image, &view.opencv);
   view.ours_ms = middle - start;

@@ -13,12 +13,10 @@ namespace {
 // Descriptors of the lines of an image, gradient excluded. "a_line": the mean over them.
 void Lbd(benchmark::State& state) {
   const ExampleImage example = MakeExampleImage();
-  const GradientImage gradient = ComputeGradient(example.image);
-  const GradientImage smooth = ComputeGradient(example.image, 1);
-  auto lines = DetectLines(
-      {example.image, gradient, smooth, example.valid}, LineDetector::kDrawing, 200, {});
+  const GradientImage gradient = ComputeGradient(example.image, kLineBlurPx);
+  auto lines = DetectLines(example.image, gradient, example.valid, LineDetector::kDrawing, 200, {});
   for (auto _ : state) {
-    DescribeLines(smooth, &lines);
+    DescribeLines(gradient, &lines);
     benchmark::DoNotOptimize(lines);
   }
   state.SetLabel(example.name);
@@ -32,14 +30,14 @@ BENCHMARK(Lbd)->Unit(benchmark::kMicrosecond);
 // Argument: length of the line, pixels.
 void LbdOfLength(benchmark::State& state) {
   const ExampleImage example = MakeExampleImage();
-  const GradientImage smooth = ComputeGradient(example.image, 1);
+  const GradientImage gradient = ComputeGradient(example.image, kLineBlurPx);
   const Eigen::Vector2d middle(0.5 * example.image.width(), 0.5 * example.image.height());
   const Eigen::Vector2d half =
       0.5 * static_cast<double>(state.range(0)) * Eigen::Vector2d(0.8, 0.6);
   std::vector<LineFeature> line(1);
   line[0].segment = {middle - half, middle + half};
   for (auto _ : state) {
-    DescribeLines(smooth, &line);
+    DescribeLines(gradient, &line);
     benchmark::DoNotOptimize(line);
   }
 }

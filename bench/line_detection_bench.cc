@@ -18,11 +18,9 @@ void WholeFrontEnd(benchmark::State& state) {
   options.detection_scale = static_cast<double>(state.range(1)) / 100;
   std::size_t lines = 0;
   for (auto _ : state) {
-    const GradientImage gradient = ComputeGradient(example.image);
-    const GradientImage smooth = ComputeGradient(example.image, 1);
-    auto found =
-        DetectLines({example.image, gradient, smooth, example.valid}, detector, 200, options);
-    DescribeLines(smooth, &found);
+    const GradientImage gradient = ComputeGradient(example.image, kLineBlurPx);
+    auto found = DetectLines(example.image, gradient, example.valid, detector, 200, options);
+    DescribeLines(gradient, &found);
     lines = found.size();
     benchmark::DoNotOptimize(found);
   }
@@ -33,13 +31,13 @@ void WholeFrontEnd(benchmark::State& state) {
 // The same arguments; the detector alone.
 void RawSegments(benchmark::State& state) {
   const ExampleImage example = MakeExampleImage();
-  const GradientImage smooth = ComputeGradient(example.image, 1);
+  const GradientImage gradient = ComputeGradient(example.image, kLineBlurPx);
   RawSegmentOptions options;
   options.detector = static_cast<LineDetector>(state.range(0));
   options.scale = static_cast<double>(state.range(1)) / 100;
   std::size_t segments = 0;
   for (auto _ : state) {
-    const auto found = FindRawSegments(example.image, smooth, options);
+    const auto found = FindRawSegments(example.image, gradient, options);
     segments = found.size();
     benchmark::DoNotOptimize(found);
   }

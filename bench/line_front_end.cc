@@ -59,11 +59,9 @@ std::vector<LineFeature> FrontEnd(const GrayImage& image,
                                   const DetectorSetting& setting) {
   LineDetectionOptions options;
   options.detection_scale = setting.scale;
-  const GradientImage gradient = ComputeGradient(image);
-  const GradientImage smooth = ComputeGradient(image, 1);
-  std::vector<LineFeature> lines =
-      DetectLines({image, gradient, smooth, valid}, setting.detector, kLines, options);
-  DescribeLines(smooth, &lines);
+  const GradientImage gradient = ComputeGradient(image, kLineBlurPx);
+  auto lines = DetectLines(image, gradient, valid, setting.detector, kLines, options);
+  DescribeLines(gradient, &lines);
   return lines;
 }
 

@@ -20,7 +20,6 @@ struct SingleView {
 SingleView ExtractView(const GrayImage& image,
                        const ValidRegion* valid,
                        const FeatureOptions& options) {
-  constexpr double kLineBlurPx = 1;
   const ValidRegion whole(image.width(), image.height());
   const ValidRegion& region = valid ? *valid : whole;
   SingleView view;
@@ -29,11 +28,10 @@ SingleView ExtractView(const GrayImage& image,
     view.points = ExtractOrb(view.pyramid, region, options.point_count, options.orb);
   }
   if (options.lines) {
-    const GradientImage gradient = ComputeGradient(image);
-    const GradientImage smooth = ComputeGradient(image, kLineBlurPx);
+    const GradientImage gradient = ComputeGradient(image, kLineBlurPx);
     view.lines = DetectLines(
-        {image, gradient, smooth, region}, options.line_detector, options.line_count, options.line);
-    DescribeLines(smooth, &view.lines);
+        image, gradient, region, options.line_detector, options.line_count, options.line);
+    DescribeLines(gradient, &view.lines);
   }
   return view;
 }

@@ -140,24 +140,24 @@ std::vector<LineFeature> SelectLines(const std::vector<LineFeature>& lines,
 
 }  // namespace
 
-std::vector<LineFeature> DetectLines(const LineImage& input,
+std::vector<LineFeature> DetectLines(const GrayImage& image,
+                                     const GradientImage& gradient,
+                                     const ValidRegion& valid,
                                      LineDetector detector,
                                      int count,
                                      const LineDetectionOptions& options) {
   constexpr int kMinSide = 16;
-  const auto& [image, gradient, smooth, valid] = input;
   if (count <= 0 || std::min(image.width(), image.height()) < kMinSide) return {};
   PLUMBLINE_CHECK(gradient.width() == image.width() && gradient.height() == image.height(),
                   "gradient of the same image");
-  PLUMBLINE_CHECK(smooth.width() == image.width() && smooth.height() == image.height(),
-                  "smooth gradient of the same image");
   const double min_length = options.min_length * std::max(image.width(), image.height());
-  // Pieces may be shorter when they can still be joined.
-  const double min_piece = options.merge ? 0.6 * min_length : min_length;
+  // Pieces may be shorter when they can still be joined; drawing jumps small gaps by itself.
+  const bool pieces = options.merge && detector != LineDetector::kDrawing;
+  const double min_piece = pieces ? 0.6 * min_length : min_length;
   const RawSegmentOptions raw_options{
       detector, options.detection_scale, min_piece, options.min_contrast};
   std::vector<LineFeature> lines;
-  for (const Segment2& raw : FindRawSegments(image, smooth, raw_options)) {
+  for (const Segment2& raw : FindRawSegments(image, gradient, raw_options)) {
     if (raw.Length() < min_piece) continue;
     const std::optional<Segment2> clipped = ClipToValid(raw, valid);
     if (!clipped) continue;

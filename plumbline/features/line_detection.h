@@ -12,6 +12,9 @@
 
 namespace plumbline {
 
+// Blur before the gradient in which lines are found, placed and described.
+inline constexpr double kLineBlurPx = 1;
+
 struct LineDetectionOptions {
   double detection_scale = 1;  // size at which segments are looked for, relative to the image
   double min_length = 0.035;   // of a segment, relative to the longer side of the image
@@ -20,27 +23,21 @@ struct LineDetectionOptions {
   double merge_offset_px = 1.2;  // across
   double merge_gap = 0.15;       // gap between two pieces relative to the shorter one
   bool refine = true;            // move segments to the sub-pixel peak of the gradient
-  double min_contrast = 4;       // mean gradient across the line, grey levels per pixel
+  double min_contrast = 3;       // mean gradient across the line, grey levels per pixel
   double min_sigma_px = 0.5;     // floor of the deviation of an end point across the line
-};
-
-// One image with what is computed from it once for all that looks for lines there.
-struct LineImage {
-  const GrayImage& image;
-  const GradientImage& gradient;  // of the image as it is
-  const GradientImage& smooth;    // of the image after a blur of about 1 px
-  const ValidRegion& valid;
 };
 
 // Straight edges of an image, directed with the bright side on the left (see LineFeature), without
 // descriptors; at most `count`, longest and strongest first choice but spread over the image.
 //
-// Segments as raw_segments.h finds them.
-// Collinear pieces of like contrast sign are joined over small gaps. Each segment is then fitted
-// again, robustly, to the sub-pixel maxima of the directional gradient across it; sigma_px is what
-// that fit gives for an end point, not below min_sigma_px. Parts closer than 3 px to invalid pixels
-// are cut off. Deterministic. Cost: see docs/methods/line-front-end.md.
-std::vector<LineFeature> DetectLines(const LineImage& input,
+// Segments as raw_segments.h finds them. Collinear pieces of like contrast sign are joined over
+// small gaps. Each segment is fitted again, robustly, to the sub-pixel maxima of the directional
+// gradient across it; sigma_px is what that fit gives for an end point, not below min_sigma_px.
+// Parts closer than 3 px to invalid pixels are cut off. `gradient` is that of `image` after a blur
+// by kLineBlurPx. Deterministic. Cost: about 3 ms for 752x480 with the drawing detector.
+std::vector<LineFeature> DetectLines(const GrayImage& image,
+                                     const GradientImage& gradient,
+                                     const ValidRegion& valid,
                                      LineDetector detector,
                                      int count,
                                      const LineDetectionOptions& options);

@@ -58,13 +58,15 @@ std::vector<Segment2> EdLines(const GrayImage& image) {
 }  // namespace
 
 std::vector<Segment2> FindRawSegments(const GrayImage& image,
-                                      const GradientImage& smooth,
+                                      const GradientImage& gradient,
                                       const RawSegmentOptions& options) {
   if (options.detector == LineDetector::kLsd) return Lsd(image, options.scale);
-  const SegmentDrawingLimits limits{options.min_length * options.scale, 0.5 * options.min_contrast};
+  // Single pixels may be weaker than the mean over the line.
+  const SegmentDrawingLimits limits{options.min_length * options.scale,
+                                    2.0 / 3 * options.min_contrast};
   if (options.scale == 1) {
     return options.detector == LineDetector::kEdlines ? EdLines(image)
-                                                      : DrawSegments(smooth, limits);
+                                                      : DrawSegments(gradient, limits);
   }
   constexpr int kMinSide = 16;
   const GrayImage small = Resized(image, options.scale);

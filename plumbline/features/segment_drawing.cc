@@ -45,9 +45,9 @@ AxisView SteepEdges(const GradientImage& g) {
 }
 
 struct Anchor {
-  std::int16_t x, y;
+  int x, y;
   bool steep;
-  std::int16_t strength;
+  int strength;
 };
 
 // Least squares of minor = offset + slope * major over the points so far, major from the anchor.
@@ -67,8 +67,9 @@ struct LineSums {
 struct Fit {
   float offset = 0;
   float slope = 0;
-  float reach = 0;  // kMaxResidual along the minor axis
-  int turn = 0;     // slope times kUnit
+  float reach = 0;    // kMaxResidual along the minor axis
+  int turn = 0;       // slope times kUnit
+  double points = 0;  // that were fitted
   double scatter = 0;
 };
 
@@ -81,6 +82,7 @@ Fit FitSums(const LineSums& s) {
           static_cast<float>(slope),
           kMaxResidual * static_cast<float>(std::sqrt(1 + slope * slope)),
           static_cast<int>(slope * kUnit),
+          s.n,
           std::sqrt(std::max(0.0, squares / s.n) / (1 + slope * slope))};
 }
 
@@ -120,10 +122,11 @@ class Walk {
     };
     anchor_major_ = major;
     anchor_minor_ = minor;
-    fit_.slope = std::clamp(-sum(view_.along) / sum(view_.across), -1.2F, 1.2F);
+    const float across = sum(view_.across);
+    if (across * static_cast<float>(sign_) <= 0) return false;
+    fit_.slope = std::clamp(-sum(view_.along) / across, -1.2F, 1.2F);
     fit_.reach = 1.5F * kMaxResidual;
     fit_.turn = static_cast<int>(fit_.slope * kUnit);
-    fitted_at_ = 0;
     const std::optional<float> start = EdgeNear(major, 0);
     if (!start) return false;
     last_minor_ = *start;
@@ -157,6 +160,7 @@ class Walk {
  private:
   static constexpr int kSeedPoints = 6;
   static constexpr float kMaxSlope = 1.5F;
+  static constexpr double kRefitGrowth = 1.25;  // of the number of points
 
   // Minor coordinate, from the anchor's, of the edge at this major coordinate near `guess`.
   std::optional<float> EdgeNear(int major, float guess) const {
@@ -206,12 +210,12 @@ class Walk {
     int& last = last_major_[static_cast<std::size_t>(side)];
     int debt = 0;
     State before_gap;
-    State before_bend{sums_, path->size(), last};
+    State before_bend{sums_, fit_, path->size(), last};
     for (int major = last + direction; major >= kBorder && major < view_.major_size - kBorder;
          major += direction) {
       const std::optional<float> edge = EdgeNear(major, Guess(major));
       if (!edge) {
-        if (debt == 0) before_gap = {sums_, path->size(), last};
+        if (debt == 0) before_gap = {sums_, fit_, path->size(), last};
         if (++debt > std::min(static_cast<int>(sums_.n) / kPointsPerMiss, kMaxGap)) break;
         continue;
       }
@@ -220,14 +224,13 @@ class Walk {
       AddPoint(major, *edge, path);
       if (debt > 0 && --debt > 0) continue;
       last = major;
-      if (sums_.n < kSeedPoints || sums_.n < 1.25 * fitted_at_) continue;
+      if (sums_.n < kSeedPoints || sums_.n < kRefitGrowth * fit_.points) continue;
       fit_ = FitSums(sums_);
-      fitted_at_ = sums_.n;
       if (fit_.scatter > kMaxScatter || std::abs(fit_.slope) > kMaxSlope) {
         Restore(before_bend, &last, path);
         return;
       }
-      before_bend = {sums_, path->size(), last};
+      before_bend = {sums_, fit_, path->size(), last};
     }
     if (debt > 0) Restore(before_gap, &last, path);
   }
@@ -240,16 +243,16 @@ class Walk {
 
   struct State {
     LineSums sums;
+    Fit fit;
     std::size_t path = 0;
     int last = 0;
   };
 
   void Restore(const State& state, int* last, std::vector<std::ptrdiff_t>* path) {
     sums_ = state.sums;
+    fit_ = state.fit;
     path->resize(state.path);
     *last = state.last;
-    if (sums_.n >= kSeedPoints) fit_ = FitSums(sums_);
-    fitted_at_ = sums_.n;
   }
 
   static constexpr int kMaxGap = 8;         // px
@@ -262,16 +265,15 @@ class Walk {
   int anchor_major_ = 0;
   int anchor_minor_ = 0;
   Fit fit_;
-  double fitted_at_ = 0;
   LineSums sums_;
   float last_minor_ = 0;
   std::array<int, 2> last_major_{};
   int last_seen_ = 0;
 };
 
-// 1 where the derivative `across` a row of pixels is at least `min_strength`, not below that along
-// the edge, and larger than beside it; `before` and `after` are the neighbours across. Written so
-// that it becomes vector code.
+// 1 where the derivative `across`, over a row of pixels, is at least `min_strength`, not below that
+// along the edge, and larger than beside it; `before` and `after` are the neighbours across.
+// Written so that it becomes vector code.
 void MarkMaxima(const std::int16_t* across,
                 const std::int16_t* along,
                 std::ptrdiff_t step,
@@ -299,10 +301,7 @@ std::vector<Anchor> FindAnchors(const GradientImage& gradient, int min_strength,
     const int count = static_cast<int>(maxima.size());
     for (int x = 0; x < count; x += every) {
       if (maxima[static_cast<std::size_t>(x)] == 0) continue;
-      anchors.push_back({static_cast<std::int16_t>(x + kBorder),
-                         static_cast<std::int16_t>(y),
-                         steep,
-                         static_cast<std::int16_t>(std::abs(across[x]))});
+      anchors.push_back({x + kBorder, y, steep, std::abs(across[x])});
     }
   };
   for (int y = kBorder; y < gradient.height() - kBorder; ++y) {

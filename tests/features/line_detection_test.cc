@@ -22,13 +22,18 @@ std::vector<LineFeature> Detect(const GrayImage& image,
                                 LineDetector detector = LineDetector::kDrawing,
                                 int count = 200,
                                 const LineDetectionOptions& options = {}) {
-  const ValidRegion whole(image.width(), image.height());
-  return DetectLines(
-      {image, ComputeGradient(image), ComputeGradient(image, 1), whole}, detector, count, options);
+  return DetectLines(image,
+                     ComputeGradient(image, kLineBlurPx),
+                     ValidRegion(image.width(), image.height()),
+                     detector,
+                     count,
+                     options);
 }
 
 std::vector<LineFeature> DetectInside(const GrayImage& image, const GrayImage& mask) {
-  return DetectLines({image, ComputeGradient(image), ComputeGradient(image, 1), ValidRegion(mask)},
+  return DetectLines(image,
+                     ComputeGradient(image, kLineBlurPx),
+                     ValidRegion(mask),
                      LineDetector::kDrawing,
                      200,
                      {});
@@ -70,7 +75,12 @@ TEST_P(LineDetectors, PlaceAnEdgeAtHalfSizeToo) {
 
 TEST_P(LineDetectors, FindNothingInFlatAndTinyImages) {
   EXPECT_TRUE(Detect(GrayImage(320, 240, 90), GetParam()).empty());
-  EXPECT_TRUE(Detect(GrayImage(10, 7, 90), GetParam()).empty());
+  for (int size = 1; size <= 20; ++size) {
+    EXPECT_TRUE(Detect(GrayImage(size, 21 - size, 90), GetParam()).empty()) << size;
+    LineDetectionOptions half;
+    half.detection_scale = 0.5;
+    EXPECT_TRUE(Detect(GrayImage(size, 20, 90), GetParam(), 200, half).empty()) << size;
+  }
 }
 
 TEST_P(LineDetectors, GiveTheSameEveryTime) {
