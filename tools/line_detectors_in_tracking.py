@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs Plumbline with each line detector at full and half size and tabulates tracking.
 
-    tools/line_detectors_in_tracking.py --data DIR [--binary build/release/plumbline] [--runs N]
+    tools/line_detectors_in_tracking.py --data DIR [--binary build/release/plumbline] [--runs N] [--only TEXT]
 
 For each recorded sequence, with points and lines and with lines alone, prints a Markdown table: lines
 matched and inliers in the mean over all frames (frames.csv), frames lost, median ATE of N runs that
@@ -51,11 +51,12 @@ def main():
     parser.add_argument("--data", required=True, type=pathlib.Path, help="folder of the sequences")
     parser.add_argument("--binary", default="build/release/plumbline")
     parser.add_argument("--runs", type=int, default=1)
+    parser.add_argument("--only", default="", help="sequences whose name contains this text")
     options = parser.parse_args()
     print("| sequence | features | detector | scale | matched lines | inlier lines | inlier rate | lost | ATE mm |")
     print("|---|---|---|---|---|---|---|---|---|")
     for sequence, folder in SEQUENCES.items():
-        if not (options.data / folder).is_dir():
+        if options.only not in sequence or not (options.data / folder).is_dir():
             continue
         for points in (True, False):
             for detector in DETECTORS:

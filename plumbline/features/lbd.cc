@@ -25,8 +25,8 @@ constexpr double BandOffset(int band) { return kLbdBandWidth * (band - 0.5 * (kL
 // Gaussian over the whole region with deviation half its width, times one over the three bands with
 // deviation of one band.
 struct BandWeights {
-  int begin = 0;
-  int end = 0;
+  std::size_t begin = kRows;
+  std::size_t end = 0;
   std::array<float, kRows> weight{};
 };
 
@@ -36,15 +36,14 @@ std::array<BandWeights, kLbdBands> MakeWeights() {
   std::array<BandWeights, kLbdBands> bands;
   for (int b = 0; b < kLbdBands; ++b) {
     BandWeights& band = bands[static_cast<std::size_t>(b)];
-    band.begin = kRows;
     for (int row = 0; row < kRows; ++row) {
       const double global = RowOffset(row) / kGlobalSigma;
       const double local = (RowOffset(row) - BandOffset(b)) / kLocalSigma;
       if (std::abs(local) > 1.5) continue;
-      band.begin = std::min(band.begin, row);
-      band.end = row + 1;
-      band.weight[static_cast<std::size_t>(row)] =
-          static_cast<float>(std::exp(-0.5 * (global * global + local * local)));
+      const auto r = static_cast<std::size_t>(row);
+      band.begin = std::min(band.begin, r);
+      band.end = r + 1;
+      band.weight[r] = static_cast<float>(std::exp(-0.5 * (global * global + local * local)));
     }
   }
   return bands;
@@ -52,27 +51,23 @@ std::array<BandWeights, kLbdBands> MakeWeights() {
 
 // Mean over a row of samples of the positive and of the negative part of the gradient across the
 // line, and of that along it.
-struct RowSums {
-  std::array<float, 4> value{};
-  bool valid = false;
-};
-
+using RowSums = std::array<float, 4>;
 using RegionSums = std::array<RowSums, kRows>;
 
 // The samples of one row.
 struct RowSamples {
   std::array<std::int16_t, kMaxColumns> dx;
   std::array<std::int16_t, kMaxColumns> dy;
-  int size = 0;
+  std::size_t size = 0;
 };
 
-// Takes samples at `columns` places from `first` on; those outside the image are left out.
-void TakeSamples(const GradientImage& gradient,
+// Takes samples at `size` places from `first` on; outside the image its border goes on. False when
+// all are outside.
+bool TakeSamples(const GradientImage& gradient,
                  const Eigen::Vector2d& first,
                  const Eigen::Vector2d& step,
-                 int columns,
                  RowSamples* row) {
-  const Eigen::Vector2d last = first + (columns - 1) * step;
+  const Eigen::Vector2d last = first + static_cast<double>(row->size - 1) * step;
   const Eigen::Array2d limit(gradient.width() - 0.75, gradient.height() - 0.75);
   const auto inside = [&](const Eigen::Vector2d& px) {
     return (px.array() > -0.25).all() && (px.array() < limit).all();
@@ -84,23 +79,24 @@ void TakeSamples(const GradientImage& gradient,
   const std::int16_t* dx = gradient.dx.data();
   const std::int16_t* dy = gradient.dy.data();
   const std::int64_t width = gradient.width();
-  std::size_t n = 0;
   if (inside(first) && inside(last)) {
-    for (; n < static_cast<std::size_t>(columns); ++n, x += step_x, y += step_y) {
+    for (std::size_t n = 0; n < row->size; ++n, x += step_x, y += step_y) {
       const std::int64_t i = (y >> 16) * width + (x >> 16);
       row->dx[n] = dx[i];
       row->dy[n] = dy[i];
     }
-  } else {
-    for (int column = 0; column < columns; ++column, x += step_x, y += step_y) {
-      if (x < 0 || y < 0 || x >> 16 >= width || y >> 16 >= gradient.height()) continue;
-      const std::int64_t i = (y >> 16) * width + (x >> 16);
-      row->dx[n] = dx[i];
-      row->dy[n] = dy[i];
-      ++n;
-    }
+    return true;
   }
-  row->size = static_cast<int>(n);
+  bool any = false;
+  const std::int64_t height = gradient.height();
+  for (std::size_t n = 0; n < row->size; ++n, x += step_x, y += step_y) {
+    const std::int64_t near_x = std::clamp<std::int64_t>(x >> 16, 0, width - 1);
+    const std::int64_t near_y = std::clamp<std::int64_t>(y >> 16, 0, height - 1);
+    any = any || (near_x == x >> 16 && near_y == y >> 16);
+    row->dx[n] = dx[near_y * width + near_x];
+    row->dy[n] = dy[near_y * width + near_x];
+  }
+  return any;
 }
 
 // In whole numbers, so that the compiler may add in any order and use vector instructions.
@@ -109,7 +105,7 @@ RowSums SumSamples(const RowSamples& row, std::int16_t direction_x, std::int16_t
   int across_size = 0;
   int along_sum = 0;
   int along_size = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(row.size); ++i) {
+  for (std::size_t i = 0; i < row.size; ++i) {
     const int across = row.dy[i] * direction_x - row.dx[i] * direction_y;
     const int along = row.dx[i] * direction_x + row.dy[i] * direction_y;
     across_sum += across;
@@ -117,36 +113,34 @@ RowSums SumSamples(const RowSamples& row, std::int16_t direction_x, std::int16_t
     along_sum += along;
     along_size += std::abs(along);
   }
-  RowSums sums;
-  if (row.size == 0) return sums;
-  sums.valid = true;
   // Sum of the positive and of the negative parts from the sum and the sum of magnitudes.
-  const float scale = 0.5F / static_cast<float>(kUnit * row.size);
-  sums.value = {scale * static_cast<float>(across_size + across_sum),
-                scale * static_cast<float>(across_size - across_sum),
-                scale * static_cast<float>(along_size + along_sum),
-                scale * static_cast<float>(along_size - along_sum)};
-  return sums;
+  const float scale = 0.5F / static_cast<float>(kUnit * static_cast<int>(row.size));
+  return {scale * static_cast<float>(across_size + across_sum),
+          scale * static_cast<float>(across_size - across_sum),
+          scale * static_cast<float>(along_size + along_sum),
+          scale * static_cast<float>(along_size - along_sum)};
 }
 
-RegionSums SumRows(const GradientImage& gradient, const Segment2& segment) {
-  RegionSums sums;
+// False when the whole region is outside the image.
+bool SumRows(const GradientImage& gradient, const Segment2& segment, RegionSums* sums) {
   RowSamples samples;
   const double length = segment.Length();
   const Eigen::Vector2d direction = segment.Direction();
   const Eigen::Vector2d normal(-direction.y(), direction.x());
   const int columns = std::clamp(static_cast<int>(std::ceil(length)), 1, kMaxColumns);
+  samples.size = static_cast<std::size_t>(columns);
   const Eigen::Vector2d step = direction * (length / columns);
   const auto direction_x = static_cast<std::int16_t>(std::lround(kUnit * direction.x()));
   const auto direction_y = static_cast<std::int16_t>(std::lround(kUnit * direction.y()));
+  bool any = false;
   for (int row = 0; row < kRows; ++row) {
     // The samples of one row lie between those of the next.
     const double shift = row % 2 == 0 ? 0.25 : 0.75;
     const Eigen::Vector2d first = segment.start + shift * step + RowOffset(row) * normal;
-    TakeSamples(gradient, first, step, columns, &samples);
-    sums[static_cast<std::size_t>(row)] = SumSamples(samples, direction_x, direction_y);
+    any = TakeSamples(gradient, first, step, &samples) || any;
+    (*sums)[static_cast<std::size_t>(row)] = SumSamples(samples, direction_x, direction_y);
   }
-  return sums;
+  return any;
 }
 
 // Scales the entries first, first + 8 * i + k (k < 4) of all bands to unit norm, large ones
@@ -178,24 +172,20 @@ LbdVector ComputeLbdVector(const GradientImage& gradient, const Segment2& segmen
   const double length = segment.Length();
   // A line that long has left every image; this also keeps the pixel coordinates inside int.
   if (!(length > 0) || !(length < 1e6) || !(segment.start.norm() < 1e6)) return result;
-  const RegionSums sums = SumRows(gradient, segment);
+  RegionSums sums;
+  if (!SumRows(gradient, segment, &sums)) return result;
   for (std::size_t b = 0; b < kLbdBands; ++b) {
     const BandWeights& band = kWeights[b];
     std::array<float, 4> sum{};
     std::array<float, 4> squares{};
-    int count = 0;
-    for (auto r = static_cast<std::size_t>(band.begin); r < static_cast<std::size_t>(band.end);
-         ++r) {
-      if (!sums[r].valid) continue;
+    for (std::size_t row = band.begin; row < band.end; ++row) {
       for (std::size_t k = 0; k < 4; ++k) {
-        const float v = band.weight[r] * sums[r].value[k];
+        const float v = band.weight[row] * sums[row][k];
         sum[k] += v;
         squares[k] += v * v;
       }
-      ++count;
     }
-    if (count == 0) continue;
-    const float scale = 1 / static_cast<float>(count);
+    const float scale = 1 / static_cast<float>(band.end - band.begin);
     for (std::size_t k = 0; k < 4; ++k) {
       const float mean = scale * sum[k];
       const float variance = std::max(0.0F, scale * squares[k] - mean * mean);
