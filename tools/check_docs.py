@@ -18,6 +18,7 @@ DOCUMENT = re.compile(r"\bdocs/[\w/.-]+\.md\b")
 TEST_NAME = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 BUILT_BY_CMAKE = "build/release/plumbline"
+BENCHMARKS = "build/release/bench/"
 
 
 def lines_of(path):
@@ -123,6 +124,10 @@ def command_problems(root, documents):
                 for flag in FLAG.findall(" ".join(words[2:])):
                     if f'"{flag}"' not in commands[name]:
                         yield f"{where}: plumbline {name} has no {flag}"
+            elif program.startswith(BENCHMARKS):
+                source = root / program.replace(BENCHMARKS, "bench/")
+                if not source.with_suffix(".cc").is_file():
+                    yield f"{where}: there is no benchmark {words[0]}"
             elif "/" in words[0] and "data/" not in program:
                 script = root / program
                 if not script.is_file():

@@ -6,6 +6,7 @@
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/line_parametrization.h"
 #include "plumbline/optimization/problem.h"
 
 #include <array>
@@ -32,12 +33,17 @@ constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
 
 // How lines enter all optimization.
 struct LineOptions {
+  LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
   LineWeighting weighting = LineWeighting::kCovariance;
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, LineOptions& o) {
+  visit("parametrization",
+        o.parametrization,
+        "of a line in bundle adjustment: plucker (orthonormal form, 4 parameters), endpoints (two "
+        "points, 6)");
   visit("residual",
         o.residual,
         "observed_ends: distance of the measured end points from the projected line");

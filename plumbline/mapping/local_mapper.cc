@@ -40,9 +40,9 @@ MapEdit RefreshShown(const Frame& frame) {
 }  // namespace
 
 LocalMapper::LocalMapper(const ImagingModel& imaging,
-                         LineWeighting weighting,
+                         const LineOptions& lines,
                          const MappingOptions& options)
-    : imaging_(imaging), weighting_(weighting), options_(options) {}
+    : imaging_(imaging), lines_(lines), options_(options) {}
 
 std::vector<MappingStep> LocalMapper::Add(Map& map,
                                           const KeyFrame& keyframe,
@@ -100,8 +100,8 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
 }
 
 void LocalMapper::Adjust(Map& map, KeyFrameId id) const {
-  const BaWindow window = MakeBaWindow(map, imaging_, id, weighting_, options_.window);
-  const BaResult result = SolveLocalBa(window.problem, options_.ba);
+  const BaWindow window = MakeBaWindow(map, imaging_, id, lines_.weighting, options_.window);
+  const BaResult result = SolveLocalBa(window.problem, options_.ba, lines_.parametrization);
   if (result.termination == BaTermination::kNotFinite) return;
   map.Apply(ToEdit(map, imaging_, window, result));
 }

@@ -24,7 +24,7 @@ struct MappingStep {
 // a MapEdit, applied here.
 class LocalMapper {
  public:
-  LocalMapper(const ImagingModel& imaging, LineWeighting weighting, const MappingOptions& options);
+  LocalMapper(const ImagingModel& imaging, const LineOptions& lines, const MappingOptions& options);
 
   // Returns the time of each step, in order.
   std::vector<MappingStep> Add(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
@@ -39,7 +39,7 @@ class LocalMapper {
   void Adjust(Map& map, KeyFrameId id) const;
 
   ImagingModel imaging_;
-  LineWeighting weighting_;
+  LineOptions lines_;
   MappingOptions options_;
   YoungLandmarks young_;
 };

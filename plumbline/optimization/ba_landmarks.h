@@ -22,9 +22,9 @@ struct BaObservation {
   Term term;
 };
 
-// All landmarks of one kind (BaPoint or BaLine) with their observations, stored landmark by
-// landmark and within each by pose: linearized, eliminated and moved in that order. Internal to
-// local_ba.cc.
+// All landmarks of one kind (BaPoint, BaLine or BaLineEnds) with their observations, stored
+// landmark by landmark and within each by pose: linearized, eliminated and moved in that order.
+// Internal to local_ba.cc.
 template <class Kind>
 class BaLandmarks {
  public:
@@ -162,12 +162,12 @@ double BaLandmarks<Kind>::CostOf(std::size_t landmark,
                                  const State& state,
                                  const std::vector<BaPose>& poses,
                                  const HuberThresholds& huber) const {
-  const typename Kind::View view = Kind::MakeView(state);
+  const typename Kind::Place place = Kind::MakePlace(state);
   double sum = 0;
   for (std::size_t k = begin_[landmark]; k < begin_[landmark + 1]; ++k) {
     if (!used_[k]) continue;
     const Packed& o = observations_[k];
-    const double chi2 = Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], view, o.term);
+    const double chi2 = Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], place, o.term);
     sum += HuberLoss(chi2, Kind::Huber(o.term, huber));
   }
   return 0.5 * sum;
@@ -202,6 +202,7 @@ LandmarkEquations<Kind::kDof> BaLandmarks<Kind>::Linearize(std::size_t i,
     }
     Kind::Add(camera_, pose, view, o.term, Kind::Huber(o.term, huber), target);
   }
+  Kind::HoldGauge(view, landmark);
   return landmark;
 }
 
@@ -286,10 +287,10 @@ template <class Kind>
 template <class Visitor>
 void BaLandmarks<Kind>::ForEachChi2(const std::vector<BaPose>& poses, Visitor&& visit) const {
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const typename Kind::View view = Kind::MakeView(states_[i]);
+    const typename Kind::Place place = Kind::MakePlace(states_[i]);
     for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const Packed& o = observations_[k];
-      visit(k, Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], view, o.term));
+      visit(k, Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], place, o.term));
     }
   }
 }

@@ -19,12 +19,12 @@ struct LineInCamera {
   Eigen::Vector3d direction, moment;
 };
 
-inline LineInCamera ToCamera(const BaPose& pose, const BaLine::View& view, double shift) {
+inline LineInCamera ToCamera(const BaPose& pose, const BaLinePlace& line, double shift) {
   LineInCamera out;
   out.t = pose.cam_from_world.translation;
   out.t.x() += shift;
-  out.direction = pose.R * view.direction;
-  out.moment = pose.R * view.moment + out.t.cross(out.direction);
+  out.direction = pose.R * line.direction;
+  out.moment = pose.R * line.moment + out.t.cross(out.direction);
   return out;
 }
 
@@ -67,24 +67,26 @@ bool BaPoint::Add(const RectifiedCamera& camera,
   return true;
 }
 
-double BaLine::Chi2(const RectifiedCamera& camera,
-                    const BaPose& pose,
-                    const View& view,
-                    const Term& term) {
+template <int kParameters>
+double BaLineTerms<kParameters>::Chi2(const RectifiedCamera& camera,
+                                      const BaPose& pose,
+                                      const Place& place,
+                                      const Term& term) {
   Eigen::Vector2d r;
-  const LineInCamera line = ToCamera(pose, view, term.shift);
+  const LineInCamera line = ToCamera(pose, place, term.shift);
   if (!WhitenedLineDistances(camera, term, line.moment, r)) {
     return std::numeric_limits<double>::infinity();
   }
   return r.squaredNorm();
 }
 
-bool BaLine::Add(const RectifiedCamera& camera,
-                 const BaPose& pose,
-                 const View& view,
-                 const Term& term,
-                 double huber,
-                 const Target& target) {
+template <int kParameters>
+bool BaLineTerms<kParameters>::Add(const RectifiedCamera& camera,
+                                   const BaPose& pose,
+                                   const View& view,
+                                   const Term& term,
+                                   double huber,
+                                   const Target& target) {
   const LineInCamera line = ToCamera(pose, view, term.shift);
   LineLinearization a;
   if (!LinearizeLine(camera, term, line.moment, a)) return false;
@@ -93,10 +95,11 @@ bool BaLine::Add(const RectifiedCamera& camera,
   Vector6d b1;
   b0 << pose.R.transpose() * a.h0, pose.R.transpose() * a.h0.cross(line.t);  // eq. 18
   b1 << pose.R.transpose() * a.h1, pose.R.transpose() * a.h1.cross(line.t);
-  const Eigen::Vector4d c0 = view.J.transpose() * b0;
-  const Eigen::Vector4d c1 = view.J.transpose() * b1;
-  const Eigen::Vector4d wc0 = w * c0;
-  const Eigen::Vector4d wc1 = w * c1;
+  using Row = Eigen::Matrix<double, kDof, 1>;
+  const Row c0 = view.J.transpose() * b0;
+  const Row c1 = view.J.transpose() * b1;
+  const Row wc0 = w * c0;
+  const Row wc1 = w * c1;
   target.landmark.V.noalias() += wc0 * c0.transpose() + wc1 * c1.transpose();
   target.landmark.g += a.r(0) * wc0 + a.r(1) * wc1;
   if (target.pose == nullptr) return true;
@@ -109,5 +112,8 @@ bool BaLine::Add(const RectifiedCamera& camera,
   target.W->noalias() += a0 * wc0.transpose() + a1 * wc1.transpose();
   return true;
 }
+
+template struct BaLineTerms<4>;
+template struct BaLineTerms<6>;
 
 }  // namespace plumbline

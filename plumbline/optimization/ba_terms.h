@@ -29,21 +29,27 @@ struct BaPoint {
   static constexpr int kDof = 3;
   using State = Eigen::Vector3d;
   using Term = PointTerm;
-  using View = Eigen::Vector3d;  // of a state, computed once for all its observations
+  // Of a state, computed once for all its observations: what residuals need, and what their
+  // derivatives need as well.
+  using Place = Eigen::Vector3d;
+  using View = Eigen::Vector3d;
 
+  static Place MakePlace(const State& state) { return state; }
   static View MakeView(const State& state) { return state; }
   static State Retract(const State& state, const Eigen::Vector3d& step) { return state + step; }
   static double Huber(const Term& term, const HuberThresholds& huber) {
     return term.disparity_weight > 0 ? huber.disparity : huber.point;
   }
   static int Dof(const Term& term) { return term.disparity_weight > 0 ? 3 : 2; }
+  // Completes the equations of a landmark whose parameters its observations cannot all fix.
+  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
 
   // Squared norm of the whitened residual; infinite where there is none.
   static double Chi2(const RectifiedCamera& camera,
                      const BaPose& pose,
-                     const View& view,
+                     const Place& place,
                      const Term& term) {
-    const Eigen::Vector3d p = pose.R * view + pose.cam_from_world.translation;
+    const Eigen::Vector3d p = pose.R * place + pose.cam_from_world.translation;
     return PointChi2(camera, term, p).value_or(std::numeric_limits<double>::infinity());
   }
 
@@ -63,28 +69,27 @@ struct BaPoint {
                   const Target& target);
 };
 
-struct BaLine {
-  static constexpr int kDof = 4;
-  using State = OrthonormalLine;
+// A line in the world. Of any scale: residuals depend on moment : direction alone.
+struct BaLinePlace {
+  Eigen::Vector3d moment, direction;
+};
+
+// What lines have in common, whatever their parameters.
+template <int kParameters>
+struct BaLineTerms {
+  static constexpr int kDof = kParameters;
   using Term = LineTerm;
-  struct View {
-    Eigen::Vector3d moment, direction;
-    Eigen::Matrix<double, 6, 4> J;  // of both with respect to the orthonormal update
+  using Place = BaLinePlace;
+  struct View : BaLinePlace {
+    Eigen::Matrix<double, 6, kDof> J;  // of moment and direction with respect to the update
   };
 
-  static View MakeView(const State& state) {
-    const Vector6d h = state.Homogeneous();
-    return {h.head<3>(), h.tail<3>(), HomogeneousJacobian(state)};
-  }
-  static State Retract(const State& state, const Eigen::Vector4d& step) {
-    return plumbline::Retract(state, step);
-  }
   static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
   static int Dof(const Term&) { return 2; }
 
   static double Chi2(const RectifiedCamera& camera,
                      const BaPose& pose,
-                     const View& view,
+                     const Place& place,
                      const Term& term);
 
   struct Target {
@@ -98,6 +103,54 @@ struct BaLine {
                   const Term& term,
                   double huber,
                   const Target& target);
+};
+extern template struct BaLineTerms<4>;
+extern template struct BaLineTerms<6>;
+
+struct BaLine : BaLineTerms<4> {
+  using State = OrthonormalLine;
+
+  static Place MakePlace(const State& state) {
+    const Vector6d h = state.Homogeneous();
+    return {h.head<3>(), h.tail<3>()};
+  }
+  static View MakeView(const State& state) {
+    return {MakePlace(state), HomogeneousJacobian(state)};
+  }
+  static State Retract(const State& state, const Eigen::Vector4d& step) {
+    return plumbline::Retract(state, step);
+  }
+  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
+};
+
+// A line as two of its points, each with its three coordinates in the world.
+struct BaLineEnds : BaLineTerms<6> {
+  using State = Segment3;
+
+  static Place MakePlace(const State& state) {
+    return {state.start.cross(state.end), state.end - state.start};
+  }
+  static View MakeView(const State& state) {
+    View view{MakePlace(state), {}};
+    view.J << -Skew(state.end), Skew(state.start), -Eigen::Matrix3d::Identity(),
+        Eigen::Matrix3d::Identity();
+    return view;
+  }
+  static State Retract(const State& state, const Vector6d& step) {
+    return {state.start + step.head<3>(), state.end + step.tail<3>()};
+  }
+  // No residual notices an end that slides along the line. Information of the size that the end has
+  // across the line is added along it: a slide then is no longer free, and the rest of the step is
+  // what it was, since the equations ask for no slide (their g has no part along it).
+  static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
+    const Eigen::Matrix3d along =
+        view.direction * view.direction.transpose() / (2 * view.direction.squaredNorm());
+    auto& V = equations.V;
+    const double start = V.diagonal().head<3>().sum();
+    const double end = V.diagonal().tail<3>().sum();
+    V.topLeftCorner<3, 3>() += start * along;
+    V.bottomRightCorner<3, 3>() += end * along;
+  }
 };
 
 }  // namespace plumbline

@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_terms.h"
 
+#include "plumbline/optimization/ba_terms.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/loss_function.h>
-#include <ceres/problem.h>
 #include <ceres/sized_cost_function.h>
-#include <ceres/solver.h>
 
 namespace plumbline {
 namespace {
@@ -144,62 +143,172 @@ bool OrthonormalLineManifold::MinusJacobian(const double* x, double* jacobian) c
 
 namespace {
 
-// Analytic terms return J_tangent * MinusJacobian: Ceres multiplies it by PlusJacobian, which gives
-// J_tangent back.
+Eigen::Matrix3d Rotation(const double* pose) {
+  return Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(pose)).toRotationMatrix();
+}
+
+// Writes the tangent's derivative in front of zeros.
+template <int kRows, int kColumns, class Derived>
+void WriteTangent(const Eigen::MatrixBase<Derived>& J, double* jacobian) {
+  Eigen::Map<RowMajor<kRows, kColumns>> out(jacobian);
+  constexpr int kTangent = Derived::ColsAtCompileTime;
+  out.template leftCols<kTangent>() = J;
+  out.template rightCols<kColumns - kTangent>().setZero();
+}
+
+template <int kRows>
+Eigen::Matrix<double, kRows, 3> CameraDerivative(const PointLinearization& a) {
+  Eigen::Matrix<double, kRows, 3> J;
+  if constexpr (kRows == 3) {
+    J << a.ux, 0, a.uz, 0, a.vy, a.vz, 0, 0, a.dz;
+  } else {
+    J << a.ux, 0, a.uz, 0, a.vy, a.vz;
+  }
+  return J;
+}
+
+// J_cam [-[p]x, I].
+template <int kRows>
+Eigen::Matrix<double, kRows, 6> PoseDerivative(const Eigen::Matrix<double, kRows, 3>& J_cam,
+                                               const Eigen::Vector3d& p) {
+  Eigen::Matrix<double, kRows, 6> J;
+  J << -J_cam * Skew(p), J_cam;
+  return J;
+}
+
 template <int kRows>
 class AnalyticPointCost final : public ceres::SizedCostFunction<kRows, 7, 3> {
  public:
   AnalyticPointCost(const RectifiedCamera& camera, const PointMeasurement& measurement)
-      : camera_(camera), measurement_(measurement) {}
+      : camera_(camera), term_(MakePointTerm(measurement)) {}
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const auto out = EvaluatePoint(
-        camera_, ReadPose(x[0]), Eigen::Map<const Eigen::Vector3d>(x[1]), measurement_);
-    if (!out) return false;
-    Eigen::Map<Eigen::Matrix<double, kRows, 1>> r(residuals);
-    r = out->r.template head<kRows>();
+    const Eigen::Matrix3d R = Rotation(x[0]);
+    const Eigen::Vector3d p =
+        R * Eigen::Map<const Eigen::Vector3d>(x[1]) + Eigen::Map<const Eigen::Vector3d>(x[0] + 4);
+    PointLinearization a;
+    if (!LinearizePoint(camera_, term_, p, a)) return false;
+    std::copy_n(a.r.data(), kRows, residuals);
     if (jacobians == nullptr) return true;
+    const Eigen::Matrix<double, kRows, 3> J_cam = CameraDerivative<kRows>(a);
     if (jacobians[0] != nullptr) {
-      Eigen::Map<RowMajor<kRows, 7>> J(jacobians[0]);
-      J = out->J_pose.template topRows<kRows>() * PoseMinusJacobian(x[0]);
+      WriteTangent<kRows, 7>(PoseDerivative<kRows>(J_cam, p), jacobians[0]);
     }
-    if (jacobians[1] != nullptr) {
-      Eigen::Map<RowMajor<kRows, 3>> J(jacobians[1]);
-      J = out->J_point.template topRows<kRows>();
-    }
+    if (jacobians[1] != nullptr) WriteTangent<kRows, 3>(J_cam * R, jacobians[1]);
     return true;
   }
 
  private:
   RectifiedCamera camera_;
-  PointMeasurement measurement_;
+  PointTerm term_;
 };
 
+template <int kRows>
+class PosePointCost final : public ceres::SizedCostFunction<kRows, 7> {
+ public:
+  PosePointCost(const RectifiedCamera& camera, const PoseProblem::PointMatch& match)
+      : camera_(camera), term_(MakePointTerm(match.measurement)), point_(match.point_in_world) {}
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    const Eigen::Vector3d p = Rotation(x[0]) * point_ + Eigen::Map<const Eigen::Vector3d>(x[0] + 4);
+    PointLinearization a;
+    if (!LinearizePoint(camera_, term_, p, a)) return false;
+    std::copy_n(a.r.data(), kRows, residuals);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    WriteTangent<kRows, 7>(PoseDerivative<kRows>(CameraDerivative<kRows>(a), p), jacobians[0]);
+    return true;
+  }
+
+ private:
+  RectifiedCamera camera_;
+  PointTerm term_;
+  Eigen::Vector3d point_;
+};
+
+// A line in the camera that measured it.
+struct LineInCamera {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t, direction, moment;
+
+  LineInCamera(const double* pose, const LineTerm& term, const BaLinePlace& line)
+      : R(Rotation(pose)),
+        t(pose[4] + term.shift, pose[5], pose[6]),
+        direction(R * line.direction),
+        moment(R * line.moment + t.cross(direction)) {}
+
+  Eigen::Matrix<double, 2, 6> PoseDerivative(const LineLinearization& a, double shift) const {
+    Eigen::Matrix<double, 2, 6> J;
+    J << LinePoseRow(a.h0, moment, direction, shift).transpose(),
+        LinePoseRow(a.h1, moment, direction, shift).transpose();
+    return J;
+  }
+  // With respect to moment and direction in the world (eq. 18).
+  Eigen::Matrix<double, 2, 6> LineDerivative(const LineLinearization& a) const {
+    Eigen::Matrix<double, 2, 6> J;
+    J << a.h0.transpose() * R, a.h0.cross(t).transpose() * R, a.h1.transpose() * R,
+        a.h1.cross(t).transpose() * R;
+    return J;
+  }
+};
+
+// The six numbers of a line as the state of its kind.
+OrthonormalLine ReadState(const double* x, std::type_identity<OrthonormalLine>) {
+  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(x)),
+          Eigen::Map<const Eigen::Vector2d>(x + 4)};
+}
+Segment3 ReadState(const double* x, std::type_identity<Segment3>) {
+  return {Eigen::Map<const Eigen::Vector3d>(x), Eigen::Map<const Eigen::Vector3d>(x + 3)};
+}
+
+// Kind: BaLine or BaLineEnds.
+template <class Kind>
 class AnalyticLineCost final : public ceres::SizedCostFunction<2, 7, 6> {
  public:
   AnalyticLineCost(const RectifiedCamera& camera, const LineMeasurement& measurement)
-      : camera_(camera), measurement_(measurement) {}
+      : camera_(camera), term_(MakeLineTerm(camera, measurement)) {}
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const auto out = EvaluateLine(camera_, ReadPose(x[0]), ReadLine(x[1]), measurement_);
-    if (!out) return false;
-    Eigen::Map<Eigen::Vector2d> r(residuals);
-    r = out->r;
+    const auto state = ReadState(x[1], std::type_identity<typename Kind::State>{});
+    const LineInCamera line(x[0], term_, Kind::MakePlace(state));
+    LineLinearization a;
+    if (!LinearizeLine(camera_, term_, line.moment, a)) return false;
+    std::copy_n(a.r.data(), 2, residuals);
     if (jacobians == nullptr) return true;
     if (jacobians[0] != nullptr) {
-      Eigen::Map<RowMajor<2, 7>> J(jacobians[0]);
-      J = out->J_pose * PoseMinusJacobian(x[0]);
+      WriteTangent<2, 7>(line.PoseDerivative(a, term_.shift), jacobians[0]);
     }
     if (jacobians[1] != nullptr) {
-      Eigen::Map<RowMajor<2, 6>> J(jacobians[1]);
-      J = out->J_line * LineMinusJacobian(x[1]);
+      WriteTangent<2, 6>(line.LineDerivative(a) * Kind::MakeView(state).J, jacobians[1]);
     }
     return true;
   }
 
  private:
   RectifiedCamera camera_;
-  LineMeasurement measurement_;
+  LineTerm term_;
+};
+
+class PoseLineCost final : public ceres::SizedCostFunction<2, 7> {
+ public:
+  PoseLineCost(const RectifiedCamera& camera, const PoseProblem::LineMatch& match)
+      : camera_(camera),
+        term_(MakeLineTerm(camera, match.measurement)),
+        line_{match.line_in_world.moment, match.line_in_world.direction} {}
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    const LineInCamera line(x[0], term_, line_);
+    LineLinearization a;
+    if (!LinearizeLine(camera_, term_, line.moment, a)) return false;
+    std::copy_n(a.r.data(), 2, residuals);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    WriteTangent<2, 7>(line.PoseDerivative(a, term_.shift), jacobians[0]);
+    return true;
+  }
+
+ private:
+  RectifiedCamera camera_;
+  LineTerm term_;
+  BaLinePlace line_;
 };
 
 template <class T>
@@ -229,23 +338,34 @@ struct PointFunctor {
   }
 };
 
+// Two points on a line given by its six numbers.
+template <class T>
+std::pair<Vector3<T>, Vector3<T>> PointsOf(const T* line, LineParametrization parametrization) {
+  if (parametrization == LineParametrization::kEndpoints) {
+    return {Vector3<T>(line[0], line[1], line[2]), Vector3<T>(line[3], line[4], line[5])};
+  }
+  const Eigen::Quaternion<T> U = ReadQuaternion(line);
+  const Vector3<T> moment = (U * Vector3<T>(T(1), T(0), T(0))) * line[4];
+  const Vector3<T> direction = (U * Vector3<T>(T(0), T(1), T(0))) * line[5];
+  const Vector3<T> foot = direction.cross(moment) / direction.squaredNorm();
+  return {foot, foot + direction};
+}
+
 // The projected line through the images of two points of the 3D line, instead of by its moment.
 struct LineFunctor {
   RectifiedCamera camera;
   LineMeasurement m;
   Eigen::Matrix2d whitening;
+  LineParametrization parametrization;
 
   template <class T>
   bool operator()(const T* pose, const T* line, T* r) const {
-    const Eigen::Quaternion<T> U = ReadQuaternion(line);
-    const Vector3<T> moment = (U * Vector3<T>(T(1), T(0), T(0))) * line[4];
-    const Vector3<T> direction = (U * Vector3<T>(T(0), T(1), T(0))) * line[5];
-    const Vector3<T> foot = direction.cross(moment) / direction.squaredNorm();
+    const auto [start, end] = PointsOf(line, parametrization);
     const Vector3<T> shift(T(m.in_right_camera ? -camera.baseline : 0.0), T(0), T(0));
     const Vector3<T> t(pose[4], pose[5], pose[6]);
     const Eigen::Quaternion<T> q = ReadQuaternion(pose);
-    const Vector3<T> a = Homogeneous<T>(q * foot + t + shift);
-    const Vector3<T> b = Homogeneous<T>(q * (foot + direction) + t + shift);
+    const Vector3<T> a = Homogeneous<T>(q * start + t + shift);
+    const Vector3<T> b = Homogeneous<T>(q * end + t + shift);
     const Vector3<T> l = a.cross(b);
     const T norm = sqrt(l.x() * l.x() + l.y() * l.y());
     const Eigen::Matrix<T, 2, 1> distance(
@@ -273,54 +393,6 @@ std::unique_ptr<ceres::CostFunction> MakePointCostOf(const RectifiedCamera& came
   return std::make_unique<Cost>(new PointFunctor<kRows>{camera, measurement});
 }
 
-ceres::LossFunction* MakeLoss(double huber) {
-  return std::isfinite(huber) ? new ceres::HuberLoss(huber) : nullptr;
-}
-
-// The numbers Ceres works on.
-struct Blocks {
-  std::vector<std::array<double, 7>> poses;
-  std::vector<std::array<double, 3>> points;
-  std::vector<std::array<double, 6>> lines;
-};
-
-Blocks MakeBlocks(const BaProblem& problem) {
-  Blocks blocks;
-  for (const auto& pose : problem.poses) {
-    WritePose(pose.cam_from_world, blocks.poses.emplace_back().data());
-  }
-  for (const auto& p : problem.points) blocks.points.push_back({p.x(), p.y(), p.z()});
-  for (const auto& line : problem.lines) WriteLine(line, blocks.lines.emplace_back().data());
-  return blocks;
-}
-
-void AddTerms(const BaProblem& problem,
-              const CeresBaOptions& options,
-              Blocks& blocks,
-              ceres::Problem& out) {
-  for (std::size_t i = 0; i < blocks.poses.size(); ++i) {
-    out.AddParameterBlock(blocks.poses[i].data(), 7, new LeftRigid3Manifold);
-    if (problem.poses[i].fixed) out.SetParameterBlockConstant(blocks.poses[i].data());
-  }
-  for (auto& line : blocks.lines) {
-    out.AddParameterBlock(line.data(), 6, new OrthonormalLineManifold);
-  }
-  for (const auto& o : problem.point_observations) {
-    const double huber = o.measurement.disparity ? options.huber.disparity : options.huber.point;
-    out.AddResidualBlock(
-        MakePointCost(problem.camera, o.measurement, options.derivatives).release(),
-        MakeLoss(huber),
-        blocks.poses[static_cast<std::size_t>(o.pose)].data(),
-        blocks.points[static_cast<std::size_t>(o.point)].data());
-  }
-  for (const auto& o : problem.line_observations) {
-    out.AddResidualBlock(MakeLineCost(problem.camera, o.measurement, options.derivatives).release(),
-                         MakeLoss(options.huber.line),
-                         blocks.poses[static_cast<std::size_t>(o.pose)].data(),
-                         blocks.lines[static_cast<std::size_t>(o.line)].data());
-  }
-}
-
 }  // namespace
 
 std::unique_ptr<ceres::CostFunction> MakePointCost(const RectifiedCamera& camera,
@@ -332,39 +404,30 @@ std::unique_ptr<ceres::CostFunction> MakePointCost(const RectifiedCamera& camera
 
 std::unique_ptr<ceres::CostFunction> MakeLineCost(const RectifiedCamera& camera,
                                                   const LineMeasurement& measurement,
-                                                  CeresDerivatives derivatives) {
-  if (derivatives == CeresDerivatives::kAnalytic) {
-    return std::make_unique<AnalyticLineCost>(camera, measurement);
+                                                  CeresDerivatives derivatives,
+                                                  LineParametrization line) {
+  if (derivatives == CeresDerivatives::kAutomatic) {
+    const LineTerm term = MakeLineTerm(camera, measurement);
+    Eigen::Matrix2d whitening;
+    whitening << term.w00, 0, term.w10, term.w11;
+    using Cost = ceres::AutoDiffCostFunction<LineFunctor, 2, 7, 6>;
+    return std::make_unique<Cost>(new LineFunctor{camera, measurement, whitening, line});
   }
-  const LineTerm term = MakeLineTerm(camera, measurement);
-  Eigen::Matrix2d whitening;
-  whitening << term.w00, 0, term.w10, term.w11;
-  using Cost = ceres::AutoDiffCostFunction<LineFunctor, 2, 7, 6>;
-  return std::make_unique<Cost>(new LineFunctor{camera, measurement, whitening});
+  if (line == LineParametrization::kEndpoints) {
+    return std::make_unique<AnalyticLineCost<BaLineEnds>>(camera, measurement);
+  }
+  return std::make_unique<AnalyticLineCost<BaLine>>(camera, measurement);
 }
 
-CeresBaResult SolveWithCeres(const BaProblem& problem, const CeresBaOptions& options) {
-  Blocks blocks = MakeBlocks(problem);
-  ceres::Problem terms;
-  AddTerms(problem, options, blocks, terms);
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.num_threads = 1;
-  solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = options.function_tolerance;
-  solver.parameter_tolerance = 0;
-  solver.gradient_tolerance = 0;
-  solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &terms, &summary);
-  CeresBaResult result;
-  for (const auto& x : blocks.poses) result.poses.push_back(ReadPose(x.data()));
-  for (const auto& x : blocks.points) result.points.emplace_back(x[0], x[1], x[2]);
-  for (const auto& x : blocks.lines) result.lines.push_back(ReadLine(x.data()));
-  result.initial_cost = summary.initial_cost;
-  result.final_cost = summary.final_cost;
-  result.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  return result;
+std::unique_ptr<ceres::CostFunction> MakePosePointCost(const RectifiedCamera& camera,
+                                                       const PoseProblem::PointMatch& match) {
+  if (match.measurement.disparity) return std::make_unique<PosePointCost<3>>(camera, match);
+  return std::make_unique<PosePointCost<2>>(camera, match);
+}
+
+std::unique_ptr<ceres::CostFunction> MakePoseLineCost(const RectifiedCamera& camera,
+                                                      const PoseProblem::LineMatch& match) {
+  return std::make_unique<PoseLineCost>(camera, match);
 }
 
 }  // namespace plumbline

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "plumbline/geometry/plucker.h"
+#include "plumbline/optimization/ceres_derivatives.h"
+#include "plumbline/optimization/line_parametrization.h"
 #include "plumbline/optimization/problem.h"
-#include "plumbline/optimization/robust_loss.h"
 
+#include <algorithm>
 #include <memory>
-#include <vector>
 
 #include <ceres/cost_function.h>
 #include <ceres/manifold.h>
@@ -19,7 +20,7 @@
 namespace plumbline {
 
 // Rigid3 as seven numbers [qx qy qz qw tx ty tz]; Plus(x, delta) = exp(delta) x, delta = [w, v].
-class LeftRigid3Manifold final : public ceres::Manifold {
+class LeftRigid3Manifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 7; }
   int TangentSize() const override { return 6; }
@@ -30,7 +31,7 @@ class LeftRigid3Manifold final : public ceres::Manifold {
 };
 
 // OrthonormalLine as six numbers [qx qy qz qw w1 w2]; Plus is Retract().
-class OrthonormalLineManifold final : public ceres::Manifold {
+class OrthonormalLineManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 6; }
   int TangentSize() const override { return 4; }
@@ -40,36 +41,44 @@ class OrthonormalLineManifold final : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
-enum class CeresDerivatives {
-  kAnalytic,   // those of residuals.h
-  kAutomatic,  // of a second, plain formulation of the residuals
+// The manifold for terms that write derivatives with respect to the tangent into the first columns
+// of their Jacobian and zeros into the others: Ceres multiplies with [I; 0], instead of terms and
+// manifold computing two factors whose product is the tangent's derivative again.
+template <class Base>
+class TangentManifold final : public Base {
+ public:
+  bool PlusJacobian(const double*, double* jacobian) const override {
+    return SetIdentity(this->TangentSize(), jacobian);
+  }
+  bool MinusJacobian(const double*, double* jacobian) const override {
+    return SetIdentity(this->AmbientSize(), jacobian);
+  }
+
+ private:
+  // Row major, ones where row = column.
+  bool SetIdentity(int columns, double* jacobian) const {
+    std::fill_n(jacobian, this->AmbientSize() * this->TangentSize(), 0.0);
+    for (int i = 0; i < this->TangentSize(); ++i) jacobian[i * columns + i] = 1;
+    return true;
+  }
 };
 
-// Cost of one observation. Parameter blocks: pose (7), point (3) or line (6).
+// Cost of one observation. Parameter blocks: pose (7) and point (3).
 std::unique_ptr<ceres::CostFunction> MakePointCost(const RectifiedCamera& camera,
                                                    const PointMeasurement& measurement,
                                                    CeresDerivatives derivatives);
+
+// Parameter blocks: pose (7) and line (6): OrthonormalLineManifold, or the coordinates of two
+// points, which need no manifold.
 std::unique_ptr<ceres::CostFunction> MakeLineCost(const RectifiedCamera& camera,
                                                   const LineMeasurement& measurement,
-                                                  CeresDerivatives derivatives);
+                                                  CeresDerivatives derivatives,
+                                                  LineParametrization line);
 
-struct CeresBaOptions {
-  HuberThresholds huber;  // infinite: no loss function
-  CeresDerivatives derivatives = CeresDerivatives::kAnalytic;
-  int max_iterations = 50;
-  double function_tolerance = 1e-6;
-};
-
-struct CeresBaResult {
-  std::vector<Rigid3> poses;
-  std::vector<Eigen::Vector3d> points;
-  std::vector<OrthonormalLine> lines;
-  double initial_cost = 0;
-  double final_cost = 0;
-  int iterations = 0;
-};
-
-// All observations of a problem in one solve with DENSE_SCHUR on one thread.
-CeresBaResult SolveWithCeres(const BaProblem& problem, const CeresBaOptions& options);
+// Costs of one match with a landmark that stays fixed, analytic. Parameter block: pose (7).
+std::unique_ptr<ceres::CostFunction> MakePosePointCost(const RectifiedCamera& camera,
+                                                       const PoseProblem::PointMatch& match);
+std::unique_ptr<ceres::CostFunction> MakePoseLineCost(const RectifiedCamera& camera,
+                                                      const PoseProblem::LineMatch& match);
 
 }  // namespace plumbline

@@ -4,9 +4,11 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/ba_landmarks.h"
+#include "plumbline/optimization/line_ends.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -58,11 +60,19 @@ void CheckIndices(int pose, int landmark, std::size_t poses, std::size_t landmar
                   "landmark index of an observation out of range");
 }
 
+void CheckIndices(const BaProblem& problem) {
+  for (const auto& o : problem.point_observations) {
+    CheckIndices(o.pose, o.point, problem.poses.size(), problem.points.size());
+  }
+  for (const auto& o : problem.line_observations) {
+    CheckIndices(o.pose, o.line, problem.poses.size(), problem.lines.size());
+  }
+}
+
 std::vector<BaObservation<PointTerm>> PointObservations(const BaProblem& problem) {
   std::vector<BaObservation<PointTerm>> out;
   out.reserve(problem.point_observations.size());
   for (const auto& o : problem.point_observations) {
-    CheckIndices(o.pose, o.point, problem.poses.size(), problem.points.size());
     out.push_back({o.pose, o.point, MakePointTerm(o.measurement)});
   }
   return out;
@@ -72,24 +82,29 @@ std::vector<BaObservation<LineTerm>> LineObservations(const BaProblem& problem) 
   std::vector<BaObservation<LineTerm>> out;
   out.reserve(problem.line_observations.size());
   for (const auto& o : problem.line_observations) {
-    CheckIndices(o.pose, o.line, problem.poses.size(), problem.lines.size());
     out.push_back({o.pose, o.line, MakeLineTerm(problem.camera, o.measurement)});
   }
   return out;
 }
 
+// LineKind: BaLine or BaLineEnds.
+template <class LineKind>
 class BundleAdjuster {
  public:
-  BundleAdjuster(const BaProblem& problem, const LocalBaOptions& options)
+  using Lines = std::vector<typename LineKind::State>;
+
+  BundleAdjuster(const BaProblem& problem, Lines lines, const LocalBaOptions& options)
       : options_(options),
         poses_(MakePoses(problem)),
         trial_poses_(poses_),
         points_(problem.camera, problem.points, PointObservations(problem), poses_),
-        lines_(problem.camera, problem.lines, LineObservations(problem), poses_),
+        lines_(problem.camera, std::move(lines), LineObservations(problem), poses_),
         solver_(static_cast<int>(std::count_if(
             poses_.begin(), poses_.end(), [](const BaPose& p) { return p.free_index >= 0; }))) {}
 
+  // All but the lines of the result.
   BaResult Solve();
+  const Lines& lines() const { return lines_.states(); }
 
  private:
   double Cost(const HuberThresholds& huber) {
@@ -106,21 +121,23 @@ class BundleAdjuster {
   const LocalBaOptions& options_;
   std::vector<BaPose> poses_, trial_poses_;
   BaLandmarks<BaPoint> points_;
-  BaLandmarks<BaLine> lines_;
+  BaLandmarks<LineKind> lines_;
   SchurSolver solver_;
   double expected_ = 0;  // decrease of the cost by the linear model
   double cost_ = 0;
   int iterations_ = 0;
 };
 
-bool BundleAdjuster::ComputeStep(const HuberThresholds& huber, double lambda) {
+template <class LineKind>
+bool BundleAdjuster<LineKind>::ComputeStep(const HuberThresholds& huber, double lambda) {
   solver_.Reset();
   points_.Eliminate(poses_, huber, lambda, solver_);
   lines_.Eliminate(poses_, huber, lambda, solver_);
   return solver_.Solve(lambda);
 }
 
-double BundleAdjuster::Try(const HuberThresholds& huber) {
+template <class LineKind>
+double BundleAdjuster<LineKind>::Try(const HuberThresholds& huber) {
   expected_ = 0;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     const int index = poses_[i].free_index;
@@ -135,13 +152,15 @@ double BundleAdjuster::Try(const HuberThresholds& huber) {
   return cost;
 }
 
-void BundleAdjuster::Accept() {
+template <class LineKind>
+void BundleAdjuster<LineKind>::Accept() {
   std::swap(poses_, trial_poses_);
   points_.Accept();
   lines_.Accept();
 }
 
-BaTermination BundleAdjuster::Optimize(const HuberThresholds& huber) {
+template <class LineKind>
+BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber) {
   cost_ = Cost(huber);
   double lambda = options_.initial_lambda;
   // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
@@ -170,13 +189,15 @@ BaTermination BundleAdjuster::Optimize(const HuberThresholds& huber) {
   return BaTermination::kMaxIterations;
 }
 
-HuberThresholds BundleAdjuster::Thresholds(int round) const {
+template <class LineKind>
+HuberThresholds BundleAdjuster<LineKind>::Thresholds(int round) const {
   const bool last_of_several = options_.rounds > 1 && round == options_.rounds - 1;
   if (!options_.robust || (last_of_several && !options_.robust_last_round)) return {};
   return {options_.huber_point, options_.huber_disparity, options_.huber_line};
 }
 
-BaResult BundleAdjuster::Solve() {
+template <class LineKind>
+BaResult BundleAdjuster<LineKind>::Solve() {
   BaResult result;
   points_.UseAll(poses_);
   lines_.UseAll(poses_);
@@ -189,7 +210,6 @@ BaResult BundleAdjuster::Solve() {
   }
   for (const BaPose& pose : poses_) result.poses.push_back(pose.cam_from_world);
   result.points = points_.states();
-  result.lines = lines_.states();
   points_.Export(poses_, result.point_chi2, result.point_inliers);
   lines_.Export(poses_, result.line_chi2, result.line_inliers);
   result.iterations = iterations_;
@@ -212,9 +232,22 @@ BaResult Unchanged(const BaProblem& problem) {
 
 }  // namespace
 
-BaResult SolveLocalBa(const BaProblem& problem, const LocalBaOptions& options) {
+BaResult SolveLocalBa(const BaProblem& problem,
+                      const LocalBaOptions& options,
+                      LineParametrization lines) {
+  CheckIndices(problem);
   if (!IsFinite(problem)) return Unchanged(problem);
-  return BundleAdjuster(problem, options).Solve();
+  if (lines == LineParametrization::kPlucker) {
+    BundleAdjuster<BaLine> adjuster(problem, problem.lines, options);
+    BaResult result = adjuster.Solve();
+    result.lines = adjuster.lines();
+    return result;
+  }
+  const std::vector<Segment3> ends = TrimmedEnds(problem);
+  BundleAdjuster<BaLineEnds> adjuster(problem, ends, options);
+  BaResult result = adjuster.Solve();
+  result.lines = LinesThroughEnds(problem.lines, ends, adjuster.lines());
+  return result;
 }
 
 }  // namespace plumbline

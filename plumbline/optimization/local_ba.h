@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/options.h"
+#include "plumbline/optimization/line_parametrization.h"
 #include "plumbline/optimization/problem.h"
 
 #include <array>
@@ -83,7 +84,7 @@ struct BaResult {
 };
 
 // Bundle adjustment of poses, points and lines: Levenberg-Marquardt, landmarks eliminated by the
-// Schur complement with fixed-size blocks (poses 6, points 3, lines 4).
+// Schur complement with fixed-size blocks (poses 6, points 3, lines 4 or, as end points, 6).
 //
 // Whitened residuals of residuals.h (eq. 13 for lines, Jacobians eq. 16-21) under the Huber loss.
 // Between rounds, observations are kept or rejected by chi2 at 95 % (a rejected one may come back).
@@ -93,8 +94,11 @@ struct BaResult {
 // what no observation fixes is held by the damping.
 //
 //   problem   indices must be in range (BugError otherwise)
+//   lines     the parameters that lines have meanwhile; the result is the same form of line
 //   returns   finite numbers whenever the input is finite
 //   cost      per iteration O(sum over landmarks of their poses squared + free poses cubed)
-BaResult SolveLocalBa(const BaProblem& problem, const LocalBaOptions& options = {});
+BaResult SolveLocalBa(const BaProblem& problem,
+                      const LocalBaOptions& options = {},
+                      LineParametrization lines = LineParametrization::kPlucker);
 
 }  // namespace plumbline

@@ -15,7 +15,7 @@ constexpr std::size_t kBehind = 2;  // waiting keyframes
 MappingStage::MappingStage(const ImagingModel& imaging, const SlamOptions& options)
     : mode_(options.slam.mode),
       lag_(options.slam.lag),
-      mapper_(imaging, options.lines.weighting, options.mapping) {
+      mapper_(imaging, options.lines, options.mapping) {
   if (mode_ != RunMode::kInline) worker_ = std::jthread([this] { WorkUntilStopped(); });
 }
 

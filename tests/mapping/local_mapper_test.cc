@@ -13,8 +13,7 @@ namespace {
 // matches are those that the truth says the map holds.
 class MapperRun {
  public:
-  explicit MapperRun(const MappingOptions& options = {})
-      : mapper_(world_.Imaging(), LineWeighting::kCovariance, options) {}
+  explicit MapperRun(const MappingOptions& options = {}) : mapper_(world_.Imaging(), {}, options) {}
 
   void Add(int path_frame, double pose_noise) {
     const KeyFrameId id = map_.NextKeyFrameId();

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_terms.h"
 
-#include "plumbline/optimization/local_ba.h"
-
-#include "tests/optimization/ba_scene.h"
+#include "tests/optimization/random_scene.h"
 #include <array>
-#include <limits>
 
 #include <ceres/manifold_test_utils.h>
 #include <gtest/gtest.h>
@@ -16,7 +13,6 @@ namespace {
 
 using namespace ceres;  // NOLINT: the macro for manifolds uses unqualified names
 using plumbline::testing::AddNoise;
-using plumbline::testing::MakeBaScene;
 using plumbline::testing::MeasureLine;
 using plumbline::testing::MeasurePoint;
 using plumbline::testing::Random;
@@ -85,26 +81,24 @@ struct Evaluation {
 Evaluation Evaluate(const ceres::CostFunction& cost,
                     const Vector& pose,
                     const Vector& landmark,
-                    const ceres::Manifold* landmark_manifold) {
+                    const ceres::Manifold& pose_manifold,
+                    const ceres::Manifold& landmark_manifold) {
   const int rows = cost.num_residuals();
   const auto size = static_cast<int>(landmark.size());
-  Evaluation out{Vector(rows), {}, {}};
   Matrix J_pose(rows, 7);
   Matrix J_landmark(rows, size);
+  Evaluation out{Vector(rows), Matrix(rows, 6), Matrix(rows, landmark_manifold.TangentSize())};
   const std::array<const double*, 2> x{pose.data(), landmark.data()};
   std::array<double*, 2> jacobians{J_pose.data(), J_landmark.data()};
   EXPECT_TRUE(cost.Evaluate(x.data(), out.r.data(), jacobians.data()));
-  Matrix plus_pose(7, 6);
-  LeftRigid3Manifold().PlusJacobian(pose.data(), plus_pose.data());
-  out.J_pose = J_pose * plus_pose;
-  out.J_landmark = J_landmark;
-  if (landmark_manifold != nullptr) {
-    Matrix plus(size, landmark_manifold->TangentSize());
-    landmark_manifold->PlusJacobian(landmark.data(), plus.data());
-    out.J_landmark = J_landmark * plus;
-  }
+  pose_manifold.RightMultiplyByPlusJacobian(pose.data(), rows, J_pose.data(), out.J_pose.data());
+  landmark_manifold.RightMultiplyByPlusJacobian(
+      landmark.data(), rows, J_landmark.data(), out.J_landmark.data());
   return out;
 }
+
+const TangentManifold<LeftRigid3Manifold> kTangentPose;
+const LeftRigid3Manifold kPose;
 
 void ExpectEqual(const Evaluation& a, const Evaluation& b) {
   EXPECT_LT((a.r - b.r).norm(), 1e-8);
@@ -122,58 +116,58 @@ TEST(CeresTerms, AnalyticDerivativesOfPointsAgreeWithAutomaticOnes) {
     AddNoise(random, 3, m);
     const auto analytic = MakePointCost(camera, m, CeresDerivatives::kAnalytic);
     const auto automatic = MakePointCost(camera, m, CeresDerivatives::kAutomatic);
-    ExpectEqual(Evaluate(*analytic, PoseNumbers(pose), point, nullptr),
-                Evaluate(*automatic, PoseNumbers(pose), point, nullptr));
+    const ceres::EuclideanManifold<3> manifold;
+    ExpectEqual(Evaluate(*analytic, PoseNumbers(pose), point, kTangentPose, manifold),
+                Evaluate(*automatic, PoseNumbers(pose), point, kPose, manifold));
   }
 }
 
-TEST(CeresTerms, AnalyticDerivativesOfLinesAgreeWithAutomaticOnes) {
-  Random random(5);
+// A measured segment with noise.
+struct MeasuredSegment {
+  Rigid3 pose;
+  Segment3 segment;
+  LineMeasurement m;
+};
+
+MeasuredSegment RandomMeasuredSegment(Random& random, bool right) {
   const RectifiedCamera camera = StereoCamera();
-  const OrthonormalLineManifold manifold;
+  MeasuredSegment out{ExpSe3(random.Twist(0.5, 2)), {}, {}};
+  out.segment = {Inverse(out.pose) * random.PointInView(camera),
+                 Inverse(out.pose) * random.PointInView(camera)};
+  out.m = MeasureLine(camera, out.pose, out.segment, right, 1);
+  AddNoise(random, 5, out.m);
+  out.m.covariance << 2, 0.5, 0.5, 1;
+  return out;
+}
+
+TEST(CeresTerms, AnalyticDerivativesOfPluckerLinesAgreeWithAutomaticOnes) {
+  Random random(5);
+  const auto lines = LineParametrization::kPlucker;
   for (int i = 0; i < 20; ++i) {
-    const Rigid3 pose = ExpSe3(random.Twist(0.5, 2));
-    const Segment3 segment{Inverse(pose) * random.PointInView(camera),
-                           Inverse(pose) * random.PointInView(camera)};
-    auto m = MeasureLine(camera, pose, segment, i % 2 == 0, 1);
-    AddNoise(random, 5, m);
-    m.covariance << 2, 0.5, 0.5, 1;
-    const Vector line = LineNumbers(ToOrthonormal(LineThroughPoints(segment.start, segment.end)));
-    const auto analytic = MakeLineCost(camera, m, CeresDerivatives::kAnalytic);
-    const auto automatic = MakeLineCost(camera, m, CeresDerivatives::kAutomatic);
-    ExpectEqual(Evaluate(*analytic, PoseNumbers(pose), line, &manifold),
-                Evaluate(*automatic, PoseNumbers(pose), line, &manifold));
+    const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
+    const Vector line =
+        LineNumbers(ToOrthonormal(LineThroughPoints(s.segment.start, s.segment.end)));
+    const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
+    const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
+    const TangentManifold<OrthonormalLineManifold> tangent;
+    const OrthonormalLineManifold manifold;
+    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.pose), line, kTangentPose, tangent),
+                Evaluate(*automatic, PoseNumbers(s.pose), line, kPose, manifold));
   }
 }
 
-LocalBaOptions ToConvergence(bool robust) {
-  return {.rounds = 1, .max_iterations = 300, .function_tolerance = 1e-13, .robust = robust};
-}
-
-TEST(SolveLocalBa, ReachesTheCostOfCeres) {
-  for (unsigned seed = 0; seed < 3; ++seed) {
-    for (const bool robust : {false, true}) {
-      for (const auto derivatives : {CeresDerivatives::kAnalytic, CeresDerivatives::kAutomatic}) {
-        const auto scene = MakeBaScene(
-            seed, {.points = 150, .lines = 40, .sigma = 1, .outliers = robust ? 0.05 : 0.0});
-        const LocalBaOptions options = ToConvergence(robust);
-        const BaResult ours = SolveLocalBa(scene.problem, options);
-        const HuberThresholds huber{
-            options.huber_point, options.huber_disparity, options.huber_line};
-        const auto reference = SolveWithCeres(scene.problem,
-                                              {.huber = robust ? huber : HuberThresholds{},
-                                               .derivatives = derivatives,
-                                               .max_iterations = 300,
-                                               .function_tolerance = 1e-13});
-        EXPECT_NEAR(ours.initial_cost, reference.initial_cost, 1e-9 * reference.initial_cost);
-        EXPECT_NEAR(ours.final_cost, reference.final_cost, 1e-6 * reference.final_cost)
-            << "seed " << seed << " robust " << robust << " iterations " << ours.iterations
-            << " and " << reference.iterations;
-        for (std::size_t i = 0; i < ours.poses.size(); ++i) {
-          EXPECT_LT(LogSe3(ours.poses[i] * Inverse(reference.poses[i])).norm(), 1e-3);
-        }
-      }
-    }
+TEST(CeresTerms, AnalyticDerivativesOfEndPointsAgreeWithAutomaticOnes) {
+  Random random(6);
+  const auto lines = LineParametrization::kEndpoints;
+  for (int i = 0; i < 20; ++i) {
+    const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
+    Vector ends(6);
+    ends << s.segment.start, s.segment.end;
+    const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
+    const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
+    const ceres::EuclideanManifold<6> manifold;
+    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.pose), ends, kTangentPose, manifold),
+                Evaluate(*automatic, PoseNumbers(s.pose), ends, kPose, manifold));
   }
 }
 

@@ -38,10 +38,16 @@ void ExpectSame(const Rigid3& a, const Rigid3& b) {
   EXPECT_EQ(a.translation, b.translation);
 }
 
-TEST(SolveLocalBa, RecoversTheExactSceneWithoutNoise) {
+class SolveLocalBaWithLines : public ::testing::TestWithParam<LineParametrization> {};
+INSTANTIATE_TEST_SUITE_P(Parametrizations,
+                         SolveLocalBaWithLines,
+                         ::testing::Values(LineParametrization::kPlucker,
+                                           LineParametrization::kEndpoints));
+
+TEST_P(SolveLocalBaWithLines, RecoversTheExactSceneWithoutNoise) {
   const BaScene scene = MakeBaScene(1, {});
   const BaResult result =
-      SolveLocalBa(scene.problem, {.max_iterations = 50, .function_tolerance = 1e-12});
+      SolveLocalBa(scene.problem, {.max_iterations = 50, .function_tolerance = 1e-12}, GetParam());
   EXPECT_LT(LargestPoseError(result, scene.truth), 1e-9);
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     EXPECT_LT((result.points[i] - scene.truth.points[i]).norm(), 1e-8) << i;
@@ -54,6 +60,58 @@ TEST(SolveLocalBa, RecoversTheExactSceneWithoutNoise) {
   }
   EXPECT_EQ(std::count(result.point_inliers.begin(), result.point_inliers.end(), false), 0);
   EXPECT_EQ(std::count(result.line_inliers.begin(), result.line_inliers.end(), false), 0);
+}
+
+TEST_P(SolveLocalBaWithLines, GivesTheSameBytesEveryTime) {
+  const BaScene scene = MakeBaScene(15, {.weak_lines = 20, .sigma = 1, .outliers = 0.05});
+  const BaResult a = SolveLocalBa(scene.problem, {}, GetParam());
+  const BaResult b = SolveLocalBa(scene.problem, {}, GetParam());
+  for (std::size_t i = 0; i < a.poses.size(); ++i) ExpectSame(a.poses[i], b.poses[i]);
+  for (std::size_t i = 0; i < a.lines.size(); ++i) {
+    EXPECT_EQ(a.lines[i].U.coeffs(), b.lines[i].U.coeffs());
+    EXPECT_EQ(a.lines[i].w, b.lines[i].w);
+  }
+  EXPECT_EQ(a.final_cost, b.final_cost);
+}
+
+TEST_P(SolveLocalBaWithLines, LinesWithoutObservationsStayBitByBit) {
+  BaScene scene = MakeBaScene(16, {.points = 100, .lines = 20, .sigma = 1});
+  scene.problem.lines.push_back(ToOrthonormal(LineThroughPoints({1, 1, 1}, {2, 1.5, 1})));
+  const BaResult result = SolveLocalBa(scene.problem, {}, GetParam());
+  EXPECT_EQ(result.lines.back().U.coeffs(), scene.problem.lines.back().U.coeffs());
+  EXPECT_EQ(result.lines.back().w, scene.problem.lines.back().w);
+}
+
+TEST(SolveLocalBa, EndPointsReachTheMinimumOfPluckerLines) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const BaScene scene = MakeBaScene(seed, {.sigma = 1, .outliers = 0.05});
+    const LocalBaOptions options{.rounds = 1, .max_iterations = 200, .function_tolerance = 1e-13};
+    const BaResult plucker = SolveLocalBa(scene.problem, options, LineParametrization::kPlucker);
+    const BaResult ends = SolveLocalBa(scene.problem, options, LineParametrization::kEndpoints);
+    EXPECT_NEAR(ends.initial_cost, plucker.initial_cost, 1e-9 * plucker.initial_cost);
+    EXPECT_NEAR(ends.final_cost, plucker.final_cost, 1e-6 * plucker.final_cost) << seed;
+    for (std::size_t i = 0; i < ends.poses.size(); ++i) {
+      EXPECT_LT(Error(ends.poses[i], plucker.poses[i]), 1e-4) << seed;
+    }
+    for (std::size_t i = 0; i < ends.lines.size(); ++i) {  // also the same direction along the line
+      const PluckerLine a = ToPlucker(ends.lines[i]);
+      const PluckerLine b = ToPlucker(plucker.lines[i]);
+      EXPECT_GT(a.direction.dot(b.direction), 0.99) << seed << " " << i;
+    }
+  }
+}
+
+// The free sliding of the ends must not cost iterations.
+TEST(SolveLocalBa, EndPointsConvergeInAboutAsManyIterationsAsPluckerLines) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    const BaScene scene = MakeBaScene(seed, {.weak_lines = 80, .sigma = 1, .outliers = 0.05});
+    const LocalBaOptions options{.rounds = 1, .max_iterations = 100};
+    const BaResult plucker = SolveLocalBa(scene.problem, options, LineParametrization::kPlucker);
+    const BaResult ends = SolveLocalBa(scene.problem, options, LineParametrization::kEndpoints);
+    EXPECT_EQ(ends.termination, BaTermination::kConverged) << seed;
+    EXPECT_LE(ends.iterations, 2 * plucker.iterations) << seed;
+    EXPECT_LT(ends.final_cost, 1.01 * plucker.final_cost) << seed;
+  }
 }
 
 TEST(SolveLocalBa, LowersTheErrorOfANoisyScene) {

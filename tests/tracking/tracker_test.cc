@@ -184,7 +184,7 @@ struct OneKeyFrame {
     MappingOptions options;
     options.creation.max_relative_depth_sigma = 0.1;
     options.creation.max_relative_line_depth_sigma = 0.1;
-    LocalMapper mapper(world.Imaging(), LineWeighting::kCovariance, options);
+    LocalMapper mapper(world.Imaging(), {}, options);
     mapper.Add(map, start.keyframe->keyframe, start.keyframe->scores);
   }
   TrackingResult Step(int i) {

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace plumbline {
+
+// Where the reference's terms get their derivatives from.
+enum class CeresDerivatives {
+  kAnalytic,   // those of residuals.h, in the tangent: for TangentManifold
+  kAutomatic,  // of a second, plain formulation of the residuals, in the ambient numbers
+};
+
+}  // namespace plumbline

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+#include "plumbline/optimization/problem.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// Two points on each line of a problem: the line trimmed by its observation in the first pose where
+// that is possible (eq. 26-30), in the line's direction. Lines without such an observation get
+// points a unit to both sides of their foot.
+std::vector<Segment3> TrimmedEnds(const BaProblem& problem);
+
+// The lines through moved ends. Where the ends are those of `before`, the line is that of `lines`,
+// bit by bit.
+std::vector<OrthonormalLine> LinesThroughEnds(const std::vector<OrthonormalLine>& lines,
+                                              const std::vector<Segment3>& before,
+                                              const std::vector<Segment3>& ends);
+
+}  // namespace plumbline
