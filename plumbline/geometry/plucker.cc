@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/plucker.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumbline {
@@ -57,6 +58,20 @@ OrthonormalLine Retract(const OrthonormalLine& line, const Eigen::Vector4d& delt
   const double s = std::sin(delta(3));
   return {(line.U * ExpSo3(delta.head<3>())).normalized(),
           {c * line.w.x() - s * line.w.y(), s * line.w.x() + c * line.w.y()}};
+}
+
+OrthonormalLine RetractStraight(const OrthonormalLine& line, const Eigen::Vector4d& delta) {
+  constexpr double kTiny = 1e-12;  // of |(m, d)|, which is 1 at the start
+  const Eigen::Matrix<double, 6, 1> h = line.Homogeneous() + HomogeneousJacobian(line) * delta;
+  const Eigen::Vector3d m = h.head<3>();
+  const Eigen::Vector3d d = h.tail<3>();
+  // The nearest pair is (m - s d, d - s m): s is the smaller root of s^2 c - s |h|^2 + c = 0.
+  const double c = m.dot(d);
+  const double n = h.squaredNorm();
+  const double s = 2 * c / (n + std::sqrt(std::max(0.0, n * n - 4 * c * c)));
+  const Eigen::Vector3d direction = d - s * m;
+  if (!(direction.norm() > kTiny)) return Retract(line, delta);  // a line at infinity
+  return ToOrthonormal({m - s * d, direction});
 }
 
 Eigen::Matrix<double, 6, 4> HomogeneousJacobian(const OrthonormalLine& line) {

@@ -60,10 +60,9 @@ class BaLandmarks {
   std::size_t used() const {
     return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), char{1}));
   }
-  // chi2 and use of each observation, in the order of the caller.
-  void Export(const std::vector<BaPose>& poses,
-              std::vector<double>& chi2,
-              std::vector<bool>& inliers) const;
+  // chi2 and use of each observation as of the last Classify() or UseAll(), in the order of the
+  // caller.
+  void Export(std::vector<double>& chi2, std::vector<bool>& inliers) const;
 
  private:
   static constexpr double kOwnLambda = 1e-3;  // initial
@@ -74,6 +73,8 @@ class BaLandmarks {
     int coupling = -1;  // index in couplings_, -1 for a fixed pose
   };
 
+  // Sets original_ and begin_: by landmark, pose, place in the caller's list.
+  void Sort(const std::vector<BaObservation<Term>>& observations);
   double CostOf(std::size_t landmark,
                 const State& state,
                 const std::vector<BaPose>& poses,
@@ -94,8 +95,7 @@ class BaLandmarks {
     return {couplings_.data() + coupling_begin_[landmark],
             couplings_.data() + coupling_begin_[landmark + 1]};
   }
-  template <class Visitor>
-  void ForEachChi2(const std::vector<BaPose>& poses, Visitor&& visit) const;
+  void UpdateChi2(const std::vector<BaPose>& poses);
 
   RectifiedCamera camera_;
   std::vector<State> states_, trial_;
@@ -104,6 +104,7 @@ class BaLandmarks {
   std::vector<Packed> observations_;
   std::vector<std::size_t> original_;  // index in the caller's observations
   std::vector<char> used_;
+  std::vector<double> chi2_;
   std::vector<Coupling<Kind::kDof>> couplings_;
   std::vector<EliminatedLandmark<Kind::kDof>> eliminated_;
   std::vector<double> cost_, trial_cost_;
@@ -118,24 +119,13 @@ BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
                                const std::vector<BaPose>& poses)
     : camera_(camera), states_(std::move(states)), trial_(states_) {
   const std::size_t n = states_.size();
-  original_.resize(observations.size());
-  std::iota(original_.begin(), original_.end(), std::size_t{0});
-  std::sort(original_.begin(), original_.end(), [&](std::size_t a, std::size_t b) {
-    const auto& x = observations[a];
-    const auto& y = observations[b];
-    if (x.landmark != y.landmark) return x.landmark < y.landmark;
-    return x.pose != y.pose ? x.pose < y.pose : a < b;
-  });
-  begin_.assign(n + 1, observations.size());
+  Sort(observations);
   coupling_begin_.assign(n + 1, 0);
   observations_.reserve(observations.size());
-  std::size_t k = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    begin_[i] = k;
     coupling_begin_[i] = couplings_.size();
     int last_pose = -1;
-    for (; k < original_.size() && observations[original_[k]].landmark == static_cast<int>(i);
-         ++k) {
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const auto& observation = observations[original_[k]];
       const int free_index = poses[static_cast<std::size_t>(observation.pose)].free_index;
       if (free_index >= 0 && observation.pose != last_pose) {
@@ -148,13 +138,35 @@ BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
                                free_index < 0 ? -1 : static_cast<int>(couplings_.size()) - 1});
     }
   }
-  begin_[n] = k;
   coupling_begin_[n] = couplings_.size();
   used_.assign(observations.size(), 1);
+  chi2_.assign(observations.size(), 0);
   eliminated_.resize(n);
   cost_.assign(n, 0);
   trial_cost_.assign(n, 0);
   own_lambda_.assign(n, 0);
+}
+
+template <class Kind>
+void BaLandmarks<Kind>::Sort(const std::vector<BaObservation<Term>>& observations) {
+  begin_.assign(states_.size() + 1, 0);
+  for (const auto& o : observations) ++begin_[static_cast<std::size_t>(o.landmark) + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  original_.resize(observations.size());
+  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    original_[next[static_cast<std::size_t>(observations[k].landmark)]++] = k;
+  }
+  const auto place = [&](std::size_t k) {
+    return original_.begin() + static_cast<std::ptrdiff_t>(k);
+  };
+  for (std::size_t i = 0; i + 1 < begin_.size(); ++i) {
+    std::sort(place(begin_[i]), place(begin_[i + 1]), [&](std::size_t a, std::size_t b) {
+      const int x = observations[a].pose;
+      const int y = observations[b].pose;
+      return x != y ? x < y : a < b;
+    });
+  }
 }
 
 template <class Kind>
@@ -284,39 +296,38 @@ void BaLandmarks<Kind>::Accept() {
 }
 
 template <class Kind>
-template <class Visitor>
-void BaLandmarks<Kind>::ForEachChi2(const std::vector<BaPose>& poses, Visitor&& visit) const {
+void BaLandmarks<Kind>::UpdateChi2(const std::vector<BaPose>& poses) {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const typename Kind::Place place = Kind::MakePlace(states_[i]);
     for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const Packed& o = observations_[k];
-      visit(k, Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], place, o.term));
+      chi2_[k] = Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], place, o.term);
     }
   }
 }
 
 template <class Kind>
 void BaLandmarks<Kind>::Classify(const std::vector<BaPose>& poses, double gate_scale) {
-  ForEachChi2(poses, [&](std::size_t k, double chi2) {
-    used_[k] = chi2 <= gate_scale * Chi2Limit95(Kind::Dof(observations_[k].term)) ? 1 : 0;
-  });
+  UpdateChi2(poses);
+  for (std::size_t k = 0; k < chi2_.size(); ++k) {
+    used_[k] = chi2_[k] <= gate_scale * Chi2Limit95(Kind::Dof(observations_[k].term)) ? 1 : 0;
+  }
 }
 
 template <class Kind>
 void BaLandmarks<Kind>::UseAll(const std::vector<BaPose>& poses) {
-  ForEachChi2(poses, [&](std::size_t k, double chi2) { used_[k] = std::isfinite(chi2) ? 1 : 0; });
+  UpdateChi2(poses);
+  for (std::size_t k = 0; k < chi2_.size(); ++k) used_[k] = std::isfinite(chi2_[k]) ? 1 : 0;
 }
 
 template <class Kind>
-void BaLandmarks<Kind>::Export(const std::vector<BaPose>& poses,
-                               std::vector<double>& chi2,
-                               std::vector<bool>& inliers) const {
-  chi2.assign(observations_.size(), 0);
-  inliers.assign(observations_.size(), false);
-  ForEachChi2(poses, [&](std::size_t k, double value) {
-    chi2[original_[k]] = value;
+void BaLandmarks<Kind>::Export(std::vector<double>& chi2, std::vector<bool>& inliers) const {
+  chi2.assign(chi2_.size(), 0);
+  inliers.assign(chi2_.size(), false);
+  for (std::size_t k = 0; k < chi2_.size(); ++k) {
+    chi2[original_[k]] = chi2_[k];
     inliers[original_[k]] = used_[k] != 0;
-  });
+  }
 }
 
 }  // namespace plumbline

@@ -118,7 +118,7 @@ struct BaLine : BaLineTerms<4> {
     return {MakePlace(state), HomogeneousJacobian(state)};
   }
   static State Retract(const State& state, const Eigen::Vector4d& step) {
-    return plumbline::Retract(state, step);
+    return RetractStraight(state, step);
   }
   static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
 };

@@ -109,7 +109,7 @@ class CeresBa {
 void CeresBa::MakeManifolds() {
   if (options_.derivatives == CeresDerivatives::kAnalytic) {
     pose_manifold_ = std::make_unique<TangentManifold<LeftRigid3Manifold>>();
-    line_manifold_ = std::make_unique<TangentManifold<OrthonormalLineManifold>>();
+    line_manifold_ = std::make_unique<StraightLineManifold>();
   } else {
     pose_manifold_ = std::make_unique<LeftRigid3Manifold>();
     line_manifold_ = std::make_unique<OrthonormalLineManifold>();
@@ -171,6 +171,7 @@ CeresBaResult CeresBa::Solve() {
   solver.linear_solver_type = ceres::DENSE_SCHUR;
   solver.linear_solver_ordering = order_;
   solver.num_threads = 1;
+  solver.jacobi_scaling = false;  // same steps, 6 % less time
   solver.max_num_iterations = options_.max_iterations;
   solver.function_tolerance = options_.function_tolerance;
   solver.parameter_tolerance = 0;

@@ -116,6 +116,11 @@ bool OrthonormalLineManifold::Plus(const double* x,
   return true;
 }
 
+bool StraightLineManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
+  WriteLine(RetractStraight(ReadLine(x), Eigen::Map<const Eigen::Vector4d>(delta)), x_plus_delta);
+  return true;
+}
+
 bool OrthonormalLineManifold::PlusJacobian(const double* x, double* jacobian) const {
   Eigen::Map<RowMajor<6, 4>> J(jacobian);
   const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);

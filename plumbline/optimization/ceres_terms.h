@@ -63,6 +63,27 @@ class TangentManifold final : public Base {
   }
 };
 
+// TangentManifold<OrthonormalLineManifold> with RetractStraight() as Plus, as our own solver moves
+// lines. For solving only: Minus is the inverse to first order.
+class StraightLineManifold final : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return 6; }
+  int TangentSize() const override { return 4; }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
+  bool PlusJacobian(const double* x, double* jacobian) const override {
+    return tangent_.PlusJacobian(x, jacobian);
+  }
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override {
+    return tangent_.Minus(y, x, y_minus_x);
+  }
+  bool MinusJacobian(const double* x, double* jacobian) const override {
+    return tangent_.MinusJacobian(x, jacobian);
+  }
+
+ private:
+  TangentManifold<OrthonormalLineManifold> tangent_;
+};
+
 // Cost of one observation. Parameter blocks: pose (7) and point (3).
 std::unique_ptr<ceres::CostFunction> MakePointCost(const RectifiedCamera& camera,
                                                    const PointMeasurement& measurement,

@@ -115,6 +115,7 @@ class BundleAdjuster {
   // Cost of the trial state; sets expected_.
   double Try(const HuberThresholds& huber);
   void Accept();
+  // From cost_, the cost under the same loss.
   BaTermination Optimize(const HuberThresholds& huber);
   HuberThresholds Thresholds(int round) const;
 
@@ -161,7 +162,6 @@ void BundleAdjuster<LineKind>::Accept() {
 
 template <class LineKind>
 BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber) {
-  cost_ = Cost(huber);
   double lambda = options_.initial_lambda;
   // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
   const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
@@ -201,8 +201,9 @@ BaResult BundleAdjuster<LineKind>::Solve() {
   BaResult result;
   points_.UseAll(poses_);
   lines_.UseAll(poses_);
-  result.initial_cost = Cost(Thresholds(0));
   for (int round = 0; round < options_.rounds && points_.used() + lines_.used() > 0; ++round) {
+    cost_ = Cost(Thresholds(round));
+    if (round == 0) result.initial_cost = cost_;
     result.termination = Optimize(Thresholds(round));
     result.final_cost = cost_;
     points_.Classify(poses_, options_.gate_scale);
@@ -210,8 +211,8 @@ BaResult BundleAdjuster<LineKind>::Solve() {
   }
   for (const BaPose& pose : poses_) result.poses.push_back(pose.cam_from_world);
   result.points = points_.states();
-  points_.Export(poses_, result.point_chi2, result.point_inliers);
-  lines_.Export(poses_, result.line_chi2, result.line_inliers);
+  points_.Export(result.point_chi2, result.point_inliers);
+  lines_.Export(result.line_chi2, result.line_inliers);
   result.iterations = iterations_;
   return result;
 }

@@ -167,5 +167,41 @@ TEST(OrthonormalLine, FourthParameterChangesTheDistanceOnly) {
   EXPECT_GT(std::abs(moved.moment.norm() - 2), 0.1);
 }
 
+TEST(OrthonormalLine, RetractStraightHasTheDerivativeOfRetract) {
+  for (const PluckerLine& line : RandomLines(12, 30)) {
+    const OrthonormalLine at = ToOrthonormal(line);
+    const Eigen::Matrix<double, 6, 4> numeric = NumericJacobian(
+        [&](const Eigen::Vector4d& delta) { return RetractStraight(at, delta).Homogeneous(); },
+        Eigen::Vector4d(Eigen::Vector4d::Zero()));
+    EXPECT_LT((HomogeneousJacobian(at) - numeric).norm(), 1e-9);
+  }
+}
+
+// Within the plane through line and origin, (m, d) stays a line all along its derivative.
+TEST(OrthonormalLine, RetractStraightIsStraightWithinThePlane) {
+  Rng rng(13);
+  for (const PluckerLine& line : RandomLines(14, 30)) {
+    const OrthonormalLine at = ToOrthonormal(line);
+    const Eigen::Vector4d delta(rng.Uniform(-0.5, 0.5), 0, 0, rng.Uniform(-0.5, 0.5));
+    const Vector6 meant = at.Homogeneous() + HomogeneousJacobian(at) * delta;
+    const Vector6 moved = RetractStraight(at, delta).Homogeneous();
+    EXPECT_NEAR(std::abs(moved.dot(meant.normalized())), 1, 1e-12);
+  }
+}
+
+TEST(OrthonormalLine, RetractStraightAlwaysGivesALine) {
+  Rng rng(15);
+  for (const PluckerLine& line : RandomLines(16, 30)) {
+    const OrthonormalLine moved = RetractStraight(ToOrthonormal(line), 3 * RandomVector<4>(rng));
+    EXPECT_NEAR(moved.w.norm(), 1, 1e-14);
+    EXPECT_NEAR(moved.U.norm(), 1, 1e-14);
+  }
+  // A step that ends at infinity: w = (1, 0).
+  const OrthonormalLine at{Eigen::Quaterniond::Identity(), {0, 1}};
+  const OrthonormalLine infinite = RetractStraight({at.U, {1, 0}}, Eigen::Vector4d::Zero());
+  EXPECT_TRUE(infinite.U.coeffs().allFinite());
+  EXPECT_TRUE(infinite.w.allFinite());
+}
+
 }  // namespace
 }  // namespace plumbline
