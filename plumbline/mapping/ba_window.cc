@@ -10,7 +10,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 
 namespace plumbline {
 namespace {
@@ -38,11 +37,17 @@ class WindowBuilder {
   }
 
  private:
+  // A keyframe of the window.
+  struct Member {
+    int pose = 0;  // its index
+    const KeyFrame* keyframe = nullptr;
+  };
+
   void AddPose(KeyFrameId id, bool fixed) {
-    pose_index_[id] = static_cast<int>(window_.keyframes.size());
+    const KeyFrame* keyframe = map_.Find(id);
+    members_[id] = {static_cast<int>(window_.keyframes.size()), keyframe};
     window_.keyframes.push_back(id);
-    const Rigid3& cam_from_world = map_.Find(id)->frame.cam_from_world;
-    window_.problem.poses.push_back({cam_from_world * world_from_window_, fixed});
+    window_.problem.poses.push_back({keyframe->frame.cam_from_world * world_from_window_, fixed});
   }
 
   void ChooseFree(KeyFrameId centre) {
@@ -56,15 +61,21 @@ class WindowBuilder {
     for (const KeyFrameId id : free) AddPose(id, id == origin);
   }
 
+  // Takes a landmark with at least two views; each is looked up in the map once.
+  template <class Id, class Landmark>
+  void Choose(Id id, std::map<Id, const Landmark*>& chosen) const {
+    if (!id.valid()) return;
+    const auto [place, is_new] = chosen.try_emplace(id, nullptr);
+    if (!is_new) return;
+    place->second = map_.Find(id);
+    if (place->second->observations.size() < 2) chosen.erase(place);
+  }
+
   void ChooseLandmarks() {
     for (const KeyFrameId id : window_.keyframes) {
       const Frame& frame = map_.Find(id)->frame;
-      for (const PointId point : frame.points) {
-        if (point.valid() && map_.Find(point)->observations.size() >= 2) points_.insert(point);
-      }
-      for (const LineId line : frame.lines) {
-        if (line.valid() && map_.Find(line)->observations.size() >= 2) lines_.insert(line);
-      }
+      for (const PointId point : frame.points) Choose(point, points_);
+      for (const LineId line : frame.lines) Choose(line, lines_);
     }
   }
 
@@ -72,11 +83,11 @@ class WindowBuilder {
     std::map<KeyFrameId, int> shared;
     const auto count = [&](const Observations& observations) {
       for (const auto& [id, feature] : observations) {
-        if (!pose_index_.contains(id)) ++shared[id];
+        if (!members_.contains(id)) ++shared[id];
       }
     };
-    for (const PointId id : points_) count(map_.Find(id)->observations);
-    for (const LineId id : lines_) count(map_.Find(id)->observations);
+    for (const auto& [id, point] : points_) count(point->observations);
+    for (const auto& [id, line] : lines_) count(line->observations);
     std::vector<CovisibleKeyFrame> others = RankByShared(shared, 1);
     if (static_cast<int>(others.size()) > options_.fixed_keyframes) {
       others.resize(static_cast<std::size_t>(options_.fixed_keyframes));
@@ -91,45 +102,44 @@ class WindowBuilder {
   int ViewsInWindow(const Observations& observations) const {
     return static_cast<int>(
         std::count_if(observations.begin(), observations.end(), [&](const auto& observation) {
-          return pose_index_.contains(observation.first);
+          return members_.contains(observation.first);
         }));
   }
 
   void AddPoints() {
-    for (const PointId id : points_) {
-      const MapPoint& point = *map_.Find(id);
-      if (ViewsInWindow(point.observations) < 2) continue;
+    for (const auto& [id, point] : points_) {
+      if (ViewsInWindow(point->observations) < 2) continue;
       const int index = static_cast<int>(window_.points.size());
       window_.points.push_back(id);
-      window_.problem.points.push_back(window_.window_from_world * point.position);
-      for (const auto& [keyframe, feature] : point.observations) {
-        const auto pose = pose_index_.find(keyframe);
-        if (pose == pose_index_.end()) continue;
+      window_.problem.points.push_back(window_.window_from_world * point->position);
+      for (const auto& [keyframe, feature] : point->observations) {
+        const auto member = members_.find(keyframe);
+        if (member == members_.end()) continue;
+        const Features& features = member->second.keyframe->frame.features();
         window_.problem.point_observations.push_back(
-            {pose->second,
+            {member->second.pose,
              index,
-             MeasurePoint(map_.Find(keyframe)->frame.features(),
-                          static_cast<std::size_t>(feature))});
+             MeasurePoint(features, static_cast<std::size_t>(feature))});
       }
     }
   }
 
   void AddLines() {
-    for (const LineId id : lines_) {
-      const MapLine& line = *map_.Find(id);
-      if (ViewsInWindow(line.observations) < 2) continue;
-      if (!WellConditioned(line)) {
+    for (const auto& [id, line] : lines_) {
+      if (ViewsInWindow(line->observations) < 2) continue;
+      if (!WellConditioned(*line)) {
         window_.young_lines.push_back(id);
         continue;
       }
       const int index = static_cast<int>(window_.lines.size());
       window_.lines.push_back(id);
       window_.problem.lines.push_back(
-          ToOrthonormal(Transform(window_.window_from_world, line.line)));
-      for (const auto& [keyframe, feature] : line.observations) {
-        const auto pose = pose_index_.find(keyframe);
-        if (pose == pose_index_.end()) continue;
-        AddLineObservations(pose->second, index, map_.Find(keyframe)->frame.features(), feature);
+          ToOrthonormal(Transform(window_.window_from_world, line->line)));
+      for (const auto& [keyframe, feature] : line->observations) {
+        const auto member = members_.find(keyframe);
+        if (member == members_.end()) continue;
+        const auto& [pose, seen_by] = member->second;
+        AddLineObservations(pose, index, seen_by->frame.features(), feature);
       }
     }
   }
@@ -149,9 +159,9 @@ class WindowBuilder {
     const double limit = std::cos(options_.min_line_plane_angle_deg * std::numbers::pi / 180);
     std::optional<Eigen::Vector3d> first;
     for (const auto& [keyframe, feature] : line.observations) {
-      const Rigid3 world_from_cam = Inverse(map_.Find(keyframe)->frame.cam_from_world);
+      const Eigen::Vector3d centre = Inverse(map_.Find(keyframe)->frame.cam_from_world).translation;
       const Eigen::Vector3d normal =
-          (line.line.moment - world_from_cam.translation.cross(line.line.direction)).normalized();
+          (line.line.moment - centre.cross(line.line.direction)).normalized();
       if (!first) first = normal;
       if (std::abs(first->dot(normal)) <= limit) return true;
     }
@@ -168,9 +178,9 @@ class WindowBuilder {
   const BaWindowOptions& options_;
   BaWindow window_;
   Rigid3 world_from_window_;
-  std::map<KeyFrameId, int> pose_index_;
-  std::set<PointId> points_;
-  std::set<LineId> lines_;
+  std::map<KeyFrameId, Member> members_;
+  std::map<PointId, const MapPoint*> points_;
+  std::map<LineId, const MapLine*> lines_;
 };
 
 }  // namespace
