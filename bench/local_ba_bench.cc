@@ -15,19 +15,29 @@ namespace {
 
 // Arguments of all benchmarks: fixed and free keyframes, points, lines. 6 views per landmark (two
 // thirds of them with disparity or right line), 1 px of noise, 3 % outliers, Huber loss.
+testing::BaSceneOptions SceneOptions(const benchmark::State& state) {
+  return {.poses = static_cast<int>(state.range(0) + state.range(1)),
+          .free_poses = static_cast<int>(state.range(1)),
+          .points = static_cast<int>(state.range(2)),
+          .lines = static_cast<int>(state.range(3)),
+          .sigma = 1,
+          .outliers = 0.03};
+}
 BaProblem MakeProblem(const benchmark::State& state) {
-  return testing::MakeBaScene(1,
-                              {.poses = static_cast<int>(state.range(0) + state.range(1)),
-                               .free_poses = static_cast<int>(state.range(1)),
-                               .points = static_cast<int>(state.range(2)),
-                               .lines = static_cast<int>(state.range(3)),
-                               .sigma = 1,
-                               .outliers = 0.03})
-      .problem;
+  return testing::MakeBaScene(1, SceneOptions(state)).problem;
+}
+// Half of the lines are seen from two poses only and placed anyhow, many near an epipolar plane.
+BaProblem MakeProblemWithWeakLines(const benchmark::State& state) {
+  testing::BaSceneOptions options = SceneOptions(state);
+  options.weak_lines = options.lines / 2;
+  options.lines -= options.weak_lines;
+  return testing::MakeBaScene(1, options).problem;
 }
 
-// One round, until the cost falls by less than 1e-4 of itself.
+// One round, until the cost falls by less than 1e-4 of itself; the limits are those of local
+// mapping and, for large problems, one that is not reached.
 constexpr int kMaxIterations = 10;
+constexpr int kManyIterations = 60;
 constexpr double kTolerance = 1e-4;
 
 HuberThresholds Huber() {
@@ -48,16 +58,22 @@ void Run(benchmark::State& state, const Solve& solve) {
   state.counters["iterations"] = iterations;
 }
 
-void RunOurs(benchmark::State& state, const BaProblem& problem, LineParametrization lines) {
+void RunOurs(benchmark::State& state,
+             const BaProblem& problem,
+             LineParametrization lines,
+             int max_iterations = kMaxIterations) {
   const LocalBaOptions options{
-      .rounds = 1, .max_iterations = kMaxIterations, .function_tolerance = kTolerance};
+      .rounds = 1, .max_iterations = max_iterations, .function_tolerance = kTolerance};
   Run(state, [&] { return SolveLocalBa(problem, options, lines); });
 }
 
-void RunCeres(benchmark::State& state, const BaProblem& problem, LineParametrization lines) {
+void RunCeres(benchmark::State& state,
+              const BaProblem& problem,
+              LineParametrization lines,
+              int max_iterations = kMaxIterations) {
   const CeresBaOptions options{.huber = Huber(),
                                .lines = lines,
-                               .max_iterations = kMaxIterations,
+                               .max_iterations = max_iterations,
                                .function_tolerance = kTolerance};
   Run(state, [&] { return SolveWithCeres(problem, options); });
 }
@@ -67,6 +83,25 @@ void Ours(benchmark::State& state, LineParametrization lines) {
 }
 void Ceres(benchmark::State& state, LineParametrization lines) {
   RunCeres(state, MakeProblem(state), lines);
+}
+
+// From a start not quite as far away: all shall arrive at the same minimum.
+BaProblem MakeGrowingProblem(const benchmark::State& state) {
+  testing::BaSceneOptions options = SceneOptions(state);
+  options.perturbation = 0.3;
+  return testing::MakeBaScene(1, options).problem;
+}
+void OursGrowing(benchmark::State& state, LineParametrization lines) {
+  RunOurs(state, MakeGrowingProblem(state), lines, kManyIterations);
+}
+void CeresGrowing(benchmark::State& state, LineParametrization lines) {
+  RunCeres(state, MakeGrowingProblem(state), lines, kManyIterations);
+}
+void OursWeakLines(benchmark::State& state, LineParametrization lines) {
+  RunOurs(state, MakeProblemWithWeakLines(state), lines);
+}
+void CeresWeakLines(benchmark::State& state, LineParametrization lines) {
+  RunCeres(state, MakeProblemWithWeakLines(state), lines);
 }
 
 // Ceres without iterations: building its problem, its preprocessing, one evaluation.
@@ -102,6 +137,11 @@ void Sizes(benchmark::internal::Benchmark* benchmark) {
       ->Args({5, 10, 2000, 300})
       ->Args({5, 10, 2000, 0});
 }
+void PointsAndLines(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Unit(benchmark::kMillisecond)
+      ->ArgNames({"fixed", "free", "points", "lines"})
+      ->Args({5, 10, 2000, 300});
+}
 void PointsOnly(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond)
       ->ArgNames({"fixed", "free", "points", "lines"})
@@ -111,9 +151,14 @@ BENCHMARK_CAPTURE(Ours, plucker, LineParametrization::kPlucker)->Apply(Sizes);
 BENCHMARK_CAPTURE(Ours, endpoints, LineParametrization::kEndpoints)->Apply(Sizes);
 BENCHMARK_CAPTURE(Ceres, plucker, LineParametrization::kPlucker)->Apply(Sizes);
 BENCHMARK_CAPTURE(Ceres, endpoints, LineParametrization::kEndpoints)->Apply(Sizes);
+BENCHMARK_CAPTURE(OursWeakLines, plucker, LineParametrization::kPlucker)->Apply(PointsAndLines);
+BENCHMARK_CAPTURE(OursWeakLines, endpoints, LineParametrization::kEndpoints)->Apply(PointsAndLines);
+BENCHMARK_CAPTURE(CeresWeakLines, plucker, LineParametrization::kPlucker)->Apply(PointsAndLines);
+BENCHMARK_CAPTURE(CeresWeakLines, endpoints, LineParametrization::kEndpoints)
+    ->Apply(PointsAndLines);
 BENCHMARK_CAPTURE(CeresSetUp, plucker, LineParametrization::kPlucker)->Apply(Sizes);
-BENCHMARK_CAPTURE(OursDefault, plucker, LineParametrization::kPlucker)->Apply(Sizes);
-BENCHMARK_CAPTURE(OursDefault, endpoints, LineParametrization::kEndpoints)->Apply(Sizes);
+BENCHMARK_CAPTURE(OursDefault, plucker, LineParametrization::kPlucker)->Apply(PointsAndLines);
+BENCHMARK_CAPTURE(OursDefault, endpoints, LineParametrization::kEndpoints)->Apply(PointsAndLines);
 BENCHMARK(OursMonocular)->Apply(PointsOnly);
 BENCHMARK(CeresMonocular)->Apply(PointsOnly);
 
@@ -124,10 +169,10 @@ void Grow(benchmark::internal::Benchmark* benchmark) {
     benchmark->Args({(free + 1) / 2, free, 200 * free, 30 * free});
   }
 }
-BENCHMARK_CAPTURE(Ours, plucker_growing, LineParametrization::kPlucker)->Apply(Grow);
-BENCHMARK_CAPTURE(Ours, endpoints_growing, LineParametrization::kEndpoints)->Apply(Grow);
-BENCHMARK_CAPTURE(Ceres, plucker_growing, LineParametrization::kPlucker)->Apply(Grow);
-BENCHMARK_CAPTURE(Ceres, endpoints_growing, LineParametrization::kEndpoints)->Apply(Grow);
+BENCHMARK_CAPTURE(OursGrowing, plucker, LineParametrization::kPlucker)->Apply(Grow);
+BENCHMARK_CAPTURE(OursGrowing, endpoints, LineParametrization::kEndpoints)->Apply(Grow);
+BENCHMARK_CAPTURE(CeresGrowing, plucker, LineParametrization::kPlucker)->Apply(Grow);
+BENCHMARK_CAPTURE(CeresGrowing, endpoints, LineParametrization::kEndpoints)->Apply(Grow);
 
 }  // namespace
 }  // namespace plumbline

@@ -255,6 +255,7 @@ void CeresPose::SolveRound(const HuberThresholds& huber,
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   solver.num_threads = 1;
+  solver.jacobi_scaling = false;
   solver.max_num_iterations = options.max_iterations;
   solver.function_tolerance = options.function_tolerance;
   solver.parameter_tolerance = 0;
