@@ -3,9 +3,10 @@
 #include "plumbline/features/extractor.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/features/lbd.h"
 
-#include <future>
+#include <array>
 
 namespace plumbline {
 namespace {
@@ -17,23 +18,39 @@ struct SingleView {
   std::vector<LineFeature> lines;
 };
 
-SingleView ExtractView(const GrayImage& image,
-                       const ValidRegion* valid,
-                       const FeatureOptions& options) {
-  const ValidRegion whole(image.width(), image.height());
-  const ValidRegion& region = valid ? *valid : whole;
-  SingleView view;
-  if (options.points) {
-    view.pyramid = BuildOrbPyramid(image, options.orb);
-    view.points = ExtractOrb(view.pyramid, region, options.point_count, options.orb);
-  }
-  if (options.lines) {
-    const GradientImage gradient = ComputeGradient(image, kLineBlurPx);
-    view.lines = DetectLines(
-        image, gradient, region, options.line_detector, options.line_count, options.line);
-    DescribeLines(gradient, &view.lines);
-  }
-  return view;
+void ExtractPoints(const GrayImage& image,
+                   const ValidRegion& region,
+                   const FeatureOptions& options,
+                   SingleView& view) {
+  if (!options.points) return;
+  view.pyramid = BuildOrbPyramid(image, options.orb);
+  view.points = ExtractOrb(view.pyramid, region, options.point_count, options.orb);
+}
+
+void ExtractLines(const GrayImage& image,
+                  const ValidRegion& region,
+                  const FeatureOptions& options,
+                  SingleView& view) {
+  if (!options.lines) return;
+  const GradientImage gradient = ComputeGradient(image, kLineBlurPx);
+  view.lines =
+      DetectLines(image, gradient, region, options.line_detector, options.line_count, options.line);
+  DescribeLines(gradient, &view.lines);
+}
+
+// The left view and, for stereo, the right one.
+std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureOptions& options) {
+  std::array<SingleView, 2> views;
+  const ValidRegion whole(input.left->width(), input.left->height());
+  // Points and lines of each image by turns: two threads share them evenly.
+  ParallelFor(input.right ? 4 : 2, options.parallel ? 2 : 1, [&](int task) {
+    const bool left = task < 2;
+    const GrayImage& image = left ? *input.left : *input.right;
+    const ValidRegion* valid = left ? input.left_valid : input.right_valid;
+    const auto extract = task % 2 == 0 ? ExtractPoints : ExtractLines;
+    extract(image, valid ? *valid : whole, options, views[left ? 0 : 1]);
+  });
+  return views;
 }
 
 void MatchRight(const RectifiedCamera& camera,
@@ -61,16 +78,11 @@ Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
                          const FeatureOptions& options) {
   CheckInput(camera, input);
-  std::future<SingleView> right;
-  if (input.right) {
-    const auto policy = options.parallel ? std::launch::async : std::launch::deferred;
-    right = std::async(
-        policy, ExtractView, std::cref(*input.right), input.right_valid, std::cref(options));
-  }
-  SingleView left = ExtractView(*input.left, input.left_valid, options);
+  std::array<SingleView, 2> views = ExtractViews(input, options);
+  SingleView& left = views[0];
   Features features;
   if (input.right) {
-    MatchRight(camera, left, right.get(), options, &features);
+    MatchRight(camera, left, views[1], options, &features);
   } else if (input.depth) {
     features.point_disparity = PointDisparities(camera, *input.depth, left.points, options.depth);
     features.line_right = VirtualRightLines(camera, *input.depth, left.lines, options.depth);

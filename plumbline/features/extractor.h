@@ -21,7 +21,7 @@ struct FeatureOptions {
   bool lines = true;
   int line_count = 200;
   LineDetector line_detector = LineDetector::kDrawing;
-  bool parallel = true;  // left and right image in two threads; same result
+  bool parallel = true;  // points and lines, left and right, in two threads; same result
   OrbOptions orb;
   LineDetectionOptions line;
   StereoPointOptions stereo_points;
@@ -53,7 +53,7 @@ void VisitFields(Visitor&& visit, FeatureOptions& o) {
   visit("lines", o.lines, "use lines");
   visit("line_count", o.line_count, "lines per image", Range{0, 5000});
   visit("line_detector", o.line_detector, "detector of line segments");
-  visit("parallel", o.parallel, "left and right image in two threads");
+  visit("parallel", o.parallel, "points and lines, left and right, in two threads");
   visit("orb", o.orb, "corners and their descriptors");
   visit("line", o.line, "line segments");
   visit("stereo_points", o.stereo_points, "matching of points between left and right");
