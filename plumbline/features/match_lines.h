@@ -36,9 +36,9 @@ std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const LineMatchOptions& options);
 
 struct StereoLineOptions {
-  // Of every disparity, from the pair's calibration: the 1 px of points times the square root of
-  // two, since both ends of a line share one error.
-  double calibration_sigma_px = 1.5;
+  // Of every disparity, from the pair's calibration. More than the 1 px of points: the ends of a
+  // line share one error (docs/methods/pose-and-mapping.md, measured choices).
+  double calibration_sigma_px = 2;
   int max_distance = 80;
   double ratio = 0.9;
   double max_angle_deg = 30;
