@@ -1,46 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/dataset.h"
-
-#include "fuzz/input_folder.h"
+#include "fuzz/fuzzed_dataset.h"
 
 namespace plumbline {
 namespace {
 
-const std::vector<InputFile>& Files() {
-  static const std::string list = "#timestamp [ns],filename\n100,1.pgm\n200,2.pgm\n";
-  static const std::string sensor =
+FuzzedDataset Make() {
+  const std::string list = "#timestamp [ns],filename\n100,1.pgm\n200,2.pgm\n";
+  const std::string sensor =
       "T_BS:\n  cols: 4\n  rows: 4\n  data: [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\nrate_hz: 20\n"
       "resolution: [8, 6]\ncamera_model: pinhole\nintrinsics: [5, 5, 4, 3]\n"
       "distortion_model: radial-tangential\ndistortion_coefficients: [0, 0, 0, 0]\n";
-  static const std::vector<InputFile> files = {
-      {"mav0/cam0/data.csv", list},
-      {"mav0/cam1/data.csv", list},
-      {"mav0/cam0/sensor.yaml", sensor},
-      {"mav0/state_groundtruth_estimate0/data.csv", "#t,p,q\n100,1,2,3,1,0,0,0\n"},
-      {"mav0/cam1/sensor.yaml", sensor},
-      {"mav0/cam0/data/1.pgm", SmallImage()}};
-  return files;
-}
-
-const InputFolder& Folder() {
-  static const InputFolder folder;
-  static const bool written = [] {
-    for (const InputFile& file : Files()) folder.Write(file.name, file.good);
-    return true;
-  }();
-  (void)written;
-  return folder;
+  return {{{"mav0/cam0/data.csv", list},
+           {"mav0/cam1/data.csv", list},
+           {"mav0/cam0/sensor.yaml", sensor},
+           {"mav0/state_groundtruth_estimate0/data.csv", "#t,p,q\n100,1,2,3,1,0,0,0\n"},
+           {"mav0/cam1/sensor.yaml", sensor}},
+          {"mav0/cam0/data/1.pgm"}};
 }
 
 }  // namespace
 }  // namespace plumbline
 
-// Files of a EuRoC folder (not the image, which others decode).
+// Files of a EuRoC folder.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace plumbline;
-  static const std::vector<InputFile> texts(Files().begin(), Files().end() - 1);
-  ParseWithOneFileReplaced(
-      Folder(), texts, AsText(data, size), [] { (void)OpenDataset(Folder().path()); });
+  static const plumbline::FuzzedDataset dataset = plumbline::Make();
+  dataset.OpenWith(plumbline::AsText(data, size));
   return 0;
 }

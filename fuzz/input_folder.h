@@ -10,7 +10,6 @@
 #include <fstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <stdlib.h>
 
@@ -44,35 +43,8 @@ class InputFolder {
   std::filesystem::path path_;
 };
 
-// A file of a data set with contents that can be read.
-struct InputFile {
-  std::string name;
-  std::string good;
-};
-
 inline std::string_view AsText(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
-
-// Runs `parse` with one of the files replaced: the first byte ('0', '1', ...) says which, the rest
-// are its contents. Anything but an InputError that comes out is a fault.
-template <class Parse>
-void ParseWithOneFileReplaced(const InputFolder& folder,
-                              const std::vector<InputFile>& files,
-                              std::string_view input,
-                              const Parse& parse) {
-  if (input.empty()) return;
-  const auto which = static_cast<std::size_t>(static_cast<unsigned char>(input[0] - '0'));
-  const InputFile& file = files[which % files.size()];
-  folder.Write(file.name, input.substr(1));
-  try {
-    parse();
-  } catch (const InputError&) {
-  }
-  folder.Write(file.name, file.good);
-}
-
-// A grey image of 8x6 pixels (PGM).
-inline std::string SmallImage() { return "P5\n8 6\n255\n" + std::string(48, '\x40'); }
 
 }  // namespace plumbline
