@@ -40,6 +40,12 @@ function(plumbline_tests)
     target_compile_definitions(
       ${target} PRIVATE PLUMBLINE_DATA_BESIDE_SOURCE="${PROJECT_SOURCE_DIR}/../shared/data")
   endif()
+  set(environment "")
+  if(PLUMBLINE_SANITIZE MATCHES "address")
+    set(environment ENVIRONMENT
+        "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tools/leaks_of_others.txt:print_suppressions=0")
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX "${ARG_NAME}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL})
+                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL}
+                                  ${environment})
 endfunction()
