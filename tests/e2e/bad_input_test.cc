@@ -166,7 +166,7 @@ TEST(BadInput, OptionsThatAreWrong) {
         " --set tracking.min_inliers=-3"},
        {"a word that is no choice",
         nothing,
-        "features.line_detector: expected one of lsd | edlines",
+        "features.line_detector: expected one of drawing | lsd | edlines",
         " --set features.line_detector=lds"},
        {"a setting without a value",
         nothing,

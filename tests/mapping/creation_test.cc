@@ -129,7 +129,7 @@ TEST(CreateFromDepth, MakesALandmarkOfEveryFreeFeatureWithGoodDepth) {
   }
   scene.map.Apply(edit);
   scene.map.CheckInvariants();
-  EXPECT_TRUE(CreateFromDepth(scene.map, world.Imaging(), id, {}).empty());
+  EXPECT_TRUE(CreateFromDepth(scene.map, world.Imaging(), id, options).empty());
 }
 
 TEST(CreatePointsFromViews, TriangulatesWhatTwoKeyFramesShow) {
