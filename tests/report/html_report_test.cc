@@ -50,7 +50,7 @@ std::string Decode(const std::string& base64) {
 std::vector<float> FloatsOf(const nlohmann::json& base64) {
   const std::string bytes = Decode(base64.get<std::string>());
   std::vector<float> values(bytes.size() / sizeof(float));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
   return values;
 }
 
