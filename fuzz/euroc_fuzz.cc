@@ -3,9 +3,9 @@
 #include "fuzz/fuzzed_dataset.h"
 
 namespace plumbline {
-namespace {
 
-FuzzedDataset Make() {
+// Files of a EuRoC folder.
+FuzzedDataset MakeFuzzedDataset() {
   const std::string list = "#timestamp [ns],filename\n100,1.pgm\n200,2.pgm\n";
   const std::string sensor =
       "T_BS:\n  cols: 4\n  rows: 4\n  data: [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\nrate_hz: 20\n"
@@ -19,12 +19,4 @@ FuzzedDataset Make() {
           {"mav0/cam0/data/1.pgm"}};
 }
 
-}  // namespace
 }  // namespace plumbline
-
-// Files of a EuRoC folder.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const plumbline::FuzzedDataset dataset = plumbline::Make();
-  dataset.OpenWith(plumbline::AsText(data, size));
-  return 0;
-}

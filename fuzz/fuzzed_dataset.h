@@ -49,4 +49,7 @@ class FuzzedDataset {
   InputFolder folder_;
 };
 
+// The data set of a target: each gives its own; dataset_fuzz.cc does the rest.
+FuzzedDataset MakeFuzzedDataset();
+
 }  // namespace plumbline
