@@ -29,9 +29,7 @@ constexpr std::array<std::pair<DistortionModel, std::string_view>, 3> kDistortio
      {DistortionModel::kEquidistant, "equidistant"}}};
 
 Camera ReadOurCamera(const YamlSection& section) {
-  if (section.Has("model") && section.Text("model") != "pinhole") {
-    section.Fail("model", "expected pinhole, found '" + section.Text("model") + "'");
-  }
+  if (section.Has("model")) CheckPinhole(section, "model");
   const std::string name = section.Has("distortion") ? section.Text("distortion") : "none";
   for (const auto& [model, model_name] : kDistortionNames) {
     if (name != model_name) continue;

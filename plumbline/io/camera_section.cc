@@ -34,6 +34,23 @@ Camera ReadListedCamera(const YamlSection& section,
   return CheckedCamera(section, keys.intrinsics, intrinsics);
 }
 
+Camera ReadModelCamera(const YamlSection& section,
+                       const CameraListKeys& keys,
+                       const std::string& radtan_name) {
+  CheckPinhole(section, "camera_model");
+  const std::string name = section.Text("distortion_model");
+  if (name == radtan_name) return ReadListedCamera(section, keys, DistortionModel::kRadTan);
+  if (name == "equidistant") return ReadListedCamera(section, keys, DistortionModel::kEquidistant);
+  if (name == "none") return ReadListedCamera(section, keys, DistortionModel::kNone);
+  section.Fail("distortion_model",
+               "expected " + radtan_name + ", equidistant or none, found '" + name + "'");
+}
+
+void CheckPinhole(const YamlSection& section, const std::string& key) {
+  const std::string name = section.Text(key);
+  if (name != "pinhole") section.Fail(key, "expected pinhole, found '" + name + "'");
+}
+
 Camera CheckedCamera(const YamlSection& section,
                      const std::string& key,
                      const CameraIntrinsics& intrinsics) {

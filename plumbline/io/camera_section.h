@@ -23,6 +23,15 @@ Camera ReadListedCamera(const YamlSection& section,
                         const CameraListKeys& keys,
                         DistortionModel model);
 
+// The camera of a section with `camera_model` (pinhole) and `distortion_model` (`radtan_name`,
+// equidistant or none), as EuRoC and Kalibr write it. InputError naming the key.
+Camera ReadModelCamera(const YamlSection& section,
+                       const CameraListKeys& keys,
+                       const std::string& radtan_name);
+
+// Fails unless the text of `key` is pinhole.
+void CheckPinhole(const YamlSection& section, const std::string& key);
+
 // Camera(intrinsics), its errors as those of `key`.
 Camera CheckedCamera(const YamlSection& section,
                      const std::string& key,

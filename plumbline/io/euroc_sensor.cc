@@ -5,9 +5,6 @@
 #include "plumbline/io/camera_section.h"
 #include "plumbline/io/text_rows.h"
 
-#include <optional>
-#include <string>
-
 namespace plumbline {
 
 EurocSensor ReadEurocSensor(const std::filesystem::path& path) {
@@ -15,22 +12,12 @@ EurocSensor ReadEurocSensor(const std::filesystem::path& path) {
 }
 
 EurocSensor ReadEurocSensor(const YamlSection& root) {
-  const std::string camera_model = root.Text("camera_model");
-  if (camera_model != "pinhole") {
-    root.Fail("camera_model", "expected pinhole, found '" + camera_model + "'");
-  }
-  const std::string name = root.Text("distortion_model");
-  std::optional<DistortionModel> model;
-  if (name == "radial-tangential" || name == "radtan") model = DistortionModel::kRadTan;
-  if (name == "equidistant") model = DistortionModel::kEquidistant;
-  if (name == "none") model = DistortionModel::kNone;
-  if (!model) {
-    root.Fail("distortion_model",
-              "expected radial-tangential, equidistant or none, found '" + name + "'");
-  }
+  // Some tools write Kalibr's name into files of this form.
+  const bool short_name = root.Has("distortion_model") && root.Text("distortion_model") == "radtan";
   EurocSensor sensor;
-  sensor.camera =
-      ReadListedCamera(root, {"resolution", "intrinsics", "distortion_coefficients"}, *model);
+  sensor.camera = ReadModelCamera(root,
+                                  {"resolution", "intrinsics", "distortion_coefficients"},
+                                  short_name ? "radtan" : "radial-tangential");
   sensor.body_from_camera = root.Child("T_BS").Motion("data");
   sensor.rate_hz = root.Positive("rate_hz");
   return sensor;

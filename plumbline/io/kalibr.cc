@@ -4,26 +4,11 @@
 
 #include "plumbline/io/camera_section.h"
 
-#include <optional>
-#include <string>
-
 namespace plumbline {
 namespace {
 
 Camera ReadCamera(const YamlSection& section) {
-  const std::string camera_model = section.Text("camera_model");
-  if (camera_model != "pinhole") {
-    section.Fail("camera_model", "expected pinhole, found '" + camera_model + "'");
-  }
-  const std::string name = section.Text("distortion_model");
-  std::optional<DistortionModel> model;
-  if (name == "radtan") model = DistortionModel::kRadTan;
-  if (name == "equidistant") model = DistortionModel::kEquidistant;
-  if (name == "none") model = DistortionModel::kNone;
-  if (!model) {
-    section.Fail("distortion_model", "expected radtan, equidistant or none, found '" + name + "'");
-  }
-  return ReadListedCamera(section, {"resolution", "intrinsics", "distortion_coeffs"}, *model);
+  return ReadModelCamera(section, {"resolution", "intrinsics", "distortion_coeffs"}, "radtan");
 }
 
 }  // namespace
