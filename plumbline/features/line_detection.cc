@@ -99,6 +99,7 @@ std::vector<LineFeature> MergeLines(const GradientImage& gradient,
   }
   return merged;
 }
+
 void SortByLength(std::vector<LineFeature>* lines) {
   std::stable_sort(lines->begin(), lines->end(), [](const LineFeature& a, const LineFeature& b) {
     return a.segment.Length() > b.segment.Length();
@@ -166,7 +167,7 @@ std::vector<LineFeature> DetectLines(const GrayImage& image,
   }
   SortByLength(&lines);
   if (options.merge) {
-    lines = MergeLines(gradient, std::move(lines), options);
+    lines = MergeLines(gradient, lines, options);
     SortByLength(&lines);
   }
   std::erase_if(lines, [&](const LineFeature& l) { return l.segment.Length() < min_length; });

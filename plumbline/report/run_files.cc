@@ -37,7 +37,8 @@ void WriteTrajectories(const System& system, const std::filesystem::path& folder
 
 void WriteMap(const System& system, const std::filesystem::path& folder) {
   const auto main = system.MainMap();
-  const Map map = main ? system.maps()[static_cast<std::size_t>(main->value)] : Map();
+  const Map none;
+  const Map& map = main ? system.maps()[static_cast<std::size_t>(main->value)] : none;
   std::vector<Eigen::Vector3d> points;
   for (const auto& [id, point] : map.points()) points.push_back(point.position);
   std::vector<Segment3> lines;
