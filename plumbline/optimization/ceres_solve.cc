@@ -20,6 +20,19 @@
 namespace plumbline {
 namespace {
 
+// What both solvers have in common: one thread, an end by iterations or by the cost alone.
+ceres::Solver::Options CommonOptions(int max_iterations, double function_tolerance) {
+  ceres::Solver::Options solver;
+  solver.num_threads = 1;
+  solver.jacobi_scaling = false;  // same steps, 6 % less time
+  solver.max_num_iterations = max_iterations;
+  solver.function_tolerance = function_tolerance;
+  solver.parameter_tolerance = 0;
+  solver.gradient_tolerance = 0;
+  solver.logging_type = ceres::SILENT;
+  return solver;
+}
+
 using PoseBlock = std::array<double, 7>;
 using LineBlock = std::array<double, 6>;
 
@@ -164,19 +177,13 @@ void CeresBa::AddTerms() {
 }
 
 CeresBaResult CeresBa::Solve() {
-  ceres::Solver::Options solver;
+  ceres::Solver::Options solver =
+      CommonOptions(options_.max_iterations, options_.function_tolerance);
   // Damping never below 1e-9, as in our solver: the free slides of end points would make the
   // equations singular.
   solver.max_trust_region_radius = 1e9;
   solver.linear_solver_type = ceres::DENSE_SCHUR;
   solver.linear_solver_ordering = order_;
-  solver.num_threads = 1;
-  solver.jacobi_scaling = false;  // same steps, 6 % less time
-  solver.max_num_iterations = options_.max_iterations;
-  solver.function_tolerance = options_.function_tolerance;
-  solver.parameter_tolerance = 0;
-  solver.gradient_tolerance = 0;
-  solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &terms_, &summary);
   CeresBaResult result;
@@ -252,15 +259,8 @@ void CeresPose::SolveRound(const HuberThresholds& huber,
     if (!line_used_[i]) continue;
     terms.AddResidualBlock(line_costs_[i].get(), losses.line.get(), pose_.data());
   }
-  ceres::Solver::Options solver;
+  ceres::Solver::Options solver = CommonOptions(options.max_iterations, options.function_tolerance);
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  solver.num_threads = 1;
-  solver.jacobi_scaling = false;
-  solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = options.function_tolerance;
-  solver.parameter_tolerance = 0;
-  solver.gradient_tolerance = 0;
-  solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &terms, &summary);
   result.final_cost = summary.final_cost;
