@@ -4,8 +4,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
 
 namespace plumbline {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Stretch kAll{-kInfinity, kInfinity}, kNone{kInfinity, -kInfinity};
+
+// The s with |offset + s step| <= radius.
+Stretch InsideBall(const Eigen::Vector3d& offset, const Eigen::Vector3d& step, double radius) {
+  const double a = step.squaredNorm(), b = offset.dot(step);
+  const double c = offset.squaredNorm() - radius * radius;
+  if (a == 0) return c <= 0 ? kAll : kNone;
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return kNone;
+  const double root = std::sqrt(discriminant);
+  return {(-b - root) / a, (-b + root) / a};
+}
+
+// The s with 0 <= offset + s step <= limit.
+Stretch Between(double offset, double step, double limit) {
+  if (step == 0) return offset >= 0 && offset <= limit ? kAll : kNone;
+  const double s0 = -offset / step, s1 = (limit - offset) / step;
+  return {std::min(s0, s1), std::max(s0, s1)};
+}
+
+}  // namespace
 
 Eigen::Vector3d LineThrough(const Segment2& segment) {
   const Eigen::Vector2d d = segment.Direction();
@@ -27,6 +54,40 @@ double OverlapRatio(const Segment2& reference, const Segment2& other) {
   const double shorter = std::min(length, std::abs(b - a));
   if (shorter <= 0) return 0;
   return std::clamp(covered / shorter, 0.0, 1.0);
+}
+
+double UndirectedAngle(const Eigen::Vector3d& direction1, const Eigen::Vector3d& direction2) {
+  return std::atan2(direction1.cross(direction2).norm(), std::abs(direction1.dot(direction2)));
+}
+
+double Distance(const Segment3& segment, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d side = segment.end - segment.start;
+  const double length2 = side.squaredNorm();
+  if (length2 == 0) return (point - segment.start).norm();
+  const double share = std::clamp(side.dot(point - segment.start) / length2, 0.0, 1.0);
+  return (point - segment.start - share * side).norm();
+}
+
+std::optional<Stretch> StretchWithin(const Segment3& segment, const Segment3& axis, double radius) {
+  const double length = segment.Length(), axis_length = axis.Length();
+  const Eigen::Vector3d d = segment.Direction();
+  const Eigen::Vector3d from_start = segment.start - axis.start;
+  Stretch all = kNone;
+  const auto add = [&all](const Stretch& part) {
+    if (part.from > part.to) return;
+    all = {std::min(all.from, part.from), std::max(all.to, part.to)};
+  };
+  add(InsideBall(from_start, d, radius));
+  if (axis_length > 0) {
+    add(InsideBall(segment.start - axis.end, d, radius));
+    const Eigen::Vector3d u = axis.Direction();
+    const Stretch around = InsideBall(from_start - from_start.dot(u) * u, d - d.dot(u) * u, radius);
+    const Stretch along = Between(from_start.dot(u), d.dot(u), axis_length);
+    add({std::max(around.from, along.from), std::min(around.to, along.to)});
+  }
+  const Stretch part{std::max(0.0, all.from), std::min(length, all.to)};
+  if (part.from > part.to) return std::nullopt;
+  return part;
 }
 
 }  // namespace plumbline

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 namespace plumbline {
@@ -38,5 +40,23 @@ double UndirectedAngle(const Eigen::Vector2d& direction1, const Eigen::Vector2d&
 // Length of the part of `reference` that the orthogonal projection of `other` onto it covers,
 // divided by the length of the shorter of the two; 0 when disjoint, up to 1.
 double OverlapRatio(const Segment2& reference, const Segment2& other);
+
+// Unsigned angle between two undirected lines in space, radians in [0, pi/2].
+double UndirectedAngle(const Eigen::Vector3d& direction1, const Eigen::Vector3d& direction2);
+
+// Distance of a point from the nearest point of a segment, metres.
+double Distance(const Segment3& segment, const Eigen::Vector3d& point);
+
+// A stretch of a segment: from and to, metres from its start.
+struct Stretch {
+  double from = 0, to = 0;
+
+  double Length() const { return to - from; }
+};
+
+// The points of `segment` no further than `radius` from `axis`, of any direction; nullopt where
+// there are none. Exact: they lie between the first and the last point that the segment shares with
+// the cylinder around the axis and the balls about its ends, which together are convex.
+std::optional<Stretch> StretchWithin(const Segment3& segment, const Segment3& axis, double radius);
 
 }  // namespace plumbline

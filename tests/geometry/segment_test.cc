@@ -5,6 +5,7 @@
 #include "tests/support/random_geometry.h"
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,85 @@ TEST(OverlapRatio, IsTheShareOfTheShorter) {
   EXPECT_DOUBLE_EQ(OverlapRatio(reference, {{11, 0}, {15, 0}}), 0);   // beyond
   EXPECT_DOUBLE_EQ(OverlapRatio(reference, {{-9, 0}, {-1, 0}}), 0);   // before
   EXPECT_DOUBLE_EQ(OverlapRatio(reference, {{5, 0}, {5, 9}}), 0);     // upright
+}
+
+TEST(UndirectedAngle, InSpaceIgnoresWhereALineStarts) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d tilted(std::cos(0.1), 0, std::sin(0.1));
+  EXPECT_NEAR(UndirectedAngle(x, tilted), 0.1, 1e-12);
+  EXPECT_NEAR(UndirectedAngle(x, Eigen::Vector3d(-tilted)), 0.1, 1e-12);
+  EXPECT_NEAR(UndirectedAngle(x, Eigen::Vector3d(5 * Eigen::Vector3d::UnitZ())),
+              0.5 * std::numbers::pi,
+              1e-12);
+}
+
+TEST(Distance, OfASegmentIsThatOfItsNearestPoint) {
+  const Segment3 s{{0, 0, 0}, {2, 0, 0}};
+  EXPECT_DOUBLE_EQ(Distance(s, {1, 3, 4}), 5);
+  EXPECT_DOUBLE_EQ(Distance(s, {-3, 0, 4}), 5);
+  EXPECT_DOUBLE_EQ(Distance(s, {5, 4, 0}), 5);
+  EXPECT_DOUBLE_EQ(Distance(Segment3{s.start, s.start}, {3, 0, 4}), 5);
+}
+
+TEST(StretchWithin, IsWhatDenseSamplingFinds) {
+  constexpr int kSteps = 2000;
+  constexpr double kRadius = 0.3;
+  Rng rng(5);
+  int met = 0, missed = 0, inner = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Segment3 axis{RandomVector<3>(rng, 0.5), RandomVector<3>(rng, 0.5)};
+    const Segment3 segment{RandomVector<3>(rng, 0.5), RandomVector<3>(rng, 0.5)};
+    const double step = segment.Length() / kSteps;
+    std::optional<Stretch> sampled;
+    for (int k = 0; k <= kSteps; ++k) {
+      const Eigen::Vector3d point = segment.start + k * step * segment.Direction();
+      if (Distance(axis, point) > kRadius) continue;
+      if (!sampled) sampled = Stretch{k * step, k * step};
+      sampled->to = k * step;
+    }
+    const std::optional<Stretch> exact = StretchWithin(segment, axis, kRadius);
+    if (!sampled) {
+      EXPECT_TRUE(!exact || exact->Length() <= step) << i;
+      ++missed;
+      continue;
+    }
+    ASSERT_TRUE(exact) << i;
+    EXPECT_NEAR(exact->from, sampled->from, 1.001 * step) << i;
+    EXPECT_NEAR(exact->to, sampled->to, 1.001 * step) << i;
+    ++met;
+    if (exact->from > 0 && exact->to < segment.Length()) ++inner;
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_GT(missed, 100);
+  EXPECT_GT(inner, 20);
+}
+
+TEST(StretchWithin, OfParallelSegmentsReachesBeyondTheEnds) {
+  const Segment3 axis{{1, 0, 0}, {2, 0, 0}};
+  const auto stretch = StretchWithin({{0, 0.3, 0}, {10, 0.3, 0}}, axis, 0.5);
+  ASSERT_TRUE(stretch);
+  EXPECT_NEAR(stretch->from, 0.6, 1e-12);
+  EXPECT_NEAR(stretch->to, 2.4, 1e-12);
+  EXPECT_FALSE(StretchWithin({{0, 0.6, 0}, {10, 0.6, 0}}, axis, 0.5));
+  EXPECT_FALSE(StretchWithin({{3, 0, 0}, {10, 0, 0}}, axis, 0.5));
+  // Almost parallel: nothing is divided by the tiny angle.
+  const auto tilted = StretchWithin({{0, 0.3, 0}, {10, 0.3, 1e-15}}, axis, 0.5);
+  ASSERT_TRUE(tilted);
+  EXPECT_NEAR(tilted->from, 0.6, 1e-9);
+  EXPECT_NEAR(tilted->to, 2.4, 1e-9);
+}
+
+TEST(StretchWithin, KnowsSegmentsOfNoLength) {
+  const Segment3 point{{1, 0.3, 0}, {1, 0.3, 0}};
+  const Segment3 axis{{0, 0, 0}, {2, 0, 0}};
+  const auto of_point = StretchWithin(point, axis, 0.5);
+  ASSERT_TRUE(of_point);
+  EXPECT_EQ(of_point->Length(), 0);
+  EXPECT_FALSE(StretchWithin(point, axis, 0.2));
+  const auto of_ball = StretchWithin(axis, point, 0.5);
+  ASSERT_TRUE(of_ball);
+  EXPECT_NEAR(of_ball->from, 0.6, 1e-12);
+  EXPECT_NEAR(of_ball->to, 1.4, 1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// A flat piece of a surface: the points origin + a side_u + b side_v, a and b in [0, 1]. Metres.
+struct Parallelogram {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d side_u = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d side_v = Eigen::Vector3d::UnitY();
+
+  Eigen::Vector3d PointAt(double a, double b) const { return origin + a * side_u + b * side_v; }
+  Eigen::AlignedBox3d Bounds() const;
+};
+
+// Distance of a point from the nearest point of the parallelogram, metres: that of its foot in the
+// plane where the foot is inside, else that of the nearest side. Right for sides that are parallel
+// or of no length, too.
+double Distance(const Parallelogram& parallelogram, const Eigen::Vector3d& point);
+
+}  // namespace plumbline
