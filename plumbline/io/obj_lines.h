@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace plumbline {
+
+// The line segments of a Wavefront OBJ file (ours is written by WriteObjLines, io/ply.h), in the
+// unit of the file: every pair of neighbours of an `l` record. Vertices are counted from 1, or from
+// the end where negative, and stand above the record; what follows a '/' is left out, as are all
+// other records of OBJ. A segment may have no length. Throws InputError "path:line: expected ...,
+// found ..." for malformed `v` and `l` records and for what is no record of OBJ.
+std::vector<Segment3> ReadObjLines(const std::filesystem::path& path);
+
+}  // namespace plumbline

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/parallelogram.h"
+#include "plumbline/geometry/true_line.h"
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace plumbline {
+
+// The lines and surfaces of a known world, as they lie beside a rendered sequence (lines.csv,
+// surfaces.csv): comma-separated rows under a header that starts with '#', metres, world of the
+// ground truth.
+
+// Rows x1,y1,z1,x2,y2,z2[,kind[,visible]]: kind geometry (where the column is absent), texture or
+// shadow; visible the frames that see the line, as ascending ranges such as `0-17 25 30-44`, empty
+// where none does, not recorded where the column is absent. All rows have the columns of the first.
+// Throws InputError "path:line: expected ..., found ..." for anything else, ends in one place
+// included.
+std::vector<TrueLine> ReadTrueLines(const std::filesystem::path& path);
+
+// Writes such a file with the column kind, and with visible where the lines have it recorded (all
+// or none of them). Numbers come back to the last bit; the same input gives the same bytes. Throws
+// InputError when the file cannot be written.
+void WriteTrueLines(const std::filesystem::path& path, std::span<const TrueLine> lines);
+
+// Rows ox,oy,oz,ux,uy,uz,vx,vy,vz. Throws as above, also where the sides span no area.
+std::vector<Parallelogram> ReadSurfaces(const std::filesystem::path& path);
+// Numbers and failures as for lines.
+void WriteSurfaces(const std::filesystem::path& path, std::span<const Parallelogram> surfaces);
+
+}  // namespace plumbline
