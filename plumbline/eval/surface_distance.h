@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/parallelogram.h"
+#include "plumbline/geometry/segment.h"
+
+#include <optional>
+#include <span>
+
+namespace plumbline {
+
+// How far pieces of lines are from the nearest surface, each piece weighted with its length.
+struct SurfaceDistance {
+  double median = 0;        // metres
+  double share_beyond = 0;  // of the length, further away than the limit; in [0, 1]
+};
+
+// Cuts the pieces into cells of 5 mm (longer ones where the pieces sum up to more than 1 km) and
+// takes each cell's middle for all of it: an error of at most half a cell in each distance.
+//
+//   pieces, surfaces  metres, in one world
+//   fails             nullopt without surfaces and where the pieces have no length
+//   cost              O(surfaces) box tests for every 25 cm, plus what is close to them
+std::optional<SurfaceDistance> DistanceFromSurfaces(std::span<const Segment3> pieces,
+                                                    std::span<const Parallelogram> surfaces,
+                                                    double limit);
+
+}  // namespace plumbline
