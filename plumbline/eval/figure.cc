@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/eval/figure.h"
 
+#include "plumbline/eval/figure_panel.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -18,98 +19,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr Figure::Color kInk{40, 40, 40}, kGrid{222, 222, 222}, kReferenceColor{110, 110, 110},
-    kEstimateColor{200, 60, 30}, kErrorColor{30, 90, 180};
-constexpr double kTextSize = 13;
+constexpr Figure::Color kReferenceColor{110, 110, 110}, kEstimateColor{200, 60, 30},
+    kErrorColor{30, 90, 180};
 
-std::string Number(double value, int digits) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::setprecision(digits) << value;
-  return text.str();
-}
-
-// A pleasing distance between grid lines: 1, 2 or 5 times a power of ten, about `count` in a span.
-double GridStep(double span, int count) {
-  const double rough = std::max(span, 1e-12) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10 * power;
-}
-
-// A rectangle of the figure that shows a range of data.
-struct Panel {
-  double left, top, width, height;  // pixels
-  Eigen::AlignedBox2d range;        // data
-  std::string label_x, label_y, title;
-
-  Vector2d ToPixel(const Vector2d& value) const {
-    const Vector2d share = (value - range.min()).cwiseQuotient(range.sizes());
-    return {left + share.x() * width, top + (1 - share.y()) * height};
-  }
-};
-
-void DrawFrame(const Panel& panel, Figure& figure) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const double low = panel.range.min()(axis), high = panel.range.max()(axis);
-    const double step = GridStep(high - low, axis == 0 ? 8 : 5);
-    const auto first = static_cast<int>(std::ceil(low / step - 1e-9));
-    const auto last = static_cast<int>(std::floor(high / step + 1e-9));
-    for (int i = first; i <= last; ++i) {
-      Vector2d from = panel.range.min(), to = panel.range.max();
-      from(axis) = to(axis) = i * step;
-      const Vector2d a = panel.ToPixel(from), b = panel.ToPixel(to);
-      figure.lines.push_back({{a, b}, kGrid, 1});
-      const Vector2d place = axis == 0 ? Vector2d(a.x(), panel.top + panel.height + kTextSize + 3)
-                                       : Vector2d(panel.left - 5, a.y() + 0.35 * kTextSize);
-      figure.texts.push_back({place,
-                              Number(i * step, 6),
-                              kTextSize,
-                              axis == 0 ? Figure::Anchor::kMiddle : Figure::Anchor::kEnd,
-                              kInk});
-    }
-  }
-  const double right = panel.left + panel.width, bottom = panel.top + panel.height;
-  const Vector2d a(panel.left, panel.top), b(right, panel.top), c(right, bottom),
-      d(panel.left, bottom);
-  figure.lines.push_back({{a, b, c, d, a}, kInk, 1});
-  figure.texts.push_back({{panel.left + 0.5 * panel.width, bottom + 2.4 * kTextSize + 3},
-                          panel.label_x,
-                          kTextSize,
-                          Figure::Anchor::kMiddle,
-                          kInk});
-  figure.texts.push_back({{panel.left, panel.top - 6},
-                          panel.label_y + panel.title,
-                          kTextSize,
-                          Figure::Anchor::kStart,
-                          kInk});
-}
-
-// The two axes in which the reference moves most, in their order x, y, z.
-std::pair<int, int> ViewAxes(const std::vector<EvaluatedPose>& poses) {
-  Eigen::AlignedBox3d box;
-  for (const EvaluatedPose& pose : poses) box.extend(pose.reference.translation);
-  int least = 2;  // on equal terms z, which is up in most worlds
-  for (const int axis : {1, 0}) {
-    if (box.sizes()(axis) < box.sizes()(least)) least = axis;
-  }
-  return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
-}
-
-// Grows the range to the shape of the panel, so that a metre is as long in x as in y.
-Eigen::AlignedBox2d EqualScale(const Eigen::AlignedBox2d& range, double aspect) {
-  const Vector2d centre = range.center();
-  Vector2d size = 1.08 * range.sizes().cwiseMax(Vector2d::Constant(1e-6));
-  size.x() = std::max(size.x(), aspect * size.y());
-  size.y() = size.x() / aspect;
-  return {centre - 0.5 * size, centre + 0.5 * size};
-}
-
-void DrawView(const TrajectoryError& error, Panel panel, Figure& figure) {
+void DrawView(const TrajectoryError& error, FigurePanel panel, Figure& figure) {
   constexpr std::array kNames = {"x", "y", "z"};
-  const std::pair<int, int> axes = ViewAxes(error.poses);
+  const std::pair<int, int> axes = AxesOfMostMotion(error.poses);
   const auto flat = [axes](const Vector3d& p) { return Vector2d(p(axes.first), p(axes.second)); };
   Eigen::AlignedBox2d range;
   for (const EvaluatedPose& pose : error.poses) {
@@ -119,7 +34,7 @@ void DrawView(const TrajectoryError& error, Panel panel, Figure& figure) {
   panel.range = EqualScale(range, panel.width / panel.height);
   panel.label_x = std::string(kNames[static_cast<std::size_t>(axes.first)]) + " [m]";
   panel.label_y = std::string(kNames[static_cast<std::size_t>(axes.second)]) + " [m]";
-  DrawFrame(panel, figure);
+  DrawPanel(panel, figure);
   Figure::Polyline reference{{}, kReferenceColor, 3}, estimate{{}, kEstimateColor, 1.3};
   for (const EvaluatedPose& pose : error.poses) {
     reference.points.push_back(panel.ToPixel(flat(pose.reference.translation)));
@@ -128,13 +43,16 @@ void DrawView(const TrajectoryError& error, Panel panel, Figure& figure) {
   figure.lines.push_back(std::move(reference));
   figure.lines.push_back(std::move(estimate));
   const double right = panel.left + panel.width;
+  figure.texts.push_back({{right - 80, panel.top - 6},
+                          "reference",
+                          kFigureTextSize,
+                          Figure::Anchor::kEnd,
+                          kReferenceColor});
   figure.texts.push_back(
-      {{right - 80, panel.top - 6}, "reference", kTextSize, Figure::Anchor::kEnd, kReferenceColor});
-  figure.texts.push_back(
-      {{right, panel.top - 6}, "estimate", kTextSize, Figure::Anchor::kEnd, kEstimateColor});
+      {{right, panel.top - 6}, "estimate", kFigureTextSize, Figure::Anchor::kEnd, kEstimateColor});
 }
 
-void DrawErrors(const TrajectoryError& error, Panel panel, Figure& figure) {
+void DrawErrors(const TrajectoryError& error, FigurePanel panel, Figure& figure) {
   constexpr double kCentimetres = 100;
   const std::int64_t begin = error.poses.front().stamp_ns;
   const auto seconds = [begin](std::int64_t stamp) {
@@ -145,8 +63,8 @@ void DrawErrors(const TrajectoryError& error, Panel panel, Figure& figure) {
                           std::max(1e-6, 1.08 * kCentimetres * error.ate.max))};
   panel.label_x = "time [s]";
   panel.label_y = "position error [cm]";
-  panel.title = ", RMSE " + Number(kCentimetres * error.ate.rmse, 4) + " cm";
-  DrawFrame(panel, figure);
+  panel.title = ", RMSE " + FigureNumber(kCentimetres * error.ate.rmse, 4) + " cm";
+  DrawPanel(panel, figure);
   Figure::Polyline line{{}, kErrorColor, 1.3};
   for (const EvaluatedPose& pose : error.poses) {
     line.points.push_back(
