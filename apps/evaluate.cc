@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
+#include "plumbline/eval/line_map_figure.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
 
@@ -8,12 +9,16 @@
 #include "apps/commands.h"
 #include "apps/evaluate_report.h"
 #include "apps/figure_file.h"
+#include "apps/line_map_input.h"
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -21,8 +26,10 @@ namespace {
 CommandSyntax Syntax() {
   return {
       "evaluate",
-      "Compares an estimated trajectory with ground truth: a trajectory in TUM form, EuRoC csv or "
-      "KITTI\nposes, or the folder of a data set that has it.",
+      "Compares an estimated trajectory, or the folder of a run, with ground truth: a trajectory "
+      "in "
+      "TUM\nform, EuRoC csv or KITTI poses, or the folder of a data set that has it. Where that "
+      "folder has\nlines.csv and the run lines.obj, the maps of lines are compared, too.",
       {"REFERENCE", "ESTIMATE"},
       {{"--align", "none|se3|sim3", "what is aligned before positions are compared (se3)"},
        {"--delta", "3s|1f", "window of RPE and ROE, seconds or frames (3s)"},
@@ -32,7 +39,14 @@ CommandSyntax Syntax() {
         "what the reference is about (body for EuRoC, else camera)"},
        {"--mirror-y", "", "mirror the reference in y (original ICL-NUIM ground truth)"},
        {"--json", "FILE", "write the figures as JSON"},
-       {"--plot", "FILE", "draw path and errors, .svg or .png"}}};
+       {"--plot", "FILE", "draw path and errors, .svg or .png"},
+       {"--true-lines", "FILE", "lines of the true world (lines.csv of REFERENCE)"},
+       {"--lines", "FILE", "estimated lines, .obj or .plb (lines.obj of ESTIMATE)"},
+       {"--surfaces", "FILE", "surfaces of the true world (surfaces.csv of REFERENCE)"},
+       {"--align-lines",
+        "trajectory|poses",
+        "lines move as the trajectory, or are then turned to fit poses (trajectory)"},
+       {"--plot-lines", "FILE", "draw true and estimated lines, .svg or .png"}}};
 }
 
 // "3s" or "1f".
@@ -78,6 +92,55 @@ TrajectoryErrorOptions ErrorOptions(const CommandLine& line, TrajectoryFormat fo
       span(reference) + ", the estimate " + span(estimate));
 }
 
+// The trajectory of a run's folder; any other path as it is.
+std::filesystem::path EstimateFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return path;
+  if (std::filesystem::is_regular_file(path / "trajectory.txt", error)) {
+    return path / "trajectory.txt";
+  }
+  throw InputError(path.string() + ": expected a trajectory or the folder of a run, found no " +
+                   "trajectory.txt in it");
+}
+
+LineMapFiles FilesOfLines(const CommandLine& line) {
+  LineMapFiles files;
+  files.reference = line.Positional(0);
+  files.estimate = line.Positional(1);
+  if (const auto path = line.Value("--true-lines")) files.true_lines = *path;
+  if (const auto path = line.Value("--lines")) files.lines = *path;
+  if (const auto path = line.Value("--surfaces")) files.surfaces = *path;
+  return files;
+}
+
+// Compares the lines, where there are some, in the world of the reference; draws them.
+void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
+  std::optional<LineMapInput> input = LoadLineMaps(FilesOfLines(line));
+  const auto plot = line.Value("--plot-lines");
+  if (const auto text = line.Value("--align-lines")) {
+    evaluation.line_alignment = ParseChoice<LineAlignment>("--align-lines", *text);
+  }
+  if (!input) {
+    if (!plot) return;
+    throw InputError(
+        "--plot-lines: expected lines.csv in REFERENCE and lines.obj in ESTIMATE, or "
+        "--true-lines and --lines");
+  }
+  if (line.Has("--mirror-y")) MirrorWorldY(*input);
+  Similarity3 reference_from_estimate = evaluation.error.reference_from_estimate;
+  if (evaluation.line_alignment == LineAlignment::kPoses) {
+    reference_from_estimate = AlignPoses(evaluation.error.poses) * reference_from_estimate;
+  }
+  input->estimate = Transformed(reference_from_estimate, std::move(input->estimate));
+  evaluation.lines =
+      CompareLineMaps(input->truth, input->estimate, input->surfaces, evaluation.line_options);
+  if (plot) {
+    WriteFigure(
+        *plot,
+        LineMapFigure(input->truth, input->estimate, *evaluation.lines, evaluation.error.poses));
+  }
+}
+
 }  // namespace
 
 int EvaluateCommand(std::span<const std::string> arguments) {
@@ -93,13 +156,15 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   Evaluation evaluation;
   evaluation.reference = LoadReference(line.Positional(0), frame);
   if (line.Has("--mirror-y")) evaluation.reference.poses = MirroredY(evaluation.reference.poses);
-  const Trajectory estimate = ReadTrajectory(line.Positional(1)).poses;
+  const std::filesystem::path estimate_file = EstimateFile(line.Positional(1));
+  const Trajectory estimate = ReadTrajectory(estimate_file).poses;
   evaluation.options = ErrorOptions(line, evaluation.reference.format);
   const auto error = CompareTrajectories(evaluation.reference.poses, estimate, evaluation.options);
   if (!error) FailNoOverlap(evaluation.reference.poses, estimate);
   evaluation.error = *error;
-  evaluation.frames_delivered = FramesOfRun(line.Positional(1));
+  evaluation.frames_delivered = FramesOfRun(estimate_file);
   if (!evaluation.frames_delivered) evaluation.frames_delivered = evaluation.reference.frames;
+  EvaluateLines(line, evaluation);
 
   if (const auto path = line.Value("--json"))
     WriteFileAtomically(*path, EvaluationJson(evaluation));

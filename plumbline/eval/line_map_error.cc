@@ -102,7 +102,8 @@ void MeasureRecall(std::span<const TrueLine> truth,
     const double length = line.segment.Length();
     result.true_length += length;
     const std::optional<std::int64_t> frames = line.VisibleFrames();
-    if (frames && *frames < options.min_visible_frames) continue;
+    result.asked.push_back(!frames || *frames >= options.min_visible_frames);
+    if (!result.asked.back()) continue;
     const auto kind = static_cast<std::size_t>(line.kind);
     ++result.asked_lines;
     asked[kind] += length;

@@ -61,6 +61,7 @@ struct LineMapError {
   // without surfaces or without such length.
   double uncovered_length = 0;
   std::optional<SurfaceDistance> uncovered_from_surfaces;
+  std::vector<bool> asked;                                   // of each true line
   std::vector<std::optional<LineCounterpart>> counterparts;  // of each estimated segment
 };
 

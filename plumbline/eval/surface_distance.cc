@@ -104,7 +104,7 @@ std::optional<SurfaceDistance> DistanceFromSurfaces(std::span<const Segment3> pi
     }
     if (cell.distance > limit) beyond += cell.length;
   }
-  result.share_beyond = std::min(1.0, beyond / total);
+  result.share_beyond = beyond / below;
   return result;
 }
 

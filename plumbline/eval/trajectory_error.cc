@@ -184,6 +184,23 @@ std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
   return result;
 }
 
+Similarity3 AlignPoses(std::span<const EvaluatedPose> poses) {
+  constexpr double kLever = 1;  // metres
+  std::vector<Eigen::Vector3d> source, target;
+  const auto add = [&](const EvaluatedPose& pose, const Eigen::Vector3d& in_camera) {
+    source.push_back(pose.estimate * in_camera);
+    target.push_back(pose.reference * in_camera);
+  };
+  for (const EvaluatedPose& pose : poses) {
+    add(pose, Eigen::Vector3d::Zero());
+    for (int axis = 0; axis < 3; ++axis) {
+      add(pose, kLever * Eigen::Vector3d::Unit(axis));
+      add(pose, -kLever * Eigen::Vector3d::Unit(axis));
+    }
+  }
+  return AlignPoints(source, target, AlignmentScale::kFixed)->target_from_source;
+}
+
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera) {
   Trajectory camera = body;
   for (StampedPose& pose : camera) {

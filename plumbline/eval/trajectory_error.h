@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -112,6 +113,16 @@ struct TrajectoryError {
 std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
                                                    const Trajectory& estimate,
                                                    const TrajectoryErrorOptions& options);
+
+// The motion of the whole estimate, already aligned, after which poses agree best: positions and
+// orientations together, as the squared distances of the camera centre and of the six points 1 m
+// from it along the camera's axes. Positions alone do not tell the rotation of a path that is short
+// or straight, though all that is seen from it hangs on it.
+//
+//   poses    at least one; the estimates as CompareTrajectories leaves them
+//   result   reference_from_aligned, scale 1
+//   cost     O(n)
+Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
 
 // The trajectory of what carries the camera turned into the camera's: world_from_body *
 // body_from_camera.

@@ -5,6 +5,7 @@
 #include "plumbline/base/random.h"
 #include "plumbline/eval/figure.h"
 
+#include "tests/support/random_geometry.h"
 #include <cmath>
 #include <numbers>
 
@@ -265,6 +266,21 @@ TEST(TrajectoryError, MirrorConjugatesThePose) {
         mirror.asDiagonal() * trajectory[i].world_from_camera.Matrix() * mirror.asDiagonal();
     EXPECT_LT((mirrored[i].world_from_camera.Matrix() - expected).norm(), 1e-14);
   }
+}
+
+TEST(AlignPoses, FindsTheMotionOfAPathThatPositionsDoNotTell) {
+  Rng rng(6);
+  const Rigid3 motion = RandomRigid(rng);
+  std::vector<EvaluatedPose> poses(5);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i].reference = {RandomRigid(rng).rotation, {static_cast<double>(i), 0, 0}};
+    poses[i].estimate = Inverse(motion) * poses[i].reference;
+  }
+  const Similarity3 found = AlignPoses(poses);
+  EXPECT_EQ(found.scale, 1);
+  EXPECT_LT((found.Matrix() - motion.Matrix()).norm(), 1e-12);
+  // One pose is enough.
+  EXPECT_LT((AlignPoses({poses.data(), 1}).Matrix() - motion.Matrix()).norm(), 1e-12);
 }
 
 TEST(TrajectoryFigure, ShowsTheTwoAxesOfMotionInRange) {

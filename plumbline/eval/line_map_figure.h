@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/eval/figure.h"
+#include "plumbline/eval/line_map_error.h"
+#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/geometry/true_line.h"
+
+#include <span>
+
+namespace plumbline {
+
+// A line map over the lines of the known world, from above and from the side: true lines grey
+// (light where too few frames see them), estimated segments green where they have a counterpart,
+// red where they have none.
+//
+//   truth, estimate, error  as given to CompareLineMaps, and its result
+//   poses                   of the same world; "above" is along the axis in which the reference
+//                           moves least
+// The view is that of the true lines; what lies outside is cut off.
+Figure LineMapFigure(std::span<const TrueLine> truth,
+                     std::span<const Segment3> estimate,
+                     const LineMapError& error,
+                     std::span<const EvaluatedPose> poses);
+
+}  // namespace plumbline

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/e2e/program.h"
+#include "tests/io/scratch_folder.h"
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+// Rendered images, a run, and the figures of its lines: in a wrong frame none would be right. The
+// path of four frames is too short to tell the rotation from positions.
+TEST(LineMap, LinesOfARunLieOnThoseOfTheRenderedRoom) {
+  const ScratchFolder folder;
+  const std::string room = Quoted(folder / "room"), run = Quoted(folder / "run");
+  for (const std::string& command :
+       {"synth room --set frames=4 --set texel=0.02 --out " + room,
+        "run " + room + " --quiet --out " + run,
+        "evaluate " + room + " " + run + " --align-lines poses --json " +
+            Quoted(folder / "errors.json")}) {
+    const Outcome outcome = RunProgram(folder, command);
+    ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
+  }
+  const auto json = nlohmann::json::parse(Contents(folder / "errors.json"));
+  const auto& at_5_cm = json["line_map"]["tolerances"][2];
+  EXPECT_GT(json["line_map"]["segments"], 30);
+  EXPECT_GT(at_5_cm["precision"], 0.2);
+  EXPECT_GT(at_5_cm["with_counterpart"], 15);
+  EXPECT_LT(at_5_cm["median_distance_m"], 0.03);
+}
+
+}  // namespace
+}  // namespace plumbline
