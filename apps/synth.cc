@@ -30,7 +30,7 @@ CommandSyntax Syntax() {
 
 void List() {
   std::cout << "worlds:\n";
-  for (const World& world : Worlds()) {
+  for (const WorldEntry& world : Worlds()) {
     std::cout << "  " << std::left << std::setw(8) << world.name << world.help << '\n';
   }
   SynthOptions options;
@@ -68,8 +68,8 @@ int SynthCommand(std::span<const std::string> arguments) {
   if (!folder) throw InputError("synth: expected --out DIR");
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const StereoSequence sequence(line.Positional(0), options, threads);
-  WriteSequence(sequence, *folder, threads, [&](int done) { ShowProgress(done, options.frames); });
-  std::cout << options.frames << " pairs written to " << *folder << '\n';
+  WriteSequence(sequence, *folder, threads, [&](int done) { ShowProgress(done, sequence.size()); });
+  std::cout << sequence.size() << " pairs written to " << *folder << '\n';
   return 0;
 }
 

@@ -191,10 +191,14 @@ Image<float> Renderer::Implementation::LightOn(const Surface& surface) const {
       const Eigen::Vector3d point = surface.PointAt(a, b) + kLift * normal;
       double sum = scene_.ambient * (1 + 0.25 * normal.z()) + surface.glow;
       for (const Lamp& lamp : scene_.lamps) {
-        const Eigen::Vector3d offset = lamp.position - point;
-        const double facing = normal.dot(offset);
-        if (facing <= 0 || !Sees(point, lamp.position)) continue;
-        sum += lamp.power * facing / std::pow(offset.squaredNorm(), 1.5);
+        for (int i = 0; i < 4; ++i) {
+          const Eigen::Vector3d place =
+              lamp.centre + (i % 2 - 0.5) * 0.5 * lamp.side_u + (i / 2 - 0.5) * 0.5 * lamp.side_v;
+          const Eigen::Vector3d offset = place - point;
+          const double facing = normal.dot(offset);
+          if (facing <= 0 || !Sees(point, place)) continue;
+          sum += 0.25 * lamp.power * facing / std::pow(offset.squaredNorm(), 1.5);
+        }
       }
       light.at(x, y) = static_cast<float>(sum);
     }

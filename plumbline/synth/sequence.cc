@@ -17,18 +17,6 @@ constexpr int kWidth = 752, kHeight = 480;
 constexpr std::int64_t kFirstStampNs = 1'500'000'000'000'000'000;
 constexpr double kNanosecondsPerSecond = 1e9;
 
-constexpr std::array kWorlds = {
-    World{"room", "a workshop with shelves, tables, posters and a window; one loop by hand"}};
-
-Scene MakeScene(std::string_view world, std::uint64_t seed) {
-  std::string names;
-  for (const World& known : kWorlds) {
-    if (world == known.name) return MakeRoom(seed);
-    names += std::string(names.empty() ? "" : ", ") + known.name;
-  }
-  throw InputError("world: expected one of " + names + ", found " + std::string(world));
-}
-
 Camera MakeCamera(bool distortion, bool right) {
   CameraIntrinsics intrinsics;
   intrinsics.fx = 458.2;
@@ -70,28 +58,16 @@ Calibration MakeCalibration(const SynthOptions& options) {
   return calibration;
 }
 
-HandHeldLoop MakePath(const SynthOptions& options) {
-  const Eigen::Vector3d size = RoomSize();
-  HandHeldLoop::Shape shape;
-  shape.centre = {0.5 * size.x(), 0.5 * size.y(), 1.5};
-  shape.radius_x = 1.1;
-  shape.radius_y = 0.75;
-  shape.loop_s = options.loop_s;
-  shape.seed = options.seed;
-  return HandHeldLoop(shape);
-}
-
 }  // namespace
-
-std::span<const World> Worlds() { return kWorlds; }
 
 StereoSequence::StereoSequence(std::string_view world, const SynthOptions& options, int threads)
     : world_(world),
       options_(options),
       calibration_(MakeCalibration(options)),
-      scene_(MakeScene(world, options.seed)),
-      path_(MakePath(options)),
-      renderer_(scene_, {.texel = options.texel, .threads = threads}),
+      made_(FindWorld(world).make(options.seed)),
+      frames_(options.frames > 0 ? options.frames
+                                 : static_cast<int>(made_.path.duration * options.rate_hz)),
+      renderer_(made_.scene, {.texel = 0.004, .threads = threads}),
       left_rays_(calibration_.left),
       right_rays_(*calibration_.right) {}
 

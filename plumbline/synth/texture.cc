@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace plumbline {
 namespace {
@@ -181,6 +182,79 @@ double Metal(double u, double v, double tone, std::uint64_t seed) {
   return tone * (1 + 0.2 * brushed - 1.1 * rust + rivet);
 }
 
+double Concrete(double u, double v, double tone, std::uint64_t seed) {
+  constexpr double kBoard = 1.2, kTie = 0.6;
+  const double clouds = FractalNoise(1.1 * u, 1.1 * v, 4, 0.7, seed);
+  const double grain = FractalNoise(50 * u, 50 * v, 3, 0.9, seed + 10);
+  const double pores = Specks(u, v, 0.03, 0.18, seed + 20);
+  const double y = v - kBoard * Cell(v, kBoard);
+  const double tie_x = u - kTie * std::round(u / kTie), tie_y = y - 0.5 * kBoard;
+  double value = tone * (1 + 0.22 * clouds + 0.12 * grain + 0.35 * std::min(0.0, pores));
+  if (y < 0.006) value *= 0.72;                         // joint of the form boards
+  if (std::hypot(tie_x, tie_y) < 0.012) value *= 0.45;  // hole of a form tie
+  return value;
+}
+
+double Fabric(double u, double v, double tone, std::uint64_t seed) {
+  constexpr double kThread = 0.004;
+  const double weave =
+      std::sin(2 * std::numbers::pi * u / kThread) * std::sin(2 * std::numbers::pi * v / kThread);
+  const double yarn = FractalNoise(90 * u, 220 * v, 2, 0.9, seed);
+  const double folds = FractalNoise(2 * u, 1.2 * v, 3, 0.6, seed + 9);
+  return tone * (1 + 0.12 * weave + 0.2 * yarn + 0.18 * folds);
+}
+
+double Acoustic(double u, double v, double tone, std::uint64_t seed) {
+  const double fissure = FractalNoise(35 * u, 90 * v, 3, 0.7, seed);
+  const double dots = Specks(u, v, 0.02, 0.25, seed + 4);
+  const double shade = FractalNoise(1.5 * u, 1.5 * v, 2, 0.6, seed + 8);
+  return tone * (1 + 0.05 * shade - (fissure > 0.42 ? 0.35 : 0.0) + 0.25 * std::min(0.0, dots));
+}
+
+double Screen(double u, double v, double width, double height, const TextureRecipe& recipe) {
+  const std::uint64_t seed = recipe.seed;
+  const double rim = std::min({u, v, width - u, height - v});
+  if (rim < 0.012) return 0.06;
+  double value = 0.15 + 0.2 * recipe.tone;
+  for (int i = 0; i < 4; ++i) {  // overlapping windows, the last on top
+    const auto k = seed + 20 * static_cast<std::uint64_t>(i);
+    const double left = width * (0.05 + 0.5 * UnitFromHash(MixBits(k)));
+    const double bottom = height * (0.08 + 0.4 * UnitFromHash(MixBits(k + 1)));
+    const double right = std::min(width - 0.02, left + width * (0.3 + 0.3 * UnitFromHash(k)));
+    const double top = std::min(height - 0.02, bottom + height * 0.5);
+    if (u < left || u > right || v < bottom || v > top) continue;
+    if (v > top - 0.015) {
+      value = 0.45;
+    } else {
+      const bool dark = UnitFromHash(MixBits(k + 4)) < 0.4;
+      const double ink = TextInk(u - left - 0.01, v - bottom, 0.009, k + 5);
+      value = dark ? 0.1 + 0.6 * ink : 0.92 - 0.75 * ink;
+    }
+  }
+  return value;
+}
+
+// Blobs, strokes and grain at every scale from metres to millimetres.
+double Mural(double u, double v, double tone, std::uint64_t seed) {
+  double value = tone;
+  double size = 1.4;
+  for (int octave = 0; octave < 8; ++octave, size *= 0.52) {
+    const auto k = seed + 100 * static_cast<std::uint64_t>(octave);
+    const double wobble = 0.35 * size * FractalNoise(1.7 * u / size, 1.7 * v / size, 2, 0.6, k);
+    const double i = Cell(u + wobble, size), j = Cell(v - wobble, size);
+    const double x = (u + wobble) / size - i - 0.5, y = (v - wobble) / size - j - 0.5;
+    const double angle = 2 * std::numbers::pi * CellValue(i, j, k + 1);
+    const double along = std::cos(angle) * x + std::sin(angle) * y;
+    const double across = -std::sin(angle) * x + std::cos(angle) * y;
+    const double shape = CellValue(i, j, k + 2);
+    const bool inside = shape < 0.35   ? std::hypot(x, y) < 0.35
+                        : shape < 0.75 ? std::abs(along) < 0.45 && std::abs(across) < 0.16
+                                       : false;
+    if (inside) value += (octave < 4 ? 0.4 : 0.26) * (2 * CellValue(i, j, k + 3) - 1);
+  }
+  return value + 0.08 * FractalNoise(150 * u, 150 * v, 2, 0.9, seed + 7);
+}
+
 GrayImage HalfSize(const GrayImage& image) {
   const int width = std::max(1, image.width() / 2), height = std::max(1, image.height() / 2);
   GrayImage half(width, height);
@@ -211,9 +285,16 @@ double LightAt(const Image<float>& light, double a, double b) {
 
 double EvaluateTexture(
     const TextureRecipe& recipe, double u, double v, double width, double height) {
+  if (recipe.sheet_width > 0) {
+    u += recipe.sheet_u;
+    v += recipe.sheet_v;
+    width = recipe.sheet_width;
+    height = recipe.sheet_height;
+  }
   const double tone = recipe.tone;
   const std::uint64_t seed = MixBits(recipe.seed);
-  const TextureRecipe mixed{recipe.material, tone, seed, recipe.corner_shade};
+  TextureRecipe mixed = recipe;
+  mixed.seed = seed;
   double value = tone;
   switch (recipe.material) {
     case Material::kPaint:
@@ -249,6 +330,25 @@ double EvaluateTexture(
       break;
     case Material::kMetal:
       value = Metal(u, v, tone, seed);
+      break;
+    case Material::kConcrete:
+      value = Concrete(u, v, tone, seed);
+      break;
+    case Material::kFabric:
+      value = Fabric(u, v, tone, seed);
+      break;
+    case Material::kAcoustic:
+      value = Acoustic(u, v, tone, seed);
+      break;
+    case Material::kScreen:
+      value = Screen(u, v, width, height, mixed);
+      break;
+    case Material::kMural:
+      value = Mural(u, v, tone, seed);
+      break;
+    case Material::kBlank:
+      value = tone * (1 + 0.025 * FractalNoise(0.8 * u, 0.8 * v, 3, 0.6, seed) +
+                      0.012 * FractalNoise(60 * u, 60 * v, 2, 0.9, seed + 5));
       break;
   }
   const double rim = std::min({u, v, width - u, height - v});

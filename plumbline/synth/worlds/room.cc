@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/synth/scene.h"
+#include "plumbline/synth/scene_builder.h"
+#include "plumbline/synth/worlds/worlds.h"
 
 #include <cmath>
 #include <numbers>
@@ -94,9 +95,8 @@ void AddWindow(SceneBuilder& scene, double y) {
     scene.AddBox(
         {{0.04, y, kSill + z * kTall}, {0.08, kBroad + 0.1, 0.05}, 0}, Material::kWood, 0.4);
   }
-  for (const double across : {-0.5, -0.2, 0.2, 0.5}) {
-    for (const double z : {1.2, 1.5}) scene.AddLamp({{0.9, y + across, z}, 0.12});
-  }
+  scene.AddLamp(
+      {{0.11, y, kSill + 0.5 * kTall}, kBroad * Vector3d::UnitY(), kTall * Vector3d::UnitZ(), 1.0});
   for (int i = 0; i < 9; ++i) {
     scene.AddBox({{0.09, y, kSill + kTall - 0.06 - 0.065 * i}, {0.03, kBroad, 0.018}, 0},
                  Material::kMetal,
@@ -141,9 +141,10 @@ void AddCeiling(SceneBuilder& scene) {
       const double lamp_x = x - 0.7;
       scene.AddBox(
           {{lamp_x, y, kHeight - kLampDrop}, {0.12, 1.2, 0.06}, 0}, Material::kPaint, 1.0, 1.2);
-      for (const double end : {-0.45, -0.15, 0.15, 0.45}) {
-        scene.AddLamp({{lamp_x, y + end, kHeight - kLampDrop - 0.01}, x < 2 ? 0.2 : 0.28});
-      }
+      scene.AddLamp({{lamp_x, y, kHeight - kLampDrop - 0.01},
+                     1.2 * Vector3d::UnitY(),
+                     0.12 * Vector3d::UnitX(),
+                     x < 2 ? 0.9 : 1.2});
     }
   }
   scene.AddBox(
@@ -172,11 +173,9 @@ void AddStacks(SceneBuilder& scene) {
 
 }  // namespace
 
-Vector3d RoomSize() { return {kWidth, kDepth, kHeight}; }
-
-Scene MakeRoom(std::uint64_t seed) {
+World MakeRoom(std::uint64_t seed) {
   SceneBuilder scene(seed);
-  scene.AddRoom(RoomSize(), Material::kPlaster, Material::kPlanks);
+  scene.AddRoom({kWidth, kDepth, kHeight}, Material::kPlaster, Material::kPlanks);
   scene.AddBox({{3.2, 2.6, 0}, {2.6, 1.7, 0.012}, 0.1}, Material::kCarpet, 0.45);
   AddShelf(scene, 2.9, 0.0, 1, 2.2);
   AddShelf(scene, 4.4, kDepth, -1, 1.6);
@@ -191,7 +190,8 @@ Scene MakeRoom(std::uint64_t seed) {
   for (const double y : {1.4, 3.7}) {  // a rail of boards along the brick wall
     scene.AddBox({{kWidth - 0.04, y, 0.9}, {0.05, 1.4, 0.1}, 0}, Material::kWood, 0.7);
   }
-  return scene.Take();
+  const HandHeldLoop loop({{0.5 * kWidth, 0.5 * kDepth, 1.5}, 1.1, 0.75, 10, seed});
+  return {scene.Take(), loop.Path()};
 }
 
 }  // namespace plumbline

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+
+#include <cstdint>
+
+namespace plumbline {
+
+// How a world is recorded: camera, sensor, path, amount of work.
+struct SynthOptions {
+  int frames = 0;  // 0: the whole path
+  double rate_hz = 20;
+  double speed = 1;        // of the path, 1 as the world has it
+  double scale = 1;        // of the image, 1 is 752 x 480
+  double baseline = 0.11;  // metres
+  bool distortion = true;  // radial-tangential lens, as in EuRoC; false: ideal pinhole
+  int samples = 4;         // per pixel
+  double shutter_ms = 0;   // how long the shutter is open; 0: an instant, no motion blur
+  int time_samples = 16;   // over the time the shutter is open, at least
+  double readout_ms = 0;   // from the first row to the last; 0: all rows at once
+  double exposure = 1.25;  // brightness of the image
+  bool auto_exposure = false;
+  double gamma = 1;  // of the response curve, 1 linear
+  double vignetting = 0.22;
+  double noise = 1;
+  double depth_noise = 1;
+  double imu_rate_hz = 200;
+  double imu_noise = 1;
+  double texel = 0.7;  // pixels
+  std::uint64_t seed = 1;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, SynthOptions& o) {
+  visit("frames", o.frames, "number of frames, at most; 0: the whole path", Range{0, 1e6});
+  visit("rate_hz", o.rate_hz, "frames per second", Range{0.1, 1000});
+  visit("speed", o.speed, "of the path, 1 as the world has it", Range{0.05, 20});
+  visit("scale", o.scale, "of the image, 1 is 752 x 480", Range{0.1, 4});
+  visit("baseline", o.baseline, "distance of the two cameras [m]", Range{0.01, 1});
+  visit("distortion", o.distortion, "lens distortion; without it an ideal rectified pair");
+  visit("samples", o.samples, "samples per pixel against aliasing", Range{1, 64});
+  visit("shutter_ms", o.shutter_ms, "time the shutter is open, 0: no motion blur", Range{0, 200});
+  visit("time_samples",
+        o.time_samples,
+        "least number of them while the shutter is open",
+        Range{2, 256});
+  visit(
+      "readout_ms", o.readout_ms, "rolling shutter: from the first row to the last", Range{0, 200});
+  visit("exposure", o.exposure, "brightness of the images", Range{0.02, 50});
+  visit("auto_exposure", o.auto_exposure, "brightness follows the scene, as a camera sets it");
+  visit("gamma", o.gamma, "of the response curve, 1 linear", Range{1, 3});
+  visit("vignetting", o.vignetting, "loss of light in the corners", Range{0, 0.9});
+  visit("noise", o.noise, "sensor noise, 1 as a real camera, 0 none", Range{0, 20});
+  visit("depth_noise",
+        o.depth_noise,
+        "of the depth images, 1 as a real sensor, 0 none",
+        Range{0, 20});
+  visit("imu_rate_hz", o.imu_rate_hz, "samples of the inertial sensor per second", Range{1, 2000});
+  visit("imu_noise", o.imu_noise, "of the inertial sensor, 1 as in EuRoC, 0 none", Range{0, 100});
+  visit("texel", o.texel, "texture cell [px] where the path comes closest", Range{0.2, 50});
+  visit("seed", o.seed, "seed of textures, furniture, path and noise");
+}
+
+}  // namespace plumbline
