@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,29 +25,37 @@ std::string Bar(std::size_t done, std::size_t total) {
 
 }  // namespace
 
-Progress::Progress(std::size_t total, bool quiet)
-    : total_(total), quiet_(quiet), terminal_(isatty(2) != 0) {}
+Countdown::Countdown(std::string what, std::size_t total)
+    : what_(std::move(what)), total_(total), terminal_(isatty(2) != 0) {}
 
-void Progress::Show(const FrameRecord& frame) {
+void Countdown::Show(std::size_t done, const std::string& note) {
   const auto now = Clock::now();
-  const auto done = static_cast<std::size_t>(frame.id.value) + 1;
-  keyframes_ += frame.keyframe;
   const bool last = done == total_;
   const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
-  if (quiet_ || (!last && now - shown_ < interval)) return;
+  if (!last && now - shown_ < interval) return;
   shown_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const double fps = static_cast<double>(done) / std::max(seconds, 1e-9);
-  const double left = static_cast<double>(total_ - done) / std::max(fps, 1e-9);
-  const std::string text = fmt::format("{}{}/{} frames  {:.1f} fps  {}  {} keyframes  ETA {:.0f} s",
+  const double per_second = static_cast<double>(done) / std::max(seconds, 1e-9);
+  const double left = static_cast<double>(total_ - done) / std::max(per_second, 1e-9);
+  const std::string text = fmt::format("{}{}/{} {}  {:.1f} per second  {}ETA {:.0f} s",
                                        terminal_ ? Bar(done, total_) : std::string(),
                                        done,
                                        total_,
-                                       fps,
-                                       NameOf(frame.status),
-                                       keyframes_,
+                                       what_,
+                                       per_second,
+                                       note.empty() ? "" : note + "  ",
                                        left);
   std::cerr << (terminal_ ? '\r' + text + "   " + (last ? "\n" : "") : text + '\n') << std::flush;
+}
+
+Progress::Progress(std::size_t total, bool quiet)
+    : quiet_(quiet), terminal_(isatty(2) != 0), countdown_("frames", total) {}
+
+void Progress::Show(const FrameRecord& frame) {
+  keyframes_ += frame.keyframe;
+  if (quiet_) return;
+  countdown_.Show(static_cast<std::size_t>(frame.id.value) + 1,
+                  fmt::format("{}  {} keyframes", NameOf(frame.status), keyframes_));
 }
 
 void Progress::Say(const std::string& message) const {

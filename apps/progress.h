@@ -10,6 +10,26 @@
 
 namespace plumbline {
 
+// Shows on stderr how far a job of many equal parts is, with the time left: a bar on a terminal, a
+// line every few seconds elsewhere. Not for use from several threads at once.
+class Countdown {
+ public:
+  // `what` are the parts, in the plural.
+  Countdown(std::string what, std::size_t total);
+
+  // After each part; `note` is added to the line.
+  void Show(std::size_t done, const std::string& note = {});
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string what_;
+  std::size_t total_;
+  bool terminal_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_ = start_;
+};
+
 // Shows on stderr how far a run is: a bar on a terminal, a line every few seconds elsewhere.
 class Progress {
  public:
@@ -22,14 +42,10 @@ class Progress {
   void Say(const std::string& message) const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  std::size_t total_;
   bool quiet_;
   bool terminal_;
   std::size_t keyframes_ = 0;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_ = start_;
+  Countdown countdown_;
 };
 
 }  // namespace plumbline

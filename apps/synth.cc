@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
-#include "plumbline/synth/sequence.h"
+#include "plumbline/synth/write_sequence.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/progress.h"
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
@@ -13,63 +14,76 @@
 #include <string>
 #include <thread>
 
-#include <unistd.h>
-
 namespace plumbline {
 namespace {
 
 CommandSyntax Syntax() {
   return {
       "synth",
-      "Renders a stereo sequence of an invented world with exact ground truth, as a EuRoC folder.",
+      "Renders a sequence of an invented world with exact ground truth: poses, depth, 3D lines, "
+      "inertial samples.",
       {"[WORLD]"},
       {{"--out", "DIR", "folder to write, made where it does not exist"},
+       {"--format", "euroc|tum", "stereo as a EuRoC folder or RGB-D as a TUM folder (euroc)"},
        {"--set", "KEY=VALUE", "set an option of the world; may be repeated"},
-       {"--list", "", "list the worlds and their options"}}};
+       {"--list", "", "list the worlds and the options (with WORLD: its own default values)"}}};
 }
 
-void List() {
-  std::cout << "worlds:\n";
-  for (const WorldEntry& world : Worlds()) {
-    std::cout << "  " << std::left << std::setw(8) << world.name << world.help << '\n';
-  }
+SynthOptions DefaultsOf(const WorldEntry& world) {
   SynthOptions options;
+  if (world.adjust != nullptr) world.adjust(options);
+  return options;
+}
+
+void List(const std::string& name) {
+  SynthOptions options;
+  if (name.empty()) {
+    std::cout << "worlds:\n";
+    for (const WorldEntry& world : Worlds()) {
+      std::cout << "  " << std::left << std::setw(18) << world.name << world.help << '\n';
+    }
+  } else {
+    const WorldEntry& world = FindWorld(name);
+    std::cout << world.name << ": " << world.help << "\nFor " << world.purpose << ".\n";
+    options = DefaultsOf(world);
+  }
   std::cout << "\noptions (--set KEY=VALUE) with their default values:\n"
             << OptionTable(options).Dump();
-}
-
-// A counter on a terminal, nothing elsewhere.
-void ShowProgress(int done, int frames) {
-  constexpr int kEvery = 10;
-  if (isatty(STDERR_FILENO) == 0 || (done % kEvery != 0 && done != frames)) return;
-  std::cerr << "\rrendering " << done << " of " << frames << " pairs"
-            << (done == frames ? "\n" : "") << std::flush;
 }
 
 }  // namespace
 
 int SynthCommand(std::span<const std::string> arguments) {
   const CommandLine line(Syntax(), arguments);
-  if (line.help() || line.Has("--list")) {
-    if (line.help()) {
-      std::cout << HelpText(Syntax());
-    } else {
-      List();
-    }
+  if (line.help()) {
+    std::cout << HelpText(Syntax());
     return 0;
   }
-  if (line.Positional(0).empty()) {
+  const std::string name = line.Positional(0);
+  if (line.Has("--list")) {
+    List(name);
+    return 0;
+  }
+  if (name.empty()) {
     throw InputError("synth: expected the name of a world; plumbline synth --list shows them");
   }
-  SynthOptions options;
+  SynthOptions options = DefaultsOf(FindWorld(name));
   OptionTable table(options);
   for (const std::string& setting : line.Values("--set")) table.Set(setting);
+  SequenceFormat format = SequenceFormat::kEuroc;
+  if (const auto text = line.Value("--format")) {
+    format = ParseChoice<SequenceFormat>("--format", *text);
+  }
   const auto folder = line.Value("--out");
   if (!folder) throw InputError("synth: expected --out DIR");
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const StereoSequence sequence(line.Positional(0), options, threads);
-  WriteSequence(sequence, *folder, threads, [&](int done) { ShowProgress(done, sequence.size()); });
-  std::cout << sequence.size() << " pairs written to " << *folder << '\n';
+  const SyntheticSequence sequence(name, options, threads);
+  Countdown progress("frames", static_cast<std::size_t>(sequence.size()));
+  WriteSequence(sequence, format, *folder, threads, [&](int done) {
+    progress.Show(static_cast<std::size_t>(done));
+  });
+  std::cout << sequence.size() << (format == SequenceFormat::kEuroc ? " pairs" : " images")
+            << " written to " << *folder << '\n';
   return 0;
 }
 

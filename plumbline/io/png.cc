@@ -65,6 +65,19 @@ void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image) {
   WriteFileAtomically(path, Encode(AsMat(image)));
 }
 
+void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, double factor) {
+  PLUMBLINE_CHECK(!depth.empty(), "an image without pixels");
+  constexpr double kLargest = 65'535;
+  cv::Mat_<std::uint16_t> values(depth.height(), depth.width());
+  for (int y = 0; y < depth.height(); ++y) {
+    for (int x = 0; x < depth.width(); ++x) {
+      const double value = std::round(factor * static_cast<double>(depth.at(x, y)));
+      values(y, x) = value >= 0 && value <= kLargest ? static_cast<std::uint16_t>(value) : 0;
+    }
+  }
+  WriteFileAtomically(path, Encode(values));
+}
+
 void WriteOverlayPng(const std::filesystem::path& path,
                      const GrayImage& image,
                      const Overlay& overlay) {

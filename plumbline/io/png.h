@@ -39,6 +39,8 @@ std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay);
 
 // Writes a grey image, or one with an overlay, as PNG. Throws InputError when it cannot be written.
 void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image);
+// Writes depth as 16-bit PNG, rounded depth * factor; 0 where it does not fit.
+void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, double factor);
 void WriteOverlayPng(const std::filesystem::path& path,
                      const GrayImage& image,
                      const Overlay& overlay);

@@ -2,343 +2,285 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/renderer.h"
 
-#include "plumbline/base/error.h"
-#include "plumbline/base/parallel.h"
+#include "plumbline/synth/light_map.h"
+#include "plumbline/synth/noise.h"
+#include "plumbline/synth/ray_tracer.h"
+#include "plumbline/synth/shading.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <embree3/rtcore.h>
 
 namespace plumbline {
 namespace {
 
-using Eigen::Matrix3f;
 using Eigen::Vector2f;
+using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kPacket = 8;
-constexpr unsigned kNothing = RTC_INVALID_GEOMETRY_ID;
+constexpr int kPacket = RayTracer::kPacket;
+constexpr unsigned kNothing = RayTracer::kNothing;
+constexpr int kEdgeSamples = 16;
+constexpr int kMostTimeSamples = 64;
 
-// A surface as one camera sees it: (u w, v w, w) = matrix * (ray.x, ray.y, 1), u and v in [0, 1];
-// depth = 1 / w.
-struct ProjectedSurface {
-  Matrix3f matrix = Matrix3f::Identity();
+struct CameraPose {
+  Eigen::Matrix3f rotation;  // world_from_camera
+  Vector3f origin;
+
+  explicit CameraPose(const Rigid3& world_from_camera)
+      : rotation(world_from_camera.rotation.toRotationMatrix().cast<float>()),
+        origin(world_from_camera.translation.cast<float>()) {}
+  Vector3f Direction(const Vector2f& ray) const { return rotation * Vector3f(ray.x(), ray.y(), 1); }
 };
 
-ProjectedSurface ProjectSurface(const Surface& surface, const Rigid3& world_from_camera) {
-  // A point depth * ray lies on the surface where its offset from the origin is u side_u + v
-  // side_v.
-  const Rigid3 camera_from_world = Inverse(world_from_camera);
-  const Eigen::Vector3d origin = camera_from_world * surface.origin;
-  const Eigen::Vector3d side_u = camera_from_world.rotation * surface.side_u;
-  const Eigen::Vector3d side_v = camera_from_world.rotation * surface.side_v;
-  const Eigen::Vector3d normal = side_u.cross(side_v);
-  const double distance = normal.dot(origin);
-  // In the plane of the camera centre it is never hit; any finite matrix will do.
-  const double safe = std::abs(distance) > 1e-12 ? distance : 1e-12;
-  const Eigen::RowVector3d inverse_depth = normal.transpose() / safe;
-  Eigen::Matrix3d m;
-  m.row(2) = inverse_depth;
-  m.row(0) = (side_u.transpose() - side_u.dot(origin) * inverse_depth) / side_u.squaredNorm();
-  m.row(1) = (side_v.transpose() - side_v.dot(origin) * inverse_depth) / side_v.squaredNorm();
-  return {m.cast<float>()};
+// Places within a pixel, about its centre, their mean exactly there: a grid for square numbers,
+// else a sequence of low discrepancy (in which neighbours are far apart; always used where samples
+// also differ in time).
+std::vector<Vector2f> PixelPlaces(int count, bool in_time) {
+  std::vector<Vector2f> places;
+  const int side = static_cast<int>(std::lround(std::sqrt(count)));
+  if (!in_time && side * side == count) {
+    for (int i = 0; i < count; ++i) {
+      places.emplace_back((static_cast<float>(i % side) + 0.5F) / static_cast<float>(side) - 0.5F,
+                          (static_cast<float>(i / side) + 0.5F) / static_cast<float>(side) - 0.5F);
+    }
+    return places;
+  }
+  constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;  // plastic number
+  Vector2f mean = Vector2f::Zero();
+  for (int i = 0; i < count; ++i) {
+    const double x = 0.5 + kStepX * i, y = 0.5 + kStepY * i;
+    places.emplace_back(static_cast<float>(x - std::floor(x)),
+                        static_cast<float>(y - std::floor(y)));
+    mean += places.back() / static_cast<float>(count);
+  }
+  for (Vector2f& place : places) place -= mean;
+  return places;
 }
+
+// The camera and the world while an image is taken, as functions of time within it. The pose is
+// interpolated between 33 exact ones: within a millisecond it is straight enough, and the path may
+// be costly.
+class Take {
+ public:
+  Take(const Renderer::PoseAt& pose_at, const Shutter& shutter, const Shading& shading, int height)
+      : shutter_(shutter), height_(height) {
+    const double half = 0.5 * (shutter.exposure + shutter.readout);
+    begin_ = shutter.centre - half;
+    span_ = 2 * half;
+    const int count = span_ > 0 ? kPieces + 1 : 1;
+    for (int i = 0; i < count; ++i) {
+      const double time = begin_ + span_ * i / kPieces;
+      poses_.push_back(pose_at(time));
+      instants_.push_back(shading.At(time));
+    }
+  }
+
+  bool moving() const { return span_ > 0; }
+
+  double RowTime(int y) const {
+    return shutter_.centre + ((y + 0.5) / height_ - 0.5) * shutter_.readout;
+  }
+  // Time of one of `count` samples of a row.
+  double SampleTime(int y, int sample, int count) const {
+    return RowTime(y) + ((sample + 0.5) / count - 0.5) * shutter_.exposure;
+  }
+  CameraPose PoseAt(double time) const {
+    if (!moving()) return CameraPose(poses_[0]);
+    const double place = Place(time);
+    const auto before = std::min(static_cast<std::size_t>(place), poses_.size() - 2);
+    const double share = place - static_cast<double>(before);
+    const Rigid3 &a = poses_[before], &b = poses_[before + 1];
+    return CameraPose(
+        {a.rotation.slerp(share, b.rotation), (1 - share) * a.translation + share * b.translation});
+  }
+  const Instant& InstantAt(double time) const {
+    return instants_[moving() ? static_cast<std::size_t>(std::lround(Place(time))) : 0];
+  }
+  const Rigid3& first() const { return poses_.front(); }
+  const Rigid3& last() const { return poses_.back(); }
+
+ private:
+  static constexpr int kPieces = 32;
+
+  double Place(double time) const {
+    return std::clamp((time - begin_) / span_, 0.0, 1.0) * kPieces;
+  }
+
+  Shutter shutter_;
+  int height_;
+  double begin_ = 0, span_ = 0;
+  std::vector<Rigid3> poses_;
+  std::vector<Instant> instants_;
+};
 
 }  // namespace
 
-RayTable::RayTable(const Camera& camera) : width_(camera.width()), height_(camera.height()) {
-  entries_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  const auto ray_at = [&camera](double x, double y) -> Eigen::Vector2d {
-    const std::optional<Eigen::Vector3d> ray = camera.Unproject({x, y});
-    if (!ray) {
-      throw InputError("camera: expected a ray for every pixel, found none at (" +
-                       std::to_string(x) + ", " + std::to_string(y) + ")");
-    }
-    return ray->head<2>();
-  };
-  // One ray a pixel, and one beyond each border; the slope comes from the two neighbours.
-  std::vector<Eigen::Vector2d> grid;
-  const int stride = width_ + 2;
-  grid.reserve(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height_ + 2));
-  for (int y = -1; y <= height_; ++y) {
-    for (int x = -1; x <= width_; ++x) grid.push_back(ray_at(x, y));
-  }
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const Eigen::Vector2d* centre = grid.data() + (y + 1) * stride + x + 1;
-      Entry entry;
-      entry.ray = centre->cast<float>();
-      entry.slope.col(0) = (0.5 * (centre[1] - centre[-1])).cast<float>();
-      entry.slope.col(1) = (0.5 * (centre[stride] - centre[-stride])).cast<float>();
-      entries_.push_back(entry);
-    }
-  }
-}
-
 class Renderer::Implementation {
  public:
-  Implementation(const Scene& scene, const RendererOptions& options) : scene_(scene) {
-    BuildTree();
-    textures_.resize(scene_.surfaces.size());
-    ParallelFor(static_cast<int>(scene_.surfaces.size()), options.threads, [&](int i) {
-      const Surface& surface = scene_.surfaces[static_cast<std::size_t>(i)];
-      textures_[static_cast<std::size_t>(i)] = Texture::Bake(surface.texture,
-                                                             surface.side_u.norm(),
-                                                             surface.side_v.norm(),
-                                                             options.texel,
-                                                             LightOn(surface));
-    });
-  }
-  Implementation(const Implementation&) = delete;
-  Implementation& operator=(const Implementation&) = delete;
-  ~Implementation() {
-    rtcReleaseScene(tree_);
-    rtcReleaseDevice(device_);
-  }
+  Implementation(const Scene& scene, const RendererOptions& options)
+      : samples_(options.samples),
+        time_samples_(options.time_samples),
+        inside_places_(PixelPlaces(options.samples, false)),
+        edge_places_(PixelPlaces(std::max(options.samples, kEdgeSamples), false)),
+        inside_spacing_(1 / std::sqrt(static_cast<float>(options.samples))),
+        tracer_(scene),
+        shading_(scene,
+                 tracer_,
+                 options.texels.empty() ? std::vector<double>(scene.surfaces.size(), 0.003)
+                                        : options.texels,
+                 options.threads) {}
 
-  Rendering Render(const RayTable& rays, const Rigid3& world_from_camera) const;
+  Rendering Render(const RayTable& rays, const PoseAt& pose_at, const Shutter& shutter) const;
+
+  bool Sees(const Vector3d& from, const Vector3d& to, double margin, double time) const {
+    const Vector3f a = from.cast<float>(), b = to.cast<float>();
+    const auto inwards = static_cast<float>(margin);
+    return tracer_.StillSees(a, b, inwards) &&
+           tracer_.BodiesLetPass(a, b, inwards, tracer_.At(time));
+  }
 
  private:
-  // One view: the camera, the surfaces as it sees them, the surface at each pixel centre.
-  struct View {
+  // The rays of a row at one time.
+  struct RowView {
     const RayTable& rays;
-    Matrix3f rotation;
-    Vector3f origin;
-    std::vector<ProjectedSurface> surfaces;
-    Image<unsigned> hits;
+    int y;
+    CameraPose pose;
+    const Instant& instant;
   };
 
-  void BuildTree();
-  // Light on a surface with the shadows that the others throw on it, on a grid of some centimetres.
-  Image<float> LightOn(const Surface& surface) const;
-  bool Sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
-  // Surfaces hit by up to kPacket rays (camera frame, z = 1); kNothing for none.
-  void Trace(const View& view, const Vector2f* camera_rays, int count, unsigned* hits) const;
-  void TraceCentres(View& view) const;
-  float ShadeInside(const View& view, int x, int y, unsigned surface) const;
-  float ShadeEdge(const View& view, int x, int y) const;
-  float Lookup(const View& view, unsigned surface, const Vector2f& ray, int level) const;
-  int LevelAt(const View& view, unsigned surface, int x, int y, float sample_spacing) const;
+  void TraceRow(const RowView& view, const Vector2f& place, unsigned* hits) const;
+  int LevelAt(const RowView& view, int x, unsigned surface, float spacing) const;
+  float ShadeAt(const RowView& view,
+                int x,
+                const Vector2f& place,
+                unsigned surface,
+                int level,
+                int sample) const;
+  float ShadeInside(const RowView& view, int x, unsigned surface) const;
+  float ShadeEdge(const RowView& view, int x) const;
+  void RenderInstant(const RayTable& rays,
+                     const Take& take,
+                     const Image<unsigned>& centres,
+                     Image<float>& light) const;
+  void RenderOpen(const RayTable& rays,
+                  const Take& take,
+                  const DepthImage& depth,
+                  Image<float>& light) const;
+  int TimeSamples(const RayTable& rays, const Take& take, const DepthImage& depth) const;
 
-  Scene scene_;
-  std::vector<Texture> textures_;
-  RTCDevice device_ = nullptr;
-  RTCScene tree_ = nullptr;
+  // Which of the points of a lamp a sample looks at: all of them in turn within a pixel, from
+  // another one on in each pixel.
+  static int SampleNumber(int x, int y, int sample) {
+    return static_cast<int>(HashCell(x, y, 0) % kLampPoints) + 5 * sample;
+  }
+
+  int samples_, time_samples_;
+  std::vector<Vector2f> inside_places_, edge_places_;
+  float inside_spacing_;  // of the samples within a pixel
+  RayTracer tracer_;
+  Shading shading_;
 };
 
-void Renderer::Implementation::BuildTree() {
-  device_ = rtcNewDevice("threads=1");
-  PLUMBLINE_CHECK(device_ != nullptr, "ray tracing device");
-  tree_ = rtcNewScene(device_);
-  rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_QUAD);
-  const std::size_t count = scene_.surfaces.size();
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4 * count));
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), count));
-  PLUMBLINE_CHECK(count == 0 || (vertices != nullptr && indices != nullptr), "geometry buffers");
-  for (std::size_t i = 0; i < count; ++i) {
-    const Surface& surface = scene_.surfaces[i];
-    const Eigen::Vector3d corners[4] = {
-        surface.PointAt(0, 0), surface.PointAt(1, 0), surface.PointAt(1, 1), surface.PointAt(0, 1)};
-    for (std::size_t k = 0; k < 4; ++k) {
-      indices[4 * i + k] = static_cast<unsigned>(4 * i + k);
-      Eigen::Map<Vector3f>(vertices + 3 * (4 * i + k)) = corners[k].cast<float>();
+void Renderer::Implementation::TraceRow(const RowView& view,
+                                        const Vector2f& place,
+                                        unsigned* hits) const {
+  RayTracer::Rays packet;
+  packet.origin = view.pose.origin;
+  for (int x = 0; x < view.rays.width(); x += kPacket) {
+    packet.count = std::min(kPacket, view.rays.width() - x);
+    for (int i = 0; i < packet.count; ++i) {
+      packet.directions[static_cast<std::size_t>(i)] =
+          view.pose.Direction(view.rays.at(x + i, view.y).At(place.x(), place.y()));
     }
-  }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(tree_, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(tree_);
-}
-
-bool Renderer::Implementation::Sees(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  RTCRay ray{};
-  const Vector3f origin = from.cast<float>(), direction = (to - from).cast<float>();
-  ray.org_x = origin.x();
-  ray.org_y = origin.y();
-  ray.org_z = origin.z();
-  ray.dir_x = direction.x();
-  ray.dir_y = direction.y();
-  ray.dir_z = direction.z();
-  ray.tfar = 1;
-  ray.mask = ~0U;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(tree_, &context, &ray);
-  return ray.tfar > 0;  // minus infinity when something is in the way
-}
-
-Image<float> Renderer::Implementation::LightOn(const Surface& surface) const {
-  constexpr double kCell = 0.05;    // metres
-  constexpr double kMargin = 0.02;  // stay this share off the rim, which other bodies touch
-  constexpr double kLift = 0.002;   // metres off the surface, not to be shadowed by itself
-  const int columns = 2 + static_cast<int>(surface.side_u.norm() / kCell);
-  const int rows = 2 + static_cast<int>(surface.side_v.norm() / kCell);
-  const Eigen::Vector3d normal = surface.Normal();
-  Image<float> light(columns, rows);
-  for (int y = 0; y < rows; ++y) {
-    for (int x = 0; x < columns; ++x) {
-      const double a = std::clamp(x / (columns - 1.0), kMargin, 1 - kMargin);
-      const double b = std::clamp(y / (rows - 1.0), kMargin, 1 - kMargin);
-      const Eigen::Vector3d point = surface.PointAt(a, b) + kLift * normal;
-      double sum = scene_.ambient * (1 + 0.25 * normal.z()) + surface.glow;
-      for (const Lamp& lamp : scene_.lamps) {
-        for (int i = 0; i < 4; ++i) {
-          const Eigen::Vector3d place =
-              lamp.centre + (i % 2 - 0.5) * 0.5 * lamp.side_u + (i / 2 - 0.5) * 0.5 * lamp.side_v;
-          const Eigen::Vector3d offset = place - point;
-          const double facing = normal.dot(offset);
-          if (facing <= 0 || !Sees(point, place)) continue;
-          sum += 0.25 * lamp.power * facing / std::pow(offset.squaredNorm(), 1.5);
-        }
-      }
-      light.at(x, y) = static_cast<float>(sum);
-    }
-  }
-  return light;
-}
-
-void Renderer::Implementation::Trace(const View& view,
-                                     const Vector2f* camera_rays,
-                                     int count,
-                                     unsigned* hits) const {
-  alignas(32) int valid[kPacket];
-  RTCRayHit8 packet;
-  for (int i = 0; i < kPacket; ++i) {
-    const Vector2f& ray = camera_rays[std::min(i, count - 1)];
-    const Vector3f direction = view.rotation * Vector3f(ray.x(), ray.y(), 1);
-    valid[i] = i < count ? -1 : 0;
-    packet.ray.org_x[i] = view.origin.x();
-    packet.ray.org_y[i] = view.origin.y();
-    packet.ray.org_z[i] = view.origin.z();
-    packet.ray.dir_x[i] = direction.x();
-    packet.ray.dir_y[i] = direction.y();
-    packet.ray.dir_z[i] = direction.z();
-    packet.ray.tnear[i] = 0;
-    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    packet.ray.time[i] = 0;
-    packet.ray.mask[i] = ~0U;
-    packet.ray.id[i] = 0;
-    packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = kNothing;
-    packet.hit.primID[i] = kNothing;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, tree_, &context, &packet);
-  for (int i = 0; i < count; ++i) {
-    hits[i] = packet.hit.geomID[i] == kNothing ? kNothing : packet.hit.primID[i];
+    unsigned found[kPacket];
+    tracer_.Trace(packet, view.instant.moment, found);
+    std::copy_n(found, packet.count, hits + x);
   }
 }
 
-void Renderer::Implementation::TraceCentres(View& view) const {
-  const int width = view.rays.width();
-  Vector2f rays[kPacket];
-  for (int y = 0; y < view.rays.height(); ++y) {
-    for (int x = 0; x < width; x += kPacket) {
-      const int count = std::min(kPacket, width - x);
-      for (int i = 0; i < count; ++i) rays[i] = view.rays.at(x + i, y).ray;
-      Trace(view, rays, count, view.hits.row(y) + x);
-    }
-  }
+int Renderer::Implementation::LevelAt(const RowView& view,
+                                      int x,
+                                      unsigned surface,
+                                      float spacing) const {
+  const RayTable::Entry& entry = view.rays.at(x, view.y);
+  const Eigen::Matrix2f step = spacing * entry.slope;
+  const SurfaceHit hit{surface, view.pose.origin, view.pose.Direction(entry.ray), 0};
+  return shading_.LevelOf(hit,
+                          view.pose.rotation * Vector3f(step(0, 0), step(1, 0), 0),
+                          view.pose.rotation * Vector3f(step(0, 1), step(1, 1), 0),
+                          view.instant);
 }
 
-float Renderer::Implementation::Lookup(const View& view,
-                                       unsigned surface,
-                                       const Vector2f& ray,
-                                       int level) const {
-  const Matrix3f& m = view.surfaces[surface].matrix;
-  const float w = 1 / (m(2, 0) * ray.x() + m(2, 1) * ray.y() + m(2, 2));
-  const float u = (m(0, 0) * ray.x() + m(0, 1) * ray.y() + m(0, 2)) * w;
-  const float v = (m(1, 0) * ray.x() + m(1, 1) * ray.y() + m(1, 2)) * w;
-  return textures_[surface].Sample(u, v, level);
+float Renderer::Implementation::ShadeAt(const RowView& view,
+                                        int x,
+                                        const Vector2f& place,
+                                        unsigned surface,
+                                        int level,
+                                        int sample) const {
+  const Vector2f ray = view.rays.at(x, view.y).At(place.x(), place.y());
+  return shading_.Shade(
+      {surface, view.pose.origin, view.pose.Direction(ray), sample}, level, view.instant);
 }
 
-int Renderer::Implementation::LevelAt(
-    const View& view, unsigned surface, int x, int y, float sample_spacing) const {
-  const RayTable::Entry& entry = view.rays.at(x, y);
-  const Matrix3f& m = view.surfaces[surface].matrix;
-  const Texture& texture = textures_[surface];
-  const Vector3f p = m * Vector3f(entry.ray.x(), entry.ray.y(), 1);
-  const float w = 1 / p.z();
-  // Size of a pixel in texels, the geometric mean of its two sides: the square root of the
-  // determinant of d(texel)/d(pixel).
-  Eigen::Matrix2f texel_from_ray;
-  for (int k = 0; k < 2; ++k) {
-    const float scale = static_cast<float>(k == 0 ? texture.width() : texture.height()) * w;
-    texel_from_ray.row(k) = scale * (m.block<1, 2>(k, 0) - p(k) * w * m.block<1, 2>(2, 0));
-  }
-  const float area = std::abs((texel_from_ray * entry.slope).determinant());
-  return texture.LevelFor(sample_spacing * std::sqrt(area));
-}
-
-float Renderer::Implementation::ShadeInside(const View& view,
-                                            int x,
-                                            int y,
-                                            unsigned surface) const {
-  const RayTable::Entry& entry = view.rays.at(x, y);
-  const int level = LevelAt(view, surface, x, y, 0.5F);
-  constexpr float kQuarter = 0.25F;
+float Renderer::Implementation::ShadeInside(const RowView& view, int x, unsigned surface) const {
+  const std::vector<Vector2f>& places = inside_places_;
+  const int level = LevelAt(view, x, surface, inside_spacing_);
   float sum = 0;
-  for (const float dy : {-kQuarter, kQuarter}) {
-    for (const float dx : {-kQuarter, kQuarter})
-      sum += Lookup(view, surface, entry.At(dx, dy), level);
+  int sample = 0;
+  for (const Vector2f& place : places) {
+    sum += ShadeAt(view, x, place, surface, level, SampleNumber(x, view.y, sample++));
   }
-  return 0.25F * sum;
+  return sum / static_cast<float>(places.size());
 }
 
-float Renderer::Implementation::ShadeEdge(const View& view, int x, int y) const {
-  constexpr int kSide = 4, kSamples = kSide * kSide;
-  static_assert(kSamples % kPacket == 0);
-  const RayTable::Entry& entry = view.rays.at(x, y);
-  Vector2f rays[kSamples];
-  unsigned hits[kSamples];
-  for (int i = 0; i < kSamples; ++i) {
-    const float dx = (static_cast<float>(i % kSide) + 0.5F) / kSide - 0.5F;
-    const float dy = (static_cast<float>(i / kSide) + 0.5F) / kSide - 0.5F;
-    rays[i] = entry.At(dx, dy);
-  }
-  for (int i = 0; i < kSamples; i += kPacket) Trace(view, rays + i, kPacket, hits + i);
+float Renderer::Implementation::ShadeEdge(const RowView& view, int x) const {
+  const auto count = static_cast<int>(edge_places_.size());
+  const RayTable::Entry& entry = view.rays.at(x, view.y);
+  RayTracer::Rays packet;
+  packet.origin = view.pose.origin;
   float sum = 0;
   unsigned surface = kNothing;
   int level = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    if (hits[i] == kNothing) continue;
-    if (hits[i] != surface) {
-      surface = hits[i];
-      level = LevelAt(view, surface, x, y, 0.5F);
+  for (int begin = 0; begin < count; begin += kPacket) {
+    packet.count = std::min(kPacket, count - begin);
+    for (int i = 0; i < packet.count; ++i) {
+      const Vector2f& place = edge_places_[static_cast<std::size_t>(begin + i)];
+      packet.directions[static_cast<std::size_t>(i)] =
+          view.pose.Direction(entry.At(place.x(), place.y()));
     }
-    sum += Lookup(view, surface, rays[i], level);
+    unsigned hits[kPacket];
+    tracer_.Trace(packet, view.instant.moment, hits);
+    for (int i = 0; i < packet.count; ++i) {
+      if (hits[i] == kNothing) continue;
+      if (hits[i] != surface) {
+        surface = hits[i];
+        level = LevelAt(view, x, surface, inside_spacing_);
+      }
+      const SurfaceHit hit{surface,
+                           packet.origin,
+                           packet.directions[static_cast<std::size_t>(i)],
+                           SampleNumber(x, view.y, begin + i)};
+      sum += shading_.Shade(hit, level, view.instant);
+    }
   }
-  return sum / kSamples;
+  return sum / static_cast<float>(count);
 }
 
-Rendering Renderer::Implementation::Render(const RayTable& rays,
-                                           const Rigid3& world_from_camera) const {
+void Renderer::Implementation::RenderInstant(const RayTable& rays,
+                                             const Take& take,
+                                             const Image<unsigned>& centres,
+                                             Image<float>& light) const {
   const int width = rays.width(), height = rays.height();
-  View view{rays,
-            world_from_camera.rotation.toRotationMatrix().cast<float>(),
-            world_from_camera.translation.cast<float>(),
-            {},
-            Image<unsigned>(width, height)};
-  for (const Surface& surface : scene_.surfaces) {
-    view.surfaces.push_back(ProjectSurface(surface, world_from_camera));
-  }
-  TraceCentres(view);
-  Rendering result{Image<float>(width, height), DepthImage(width, height)};
   for (int y = 0; y < height; ++y) {
-    const unsigned* rows[3] = {view.hits.row(std::max(y - 1, 0)),
-                               view.hits.row(y),
-                               view.hits.row(std::min(y + 1, height - 1))};
+    const double time = take.RowTime(y);
+    const RowView view{rays, y, take.PoseAt(time), take.InstantAt(time)};
+    const unsigned* rows[3] = {
+        centres.row(std::max(y - 1, 0)), centres.row(y), centres.row(std::min(y + 1, height - 1))};
     for (int x = 0; x < width; ++x) {
       const unsigned hit = rows[1][x];
       bool inside = hit != kNothing;
@@ -346,12 +288,92 @@ Rendering Renderer::Implementation::Render(const RayTable& rays,
         inside = inside && row[std::max(x - 1, 0)] == hit && row[x] == hit &&
                  row[std::min(x + 1, width - 1)] == hit;
       }
-      result.light.at(x, y) = inside ? ShadeInside(view, x, y, hit) : ShadeEdge(view, x, y);
-      if (hit == kNothing) continue;
-      const Vector2f& ray = rays.at(x, y).ray;
-      const Matrix3f& m = view.surfaces[hit].matrix;
-      result.depth.at(x, y) = 1 / (m(2, 0) * ray.x() + m(2, 1) * ray.y() + m(2, 2));
+      light.at(x, y) = inside ? ShadeInside(view, x, hit) : ShadeEdge(view, x);
     }
+  }
+}
+
+// As many as pixels that what is nearest moves across the image meanwhile.
+int Renderer::Implementation::TimeSamples(const RayTable& rays,
+                                          const Take& take,
+                                          const DepthImage& depth) const {
+  const Rigid3 last_from_first = Inverse(take.last()) * take.first();
+  double farthest = 0;
+  const int step_x = std::max(1, rays.width() / 16), step_y = std::max(1, rays.height() / 16);
+  for (int y = step_y / 2; y < rays.height(); y += step_y) {
+    for (int x = step_x / 2; x < rays.width(); x += step_x) {
+      const RayTable::Entry& entry = rays.at(x, y);
+      if (depth.at(x, y) <= 0) continue;
+      const Vector2f& ray = entry.ray;
+      const Vector3d point = depth.at(x, y) * Vector3f(ray.x(), ray.y(), 1).cast<double>();
+      const Vector3d moved = last_from_first * point;
+      if (moved.z() <= 0) continue;
+      const Eigen::Vector2d shift = moved.hnormalized() - ray.cast<double>();
+      farthest = std::max(farthest, (entry.slope.cast<double>().inverse() * shift).norm());
+    }
+  }
+  const int least = std::max(time_samples_, samples_);
+  return std::clamp(
+      static_cast<int>(std::ceil(farthest)), least, std::max(least, kMostTimeSamples));
+}
+
+void Renderer::Implementation::RenderOpen(const RayTable& rays,
+                                          const Take& take,
+                                          const DepthImage& depth,
+                                          Image<float>& light) const {
+  const int width = rays.width(), height = rays.height();
+  const int count = TimeSamples(rays, take, depth);
+  const std::vector<Vector2f> places = PixelPlaces(count, true);
+  const float spacing = 1 / std::sqrt(static_cast<float>(std::min(count, kEdgeSamples)));
+  struct Known {
+    unsigned surface;
+    int level;
+  };
+  std::vector<unsigned> hits(static_cast<std::size_t>(width));
+  for (int y = 0; y < height; ++y) {
+    // The texture level belongs to surface and pixel; it hardly changes between the times.
+    std::vector<Known> known(static_cast<std::size_t>(width), {kNothing, 0});
+    for (int s = 0; s < count; ++s) {
+      const double time = take.SampleTime(y, s, count);
+      const RowView view{rays, y, take.PoseAt(time), take.InstantAt(time)};
+      const Vector2f& place = places[static_cast<std::size_t>(s)];
+      TraceRow(view, place, hits.data());
+      for (int x = 0; x < width; ++x) {
+        const auto column = static_cast<std::size_t>(x);
+        const unsigned surface = hits[column];
+        if (surface == kNothing) continue;
+        Known& last = known[column];
+        if (last.surface != surface) last = {surface, LevelAt(view, x, surface, spacing)};
+        light.at(x, y) += ShadeAt(view, x, place, surface, last.level, SampleNumber(x, y, s)) /
+                          static_cast<float>(count);
+      }
+    }
+  }
+}
+
+Rendering Renderer::Implementation::Render(const RayTable& rays,
+                                           const PoseAt& pose_at,
+                                           const Shutter& shutter) const {
+  const int width = rays.width(), height = rays.height();
+  const Take take(pose_at, shutter, shading_, height);
+  Rendering result{Image<float>(width, height), DepthImage(width, height)};
+  Image<unsigned> centres(width, height);
+  for (int y = 0; y < height; ++y) {
+    const double time = take.RowTime(y);
+    const RowView view{rays, y, take.PoseAt(time), take.InstantAt(time)};
+    TraceRow(view, Vector2f::Zero(), centres.row(y));
+    for (int x = 0; x < width; ++x) {
+      const unsigned surface = centres.at(x, y);
+      if (surface == kNothing) continue;
+      // The direction has length 1 along z, so that the distance in its units is the depth.
+      const SurfaceHit hit{surface, view.pose.origin, view.pose.Direction(rays.at(x, y).ray), 0};
+      result.depth.at(x, y) = shading_.Distance(hit, view.instant);
+    }
+  }
+  if (shutter.exposure > 0) {
+    RenderOpen(rays, take, result.depth, result.light);
+  } else {
+    RenderInstant(rays, take, centres, result.light);
   }
   return result;
 }
@@ -360,8 +382,19 @@ Renderer::Renderer(const Scene& scene, const RendererOptions& options)
     : implementation_(std::make_unique<Implementation>(scene, options)) {}
 Renderer::~Renderer() = default;
 
+Rendering Renderer::Render(const RayTable& rays,
+                           const PoseAt& pose_at,
+                           const Shutter& shutter) const {
+  return implementation_->Render(rays, pose_at, shutter);
+}
+
 Rendering Renderer::Render(const RayTable& rays, const Rigid3& world_from_camera) const {
-  return implementation_->Render(rays, world_from_camera);
+  return Render(
+      rays, [&](double) { return world_from_camera; }, Shutter{});
+}
+
+bool Renderer::Sees(const Vector3d& from, const Vector3d& to, double margin, double time) const {
+  return implementation_->Sees(from, to, margin, time);
 }
 
 }  // namespace plumbline

@@ -61,7 +61,7 @@ struct Scene {
   std::vector<Lamp> lamps;
   std::vector<Circuit> circuits;  // circuit k > 0 is circuits[k - 1]
   std::vector<Body> bodies;
-  double ambient = 0.2;  // light that reaches every open surface
+  double ambient = 0.3;  // light from the sky: from where there is nothing
 
   // Brightness of a circuit at a time.
   double Level(int circuit, double time) const {

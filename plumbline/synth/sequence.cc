@@ -3,23 +3,36 @@
 #include "plumbline/synth/sequence.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/synth/noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
+#include <cstddef>
+#include <numeric>
 
 namespace plumbline {
 namespace {
 
 constexpr int kWidth = 752, kHeight = 480;
+constexpr double kFocal = 458.2;
 constexpr std::int64_t kFirstStampNs = 1'500'000'000'000'000'000;
 constexpr double kNanosecondsPerSecond = 1e9;
+constexpr std::uint64_t kNoiseStream = 0x5EED0F0015EULL, kDepthStream = 0xDE97, kImuStream = 0x1A5;
 
-Camera MakeCamera(bool distortion, bool right) {
+CameraIntrinsics Scaled(CameraIntrinsics k, double scale) {
+  k.fx *= scale;
+  k.fy *= scale;
+  k.cx = scale * (k.cx + 0.5) - 0.5;  // pixel centres at integers
+  k.cy = scale * (k.cy + 0.5) - 0.5;
+  k.width = static_cast<int>(std::lround(scale * k.width));
+  k.height = static_cast<int>(std::lround(scale * k.height));
+  return k;
+}
+
+Camera MakeCamera(bool distortion, bool right, double scale) {
   CameraIntrinsics intrinsics;
-  intrinsics.fx = 458.2;
+  intrinsics.fx = kFocal;
   intrinsics.fy = 457.5;
   intrinsics.cx = 371.4;
   intrinsics.cy = 243.6;
@@ -36,13 +49,13 @@ Camera MakeCamera(bool distortion, bool right) {
       intrinsics.distortion = {-0.2835, 0.0747, -0.0001, -0.00004, 0};
     }
   }
-  return Camera(intrinsics);
+  return Camera(Scaled(intrinsics, scale));
 }
 
 Calibration MakeCalibration(const SynthOptions& options) {
   Calibration calibration;
-  calibration.left = MakeCamera(options.distortion, false);
-  calibration.right = MakeCamera(options.distortion, true);
+  calibration.left = MakeCamera(options.distortion, false, options.scale);
+  calibration.right = MakeCamera(options.distortion, true, options.scale);
   calibration.right_from_left.translation = {-options.baseline, 0, 0};
   if (options.distortion) {  // nor is any pair mounted in perfect alignment
     calibration.right_from_left.rotation = ExpSo3({0.0021, -0.0044, 0.0016});
@@ -58,24 +71,101 @@ Calibration MakeCalibration(const SynthOptions& options) {
   return calibration;
 }
 
+World MakeWorld(std::string_view name, const SynthOptions& options) {
+  World world = FindWorld(name).make(options.seed);
+  if (options.speed != 1) world.path = Faster(std::move(world.path), options.speed);
+  return world;
+}
+
+int CountFrames(const CameraPath& path, const SynthOptions& options) {
+  const int whole = std::max(2, static_cast<int>(std::floor(path.duration * options.rate_hz)));
+  return options.frames > 0 ? std::min(options.frames, whole) : whole;
+}
+
+double DistanceTo(const Surface& surface, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d offset = point - surface.origin;
+  const double a = offset.dot(surface.side_u) / surface.side_u.squaredNorm();
+  const double b = offset.dot(surface.side_v) / surface.side_v.squaredNorm();
+  return (point - surface.PointAt(std::clamp(a, 0.0, 1.0), std::clamp(b, 0.0, 1.0))).norm();
+}
+
+// A share of a pixel where the path comes closest to a surface; bodies are taken to come to 1 m.
+std::vector<double> TexelSizes(const World& world, const SynthOptions& options, double seconds) {
+  constexpr double kFinest = 0.002, kCoarsest = 0.05, kStep = 0.2, kBodies = 1;
+  std::vector<Eigen::Vector3d> places;
+  for (double time = 0; time < seconds + kStep; time += kStep) {
+    places.push_back(world.path.world_from_camera(time).translation);
+  }
+  std::vector<double> texels;
+  for (const Surface& surface : world.scene.surfaces) {
+    double closest = kBodies;
+    if (!surface.body) {
+      closest = std::transform_reduce(
+          places.begin(),
+          places.end(),
+          1e9,
+          [](double a, double b) { return std::min(a, b); },
+          [&](const Eigen::Vector3d& place) { return DistanceTo(surface, place); });
+    }
+    const double texel = options.texel * closest / (kFocal * options.scale);
+    texels.push_back(std::clamp(texel, kFinest, kCoarsest));
+  }
+  return texels;
+}
+
+RendererOptions MakeRendererOptions(const World& world,
+                                    const SynthOptions& options,
+                                    int frames,
+                                    int threads) {
+  RendererOptions made;
+  made.samples = options.samples;
+  made.time_samples = options.time_samples;
+  made.texels = TexelSizes(world, options, frames / options.rate_hz);
+  made.threads = threads;
+  return made;
+}
+
+double Mean(const Image<float>& image) {
+  const auto count =
+      static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+  return std::accumulate(image.data(), image.data() + count, 0.0) / static_cast<double>(count);
+}
+
 }  // namespace
 
-StereoSequence::StereoSequence(std::string_view world, const SynthOptions& options, int threads)
-    : world_(world),
+SyntheticSequence::SyntheticSequence(std::string_view world,
+                                     const SynthOptions& options,
+                                     int threads)
+    : world_(FindWorld(world).name),
       options_(options),
       calibration_(MakeCalibration(options)),
-      made_(FindWorld(world).make(options.seed)),
-      frames_(options.frames > 0 ? options.frames
-                                 : static_cast<int>(made_.path.duration * options.rate_hz)),
-      renderer_(made_.scene, {.texel = 0.004, .threads = threads}),
+      made_(MakeWorld(world, options)),
+      frames_(CountFrames(made_.path, options)),
+      renderer_(made_.scene, MakeRendererOptions(made_, options, frames_, threads)),
       left_rays_(calibration_.left),
-      right_rays_(*calibration_.right) {}
+      right_rays_(*calibration_.right) {
+  const double frame_ms = 1000 / options.rate_hz;
+  if (options.shutter_ms + options.readout_ms > frame_ms) {
+    throw InputError("shutter_ms + readout_ms: expected at most the " + std::to_string(frame_ms) +
+                     " ms between two frames, found " +
+                     std::to_string(options.shutter_ms + options.readout_ms));
+  }
+  if (options.auto_exposure) gains_ = FindGains(threads);
+}
 
-std::int64_t StereoSequence::StampNs(int frame) const {
+std::int64_t SyntheticSequence::StampNs(int frame) const {
   return kFirstStampNs + std::llround(frame * kNanosecondsPerSecond / options_.rate_hz);
 }
 
-Trajectory StereoSequence::GroundTruth(int per_frame) const {
+double SyntheticSequence::TimeOf(int frame) const {
+  return static_cast<double>(StampNs(frame) - kFirstStampNs) / kNanosecondsPerSecond;
+}
+
+Rigid3 SyntheticSequence::WorldFromBody(double time) const {
+  return WorldFromLeft(time) * Inverse(*calibration_.body_from_left);
+}
+
+Trajectory SyntheticSequence::GroundTruth(int per_frame) const {
   PLUMBLINE_CHECK(per_frame >= 1, "poses per frame");
   Trajectory poses;
   for (int i = 0; i <= (size() - 1) * per_frame; ++i) {
@@ -88,37 +178,65 @@ Trajectory StereoSequence::GroundTruth(int per_frame) const {
   return poses;
 }
 
-Rendering StereoSequence::RenderIdeal(int frame, int camera) const {
-  PLUMBLINE_CHECK(frame >= 0 && frame < size(), "frame of the sequence");
-  PLUMBLINE_CHECK(camera == 0 || camera == 1, "camera of the pair");
-  const double time = static_cast<double>(StampNs(frame) - kFirstStampNs) / kNanosecondsPerSecond;
-  const Rigid3 world_from_left = WorldFromLeft(time);
-  if (camera == 0) return renderer_.Render(left_rays_, world_from_left);
-  return renderer_.Render(right_rays_, world_from_left * Inverse(calibration_.right_from_left));
+ImuRecording SyntheticSequence::Imu() const {
+  ImuModel model;
+  model.rate_hz = options_.imu_rate_hz;
+  return RecordImu([this](double time) { return WorldFromBody(time); },
+                   TimeOf(size() - 1),
+                   model,
+                   options_.imu_noise,
+                   MixBits(options_.seed + kImuStream));
 }
 
-GrayImage StereoSequence::RenderImage(int frame, int camera) const {
-  constexpr float kVignetting = 0.22F;                          // loss of light in the corners
-  constexpr float kReadVariance = 1.5F, kShotVariance = 0.02F;  // per grey level squared
-  const Rendering ideal = RenderIdeal(frame, camera);
-  const std::uint64_t stream = HashCell(frame, camera, MixBits(options_.seed + 0x5EED0F0015EULL));
-  const auto exposure = static_cast<float>(options_.exposure);
-  const auto noise = static_cast<float>(options_.noise);
-  const float centre_x = 0.5F * (kWidth - 1), centre_y = 0.5F * (kHeight - 1);
-  const float corner = centre_x * centre_x + centre_y * centre_y;
-  GrayImage image(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    const float dy = static_cast<float>(y) - centre_y;
-    for (int x = 0; x < kWidth; ++x) {
-      const float dx = static_cast<float>(x) - centre_x;
-      const float fall_off = 1 - kVignetting * (dx * dx + dy * dy) / corner;
-      const float light = std::min(exposure * fall_off * ideal.light.at(x, y), 400.0F);
-      const float sigma = noise * std::sqrt(kReadVariance + kShotVariance * light);
-      const float value = light + sigma * NormalFromHash(HashCell(x, y, stream));
-      image.at(x, y) = static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
-    }
+Rendering SyntheticSequence::RenderIdeal(int frame, int camera) const {
+  PLUMBLINE_CHECK(frame >= 0 && frame < size(), "frame of the sequence");
+  PLUMBLINE_CHECK(camera == 0 || camera == 1, "camera of the pair");
+  constexpr double kSecondsPerMs = 1e-3;
+  const Shutter shutter{
+      TimeOf(frame), kSecondsPerMs * options_.shutter_ms, kSecondsPerMs * options_.readout_ms};
+  const Rigid3 left_from_camera = camera == 0 ? Rigid3{} : Inverse(calibration_.right_from_left);
+  return renderer_.Render(
+      camera == 0 ? left_rays_ : right_rays_,
+      [&](double time) { return WorldFromLeft(time) * left_from_camera; },
+      shutter);
+}
+
+// What a camera's exposure control does: it looks at each image and brings the next one a part of
+// the way to the brightness it wants.
+std::vector<double> SyntheticSequence::FindGains(int threads) const {
+  constexpr double kProbeScale = 0.1, kTarget = 85, kPart = 0.25, kLeast = 0.1, kMost = 12;
+  const RayTable probe(MakeCamera(options_.distortion, false, kProbeScale));
+  const std::vector<double> means = ParallelMap<double>(size(), threads, [&](int frame) {
+    return Mean(renderer_
+                    .Render(probe,
+                            [this](double time) { return WorldFromLeft(time); },
+                            {TimeOf(frame), 0, 0})
+                    .light);
+  });
+  const auto wanted = [=](double mean) {
+    return std::clamp(kTarget / std::max(mean, 1e-3), kLeast, kMost);
+  };
+  std::vector<double> gains;
+  double gain = wanted(means.front());
+  for (const double mean : means) {
+    gains.push_back(gain);
+    gain *= std::pow(wanted(mean) / gain, kPart);
   }
-  return image;
+  return gains;
+}
+
+GrayImage SyntheticSequence::Sense(const Image<float>& light, int frame, int camera) const {
+  const double control = gains_.empty() ? 1 : gains_[static_cast<std::size_t>(frame)];
+  const SensorModel model{
+      options_.exposure * control, options_.gamma, options_.vignetting, options_.noise};
+  const std::uint64_t chip = HashCell(camera, 0, MixBits(options_.seed + kNoiseStream));
+  const std::uint64_t stream = HashCell(frame, camera, MixBits(options_.seed + kNoiseStream));
+  return Expose(light, model, chip, stream);
+}
+
+DepthImage SyntheticSequence::SenseDepthOf(const DepthImage& depth, int frame) const {
+  return SenseDepth(
+      depth, options_.depth_noise, HashCell(frame, 0, MixBits(options_.seed + kDepthStream)));
 }
 
 }  // namespace plumbline

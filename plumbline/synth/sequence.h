@@ -2,32 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/options.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/image/image.h"
+#include "plumbline/synth/imu.h"
 #include "plumbline/synth/renderer.h"
+#include "plumbline/synth/sensor.h"
+#include "plumbline/synth/synth_options.h"
 #include "plumbline/synth/world.h"
 
 #include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace plumbline {
 
-// A stereo sequence of a still world, made on demand: pairs, their exact poses, the exact lines.
+// A recording of a world, made on demand: stereo pairs, depth, inertial samples, exact poses.
 //
-// Frame i is taken at StampNs(i). The body (what the ground truth is about, as in
-// EuRoC) is not the camera: calibration().body_from_left. Everything is a function of the options;
-// Render may be called from several threads.
-class StereoSequence {
+// Frame i is taken at StampNs(i), the middle of its exposure (of the middle row with a rolling
+// shutter). The body (what EuRoC's ground truth and inertial sensor are about) is not the camera:
+// calibration().body_from_left. Everything is a function of world and options; the Render functions
+// may be called from several threads.
+class SyntheticSequence {
  public:
-  // Throws InputError for an unknown world, with the names there are. `threads` speeds up the
-  // preparation of the textures.
-  StereoSequence(std::string_view world, const SynthOptions& options, int threads);
+  // Throws InputError for an unknown world or options that contradict each other. `threads` speeds
+  // up the preparation of textures and light.
+  SyntheticSequence(std::string_view world, const SynthOptions& options, int threads);
 
   int size() const { return frames_; }
   std::int64_t StampNs(int frame) const;
@@ -35,18 +36,30 @@ class StereoSequence {
   const SynthOptions& options() const { return options_; }
   const Calibration& calibration() const { return calibration_; }
   const Scene& scene() const { return made_.scene; }
+  const Renderer& renderer() const { return renderer_; }
 
+  // Seconds from the first frame.
+  double TimeOf(int frame) const;
   Rigid3 WorldFromLeft(double time) const { return made_.path.world_from_camera(time); }
+  Rigid3 WorldFromBody(double time) const;
   // Poses of the left camera, `per_frame` of them for each frame interval, from the first frame to
   // the last.
   Trajectory GroundTruth(int per_frame = 1) const;
+  ImuRecording Imu() const;
 
   // What the ideal sensor sees: camera 0 is the left one.
   Rendering RenderIdeal(int frame, int camera) const;
-  // What the camera delivers: exposure, vignetting, noise, rounding.
-  GrayImage RenderImage(int frame, int camera) const;
+  // What the camera delivers of it: exposure, vignetting, noise, response, rounding.
+  GrayImage Sense(const Image<float>& light, int frame, int camera) const;
+  GrayImage RenderImage(int frame, int camera) const {
+    return Sense(RenderIdeal(frame, camera).light, frame, camera);
+  }
+  // What a depth sensor registered to the left camera delivers.
+  DepthImage SenseDepthOf(const DepthImage& depth, int frame) const;
 
  private:
+  std::vector<double> FindGains(int threads) const;
+
   std::string world_;
   SynthOptions options_;
   Calibration calibration_;
@@ -55,16 +68,7 @@ class StereoSequence {
   Renderer renderer_;
   RayTable left_rays_;
   RayTable right_rays_;
+  std::vector<double> gains_;  // of each frame, by auto exposure; empty without
 };
-
-// Writes a sequence as a EuRoC folder (mav0/cam0, cam1, state_groundtruth_estimate0 at 200 Hz)
-// with, beside mav0, `lines.csv` (the edges of all bodies, x1,y1,z1,x2,y2,z2, metres, world frame)
-// and `world.yaml` (the options). `progress`, where given, is called after each pair with the
-// number of pairs done, one call at a time. The bytes written depend on neither the machine's load
-// nor `threads`. Throws InputError when a file cannot be written.
-void WriteSequence(const StereoSequence& sequence,
-                   const std::filesystem::path& folder,
-                   int threads,
-                   const std::function<void(int)>& progress = {});
 
 }  // namespace plumbline

@@ -25,6 +25,7 @@ struct SynthOptions {
   double gamma = 1;  // of the response curve, 1 linear
   double vignetting = 0.22;
   double noise = 1;
+  bool depth = false;  // depth images in the EuRoC format too
   double depth_noise = 1;
   double imu_rate_hz = 200;
   double imu_noise = 1;
@@ -53,6 +54,7 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("gamma", o.gamma, "of the response curve, 1 linear", Range{1, 3});
   visit("vignetting", o.vignetting, "loss of light in the corners", Range{0, 0.9});
   visit("noise", o.noise, "sensor noise, 1 as a real camera, 0 none", Range{0, 20});
+  visit("depth", o.depth, "write depth images in the EuRoC format too (TUM always has them)");
   visit("depth_noise",
         o.depth_noise,
         "of the depth images, 1 as a real sensor, 0 none",

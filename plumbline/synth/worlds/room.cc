@@ -144,7 +144,7 @@ void AddCeiling(SceneBuilder& scene) {
       scene.AddLamp({{lamp_x, y, kHeight - kLampDrop - 0.01},
                      1.2 * Vector3d::UnitY(),
                      0.12 * Vector3d::UnitX(),
-                     x < 2 ? 0.9 : 1.2});
+                     x < 2 ? 2.8 : 3.6});
     }
   }
   scene.AddBox(
