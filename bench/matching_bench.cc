@@ -65,7 +65,7 @@ std::array<SensorFrame, 2> RecordedFrames(const Dataset& dataset) {
   return out;
 }
 
-std::array<SensorFrame, 2> RenderedFrames(const StereoSequence& sequence) {
+std::array<SensorFrame, 2> RenderedFrames(const SyntheticSequence& sequence) {
   std::array<SensorFrame, 2> out;
   for (int i = 0; i < 2; ++i) {
     SensorFrame& frame = out[static_cast<std::size_t>(i)];
@@ -95,7 +95,7 @@ const Scene& TheScene() {
       const auto dataset = OpenDataset(*folder, {});
       return MakeScene("MH_01", dataset->calibration(), RecordedFrames(*dataset));
     }
-    const StereoSequence room("room", {}, 2);
+    const SyntheticSequence room("room", {}, 2);
     return MakeScene("rendered room", room.calibration(), RenderedFrames(room));
   }();
   return scene;
