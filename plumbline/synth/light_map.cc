@@ -30,35 +30,35 @@ double LightOfLamp(const Lamp& lamp,
     const LampPoint whole = LightFrom(lamp, 0, point, normal);
     return whole.light > 0 && seen(whole.position) ? whole.light : 0;
   }
-  std::array<LampPoint, kLampPoints> parts;
+  constexpr std::array<int, 4> kCorners = {
+      0, kLampSide - 1, kLampPoints - kLampSide, kLampPoints - 1};
+  double corner_sum = 0;
+  int seen_corners = 0;
+  for (const int i : kCorners) {
+    const LampPoint corner = LightFrom(lamp, i, point, normal);
+    corner_sum += corner.light / kCorners.size();
+    seen_corners += corner.light > 0 && seen(corner.position) ? 1 : 0;
+  }
+  if (seen_corners == 0) return 0;
+  const bool whole = seen_corners == static_cast<int>(kCorners.size());
+  const double size = lamp.side_u.norm() + lamp.side_v.norm();
+  const bool far = (lamp.centre - point).squaredNorm() > 4 * size * size;
+  if (whole && far) return corner_sum;
   double sum = 0;
   for (int i = 0; i < kLampPoints; ++i) {
-    parts[static_cast<std::size_t>(i)] = LightFrom(lamp, i, point, normal);
-    sum += parts[static_cast<std::size_t>(i)].light / kLampPoints;
+    const LampPoint part = LightFrom(lamp, i, point, normal);
+    if (part.light > 0 && (whole || seen(part.position))) sum += part.light / kLampPoints;
   }
-  if (sum < 1e-4) return 0;
-  constexpr std::array<std::size_t, 4> kCorners = {
-      0, kLampSide - 1, kLampPoints - kLampSide, kLampPoints - 1};
-  const auto corners = std::count_if(
-      kCorners.begin(), kCorners.end(), [&](std::size_t i) { return seen(parts[i].position); });
-  if (corners == 0) return 0;
-  if (corners == static_cast<std::ptrdiff_t>(kCorners.size())) return sum;
-  double part = 0;
-  for (const LampPoint& p : parts) {
-    if (p.light > 0 && seen(p.position)) part += p.light / kLampPoints;
-  }
-  return part;
+  return sum;
 }
 
-// Directions of a cosine-weighted half sphere around z (Hammersley points), in packets.
-std::vector<Vector3f> HalfSphere() {
-  constexpr unsigned kCount = 64;
-  static_assert(kCount % RayTracer::kPacket == 0);
+// Directions of a cosine-weighted half sphere around z (Hammersley points).
+std::vector<Vector3f> HalfSphere(unsigned count) {
   std::vector<Vector3f> directions;
-  for (unsigned i = 0; i < kCount; ++i) {
+  for (unsigned i = 0; i < count; ++i) {
     double radical = 0, digit = 0.5;
     for (unsigned bits = i; bits != 0; bits >>= 1, digit *= 0.5) radical += (bits & 1U) * digit;
-    const double r2 = (i + 0.5) / kCount, angle = 2 * std::numbers::pi * radical;
+    const double r2 = (i + 0.5) / count, angle = 2 * std::numbers::pi * radical;
     const double r = std::sqrt(r2);
     directions.push_back(
         Vector3d(r * std::cos(angle), r * std::sin(angle), std::sqrt(1 - r2)).cast<float>());
@@ -233,7 +233,11 @@ std::vector<LightMaps::Layer> LightMaps::Gather(
     const std::vector<std::vector<Layer>>& light) const {
   const Surface& surface = scene_.surfaces[index];
   if (surface.body) return {};
-  const std::vector<Vector3f> directions = HalfSphere();
+  constexpr double kSmall = 0.15;  // metres; so small a thing may do with fewer rays
+  constexpr unsigned kRays = 64, kFewRays = 16;
+  static_assert(kRays % RayTracer::kPacket == 0 && kFewRays % RayTracer::kPacket == 0);
+  const bool small = surface.side_u.norm() + surface.side_v.norm() < kSmall;
+  const std::vector<Vector3f> directions = HalfSphere(small ? kFewRays : kRays);
   const float share = 1 / static_cast<float>(directions.size());
   const SurfaceGrid grid(surface, cell);
   Eigen::Matrix3f axes;
