@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/progress.h"
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <span>
@@ -46,6 +47,9 @@ void List(const std::string& name) {
     const WorldEntry& world = FindWorld(name);
     std::cout << world.name << ": " << world.help << "\nFor " << world.purpose << ".\n";
     options = DefaultsOf(world);
+    const double seconds = world.make(options.seed).path.duration / options.speed;
+    std::cout << "The whole path takes " << std::fixed << std::setprecision(1) << seconds << " s, "
+              << std::llround(std::floor(seconds * options.rate_hz)) << " frames.\n";
   }
   std::cout << "\noptions (--set KEY=VALUE) with their default values:\n"
             << OptionTable(options).Dump();
