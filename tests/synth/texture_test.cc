@@ -83,7 +83,7 @@ TEST(Texture, SeedsMakeDifferentSurfaces) {
 }
 
 TEST(Texture, SamplesAreTheRecipeTimesTheLight) {
-  const TextureRecipe recipe{Material::kPoster, 0.9, 5, 0};
+  const TextureRecipe recipe{Material::kPlaster, 0.9, 5, 0};
   constexpr double kSize = 0.48;
   Image<float> light(2, 1);
   light.at(0, 0) = 0.2F;

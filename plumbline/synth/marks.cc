@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/synth/marks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline {
+
+double Specks(double u, double v, double size, double share, std::uint64_t seed) {
+  const double i = CellIndex(u, size), j = CellIndex(v, size);
+  if (CellValue(i, j, seed) > share) return 0;
+  const double x = (i + 0.25 + 0.5 * CellValue(i, j, seed + 1)) * size;
+  const double y = (j + 0.25 + 0.5 * CellValue(i, j, seed + 2)) * size;
+  const double radius = size * (0.08 + 0.17 * CellValue(i, j, seed + 3));
+  const double distance = std::hypot(u - x, v - y) / radius;
+  if (distance > 1) return 0;
+  const double kind = CellValue(i, j, seed + 4);
+  const double strength = 0.3 + 0.7 * CellValue(i, j, seed + 5);
+  return (kind < 0.7 ? -strength : strength) * std::min(1.0, 5 * (1 - distance));
+}
+
+double TextInk(double u, double v, double line, std::uint64_t seed) {
+  const double row = CellIndex(v, line);
+  const double y = v / line - row;
+  if (y < 0.25 || y > 0.8) return 0;
+  const double letter = 0.45 * line;
+  const double column = CellIndex(u, letter);
+  if (CellValue(column, row, seed) < 0.22) return 0;  // space between words
+  const double x = u / letter - column;
+  const double gap = 0.15 + 0.3 * CellValue(column, row, seed + 1);
+  const double bar = CellValue(column, row, seed + 2);
+  return x > gap && (y > bar || x < gap + 0.3) ? 1 : 0;
+}
+
+double WoodGrain(double along, double across, std::uint64_t seed) {
+  const double rings = FractalNoise(0.9 * along, 22 * across, 4, 0.75, seed);
+  const double fibres = FractalNoise(9 * along, 160 * across, 2, 0.8, seed + 40);
+  const double knots = Specks(along, 1.6 * across, 0.09, 0.06, seed + 60);
+  return 0.42 * rings + 0.2 * fibres - 0.45 * std::abs(knots);
+}
+
+double Weathering(double u, double v, double strength, std::uint64_t seed) {
+  const double shades = FractalNoise(0.7 * u, 0.7 * v, 3, 0.7, seed);
+  const double grain = FractalNoise(16 * u, 16 * v, 4, 0.8, seed + 300);
+  return strength * (0.16 * shades + 0.12 * grain);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/synth/noise.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace plumbline {
+
+// Small marks that several materials share.
+
+inline double CellIndex(double x, double size) { return std::floor(x / size); }
+
+inline double CellValue(double i, double j, std::uint64_t seed) {
+  return UnitFromHash(HashCell(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), seed));
+}
+
+// Dark or bright dots of all strengths scattered with one candidate per square of the given size;
+// -1 to 1, falling off over the outer fifth of a dot.
+double Specks(double u, double v, double size, double share, std::uint64_t seed);
+
+// Rows of "words": marks of random width in lines, ragged at the right; 0 or 1.
+double TextInk(double u, double v, double line, std::uint64_t seed);
+
+// Stripes along the first coordinate with fibres and knots, as in sawn wood; mean about 0.
+double WoodGrain(double along, double across, std::uint64_t seed);
+
+// What years do to any surface: broad shades, dirt in clouds, fine grain; mean about 0, standard
+// deviation about 0.06 times `strength`.
+double Weathering(double u, double v, double strength, std::uint64_t seed);
+
+}  // namespace plumbline

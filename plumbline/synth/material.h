@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace plumbline {
+
+// What a surface looks like. All are computed from noise; there are no image files.
+enum class Material {
+  kPaint,      // nearly plain, faint scratches
+  kPlaster,    // uneven wall with stains, pits and scuffs
+  kPlanks,     // boards with grain, gaps and nails
+  kWood,       // one piece of grained wood
+  kTiles,      // square tiles with grout, chips and veins
+  kCarpet,     // woven pattern with borders
+  kPoster,     // blocks, discs and lines of text on a bright sheet
+  kCardboard,  // brown board with tape and print
+  kBrick,      // courses of bricks
+  kSpine,      // back of a book
+  kMetal,      // brushed metal with rows of rivets
+  kConcrete,   // cast concrete: form-board marks, pores, stains
+  kFabric,     // woven cloth: chairs, curtains, partitions
+  kAcoustic,   // mineral fibre board of a suspended ceiling, with fissures; no grid of its own
+  kScreen,     // a computer screen: windows, text, icons
+  kMural,      // a large picture with structure at all scales, no repetition
+  kBlank,      // a freshly painted wall: nothing but the faintest unevenness
+};
+
+struct TextureRecipe {
+  Material material = Material::kPaint;
+  double tone = 0.5;        // mean reflectance, 0 black to 1 white
+  std::uint64_t seed = 0;   // two surfaces of one material differ by their seed
+  double corner_shade = 0;  // how much darker the rim is, 0 to 1 (walls meeting in corners)
+
+  // Where the surface is cut out of a larger sheet, so that a wall goes on beside a door: the
+  // corner of the surface on the sheet and the size of the sheet, metres. A size of 0: the surface
+  // is all.
+  double sheet_u = 0, sheet_v = 0;
+  double sheet_width = 0, sheet_height = 0;
+};
+
+// Reflectance in [0, 1] at (u, v) metres from the corner of a surface of the given size (of its
+// sheet where it is cut out of one).
+double EvaluateTexture(
+    const TextureRecipe& recipe, double u, double v, double width, double height);
+
+}  // namespace plumbline
