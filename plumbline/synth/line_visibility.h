@@ -35,7 +35,8 @@ struct VisibilityLimits {
 // A line is seen in a frame when a piece of it, at least min_visible_px long in the image (lens
 // distortion included), lies inside the image and is hidden by nothing: rays go to samples at most
 // 8 px apart, to points 1 mm before the line, so that the surface it lies on does not hide it; the
-// ends of pieces are then found by bisection. Blur, noise and contrast do not count.
+// ends of pieces are then found by bisection. What is narrower than 8 px may hide nothing. Blur,
+// noise and contrast do not count.
 //
 // Cost: some 30 ns for a line out of view, about 6 rays for one in view, and all samples of the
 // stretches that have never been seen: 10 000 lines in 2000 frames take seconds.

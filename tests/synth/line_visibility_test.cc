@@ -72,7 +72,7 @@ TEST(LineVisibility, WhatAnOccluderHidesIsCutOff) {
   // A plate 2 m ahead that hides y < 0.1 there, that is y < 0.2 of the line.
   const std::vector views{Level()};
   const Camera camera = TestCamera();
-  const SightTest sees = AroundRectangles({{{2, -2, -2}, {0, 2.1, 0}, {0, 0, 4}}});
+  const SightTest sees = AroundRectangles({{{2, -2, -2}, {0, 2.1, 0}, {0, 0, 4}, {}}});
   const auto seen = LineVisibility(camera, views, sees).Trim(kLine);
   ASSERT_TRUE(seen);
   EXPECT_NEAR(seen->segment.start.y(), 0.2, 0.006);
@@ -95,23 +95,25 @@ TEST(LineVisibility, WhatIsOutsideTheImageIsCutOff) {
 }
 
 TEST(LineVisibility, ShortPiecesDoNotCount) {
-  // Bars 2 m ahead leave gaps of 0.16 m at the line's distance: 16 px. Where two bars are missing
-  // there are 0.56 m: 56 px.
+  // Bars 2 m ahead leave gaps of 0.1 m at the line's distance: 10 px. Where two bars are missing
+  // there are 0.5 m: 50 px.
   std::vector<Surface> bars;
-  for (int i = -10; i <= 10; ++i) bars.push_back({{2, 0.1 * i, -1}, {0, 0.02, 0}, {0, 0, 2}});
+  for (int i = -10; i <= 10; ++i) {
+    bars.push_back({{2, 0.1 * i, -1}, {0, 0.05, 0}, {0, 0, 2}, {}});
+  }
   const std::vector views{Level()};
   const Camera camera = TestCamera();
   const SightTest all = AroundRectangles(bars);
   EXPECT_FALSE(LineVisibility(camera, views, all).Trim(kLine));
-  EXPECT_TRUE(LineVisibility(camera, views, all, {.min_visible_px = 15}).Trim(kLine));
-  EXPECT_FALSE(LineVisibility(camera, views, all, {.min_visible_px = 17}).Trim(kLine));
+  EXPECT_TRUE(LineVisibility(camera, views, all, {.min_visible_px = 9}).Trim(kLine));
+  EXPECT_FALSE(LineVisibility(camera, views, all, {.min_visible_px = 11}).Trim(kLine));
   bars.erase(bars.begin() + 10, bars.begin() + 12);  // at y = 0 and 0.1
   const SightTest some = AroundRectangles(bars);
-  EXPECT_FALSE(LineVisibility(camera, views, some, {.min_visible_px = 57}).Trim(kLine));
-  const auto seen = LineVisibility(camera, views, some, {.min_visible_px = 55}).Trim(kLine);
+  EXPECT_FALSE(LineVisibility(camera, views, some, {.min_visible_px = 51}).Trim(kLine));
+  const auto seen = LineVisibility(camera, views, some, {.min_visible_px = 49}).Trim(kLine);
   ASSERT_TRUE(seen);
-  EXPECT_NEAR(seen->segment.start.y(), 2 * -0.08, 0.006);
-  EXPECT_NEAR(seen->segment.end.y(), 2 * 0.2, 0.006);
+  EXPECT_NEAR(seen->segment.start.y(), -0.1, 0.006);
+  EXPECT_NEAR(seen->segment.end.y(), 0.4, 0.006);
 }
 
 TEST(LineVisibility, LinesBehindTheCameraAreNotSeen) {
