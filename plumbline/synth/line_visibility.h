@@ -6,6 +6,7 @@
 #include "plumbline/geometry/se3.h"
 #include "plumbline/geometry/true_line.h"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -15,10 +16,10 @@
 
 namespace plumbline {
 
-// Whether nothing of the world lies between two points, at a time in seconds. Called from several
+// Whether nothing of the world lies between two points when a frame is taken. Called from several
 // threads.
 using SightTest =
-    std::function<bool(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double time)>;
+    std::function<bool(const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::size_t frame)>;
 
 // Where the camera is in a frame.
 struct TimedView {

@@ -37,7 +37,7 @@ TimedView Level(double time = 0, double yaw = 0) {
 
 // Whether no rectangle stands in the way.
 SightTest AroundRectangles(std::vector<Surface> rectangles) {
-  return [rectangles](const Vector3d& from, const Vector3d& to, double) {
+  return [rectangles](const Vector3d& from, const Vector3d& to, std::size_t) {
     for (const Surface& s : rectangles) {
       const Vector3d normal = s.Normal();
       const double t = normal.dot(s.origin - from) / normal.dot(to - from);
@@ -132,9 +132,9 @@ TEST(LineVisibility, MovingBodiesHideForAWhile) {
   std::vector<TimedView> views;
   for (int i = 0; i < 10; ++i) views.push_back(Level(i));
   const Camera camera = TestCamera();
-  // A screen that stands before the whole line from t = 3 to 5 and before its left half from 6.
-  const SightTest sees = [](const Vector3d&, const Vector3d& to, double time) {
-    return !(time >= 3 && time <= 5) && !(time >= 6 && to.y() > 0);
+  // A screen that stands before the whole line in frames 3 to 5 and before its left half from 6.
+  const SightTest sees = [](const Vector3d&, const Vector3d& to, std::size_t frame) {
+    return !(frame >= 3 && frame <= 5) && !(frame >= 6 && to.y() > 0);
   };
   const auto seen = LineVisibility(camera, views, sees).Trim(kLine);
   ASSERT_TRUE(seen);
@@ -146,8 +146,8 @@ TEST(LineVisibility, FramesAddUpToTheTrimmedLine) {
   // First only the right half is free, later only the left half.
   const std::vector views{Level(0), Level(1), Level(2)};
   const Camera camera = TestCamera();
-  const SightTest sees = [](const Vector3d&, const Vector3d& to, double time) {
-    return time < 0.5 ? to.y() < -0.3 : time > 1.5 && to.y() > 0.2 && to.y() < 0.7;
+  const SightTest sees = [](const Vector3d&, const Vector3d& to, std::size_t frame) {
+    return frame == 0 ? to.y() < -0.3 : frame == 2 && to.y() > 0.2 && to.y() < 0.7;
   };
   const auto seen = LineVisibility(camera, views, sees).Trim(kLine);
   ASSERT_TRUE(seen);
