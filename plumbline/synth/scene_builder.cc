@@ -176,9 +176,9 @@ void SceneBuilder::AddReveals(const WallShape& shape,
   const Vector3d across = shape.thickness * up.cross(u);
   const Vector3d near = shape.start - 0.5 * across + hole.along * u + hole.bottom * up;
   const Vector3d wide = hole.width * u, tall = hole.height * up;
-  AddFace({near, across, tall, Recipe(material, tone)});  // looks along +u
-  AddFace({near + wide + across, -across, tall, Recipe(material, tone)});     // looks along -u
-  AddFace({near + tall, across, wide, Recipe(material, tone)});     // looks down
+  AddFace({near, across, tall, Recipe(material, tone)});                   // looks along +u
+  AddFace({near + wide + across, -across, tall, Recipe(material, tone)});  // looks along -u
+  AddFace({near + tall, across, wide, Recipe(material, tone)});            // looks down
   if (hole.bottom > 0) AddFace({near, wide, across, Recipe(material, tone)});
   for (const Vector3d& side : {Vector3d::Zero().eval(), across}) {
     AddEdge(near + side, near + side + tall);

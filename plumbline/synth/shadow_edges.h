@@ -32,9 +32,9 @@ struct ShadowEdge {
 // remains, every centimetre, rays to the lamp's centre on both sides tell whether there is a border
 // of light; the penumbra is as wide as the lamp looks from the edge, across the border, times the
 // way from edge to surface; the lamp's light is compared with that of all lamps, all on, and 30 %
-// more for what surfaces throw back. Chains become one edge. Curved or blurred borders are none, nor
-// are those that hug the thing that throws them, for they look like a part of its edge.
-// Cost: about 0.1 us for each pair of an outline edge and a surface under a lamp, 5 us for each
+// more for what surfaces throw back. Chains become one edge. Curved or blurred borders are none,
+// nor are those that hug the thing that throws them, for they look like a part of its edge. Cost:
+// about 0.1 us for each pair of an outline edge and a surface under a lamp, 5 us for each
 // centimetre of border; the result does not depend on `threads`.
 std::vector<ShadowEdge> ShadowEdges(const Scene& scene,
                                     std::span<const Segment3> edges,
