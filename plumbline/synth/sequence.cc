@@ -188,6 +188,14 @@ ImuRecording SyntheticSequence::Imu() const {
                    MixBits(options_.seed + kImuStream));
 }
 
+std::vector<TrueLine> SyntheticSequence::Lines(int threads) const {
+  std::vector<TimedView> views;
+  for (int frame = 0; frame < size(); ++frame) {
+    views.push_back({TimeOf(frame), WorldFromLeft(TimeOf(frame))});
+  }
+  return TrueLines(made_.scene, calibration_.left, views, {}, threads);
+}
+
 Rendering SyntheticSequence::RenderIdeal(int frame, int camera) const {
   PLUMBLINE_CHECK(frame >= 0 && frame < size(), "frame of the sequence");
   PLUMBLINE_CHECK(camera == 0 || camera == 1, "camera of the pair");

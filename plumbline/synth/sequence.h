@@ -9,6 +9,7 @@
 #include "plumbline/synth/renderer.h"
 #include "plumbline/synth/sensor.h"
 #include "plumbline/synth/synth_options.h"
+#include "plumbline/synth/true_lines.h"
 #include "plumbline/synth/world.h"
 
 #include <cstdint>
@@ -46,6 +47,8 @@ class SyntheticSequence {
   // the last.
   Trajectory GroundTruth(int per_frame = 1) const;
   ImuRecording Imu() const;
+  // The true lines of the world that the left camera sees, see TrueLines.
+  std::vector<TrueLine> Lines(int threads) const;
 
   // What the ideal sensor sees: camera 0 is the left one.
   Rendering RenderIdeal(int frame, int camera) const;

@@ -46,12 +46,11 @@ Shading::Shading(const Scene& scene,
                        surface.circuit,
                        static_cast<float>(surface.glow)});
   }
-  const Image<float> white(1, 1, 1);
   textures_ = ParallelMap<Texture>(static_cast<int>(planes_.size()), threads, [&](int i) {
     const auto index = static_cast<std::size_t>(i);
     const Surface& surface = scene_.surfaces[index];
     return Texture::Bake(
-        surface.texture, surface.side_u.norm(), surface.side_v.norm(), texels[index], white);
+        surface.texture, surface.side_u.norm(), surface.side_v.norm(), texels[index]);
   });
 }
 

@@ -25,24 +25,9 @@ GrayImage HalfSize(const GrayImage& image) {
   return half;
 }
 
-// Bilinear value at (a, b) in [0, 1]^2 of a grid whose outermost values lie on the border.
-double LightAt(const Image<float>& light, double a, double b) {
-  const double x = a * (light.width() - 1), y = b * (light.height() - 1);
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, light.width() - 1), y1 = std::min(y0 + 1, light.height() - 1);
-  const double ax = x - x0, ay = y - y0;
-  const double top = (1 - ax) * light.at(x0, y0) + ax * light.at(x1, y0);
-  const double bottom = (1 - ax) * light.at(x0, y1) + ax * light.at(x1, y1);
-  return (1 - ay) * top + ay * bottom;
-}
-
 }  // namespace
 
-Texture Texture::Bake(const TextureRecipe& recipe,
-                      double width,
-                      double height,
-                      double texel,
-                      const Image<float>& light) {
+Texture Texture::Bake(const TextureRecipe& recipe, double width, double height, double texel) {
   // Multiples of 16: the first four halvings are then exact and keep the texture in place.
   constexpr int kMultiple = 16;
   const auto cells = [texel](double length) {
@@ -55,8 +40,7 @@ Texture Texture::Bake(const TextureRecipe& recipe,
     for (int x = 0; x < columns; ++x) {
       const double a = (x + 0.5) / columns, b = (y + 0.5) / rows;
       const double value = surface.At(width * a, height * b);
-      base.at(x, y) = static_cast<std::uint8_t>(
-          std::lround(255 * std::clamp(value * LightAt(light, a, b), 0.0, 1.0)));
+      base.at(x, y) = static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
     }
   }
   Texture texture;

@@ -12,14 +12,8 @@ namespace plumbline {
 // A texture sampled on a grid, with a pyramid of halved grids against aliasing.
 class Texture {
  public:
-  // Samples a recipe on a grid of cells of about `texel` metres. `light` spans the surface from
-  // corner to corner and multiplies the reflectance, linear between its values (1 x 1: the same
-  // everywhere). Cost: about 0.2 us per texel.
-  static Texture Bake(const TextureRecipe& recipe,
-                      double width,
-                      double height,
-                      double texel,
-                      const Image<float>& light);
+  // Samples a recipe on a grid of cells of about `texel` metres. Cost: about 0.2 us per texel.
+  static Texture Bake(const TextureRecipe& recipe, double width, double height, double texel);
 
   // Value 0-255 at (u, v) in [0, 1] x [0, 1], bilinear between the four nearest texels of a level;
   // clamped at the border.

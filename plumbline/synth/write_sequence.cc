@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/true_world.h"
 #include "plumbline/synth/sequence_formats.h"
 
 #include <iomanip>
@@ -12,6 +13,7 @@
 #include <mutex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace plumbline {
 namespace {
@@ -55,6 +57,14 @@ void ClearFolder(const fs::path& folder) {
     if (error)
       throw InputError("cannot remove " + (folder / name).string() + ": " + error.message());
   }
+}
+
+std::vector<Parallelogram> StillSurfaces(const Scene& scene) {
+  std::vector<Parallelogram> still;
+  for (const Surface& surface : scene.surfaces) {
+    if (!surface.body) still.push_back({surface.origin, surface.side_u, surface.side_v});
+  }
+  return still;
 }
 
 }  // namespace
@@ -102,6 +112,8 @@ void WriteSequence(const SyntheticSequence& sequence,
       WriteTumFolder(sequence, folder, threads, done);
       break;
   }
+  WriteTrueLines(folder / "lines.csv", sequence.Lines(threads));
+  WriteSurfaces(folder / "surfaces.csv", StillSurfaces(sequence.scene()));
   WriteFileAtomically(folder / kWorldFile, description);
   fs::remove(folder / kPartFile);
 }

@@ -82,27 +82,22 @@ TEST(Texture, SeedsMakeDifferentSurfaces) {
   }
 }
 
-TEST(Texture, SamplesAreTheRecipeTimesTheLight) {
+TEST(Texture, SamplesAreTheRecipe) {
   const TextureRecipe recipe{Material::kPlaster, 0.9, 5, 0};
   constexpr double kSize = 0.48;
-  Image<float> light(2, 1);
-  light.at(0, 0) = 0.2F;
-  light.at(1, 0) = 1.0F;
-  const Texture texture = Texture::Bake(recipe, kSize, kSize, 0.01, light);
+  const Texture texture = Texture::Bake(recipe, kSize, kSize, 0.01);
   ASSERT_EQ(texture.width(), 48);
   for (int y = 0; y < texture.height(); ++y) {
     for (int x = 0; x < texture.width(); ++x) {
       const double a = (x + 0.5) / 48, b = (y + 0.5) / 48;
-      const double expected =
-          255 * (0.2 + 0.8 * a) * EvaluateTexture(recipe, kSize * a, kSize * b, kSize, kSize);
+      const double expected = 255 * EvaluateTexture(recipe, kSize * a, kSize * b, kSize, kSize);
       EXPECT_NEAR(texture.Sample(static_cast<float>(a), static_cast<float>(b), 0), expected, 0.51);
     }
   }
 }
 
 TEST(Texture, HalvedLevelsStayInPlace) {
-  const Image<float> light(1, 1, 1.0F);
-  const Texture texture = Texture::Bake({Material::kPoster, 0.9, 5, 0}, 0.64, 0.32, 0.01, light);
+  const Texture texture = Texture::Bake({Material::kPoster, 0.9, 5, 0}, 0.64, 0.32, 0.01);
   ASSERT_EQ(texture.width(), 64);
   for (int y = 0; y < texture.height() / 2; ++y) {
     for (int x = 0; x < texture.width() / 2; ++x) {
