@@ -45,7 +45,8 @@ CommandSyntax Syntax() {
        {"--surfaces", "FILE", "surfaces of the true world (surfaces.csv of REFERENCE)"},
        {"--align-lines",
         "trajectory|poses",
-        "lines move as the trajectory, or are then turned to fit poses (trajectory)"},
+        "lines move as the trajectory, or are then turned to fit poses (poses; with --align none: "
+        "trajectory)"},
        {"--plot-lines", "FILE", "draw true and estimated lines, .svg or .png"}}};
 }
 
@@ -119,6 +120,8 @@ void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
   const auto plot = line.Value("--plot-lines");
   if (const auto text = line.Value("--align-lines")) {
     evaluation.line_alignment = ParseChoice<LineAlignment>("--align-lines", *text);
+  } else if (evaluation.options.alignment == TrajectoryAlignment::kNone) {
+    evaluation.line_alignment = LineAlignment::kTrajectory;  // nothing is to be moved
   }
   if (!input) {
     if (!plot) return;

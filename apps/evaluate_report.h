@@ -32,7 +32,7 @@ struct Evaluation {
   TrajectoryError error;
   // Images that the run was given; nullopt where nothing beside the trajectories tells.
   std::optional<std::size_t> frames_delivered;
-  LineAlignment line_alignment = LineAlignment::kTrajectory;
+  LineAlignment line_alignment = LineAlignment::kPoses;
   LineMapErrorOptions line_options;
   std::optional<LineMapError> lines;  // nullopt where no lines were compared
 };

@@ -208,11 +208,11 @@ struct LineRun {
   }
 };
 
-TEST(EvaluateLines, MovesTheLinesOfARunAsItsTrajectory) {
+TEST(EvaluateLines, PutsTheLinesOfARunWhereItsPosesAre) {
   const LineRun run;
   const std::string text = run.Evaluate({});
   EXPECT_THAT(text,
-              HasSubstr("lines       3 segments, 6.0 m, aligned by trajectory\n"
+              HasSubstr("lines       3 segments, 6.0 m, aligned by poses\n"
                         "true lines  3, 6.0 m; asked for 2, 4.0 m (seen in 3 frames or"));
   EXPECT_THAT(text,
               HasSubstr("within [cm]                  1         2         5        10\n"
@@ -241,7 +241,7 @@ TEST(EvaluateLines, TakeTheScaleOfTheAlignment) {
 }
 
 // Positions that are a little off turn a short path far around; its orientations tell better.
-TEST(EvaluateLines, MayBeAlignedByPoses) {
+TEST(EvaluateLines, AreAlignedByPoses) {
   const LineRun run;
   Trajectory poses = LoadReference(run.sequence, std::nullopt).poses;
   for (StampedPose& pose : poses) pose.world_from_camera.translation *= 0.01;
@@ -249,8 +249,9 @@ TEST(EvaluateLines, MayBeAlignedByPoses) {
   poses[2].world_from_camera.translation.z() += 0.002;
   WriteTum(run.run / "trajectory.txt", poses);
   WriteObjLines(run.run / "lines.obj", std::vector<Segment3>{{{0, 0, 1}, {2, 0, 1}}});
-  EXPECT_THAT(run.Evaluate({}), HasSubstr("precision [%]              0.0"));
-  const std::string text = run.Evaluate({"--align-lines", "poses"});
+  EXPECT_THAT(run.Evaluate({"--align-lines", "trajectory"}),
+              HasSubstr("precision [%]              0.0"));
+  const std::string text = run.Evaluate({});
   EXPECT_THAT(text, HasSubstr("precision [%]            100.0"));
   EXPECT_THAT(text, HasSubstr("\"alignment\": \"poses\""));
 }

@@ -18,7 +18,7 @@ TEST(LineMap, LinesOfARunLieOnThoseOfTheRenderedRoom) {
   for (const std::string& command :
        {"synth room --set frames=4 --set texel=0.02 --out " + room,
         "run " + room + " --quiet --out " + run,
-        "evaluate " + room + " " + run + " --align-lines poses --json " +
+        "evaluate " + room + " " + run + " --json " +
             Quoted(folder / "errors.json")}) {
     const Outcome outcome = RunProgram(folder, command);
     ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
