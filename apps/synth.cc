@@ -80,6 +80,7 @@ int SynthCommand(std::span<const std::string> arguments) {
   }
   const auto folder = line.Value("--out");
   if (!folder) throw InputError("synth: expected --out DIR");
+  PrepareSequenceFolder(*folder);
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const SyntheticSequence sequence(name, options, threads);
   Countdown progress("frames", static_cast<std::size_t>(sequence.size()));

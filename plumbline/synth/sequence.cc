@@ -20,6 +20,17 @@ constexpr std::int64_t kFirstStampNs = 1'500'000'000'000'000'000;
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::uint64_t kNoiseStream = 0x5EED0F0015EULL, kDepthStream = 0xDE97, kImuStream = 0x1A5;
 
+// Options that do not contradict each other.
+const SynthOptions& Checked(const SynthOptions& options) {
+  const double frame_ms = 1000 / options.rate_hz;
+  if (options.shutter_ms + options.readout_ms > frame_ms) {
+    throw InputError("shutter_ms + readout_ms: expected at most the " + std::to_string(frame_ms) +
+                     " ms between two frames, found " +
+                     std::to_string(options.shutter_ms + options.readout_ms));
+  }
+  return options;
+}
+
 CameraIntrinsics Scaled(CameraIntrinsics k, double scale) {
   k.fx *= scale;
   k.fy *= scale;
@@ -137,19 +148,13 @@ SyntheticSequence::SyntheticSequence(std::string_view world,
                                      const SynthOptions& options,
                                      int threads)
     : world_(FindWorld(world).name),
-      options_(options),
+      options_(Checked(options)),
       calibration_(MakeCalibration(options)),
       made_(MakeWorld(world, options)),
       frames_(CountFrames(made_.path, options)),
       renderer_(made_.scene, MakeRendererOptions(made_, options, frames_, threads)),
       left_rays_(calibration_.left),
       right_rays_(*calibration_.right) {
-  const double frame_ms = 1000 / options.rate_hz;
-  if (options.shutter_ms + options.readout_ms > frame_ms) {
-    throw InputError("shutter_ms + readout_ms: expected at most the " + std::to_string(frame_ms) +
-                     " ms between two frames, found " +
-                     std::to_string(options.shutter_ms + options.readout_ms));
-  }
   if (options.auto_exposure) gains_ = FindGains(threads);
 }
 

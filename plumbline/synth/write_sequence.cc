@@ -88,13 +88,18 @@ std::string ImuCsv(const SyntheticSequence& sequence, const std::vector<ImuSampl
   return text.str();
 }
 
+void PrepareSequenceFolder(const fs::path& folder) {
+  ClearFolder(folder);
+  MakeFolder(folder);
+  WriteFileAtomically(folder / kPartFile, "");
+}
+
 void WriteSequence(const SyntheticSequence& sequence,
                    SequenceFormat format,
                    const fs::path& folder,
                    int threads,
                    const std::function<void(int)>& progress) {
-  ClearFolder(folder);
-  MakeFolder(folder);
+  PrepareSequenceFolder(folder);
   const std::string description = WorldYaml(sequence, format);
   WriteFileAtomically(folder / kPartFile, description);
   std::mutex mutex;

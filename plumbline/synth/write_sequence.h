@@ -23,14 +23,18 @@ constexpr auto EnumNames(std::type_identity<SequenceFormat>) {
                     std::pair{SequenceFormat::kTum, "tum"}};
 }
 
+// Makes a folder ready to be written to: it is made where it is missing, a rendered sequence in it,
+// whole or not, is removed. Throws InputError when it holds anything else or cannot be written to.
+// WriteSequence does this first; called before the work of preparing a sequence, it saves the wait.
+void PrepareSequenceFolder(const std::filesystem::path& folder);
+
 // Writes a sequence as the folder of a data set. Beside what the format has: `lines.csv` (the true
 // lines, see TrueLines), `surfaces.csv` (all that stands still) and `world.yaml` (world, format and
 // options), which is written last: a folder with it is whole. `progress`, where given, is called
 // after each frame with the number of frames done, one call at a time. The bytes written depend on
 // neither the machine's load nor `threads`.
 //
-// A folder that holds a rendered sequence, whole or not, is cleared first. Throws InputError when
-// the folder holds anything else, or a file cannot be written.
+// Throws InputError as PrepareSequenceFolder does, and when a file cannot be written.
 void WriteSequence(const SyntheticSequence& sequence,
                    SequenceFormat format,
                    const std::filesystem::path& folder,
