@@ -17,12 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 DatasetFormat DetectFormat(const fs::path& path) {
-  std::error_code error;
-  const auto has = [&](const char* name) { return fs::exists(path / name, error); };
-  if (has("mav0") || has("cam0")) return DatasetFormat::kEuroc;
-  if (has("rgb.txt")) return DatasetFormat::kTum;
-  if (has("image_0") || has("calib.txt")) return DatasetFormat::kKitti;
-  if (!ListImages(path).empty()) return DatasetFormat::kImages;
+  if (const std::optional<DatasetFormat> format = FindFormat(path)) return *format;
   throw InputError(path.string() +
                    ": expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
                    "sequence (image_0/, calib.txt) or a folder of images, found none of them");
@@ -39,6 +34,16 @@ Trajectory GroundTruth::OfCamera(const Calibration& calibration) const {
     pose.world_from_camera = pose.world_from_camera * *calibration.body_from_left;
   }
   return camera;
+}
+
+std::optional<DatasetFormat> FindFormat(const fs::path& path) {
+  std::error_code error;
+  const auto has = [&](const char* name) { return fs::exists(path / name, error); };
+  if (has("mav0") || has("cam0")) return DatasetFormat::kEuroc;
+  if (has("rgb.txt")) return DatasetFormat::kTum;
+  if (has("image_0") || has("calib.txt")) return DatasetFormat::kKitti;
+  if (!ListImages(path).empty()) return DatasetFormat::kImages;
+  return std::nullopt;
 }
 
 std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {

@@ -97,6 +97,10 @@ struct DatasetOptions {
   bool allow_missing_camera = false;
 };
 
+// How the recorded sequence in a folder is stored, from the names in it; nullopt where there is
+// none.
+std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
+
 // Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and
 // calib.txt) or a folder of images, and reads its lists, calibration and ground truth, not its
 // images. Throws InputError naming file and line for what is missing or malformed, and where the

@@ -44,6 +44,15 @@ Json Accuracy(const TrajectoryError& error, SensorKind sensor, const RunCounts& 
   return json;
 }
 
+std::optional<TrajectoryError> Compare(const Trajectory& estimate, const Dataset& dataset) {
+  if (!dataset.info().ground_truth) return std::nullopt;
+  TrajectoryErrorOptions options;
+  if (dataset.sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
+  if (dataset.info().format == DatasetFormat::kKitti) options.max_gap_ns = kKittiGapNs;
+  return CompareTrajectories(
+      dataset.info().ground_truth->OfCamera(dataset.calibration()), estimate, options);
+}
+
 Json Timing(const std::vector<FrameRecord>& frames) {
   Json json;
   for (const StageStatistics& s : TimingStatistics(frames)) {
@@ -108,13 +117,7 @@ RunCounts CountRun(const System& system) {
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
                                                       const Dataset& dataset,
                                                       MapId map) {
-  if (!dataset.info().ground_truth) return std::nullopt;
-  TrajectoryErrorOptions options;
-  if (dataset.sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
-  if (dataset.info().format == DatasetFormat::kKitti) options.max_gap_ns = kKittiGapNs;
-  return CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
-                             system.FinalTrajectory(map),
-                             options);
+  return Compare(system.FinalTrajectory(map), dataset);
 }
 
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
@@ -147,6 +150,9 @@ std::string FormatSummary(const RunDescription& description,
   json["loops"] = 0;
   const auto error = CompareWithGroundTruth(system, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts) : Json(nullptr);
+  const auto main = system.MainMap();
+  const auto causal = main ? Compare(system.CausalTrajectory(*main), dataset) : std::nullopt;
+  json["accuracy_causal"] = causal ? Accuracy(*causal, dataset.sensor(), counts) : Json(nullptr);
   json["timing"] = Timing(system.frames());
   json["first_pose_seconds"] =
       resources.first_pose_seconds ? Json(*resources.first_pose_seconds) : Json(nullptr);

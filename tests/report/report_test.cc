@@ -157,6 +157,9 @@ TEST(Summary, HoldsTheFieldsOfTheInterface) {
   EXPECT_EQ(accuracy["ate"]["unit"], "m");
   EXPECT_LT(accuracy["ate"]["rmse"], 0.01);
   EXPECT_FALSE(accuracy.contains("rpe"));  // shorter than the window
+  const auto& causal = json["accuracy_causal"];
+  EXPECT_EQ(causal["associated"], 4);
+  EXPECT_LT(causal["ate"]["rmse"], 0.02);
   for (const char* key : {"median_ms", "p95_ms", "p99_ms"}) {
     EXPECT_GT(json["timing"]["total"][key], 0) << key;
   }
@@ -167,6 +170,7 @@ TEST(Summary, SaysNullWithoutGroundTruth) {
   const auto json =
       nlohmann::json::parse(FormatSummary({}, run.system(), PosterDataset(6, false), {}));
   EXPECT_TRUE(json["accuracy"].is_null());
+  EXPECT_TRUE(json["accuracy_causal"].is_null());
 }
 
 TEST(RunFiles, AreAllThereAndComplete) {
