@@ -6,6 +6,8 @@
 #include "plumbline/base/nearest_name.h"
 
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 
 namespace plumbline {
 namespace {
@@ -84,6 +86,18 @@ std::optional<std::string> CommandLine::Value(std::string_view option) const {
 std::vector<std::string> CommandLine::Values(std::string_view option) const {
   const auto found = values_.find(option);
   return found == values_.end() ? std::vector<std::string>{} : found->second;
+}
+
+int CommandLine::Count(std::string_view option, int fallback, int min) const {
+  const auto text = Value(option);
+  if (!text) return fallback;
+  int value = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc() || end != text->data() + text->size() || value < min) {
+    throw InputError(std::string(option) + ": expected a whole number of at least " +
+                     std::to_string(min) + ", found " + *text);
+  }
+  return value;
 }
 
 const std::string& CommandLine::Positional(std::size_t index) const {

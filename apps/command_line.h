@@ -45,6 +45,9 @@ class CommandLine {
   std::optional<std::string> Value(std::string_view option) const;
   // All values given, in order, for options that may be repeated.
   std::vector<std::string> Values(std::string_view option) const;
+  // A whole number of at least `min`, or `fallback` where the option is not given. Throws
+  // InputError for anything else.
+  int Count(std::string_view option, int fallback, int min) const;
   // Empty when a positional argument that may be left out is.
   const std::string& Positional(std::size_t index) const;
 

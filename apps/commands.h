@@ -13,6 +13,7 @@ namespace plumbline {
 // main.cc.
 int ConfigCommand(std::span<const std::string> arguments);
 int EvaluateCommand(std::span<const std::string> arguments);
+int ExperimentCommand(std::span<const std::string> arguments);
 int InfoCommand(std::span<const std::string> arguments);
 int RunCommand(std::span<const std::string> arguments);
 int SynthCommand(std::span<const std::string> arguments);

@@ -30,6 +30,7 @@ constexpr std::array kCommands = {
     Command{"run", RunCommand, "track the camera through a sequence and map what it sees"},
     Command{"evaluate", EvaluateCommand, "errors of a trajectory against ground truth"},
     Command{"synth", SynthCommand, "render a stereo sequence of an invented world"},
+    Command{"experiment", ExperimentCommand, "make the tables and plots of an experiment"},
     Command{"info", InfoCommand, "what is at a path: format, sensors, frames, calibration"},
     Command{"config", ConfigCommand, "all options with values and help, as a config file"},
 };
@@ -49,9 +50,9 @@ void PrintHelp(std::ostream& out) {
   out << "plumbline " PLUMBLINE_VERSION ": visual SLAM with points and straight lines\n\n"
       << "usage: plumbline COMMAND [arguments]\n\n";
   for (const Command& command : kCommands) {
-    out << "  " << std::left << std::setw(10) << command.name << command.help << "\n";
+    out << "  " << std::left << std::setw(12) << command.name << command.help << "\n";
   }
-  out << "  " << std::setw(10) << "help"
+  out << "  " << std::setw(12) << "help"
       << "this text; `plumbline COMMAND --help` for a command\n";
 }
 

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <iostream>
-#include <utility>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace plumbline {
@@ -23,43 +23,54 @@ std::string Bar(std::size_t done, std::size_t total) {
   return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] ";
 }
 
-}  // namespace
-
-Countdown::Countdown(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), terminal_(isatty(2) != 0) {}
-
-void Countdown::Show(std::size_t done, const std::string& note) {
-  const auto now = Clock::now();
-  const bool last = done == total_;
-  const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
-  if (!last && now - shown_ < interval) return;
-  shown_ = now;
-  const double seconds = std::chrono::duration<double>(now - start_).count();
-  const double per_second = static_cast<double>(done) / std::max(seconds, 1e-9);
-  const double left = static_cast<double>(total_ - done) / std::max(per_second, 1e-9);
-  const std::string text = fmt::format("{}{}/{} {}  {:.1f} per second  {}ETA {:.0f} s",
-                                       terminal_ ? Bar(done, total_) : std::string(),
-                                       done,
-                                       total_,
-                                       what_,
-                                       per_second,
-                                       note.empty() ? "" : note + "  ",
-                                       left);
-  std::cerr << (terminal_ ? '\r' + text + "   " + (last ? "\n" : "") : text + '\n') << std::flush;
+// Cut where the terminal ends, since a line that wraps cannot be written over; padded to cover
+// what was there before.
+std::string OneLine(const std::string& text) {
+  winsize window{};
+  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;
+  std::string line = text;
+  line.resize(known ? window.ws_col - 1U : std::max<std::size_t>(text.size(), 100), ' ');
+  return line;
 }
 
-Progress::Progress(std::size_t total, bool quiet)
-    : quiet_(quiet), terminal_(isatty(2) != 0), countdown_("frames", total) {}
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::Show(std::size_t done, std::size_t total, const std::string& text) {
+  const auto now = Clock::now();
+  const bool last = done == total;
+  const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
+  if (quiet_ || (!last && now - shown_ < interval)) return;
+  shown_ = now;
+  std::cerr << (terminal_ ? '\r' + OneLine(Bar(done, total) + text) + (last ? "\n" : "")
+                          : text + '\n')
+            << std::flush;
+}
+
+void ProgressLine::Say(const std::string& message) const {
+  std::cerr << (terminal_ ? "\n" : "") + ("plumbline: " + message + '\n');
+}
+
+void Countdown::Show(std::size_t done, const std::string& note) {
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double per_second = static_cast<double>(done) / std::max(seconds, 1e-9);
+  const double left = static_cast<double>(total_ - done) / std::max(per_second, 1e-9);
+  line_.Show(done,
+             total_,
+             fmt::format("{}/{} {}  {:.1f} per second  {}ETA {:.0f} s",
+                         done,
+                         total_,
+                         what_,
+                         per_second,
+                         note.empty() ? "" : note + "  ",
+                         left));
+}
 
 void Progress::Show(const FrameRecord& frame) {
   keyframes_ += frame.keyframe;
-  if (quiet_) return;
   countdown_.Show(static_cast<std::size_t>(frame.id.value) + 1,
                   fmt::format("{}  {} keyframes", NameOf(frame.status), keyframes_));
-}
-
-void Progress::Say(const std::string& message) const {
-  std::cerr << (terminal_ ? "\n" : "") + ("plumbline: " + message + '\n');
 }
 
 }  // namespace plumbline

@@ -7,43 +7,64 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace plumbline {
 
-// Shows on stderr how far a job of many equal parts is, with the time left: a bar on a terminal, a
-// line every few seconds elsewhere. Not for use from several threads at once.
+// Says on stderr how far something is: a bar on a terminal, a line every few seconds elsewhere.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+
+  // May be called as often as one likes; the end, done == total, is always shown.
+  void Show(std::size_t done, std::size_t total, const std::string& text);
+
+  // A message between two lines of progress. May come from another thread than Show.
+  void Say(const std::string& message) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool quiet_;
+  bool terminal_;
+  Clock::time_point shown_ = Clock::now();
+};
+
+// The same for a job of many equal parts, with the time left. Not for use from several threads at
+// once.
 class Countdown {
  public:
   // `what` are the parts, in the plural.
-  Countdown(std::string what, std::size_t total);
+  Countdown(std::string what, std::size_t total, bool quiet = false)
+      : what_(std::move(what)), total_(total), line_(quiet) {}
 
   // After each part; `note` is added to the line.
   void Show(std::size_t done, const std::string& note = {});
+
+  // As of ProgressLine.
+  void Say(const std::string& message) const { line_.Say(message); }
 
  private:
   using Clock = std::chrono::steady_clock;
 
   std::string what_;
   std::size_t total_;
-  bool terminal_;
+  ProgressLine line_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_ = start_;
 };
 
-// Shows on stderr how far a run is: a bar on a terminal, a line every few seconds elsewhere.
+// Shows how far a run is.
 class Progress {
  public:
-  Progress(std::size_t total, bool quiet);
+  Progress(std::size_t total, bool quiet) : countdown_("frames", total, quiet) {}
 
   // After each frame.
   void Show(const FrameRecord& frame);
 
-  // A message between two lines of progress. May come from another thread than Show.
-  void Say(const std::string& message) const;
+  // As of ProgressLine.
+  void Say(const std::string& message) const { countdown_.Say(message); }
 
  private:
-  bool quiet_;
-  bool terminal_;
   std::size_t keyframes_ = 0;
   Countdown countdown_;
 };

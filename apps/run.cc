@@ -13,10 +13,9 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/progress.h"
+#include "apps/stop_signal.h"
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -57,29 +56,13 @@ CommandSyntax Syntax() {
            {"--quiet", "", "print nothing but errors"}}};
 }
 
-// Set by SIGINT and SIGTERM: the run ends early and writes everything.
-volatile std::sig_atomic_t stop_requested = 0;
-extern "C" void RequestStop(int) { stop_requested = 1; }
-
-int ParseCount(const CommandLine& line, const std::string& option, int fallback, int min) {
-  const auto text = line.Value(option);
-  if (!text) return fallback;
-  int value = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc() || end != text->data() + text->size() || value < min) {
-    throw InputError(
-        fmt::format("{}: expected a whole number of at least {}, found {}", option, min, *text));
-  }
-  return value;
-}
-
 // The frames to process, by index in the data set.
 std::vector<std::size_t> ChooseFrames(const CommandLine& line, const Dataset& dataset) {
-  const auto from = static_cast<std::size_t>(ParseCount(line, "--from", 0, 0));
-  const auto stride = static_cast<std::size_t>(ParseCount(line, "--stride", 1, 1));
-  const auto to = std::min(
-      dataset.size(),
-      static_cast<std::size_t>(ParseCount(line, "--to", std::numeric_limits<int>::max(), 1)));
+  const auto from = static_cast<std::size_t>(line.Count("--from", 0, 0));
+  const auto stride = static_cast<std::size_t>(line.Count("--stride", 1, 1));
+  const auto to =
+      std::min(dataset.size(),
+               static_cast<std::size_t>(line.Count("--to", std::numeric_limits<int>::max(), 1)));
   if (from >= to) {
     throw InputError(fmt::format(
         "--from {}: the sequence has {} frames, and --to is {}", from, dataset.size(), to));
@@ -106,7 +89,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   if (const auto seed = line.Value("--seed")) table.Set("slam.seed=" + *seed);
   setup.options_yaml = table.Dump();
   setup.folder = line.Value("--out").value_or("plumbline_run");
-  setup.blur = ParseCount(line, "--blur", 0, 1);
+  setup.blur = line.Count("--blur", 0, 1);
   setup.quiet = line.Has("--quiet");
   return setup;
 }
@@ -186,7 +169,7 @@ void FeedFrames(const Dataset& dataset,
                 const Progress& progress,
                 Pipeline& pipeline) {
   Player player(setup.options.slam.mode);
-  for (std::size_t k = 0; k < frames.size() && stop_requested == 0; ++k) {
+  for (std::size_t k = 0; k < frames.size() && !StopRequested(); ++k) {
     auto frame = dataset.Read(frames[k]);
     const std::int64_t stamp_ns = dataset.stamp_ns(frames[k]);
     player.WaitFor(stamp_ns - dataset.stamp_ns(frames[0]));
@@ -290,8 +273,7 @@ int RunCommand(std::span<const std::string> arguments) {
     for (const std::string& note : dataset->info().notes)
       std::cerr << "plumbline: " << note << '\n';
   }
-  std::signal(SIGINT, RequestStop);
-  std::signal(SIGTERM, RequestStop);
+  CatchStopSignals();
   System system(dataset->calibration(), setup.options);
   KeptViews views(frames);
   const Progressed progressed = ProcessFrames(*dataset, frames, setup, system, views);

@@ -27,6 +27,7 @@ LAYERS = {
     "synth": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
+    "experiments": ["base", "geometry", "io", "slam", "synth", "eval"],
 }
 # third-party prefix -> the files of plumbline/ that may include it (regular expression). Headers are
 # left out but for three, so that nobody needs more than Eigen and fmt to include the library.
@@ -38,7 +39,7 @@ THIRD_PARTY = {
     "fmt/": r"base/log\.h|\w+/\w+\.cc",
     "gmock/": None,
     "gtest/": None,
-    "nlohmann/": r"(io|eval|report)/\w+\.cc",
+    "nlohmann/": r"(io|eval|report|experiments)/\w+\.cc",
     "opencv2/": r"image/opencv_bridge\.h|(image|features|io|report)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
     "yaml-cpp/": r"(base|io)/\w+\.cc",

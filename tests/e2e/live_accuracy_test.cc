@@ -5,7 +5,7 @@
 namespace plumbline {
 namespace {
 
-// How many frames are dropped is up to the machine: tools/benchmark_sequences.py tells. With few,
+// How many frames are dropped is up to the machine: plumbline experiment tells. With few,
 // none may be lost, and the error must hold for those tracked.
 void CheckLive(const Gate& gate) {
   const auto data = FindData(gate.sequence);

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/experiments/metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+using Json = nlohmann::json;
+
+// Where a metric stands in summary.json: value = factor * number [/ divisor].
+struct Source {
+  const char* number;
+  double factor = 1;
+  const char* divisor = nullptr;
+};
+
+struct Entry {
+  Metric metric;
+  Source source;
+};
+
+constexpr Better kLower = Better::kLower, kHigher = Better::kHigher, kNeither = Better::kNeither;
+constexpr bool kTiming = true;
+
+constexpr std::array kEntries = {
+    Entry{{"ate",
+           "mm",
+           "position error, RMSE after alignment, of the final trajectory",
+           kLower,
+           false,
+           2},
+          {"/accuracy/ate/rmse", 1000}},
+    Entry{{"ate_causal", "mm", "the same of the poses as first reported", kLower, false, 2},
+          {"/accuracy_causal/ate/rmse", 1000}},
+    Entry{{"coverage", "%", "frames with a pose of frames delivered", kHigher, false, 1},
+          {"/frames/tracked", 100, "/frames/in"}},
+    Entry{{"rpe_mean", "m/s", "error of relative positions over 3 s, mean", kLower, false, 5},
+          {"/accuracy/rpe/mean"}},
+    Entry{{"rpe_rmse", "m/s", "error of relative positions over 3 s, RMSE", kLower, false, 5},
+          {"/accuracy/rpe/rmse"}},
+    Entry{{"roe_mean", "deg/s", "error of relative orientations over 3 s, mean", kLower, false, 4},
+          {"/accuracy/roe/mean"}},
+    Entry{{"roe_rmse", "deg/s", "error of relative orientations over 3 s, RMSE", kLower, false, 4},
+          {"/accuracy/roe/rmse"}},
+    Entry{{"rpe_causal_mean", "m/s", "rpe_mean of the poses as first reported", kLower, false, 5},
+          {"/accuracy_causal/rpe/mean"}},
+    Entry{{"rpe_causal_rmse", "m/s", "rpe_rmse of the poses as first reported", kLower, false, 5},
+          {"/accuracy_causal/rpe/rmse"}},
+    Entry{{"roe_causal_mean", "deg/s", "roe_mean of the poses as first reported", kLower, false, 4},
+          {"/accuracy_causal/roe/mean"}},
+    Entry{{"roe_causal_rmse", "deg/s", "roe_rmse of the poses as first reported", kLower, false, 4},
+          {"/accuracy_causal/roe/rmse"}},
+    Entry{{"tracked", "frames", "frames with a pose", kHigher}, {"/frames/tracked"}},
+    Entry{{"lost", "frames", "frames without a pose after the first map", kLower},
+          {"/frames/lost"}},
+    Entry{{"skipped", "frames", "frames whose images could not be used"}, {"/frames/skipped"}},
+    Entry{{"initializing", "frames", "frames before the first map"}, {"/frames/initializing"}},
+    Entry{{"maps", "", "maps begun", kLower}, {"/maps"}},
+    Entry{{"keyframes", "", "keyframes of the largest map"}, {"/keyframes"}},
+    Entry{{"points", "", "points of the largest map"}, {"/points"}},
+    Entry{{"lines", "", "lines of the largest map"}, {"/lines"}},
+    Entry{{"fps",
+           "1/s",
+           "frames a second over the whole run, reading and writing included",
+           kHigher,
+           kTiming,
+           1},
+          {"/frames/in", 1, "/wall_seconds"}},
+    Entry{{"frame_ms", "ms", "from a frame's arrival to its pose, median", kLower, kTiming, 1},
+          {"/timing/total/median_ms"}},
+    Entry{{"frame_p95_ms",
+           "ms",
+           "from a frame's arrival to its pose, 95th percentile",
+           kLower,
+           kTiming,
+           1},
+          {"/timing/total/p95_ms"}},
+    Entry{{"cpu_ms",
+           "ms",
+           "processor time a frame, decoding and mapping included",
+           kLower,
+           kTiming,
+           1},
+          {"/cpu_seconds", 1000, "/frames/in"}},
+    Entry{{"first_pose_s",
+           "s",
+           "from the start of the program to the first pose",
+           kLower,
+           kTiming,
+           2},
+          {"/first_pose_seconds"}},
+    Entry{{"wall_s", "s", "the whole run", kLower, kTiming, 1}, {"/wall_seconds"}},
+    Entry{{"memory_mb", "MB", "peak memory", kLower, kTiming}, {"/peak_memory_mb"}},
+    Entry{{"dropped", "frames", "frames that a live run had no time for", kLower, kTiming},
+          {"/frames/dropped"}},
+};
+
+constexpr auto kMetrics = [] {
+  std::array<Metric, kEntries.size()> metrics;
+  for (std::size_t i = 0; i < metrics.size(); ++i) metrics[i] = kEntries[i].metric;
+  return metrics;
+}();
+
+std::optional<std::string> ReadText(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::optional<double> NumberAt(const Json& summary, const char* where) {
+  const Json::json_pointer pointer(where);
+  if (!summary.contains(pointer) || !summary[pointer].is_number()) return std::nullopt;
+  return summary[pointer].get<double>();
+}
+
+std::optional<double> Evaluate(const Json& summary, const Source& source) {
+  const auto number = NumberAt(summary, source.number);
+  if (!number || source.divisor == nullptr) {
+    return number ? std::optional(source.factor * *number) : std::nullopt;
+  }
+  const auto divisor = NumberAt(summary, source.divisor);
+  if (!divisor || *divisor <= 0) return std::nullopt;
+  return source.factor * *number / *divisor;
+}
+
+std::string WhyMissing(const Json& summary, std::string_view number) {
+  if (NumberAt(summary, "/frames/tracked").value_or(0) == 0) return "no frame has a pose";
+  if (!number.starts_with("/accuracy")) return "not measured";
+  const std::string part(number.substr(1, number.find('/', 1) - 1));
+  if (!summary.contains(part) || summary[part].is_null()) return "no ground truth of any pose";
+  return "no two poses are 3 s apart";
+}
+
+}  // namespace
+
+std::span<const Metric> Metrics() { return kMetrics; }
+
+const Metric* FindMetric(std::string_view name) {
+  const auto found = std::find_if(
+      kMetrics.begin(), kMetrics.end(), [name](const Metric& m) { return m.name == name; });
+  return found == kMetrics.end() ? nullptr : &*found;
+}
+
+std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
+  const auto text = ReadText(folder / "summary.json");
+  if (!text) return std::nullopt;
+  const Json summary = Json::parse(*text, nullptr, false);
+  if (!summary.is_object()) return std::nullopt;
+  RunFigures figures;
+  for (const Entry& entry : kEntries) {
+    const std::string name(entry.metric.name);
+    if (const auto value = Evaluate(summary, entry.source)) {
+      figures.values[name] = *value;
+    } else {
+      figures.reasons[name] = WhyMissing(summary, entry.source.number);
+    }
+  }
+  figures.trajectory = ReadText(folder / "trajectory.txt").value_or("");
+  return figures;
+}
+
+}  // namespace plumbline

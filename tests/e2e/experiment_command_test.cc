@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/e2e/poster_sequence.h"
+#include "tests/e2e/program.h"
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+// data/euroc/poster, a sequence of 12 frames.
+fs::path WriteData(const ScratchFolder& folder) {
+  fs::create_directories(folder / "data/euroc");
+  fs::rename(WritePosterSequence(folder, 12), folder / "data/euroc/poster");
+  return folder / "data/euroc/poster";
+}
+
+Outcome RunExperiment(const ScratchFolder& folder,
+                      const std::string& more,
+                      const char* out = "out") {
+  return RunProgram(folder,
+                    "experiment sensors --data " + Quoted(folder / "data") + " --out " +
+                        Quoted(folder / out) + " " + more);
+}
+
+TEST(ExperimentCommand, ListsWhatThereIsAndWhatItWouldDo) {
+  const ScratchFolder folder;
+  WriteData(folder);
+  EXPECT_THAT(RunProgram(folder, "experiment --list").out, HasSubstr("sensors     points"));
+  const Outcome parts = RunProgram(folder, "experiment sensors --list");
+  EXPECT_THAT(parts.out, HasSubstr("worlds/* euroc/*"));
+  EXPECT_THAT(parts.out, HasSubstr("features.lines=false"));
+  const Outcome dry = RunExperiment(folder, "--runs 2 --only euroc/ --dry-run");
+  EXPECT_EQ(dry.code, 0) << dry.err;
+  EXPECT_EQ(std::count(dry.out.begin(), dry.out.end(), '\n'), 6);
+  EXPECT_THAT(dry.out, HasSubstr("run   euroc/poster/lines/2: plumbline run "));
+  EXPECT_THAT(dry.err, HasSubstr("no sequence kitti/* found; left out\n"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(ExperimentCommand, MakesTheSameTablesTwice) {
+  const ScratchFolder folder;
+  WriteData(folder);
+  for (const char* out : {"first", "second"}) {
+    const Outcome outcome =
+        RunExperiment(folder, "--runs 2 --only poster/points --set slam.mode=inline", out);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("2 runs; results in "));
+    EXPECT_THAT(outcome.err, HasSubstr("2/2 runs"));
+  }
+  for (const char* name : {"results.json", "table.md", "plots/ate.svg"}) {
+    EXPECT_EQ(Contents(folder / "first" / name), Contents(folder / "second" / name)) << name;
+  }
+  const auto results = nlohmann::json::parse(Contents(folder / "first/results.json"));
+  EXPECT_EQ(results[0]["sequence"], "euroc/poster");
+  EXPECT_EQ(results[0]["metric"], "ate");
+  EXPECT_LT(results[0]["value"], 20);
+  EXPECT_THAT(Contents(folder / "first/table.md"), HasSubstr("not there: no sequence tum/*"));
+  EXPECT_THAT(Contents(folder / "first/table.html"), HasSubstr("<svg"));
+  const auto timing = nlohmann::json::parse(Contents(folder / "first/timing.json"));
+  EXPECT_GT(timing[0]["value"], 0);
+  // The second time there is nothing to run.
+  const Outcome again = RunExperiment(
+      folder, "--runs 2 --only poster/points --set slam.mode=inline --dry-run", "first");
+  EXPECT_THAT(again.out, Not(HasSubstr("run   ")));
+  // The folder of a run is that of plumbline run, with what was asked for.
+  const auto summary =
+      nlohmann::json::parse(Contents(folder / "first/runs/euroc/poster/points/2/summary.json"));
+  EXPECT_EQ(summary["seed"], 2);
+  EXPECT_EQ(summary["frames"]["in"], 11);
+  EXPECT_EQ(summary["mode"], "inline");
+}
+
+TEST(ExperimentCommand, ABrokenSequenceIsAFailureWithAReason) {
+  const ScratchFolder folder;
+  const fs::path sequence = WriteData(folder);
+  fs::create_directories(folder / "data/euroc/broken");
+  fs::copy(sequence, folder / "data/euroc/broken", fs::copy_options::recursive);
+  folder.Write("data/euroc/broken/mav0/cam0/data.csv", "now,1.png\n");
+  folder.Write("data/euroc/poster/mav0/cam0/data/3.png", "not an image");
+  const Outcome outcome =
+      RunExperiment(folder, "--runs 1 --only broken/points --only poster/points");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto results = nlohmann::json::parse(Contents(folder / "out/results.json"));
+  EXPECT_EQ(results[0]["sequence"], "euroc/broken");
+  EXPECT_TRUE(results[0]["value"].is_null());
+  EXPECT_THAT(std::string(results[0]["reason"]),
+              HasSubstr("euroc/broken/mav0/cam0/data.csv:1: expected a time stamp"));
+  EXPECT_THAT(std::string(results[0]["reason"]), Not(HasSubstr(folder.path().string())));
+  const std::string table = Contents(folder / "out/table.md");
+  EXPECT_THAT(table, HasSubstr("| euroc/broken | points | 1 failed | - | - |"));
+  EXPECT_THAT(table, HasSubstr("| euroc/poster | points | 1 |"));
+  for (const auto& row : results) {
+    if (row["sequence"] == "euroc/poster" && row["metric"] == "skipped") {
+      EXPECT_EQ(row["value"], 1);
+    }
+  }
+}
+
+TEST(ExperimentCommand, ASignalEndsItAndTheNextCallGoesOn) {
+  const ScratchFolder folder;
+  const fs::path sequence = WriteData(folder);
+  std::string list = PosterList(2000);  // seconds of work
+  for (const char* camera : {"cam0", "cam1"}) {
+    folder.Write("data/euroc/poster/mav0/" + std::string(camera) + "/data.csv", list);
+  }
+  const pid_t program = StartProgram({"experiment",
+                                      "sensors",
+                                      "--data",
+                                      (folder / "data").string(),
+                                      "--out",
+                                      (folder / "out").string(),
+                                      "--only",
+                                      "euroc/poster/points",
+                                      "--runs",
+                                      "1"});
+  const fs::path run = folder / "out/runs/euroc/poster/points/1";
+  ASSERT_TRUE(WaitForFile(run / "options.yaml"));  // written before the first frame
+  ::kill(program, SIGINT);
+  int status = 0;
+  ::waitpid(program, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_FALSE(fs::exists(run / "summary.json")) << "a run cut short must not look whole";
+  EXPECT_FALSE(fs::exists(folder / "out/results.json"));
+  for (const char* camera : {"cam0", "cam1"}) {
+    folder.Write("data/euroc/poster/mav0/" + std::string(camera) + "/data.csv", PosterList(12));
+  }
+  const Outcome outcome = RunExperiment(folder, "--runs 1 --only euroc/poster/points");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(folder / "out/results.json"));
+}
+
+TEST(ExperimentCommand, RefusesBadInputInOneLineBeforeAnyRun) {
+  const ScratchFolder folder;
+  WriteData(folder);
+  const std::string data = " --data " + Quoted(folder / "data"),
+                    out = " --out " + Quoted(folder / "out");
+  const std::string file = Quoted(folder.Write("file", "text"));
+  struct Case {
+    std::string arguments, message;
+  };
+  const std::vector<Case> cases = {
+      {"", "experiment: expected the name of one; plumbline experiment --list shows them"},
+      {"sensor" + data + out, "no experiment 'sensor'; there are: sensors"},
+      {"sensors" + data, "expected --out DIR"},
+      {"sensors --data /does/not/exist" + out, "/does/not/exist: expected the folder"},
+      {"sensors --only euroc" + data + " --out " + file, "cannot make the folder"},
+      {"sensors" + data + out + " --set features.pionts=true", "unknown option 'features.pionts'"},
+      {"sensors" + data + out + " --only nowhere", "--only nowhere: expected part of one of"},
+      {"sensors" + data + out + " --runs 0", "--runs: expected a whole number of at least 1"},
+      {"sensors" + data + out + " --size huge", "--size: expected test or full, found huge"},
+      {"sensors" + data + out + " --job 2", "unknown option --job; the nearest is --jobs"},
+  };
+  for (const Case& c : cases) {
+    const Outcome outcome = RunProgram(folder, "experiment " + c.arguments + " --quiet");
+    EXPECT_EQ(outcome.code, 2) << c.arguments;
+    EXPECT_EQ(outcome.out, "") << c.arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(c.message));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder / "out")) << c.arguments;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/experiments/catalog.h"
+
+#include "plumbline/base/options_io.h"
+#include "plumbline/experiments/metrics.h"
+#include "plumbline/slam/options.h"
+#include "plumbline/synth/sequence.h"
+
+#include "tests/io/scratch_folder.h"
+#include <regex>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Catalog, EveryEntryNamesOnlyWhatThereIs) {
+  std::set<std::string> names;
+  for (const Experiment& experiment : Experiments()) {
+    EXPECT_TRUE(names.insert(experiment.name).second) << experiment.name;
+    EXPECT_FALSE(experiment.help.empty()) << experiment.name;
+    EXPECT_FALSE(experiment.sequences.empty()) << experiment.name;
+    EXPECT_GE(experiment.runs, 1) << experiment.name;
+    for (const auto* metrics : {&experiment.metrics, &experiment.plots}) {
+      for (const std::string& metric : *metrics) EXPECT_NE(FindMetric(metric), nullptr) << metric;
+    }
+    std::set<std::string> variants;
+    for (const Variant& variant : experiment.variants) {
+      EXPECT_TRUE(variants.insert(variant.name).second) << variant.name;
+      EXPECT_TRUE(std::regex_match(variant.name, std::regex("[A-Za-z0-9_+-]+"))) << variant.name;
+      SlamOptions options;
+      for (const std::string& setting : variant.settings) {
+        EXPECT_EQ(MessageOf([&] { OptionTable(options).Set(setting); }), "no error");
+      }
+    }
+    for (const SequenceChoice& choice : experiment.sequences) {
+      EXPECT_NE(choice.pattern.find('/'), std::string::npos) << choice.pattern;
+      SynthOptions options;
+      for (const std::string& setting : choice.world_settings) {
+        EXPECT_EQ(MessageOf([&] { OptionTable(options).Set(setting); }), "no error");
+      }
+      EXPECT_TRUE(choice.world_settings.empty() || !choice.label.empty()) << choice.pattern;
+    }
+  }
+}
+
+TEST(Catalog, FindsByNameAndTellsWhatThereIs) {
+  EXPECT_EQ(FindExperiment("sensors").variants.size(), 3U);
+  EXPECT_THAT(MessageOf([] { FindExperiment("sensor"); }),
+              HasSubstr("no experiment 'sensor'; there are: sensors"));
+}
+
+}  // namespace
+}  // namespace plumbline
