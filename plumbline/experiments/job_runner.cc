@@ -176,9 +176,10 @@ class Runner {
   }
 
   double LimitOf(const Job& job) const {
-    constexpr double kStart = 60, kFrame = 1;
-    const auto frames = static_cast<double>(plan_.SequenceOf(job).frames);
-    return options_.time_limit_s.value_or(kStart + kFrame * frames);
+    constexpr double kStart = 60, kFrame = 1, kFramesOfUnknown = 3600;
+    const std::size_t frames = plan_.SequenceOf(job).frames;
+    return options_.time_limit_s.value_or(
+        kStart + kFrame * (frames > 0 ? static_cast<double>(frames) : kFramesOfUnknown));
   }
 
   bool HasEnded(Running& running) {

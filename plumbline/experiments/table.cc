@@ -160,7 +160,7 @@ ResultTable MakeTable(const Plan& plan, const std::vector<JobResult>& results, M
   const std::vector<Group> groups = GroupsOf(plan, results);
   for (const Group& group : groups) {
     table.rows.push_back(MakeRow(group, table));
-    const auto covered = MakeCell(WithResult(group), 0, kCoverage).spread;
+    const auto covered = MakeCell(Distinct(group), 0, kCoverage).spread;
     table.rows.back().coverage = covered ? covered->median : 0;
   }
   for (std::size_t begin = 0, end = 0; begin < table.rows.size(); begin = end) {

@@ -22,6 +22,7 @@ tr.first td, tr.first th { border-top: 1px solid #ccc; }
 tbody th { font-weight: 600; }
 td.best { background: #e2f2e4; font-weight: 600; }
 td .range { display: block; color: #777; font-size: 0.8em; font-weight: 400; white-space: nowrap; }
+td.runs { white-space: nowrap; }
 td.none { color: #a33; }
 p.note, li { color: #555; }
 code { background: #f3f3f3; padding: 0 0.25em; }
@@ -61,7 +62,7 @@ std::string Cell(const TableRow& row, const TableCell& cell, const Metric& metri
   }
   return fmt::format("<td{}>{} <span class=\"range\">{}</span></td>",
                      kind,
-                     Escaped(text.substr(0, space)),
+                     Escaped(text.substr(0, text[space - 1] == ',' ? space - 1 : space)),
                      Escaped(text.substr(space + 1)));
 }
 
@@ -69,7 +70,7 @@ std::string Table(const Plan& plan, const ResultTable& table) {
   std::string html =
       "<div class=\"scroll\"><table>\n<thead><tr><th>sequence</th><th>variant</th><th>runs</th>";
   for (const Metric* metric : table.columns) {
-    html += fmt::format("<th title=\"{}\">{}</th>",
+    html += fmt::format("<th title=\"{}\">{} <span>{}</span></th>",
                         Escaped(metric->help),
                         Escaped(metric->name),
                         Escaped(metric->unit));
@@ -78,7 +79,7 @@ std::string Table(const Plan& plan, const ResultTable& table) {
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const TableRow& row = table.rows[r];
     const bool first = r == 0 || table.rows[r - 1].sequence != row.sequence;
-    html += fmt::format("<tr{}><th>{}</th><td>{}</td><td>{}</td>",
+    html += fmt::format("<tr{}><th>{}</th><td>{}</td><td class=\"runs\">{}</td>",
                         first ? " class=\"first\"" : "",
                         first ? Escaped(plan.sequences[row.sequence].name) : "",
                         Escaped(plan.experiment.variants[row.variant].name),
