@@ -9,7 +9,7 @@
 namespace plumbline {
 
 std::span<const Experiment> Experiments() {
-  static const std::array experiments = {
+  static const std::array kExperiments = {
       Experiment{.name = "sensors",
                  .help = "points, lines and both together on every sequence there is",
                  .sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}},
@@ -36,7 +36,7 @@ std::span<const Experiment> Experiments() {
                              "dropped"},
                  .plots = {"ate", "rpe_rmse", "roe_rmse", "coverage", "frame_ms"}},
   };
-  return experiments;
+  return kExperiments;
 }
 
 const Experiment& FindExperiment(std::string_view name) {

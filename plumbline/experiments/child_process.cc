@@ -45,6 +45,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command,
   PLUMBLINE_CHECK(!command.empty(), "a program to start");
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

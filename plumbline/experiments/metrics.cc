@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 // Where a metric stands in summary.json: value = factor * number [/ divisor].
 struct Source {
-  const char* number;
+  const char* number = nullptr;
   double factor = 1;
   const char* divisor = nullptr;
 };

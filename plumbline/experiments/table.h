@@ -29,8 +29,8 @@ struct TableRow {
   int runs = 0;                           // all
   int failed = 0;                         // of these, without a result
   int same = 0;                           // of these, with the trajectory of an earlier run
-  double coverage = 0;           // median over the runs that count, percent; 0 without any
-  std::vector<TableCell> cells;  // one for each column
+  double coverage = 0;                    // median over the runs that count, percent; 0 without any
+  std::vector<TableCell> cells;           // one for each column
 };
 
 // Why runs failed.
