@@ -15,7 +15,8 @@ using Eigen::Vector2d;
 
 constexpr Figure::Color kInk{40, 40, 40}, kGrid{222, 222, 222};
 
-// A pleasing distance between grid lines: 1, 2 or 5 times a power of ten, about `count` in a span.
+}  // namespace
+
 double GridStep(double span, int count) {
   const double rough = std::max(span, 1e-12) / count;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -24,8 +25,6 @@ double GridStep(double span, int count) {
   }
   return 10 * power;
 }
-
-}  // namespace
 
 void DrawPanel(const FigurePanel& panel, Figure& figure) {
   for (int axis = 0; axis < 2; ++axis) {

@@ -39,6 +39,9 @@ Eigen::AlignedBox2d EqualScale(const Eigen::AlignedBox2d& range, double aspect);
 // most worlds.
 std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses);
 
+// A pleasing distance between grid lines: 1, 2 or 5 times a power of ten, about `count` in a span.
+double GridStep(double span, int count);
+
 // So many significant digits at most.
 std::string FigureNumber(double value, int digits);
 

@@ -10,31 +10,18 @@ namespace plumbline {
 
 std::span<const Experiment> Experiments() {
   static const std::array kExperiments = {
-      Experiment{.name = "sensors",
-                 .help = "points, lines and both together on every sequence there is",
-                 .sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}},
-                 .variants = {{"points", {"features.lines=false"}},
-                              {"lines", {"features.points=false"}},
-                              {"both", {}}},
-                 .metrics = {"ate",
-                             "rpe_mean",
-                             "rpe_rmse",
-                             "roe_mean",
-                             "roe_rmse",
-                             "ate_causal",
-                             "lost",
-                             "skipped",
-                             "keyframes",
-                             "points",
-                             "lines",
-                             "fps",
-                             "frame_ms",
-                             "frame_p95_ms",
-                             "cpu_ms",
-                             "first_pose_s",
-                             "memory_mb",
-                             "dropped"},
-                 .plots = {"ate", "rpe_rmse", "roe_rmse", "coverage", "frame_ms"}},
+      Experiment{
+          .name = "sensors",
+          .help = "points, lines and both together on every sequence there is",
+          .sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}},
+          .variants = {{"points", {"features.lines=false"}},
+                       {"lines", {"features.points=false"}},
+                       {"both", {}}},
+          .metrics = {"ate",          "rpe_mean",    "rpe_rmse",       "roe_mean",  "roe_rmse",
+                      "ate_causal",   "lost",        "skipped",        "keyframes", "points",
+                      "lines",        "line_recall", "line_precision", "fps",       "frame_ms",
+                      "frame_p95_ms", "cpu_ms",      "first_pose_s",   "memory_mb", "dropped"},
+          .plots = {"ate", "rpe_rmse", "roe_rmse", "coverage", "frame_ms"}},
   };
   return kExperiments;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/dot_plot.h"
 
+#include "plumbline/eval/figure_panel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,16 +27,6 @@ constexpr double kTextSize = 13, kLetter = 7.2;  // pixels
 constexpr double kTop = 64, kRowHeight = 18, kBandGap = 14, kAxisHeight = 52, kPlotWidth = 560;
 
 Figure::Color ColorOf(std::size_t variant) { return kColors[variant % kColors.size()]; }
-
-// A pleasing distance between grid lines: 1, 2 or 5 times a power of ten, about `count` in a span.
-double GridStep(double span, int count) {
-  const double rough = std::max(span, 1e-12) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10 * power;
-}
 
 // From values to pixels, with its grid lines.
 class Axis {

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/experiments/child_process.h"
+#include "plumbline/experiments/line_map_figures.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/synth/sequence_cache.h"
 
@@ -146,6 +147,7 @@ class Runner {
 
   void Keep(std::size_t job, RunFigures figures) {
     ++state_.done;
+    AddLineMapFigures(plan_.SequenceOf(plan_.jobs[job]).path, plan_.jobs[job].folder, figures);
     const auto wall = figures.values.find("wall_s");
     if (wall != figures.values.end()) seconds_[job] = wall->second;
     results_[job].figures = std::move(figures);

@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Where a metric stands in summary.json: value = factor * number [/ divisor].
+// Where a metric stands in summary.json: value = factor * number [/ divisor]. Without a number it
+// comes from elsewhere (line_map_figures.h).
 struct Source {
   const char* number = nullptr;
   double factor = 1;
@@ -66,6 +67,41 @@ constexpr std::array kEntries = {
     Entry{{"keyframes", "", "keyframes of the largest map"}, {"/keyframes"}},
     Entry{{"points", "", "points of the largest map"}, {"/points"}},
     Entry{{"lines", "", "lines of the largest map"}, {"/lines"}},
+    Entry{{"line_recall",
+           "%",
+           "length of the true lines that the map has within 2 cm",
+           kHigher,
+           false,
+           1},
+          {}},
+    Entry{{"line_precision",
+           "%",
+           "length of the mapped lines within 2 cm of a true one",
+           kHigher,
+           false,
+           1},
+          {}},
+    Entry{{"line_angle",
+           "deg",
+           "from the true line, median of the mapped lines within 2 cm of one",
+           kLower,
+           false,
+           2},
+          {}},
+    Entry{{"line_distance",
+           "mm",
+           "from the true line, median of the mapped lines within 2 cm of one",
+           kLower,
+           false,
+           1},
+          {}},
+    Entry{{"line_multiplicity",
+           "",
+           "how often the mapped stretches of true lines are mapped",
+           kLower,
+           false,
+           2},
+          {}},
     Entry{{"fps",
            "1/s",
            "frames a second over the whole run, reading and writing included",
@@ -123,7 +159,7 @@ std::optional<double> NumberAt(const Json& summary, const char* where) {
 }
 
 std::optional<double> Evaluate(const Json& summary, const Source& source) {
-  const auto number = NumberAt(summary, source.number);
+  const auto number = source.number == nullptr ? std::nullopt : NumberAt(summary, source.number);
   if (!number || source.divisor == nullptr) {
     return number ? std::optional(source.factor * *number) : std::nullopt;
   }
@@ -132,8 +168,10 @@ std::optional<double> Evaluate(const Json& summary, const Source& source) {
   return source.factor * *number / *divisor;
 }
 
-std::string WhyMissing(const Json& summary, std::string_view number) {
+std::string WhyMissing(const Json& summary, const char* pointer) {
+  const std::string_view number = pointer == nullptr ? "" : pointer;
   if (NumberAt(summary, "/frames/tracked").value_or(0) == 0) return "no frame has a pose";
+  if (number.empty()) return "the true lines are not known";
   if (!number.starts_with("/accuracy")) return "not measured";
   const std::string part(number.substr(1, number.find('/', 1) - 1));
   if (!summary.contains(part) || summary[part].is_null()) return "no ground truth of any pose";

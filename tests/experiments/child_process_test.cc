@@ -45,14 +45,14 @@ TEST(ChildProcess, DiesWithAllItStarted) {
   const std::string alive = (folder / "alive").string();
   {
     ChildProcess process(
-        {"/bin/sh", "-c", "(sleep 0.3; touch '" + alive + "') & touch '" + alive + "0'; wait"},
+        {"/bin/sh", "-c", "(sleep 1; touch '" + alive + "') & touch '" + alive + "0'; wait"},
         folder / "log");
     for (int i = 0; i < 5000 && !std::filesystem::exists(alive + "0"); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_FALSE(process.Poll().has_value());
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200));
   EXPECT_TRUE(std::filesystem::exists(alive + "0"));
   EXPECT_FALSE(std::filesystem::exists(alive));
 }

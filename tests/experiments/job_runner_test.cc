@@ -61,14 +61,16 @@ TEST(JobRunner, GoesOnWhereItStopped) {
   const ScratchFolder folder;
   const Plan plan = PlanOfTwo(folder);
   RunnerOptions options = FakeProgram(folder, "write_result");
-  options.stop = [&] { return Calls(folder) == 4; };
+  options.stop = [&] { return Calls(folder) >= 4; };
   EXPECT_FALSE(RunJobs(plan, options).has_value());
-  EXPECT_EQ(Calls(folder), 4U);
-  // The fourth may or may not have come to its end; the others have.
+  const std::size_t before = Calls(folder);
+  ASSERT_LT(before, 8U);
   options.stop = {};
   EXPECT_TRUE(RunJobs(plan, options).has_value());
-  EXPECT_GE(Calls(folder), 8U);
-  EXPECT_LE(Calls(folder), 9U);
+  // The last one before the stop may or may not have come to its end; the others have.
+  const std::size_t after = Calls(folder) - before;
+  EXPECT_GE(after, 8 - before);
+  EXPECT_LE(after, 8 - before + 1);
   const std::size_t calls = Calls(folder);
   ASSERT_TRUE(RunJobs(plan, options).has_value());
   EXPECT_EQ(Calls(folder), calls) << "all was done";
@@ -134,10 +136,10 @@ TEST(JobRunner, AJobThatHangsIsKilled) {
   request.only = {"a/one"};
   RunnerOptions options =
       FakeProgram(folder, "case \"$OUT\" in */1) sleep 20;; *) write_result;; esac");
-  options.time_limit_s = 0.3;
+  options.time_limit_s = 1;
   const auto results = RunJobs(MakePlan(TwoVariants(), request), options);
   ASSERT_TRUE(results.has_value());
-  EXPECT_EQ((*results)[0].reason, "no end after 0 s");
+  EXPECT_EQ((*results)[0].reason, "no end after 1 s");
   EXPECT_TRUE((*results)[1].figures.has_value());
 }
 
