@@ -350,20 +350,5 @@ TEST(Evaluate, RealGroundTruthComparedWithItself) {
   EXPECT_LT(lever->ate.rmse, 0.02);
 }
 
-TEST(Synth, ListsWorldsAndNamesWhatIsWrong) {
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(SynthCommand(std::vector<std::string>{"--list"}), 0);
-  const std::string list = testing::internal::GetCapturedStdout();
-  EXPECT_THAT(list, HasSubstr("  room "));
-  EXPECT_THAT(list, HasSubstr("frames: 200"));
-  const auto message = [](const std::vector<std::string>& arguments) {
-    return MessageOf([&] { SynthCommand(arguments); });
-  };
-  EXPECT_THAT(message({}), HasSubstr("expected the name of a world"));
-  EXPECT_THAT(message({"room"}), HasSubstr("expected --out DIR"));
-  EXPECT_THAT(message({"moon", "--out", "x"}), HasSubstr("expected one of room, found moon"));
-  EXPECT_THAT(message({"room", "--set", "frame=3", "--out", "x"}), HasSubstr("frames"));
-}
-
 }  // namespace
 }  // namespace plumbline

@@ -16,10 +16,9 @@ TEST(LineMap, LinesOfARunLieOnThoseOfTheRenderedRoom) {
   const ScratchFolder folder;
   const std::string room = Quoted(folder / "room"), run = Quoted(folder / "run");
   for (const std::string& command :
-       {"synth room --set frames=4 --set texel=0.02 --out " + room,
+       {"synth room --set frames=4 --set texel=4 --out " + room,
         "run " + room + " --quiet --out " + run,
-        "evaluate " + room + " " + run + " --json " +
-            Quoted(folder / "errors.json")}) {
+        "evaluate " + room + " " + run + " --json " + Quoted(folder / "errors.json")}) {
     const Outcome outcome = RunProgram(folder, command);
     ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
   }

@@ -5,7 +5,7 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/experiments/metrics.h"
 #include "plumbline/slam/options.h"
-#include "plumbline/synth/sequence.h"
+#include "plumbline/synth/synth_options.h"
 
 #include "tests/io/scratch_folder.h"
 #include <regex>

@@ -174,10 +174,10 @@ TEST(JobRunner, TwoInOneFolderAreRefused) {
 TEST(JobRunner, RendersTheWorldsThatAreNeeded) {
   const ScratchFolder folder;
   Experiment experiment = TwoVariants();
-  experiment.sequences = {{"worlds/*", {"frames=2", "texel=0.1"}, "tiny"}};
+  experiment.sequences = {{"worlds/room", {"frames=2", "texel=20", "scale=0.2"}, "tiny"}};
   PlanRequest request = RequestIn(folder);
   request.sources.data = std::nullopt;
-  request.only = {std::string(Worlds().front().name) + "@tiny/one"};
+  request.only = {"room@tiny/one"};
   request.runs = 1;
   const Plan plan = MakePlan(experiment, request);
   RunnerOptions options = FakeProgram(folder, "[ -f \"$PATH_/world.yaml\" ] && write_result");

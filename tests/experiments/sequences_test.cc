@@ -3,6 +3,7 @@
 #include "plumbline/experiments/sequences.h"
 
 #include "plumbline/synth/sequence_cache.h"
+#include "plumbline/synth/world.h"
 
 #include "tests/experiments/experiment_fixtures.h"
 #include "tests/io/scratch_folder.h"
@@ -87,6 +88,7 @@ TEST(ExperimentSequences, WorldsAreThoseThatCanBeRendered) {
   const ExperimentSequence& plain = found.sequences[0];
   const ExperimentSequence& other = found.sequences[1];
   EXPECT_EQ(plain.frames, 150U);
+  EXPECT_EQ(plain.rendered->options.scale, 0.5);
   EXPECT_EQ(other.frames, 7U);
   EXPECT_EQ(other.rendered->options.seed, 3U);
   EXPECT_EQ(other.path, folder / "cache" / SequenceKey(name, other.rendered->options));

@@ -48,8 +48,8 @@ TEST(SyntheticSequence, BytesDoNotDependOnThreads) {
                 [&](int done) { EXPECT_EQ(done, ++last); });
   EXPECT_EQ(last, 3);
   const auto one = AllFiles(folder / "one"), two = AllFiles(folder / "two");
-  // 6 images, 2 x (data.csv, sensor.yaml), imu0 (3), ground truth, world
-  EXPECT_EQ(one.size(), 15U);
+  // 6 images, 2 x (data.csv, sensor.yaml), imu0 (3), ground truth, lines, surfaces, world
+  EXPECT_EQ(one.size(), 17U);
   ASSERT_EQ(one.size(), two.size());
   for (const auto& [name, bytes] : one) {
     ASSERT_TRUE(two.contains(name)) << name;
