@@ -36,11 +36,14 @@ double Wood(double u, double v, double tone, std::uint64_t seed) {
 }
 
 double Metal(double u, double v, double tone, std::uint64_t seed) {
-  const double brushed = FractalNoise(3 * u, 90 * v, 3, 0.8, seed);
+  constexpr double kRivet = 0.1, kRows = 0.6, kInset = 0.03;  // rows of rivets along both rims
+  const double brushed = FractalNoise(5 * u, 70 * v + 4 * u, 3, 0.7, seed);
   const double rust = std::max(0.0, FractalNoise(7 * u, 7 * v, 4, 0.75, seed + 20) - 0.2);
-  const double x = u - 0.1 * std::round(u / 0.1), y = v - 0.1 * std::round(v / 0.1);
-  const double rivet = std::hypot(x, y) < 0.008 ? 0.5 : 0.0;
-  return tone * (1 + 0.2 * brushed - 1.1 * rust + rivet);
+  const double dents = Weathering(u, v, 0.25, seed + 30);
+  const double x = u - kRivet * (std::floor(u / kRivet) + 0.5);
+  const double y = v - kInset - kRows * std::round((v - kInset) / kRows);
+  const double rivet = x * x + y * y < 0.007 * 0.007 ? 0.35 : 0.0;
+  return tone * (1 + 0.1 * brushed + dents - 1.1 * rust + rivet);
 }
 
 double Fabric(double u, double v, double tone, std::uint64_t seed) {
@@ -48,16 +51,17 @@ double Fabric(double u, double v, double tone, std::uint64_t seed) {
   const double weave =
       std::sin(2 * std::numbers::pi * u / kThread) * std::sin(2 * std::numbers::pi * v / kThread);
   const double yarn = FractalNoise(90 * u, 220 * v, 2, 0.9, seed);
-  const double folds = FractalNoise(2 * u, 1.2 * v, 3, 0.6, seed + 9);
-  return tone * (1 + 0.12 * weave + 0.2 * yarn + 0.18 * folds);
+  const double folds = FractalNoise(3 * u, 1.2 * v, 3, 0.6, seed + 9);
+  const double worn = Weathering(u, v, 0.4, seed + 12);
+  return tone * (1 + 0.05 * weave + 0.1 * yarn + 0.25 * folds + worn);
 }
 
 double Acoustic(double u, double v, double tone, std::uint64_t seed) {
   const double fissure = FractalNoise(35 * u, 90 * v, 3, 0.7, seed);
   const double dots = Specks(u, v, 0.02, 0.25, seed + 4);
-  const double shade = FractalNoise(1.5 * u, 1.5 * v, 2, 0.6, seed + 8);
-  const double crack = std::clamp(8 * (fissure - 0.36), 0.0, 1.0);
-  return tone * (1 + 0.05 * shade - 0.35 * crack + 0.25 * std::min(0.0, dots));
+  const double shade = Weathering(u, v, 0.25, seed + 8);
+  const double crack = std::clamp(5 * (fissure - 0.34), 0.0, 1.0);
+  return tone * (1 + shade - 0.3 * crack + 0.2 * std::min(0.0, dots));
 }
 
 // Blobs, strokes and grain at every scale from metres to millimetres.
@@ -66,8 +70,10 @@ double Mural(double u, double v, double tone, std::uint64_t seed) {
   double size = 1.4;
   for (int octave = 0; octave < 8; ++octave, size *= 0.52) {
     const auto k = seed + 100 * static_cast<std::uint64_t>(octave);
-    const double wobble =
-        0.35 * size * FractalNoise(1.7 * u / size, 1.7 * v / size, octave < 5 ? 2 : 1, 0.6, k);
+    // The finest are too small for their bends to be seen.
+    const double bend =
+        octave < 6 ? FractalNoise(1.7 * u / size, 1.7 * v / size, octave < 4 ? 2 : 1, 0.6, k) : 0;
+    const double wobble = 0.35 * size * bend;
     const double i = CellIndex(u + wobble, size), j = CellIndex(v - wobble, size);
     const double x = (u + wobble) / size - i - 0.5, y = (v - wobble) / size - j - 0.5;
     const double shape = CellValue(i, j, k + 2);

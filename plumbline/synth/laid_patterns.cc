@@ -150,7 +150,7 @@ class Planks : public LaidPattern {
     if (std::hypot(across, along) < kNail) return 0.25 * tone;
     const std::uint64_t board = Hash(place);
     const double worn = FractalNoise(3 * u, 3 * v, 3, 0.7, frame_.seed + 11);
-    return tone * (0.8 + 0.4 * UnitFromHash(board) + 0.7 * WoodGrain(u, v, board) + 0.2 * worn);
+    return tone * (0.8 + 0.4 * UnitFromHash(board) + 0.8 * WoodGrain(u, v, board) + 0.25 * worn);
   }
   double Joint(double u, double v) const override {
     return frame_.tone * (0.3 + 0.25 * FractalNoise(4 * u, 4 * v, 3, 0.8, frame_.seed + 13));
@@ -171,7 +171,8 @@ class Tiles : public LaidPattern {
     const double chips = Specks(u, v, 0.07, 0.4, frame_.seed + 9);
     const double dark = UnitFromHash(tile) < 0.2 ? 0.5 : 1.0;
     return frame_.tone * dark *
-           (0.8 + 0.3 * UnitFromHash(MixBits(tile)) - 0.8 * std::pow(vein, 12) + 0.2 * Dirt(u, v) +
+           (0.8 + 0.3 * UnitFromHash(MixBits(tile)) -
+            (0.1 + 0.5 * UnitFromHash(tile + 1)) * std::pow(vein, 14) + 0.2 * Dirt(u, v) +
             0.4 * chips);
   }
   double Joint(double u, double v) const override {
@@ -186,12 +187,13 @@ class Brick : public LaidPattern {
 
  private:
   double Piece(const Place& place, double u, double v) const override {
-    return frame_.tone * (0.55 + 0.6 * UnitFromHash(Hash(place)) + 0.5 * Grain(u, v) +
-                          0.5 * Specks(u, v, 0.05, 0.5, frame_.seed + 2));
+    return frame_.tone * (0.6 + 0.5 * UnitFromHash(Hash(place)) + 0.4 * Grain(u, v) + Soot(u, v) +
+                          0.45 * Specks(u, v, 0.05, 0.5, frame_.seed + 2));
   }
   double Joint(double u, double v) const override {
-    return frame_.tone * (1.4 + 0.3 * Grain(u, v));
+    return frame_.tone * (1.25 + 0.3 * Grain(u, v) + Soot(u, v));
   }
+  double Soot(double u, double v) const { return Weathering(u, v, 0.35, frame_.seed + 5); }
   double Grain(double u, double v) const {
     return FractalNoise(45 * u, 45 * v, 4, 0.9, frame_.seed);
   }
@@ -204,15 +206,16 @@ class Concrete : public LaidPattern {
 
  private:
   double Body(double u, double v) const {
-    const double clouds = FractalNoise(1.1 * u, 1.1 * v, 4, 0.7, frame_.seed);
+    const double clouds = Weathering(u, v, 0.6, frame_.seed);
     const double grain = FractalNoise(50 * u, 50 * v, 3, 0.9, frame_.seed + 10);
     const double pores = Specks(u, v, 0.03, 0.18, frame_.seed + 20);
-    return frame_.tone * (1 + 0.22 * clouds + 0.12 * grain + 0.35 * std::min(0.0, pores));
+    return frame_.tone * (1 + clouds + 0.08 * grain + 0.35 * std::min(0.0, pores));
   }
   double Piece(const Place& place, double u, double v) const override {
     constexpr double kTie = 0.6, kHole = 0.012;
     const double x = u - kTie * std::round(u / kTie), y = place.y - 0.5 * courses_.height;
-    return Body(u, v) * (std::hypot(x, y) < kHole ? 0.45 : 1);
+    const double board = 0.94 + 0.12 * UnitFromHash(Hash(place));
+    return board * Body(u, v) * (std::hypot(x, y) < kHole ? 0.45 : 1);
   }
   double Joint(double u, double v) const override { return 0.72 * Body(u, v); }
 };

@@ -20,30 +20,35 @@ double Specks(double u, double v, double size, double share, std::uint64_t seed)
   return (kind < 0.7 ? -strength : strength) * std::min(1.0, 5 * (1 - distance));
 }
 
-double TextInk(double u, double v, double line, std::uint64_t seed) {
+double TextInk(double u, double v, double line, double width, std::uint64_t seed) {
   const double row = CellIndex(v, line);
   const double y = v / line - row;
   if (y < 0.25 || y > 0.8) return 0;
+  const double ragged = CellValue(row, 0, seed + 3);  // most rows are nearly full
+  const double end = ragged < 0.12 ? 0 : ragged < 0.35 ? 1.5 * ragged + 0.1 : 0.88 + 0.12 * ragged;
+  if (u > end * width) return 0;
   const double letter = 0.45 * line;
   const double column = CellIndex(u, letter);
   if (CellValue(column, row, seed) < 0.22) return 0;  // space between words
   const double x = u / letter - column;
   const double gap = 0.15 + 0.3 * CellValue(column, row, seed + 1);
   const double bar = CellValue(column, row, seed + 2);
-  return x > gap && (y > bar || x < gap + 0.3) ? 1 : 0;
+  if (x < gap || (y < bar && x > gap + 0.3)) return 0;
+  return 0.7 + 0.3 * bar;
 }
 
 double WoodGrain(double along, double across, std::uint64_t seed) {
-  const double rings = FractalNoise(0.9 * along, 22 * across, 4, 0.75, seed);
-  const double fibres = FractalNoise(9 * along, 160 * across, 2, 0.8, seed + 40);
+  // The rings of a trunk are not parallel to the saw.
+  const double bent =
+      across + 0.03 * FractalNoise(1.1 * along, 2.5 * across, 2, 0.6, seed + 20) + 0.02 * along;
+  const double rings = FractalNoise(1.3 * along, 16 * bent, 4, 0.6, seed);
+  const double fibres = FractalNoise(14 * along, 130 * bent, 2, 0.8, seed + 40);
   const double knots = Specks(along, 1.6 * across, 0.09, 0.06, seed + 60);
-  return 0.42 * rings + 0.2 * fibres - 0.45 * std::abs(knots);
+  return 0.36 * rings + 0.12 * fibres - 0.45 * std::abs(knots);
 }
 
 double Weathering(double u, double v, double strength, std::uint64_t seed) {
-  const double shades = FractalNoise(0.7 * u, 0.7 * v, 3, 0.7, seed);
-  const double grain = FractalNoise(16 * u, 16 * v, 4, 0.8, seed + 300);
-  return strength * (0.16 * shades + 0.12 * grain);
+  return strength * FractalNoise(0.8 * u, 0.8 * v, 8, 0.62, seed);
 }
 
 }  // namespace plumbline

@@ -21,14 +21,15 @@ inline double CellValue(double i, double j, std::uint64_t seed) {
 // -1 to 1, falling off over the outer fifth of a dot.
 double Specks(double u, double v, double size, double share, std::uint64_t seed);
 
-// Rows of "words": marks of random width in lines, ragged at the right; 0 or 1.
-double TextInk(double u, double v, double line, std::uint64_t seed);
+// Rows of "words" in a column of the given width: marks of random width; some rows end early, some
+// are empty. 0 to 1; the ink is not equally black everywhere.
+double TextInk(double u, double v, double line, double width, std::uint64_t seed);
 
 // Stripes along the first coordinate with fibres and knots, as in sawn wood; mean about 0.
 double WoodGrain(double along, double across, std::uint64_t seed);
 
-// What years do to any surface: broad shades, dirt in clouds, fine grain; mean about 0, standard
-// deviation about 0.06 times `strength`.
+// What years do to any surface: broad shades and dirt at all scales down to millimetres; mean about
+// 0, within about +-0.5 times `strength`.
 double Weathering(double u, double v, double strength, std::uint64_t seed);
 
 }  // namespace plumbline

@@ -41,8 +41,10 @@ double ValueAt(const Patch& patch, const Vector2d& at, double below) {
   if (patch.text) {
     const Vector2d place = at - patch.box.min();
     const double margin = 0.5 * patch.text->line;
+    const double width = patch.box.sizes().x() - 2 * margin;
     if (std::min(place.minCoeff(), (patch.box.max() - at).minCoeff()) > margin) {
-      const double ink = TextInk(place.x(), place.y(), patch.text->line, patch.seed + 1);
+      const double ink =
+          TextInk(place.x() - margin, place.y(), patch.text->line, width, patch.seed + 1);
       value += ink * (patch.text->ink - value);
     }
   }

@@ -73,11 +73,13 @@ class Poster : public PrintedPattern {
     const double value = PrintedPattern::At(u, v);
     const double rim = std::min({u, v, frame_.width - u, frame_.height - v});
     const double h = frame_.height;
+    constexpr double kText = 0.05;  // margin of the text
     double ink = 0;
-    if (rim > 0.05 && v < 0.40 * h) {
-      ink = 0.75 * TextInk(u, v, 0.02 + 0.02 * Unit(frame_.seed + 3), frame_.seed + 4);
-    } else if (rim > 0.05 && v > 0.41 * h && v < 0.47 * h) {
-      ink = 0.8 * TextInk(u, v, 0.06 * h, frame_.seed + 5);
+    if (rim > kText && v < 0.40 * h) {
+      const double line = 0.02 + 0.02 * Unit(frame_.seed + 3);
+      ink = 0.75 * TextInk(u - kText, v, line, frame_.width - 2 * kText, frame_.seed + 4);
+    } else if (rim > kText && v > 0.41 * h && v < 0.47 * h) {
+      ink = 0.8 * TextInk(u - kText, v, 0.06 * h, frame_.width - 2 * kText, frame_.seed + 5);
     }
     return value * (1 - ink) * (1 + 0.08 * FractalNoise(30 * u, 30 * v, 3, 0.8, frame_.seed + 6));
   }
@@ -95,7 +97,7 @@ class Cardboard : public PrintedPattern {
     Patch tape{BoxOf(0.5 * w - kTape, 0, 0.5 * w + kTape, h), 1.3};
     tape.stain = true;
     Add(tape, Inner(0));
-    Patch label{BoxOf(0.1 * w, 0.15 * h, 0.42 * w, 0.45 * h), 0.8};
+    Patch label{BoxOf(0.1 * w, 0.15 * h, 0.42 * w, 0.45 * h), 0.75};
     label.text = {0.022, 0.15};
     label.seed = frame_.seed + 8;
     Add(label, Inner(0));
@@ -103,10 +105,10 @@ class Cardboard : public PrintedPattern {
 
  private:
   double Ground(double u, double v) const override {
-    const double fibres = FractalNoise(12 * u, 40 * v, 4, 0.85, frame_.seed);
-    const double dents = FractalNoise(4 * u, 4 * v, 3, 0.6, frame_.seed + 11);
+    const double fibres = FractalNoise(18 * u, 32 * v, 4, 0.8, frame_.seed);
+    const double dents = Weathering(u, v, 0.45, frame_.seed + 11);
     return frame_.tone *
-           (1 + 0.3 * fibres + 0.15 * dents + 0.3 * Specks(u, v, 0.04, 0.3, frame_.seed + 3));
+           (1 + 0.18 * fibres + dents + 0.3 * Specks(u, v, 0.04, 0.3, frame_.seed + 3));
   }
 };
 
@@ -114,7 +116,7 @@ class Cardboard : public PrintedPattern {
 class Spine : public PrintedPattern {
  public:
   explicit Spine(const PatternFrame& frame)
-      : PrintedPattern(frame), ink_(frame.tone > 0.45 ? 0.1 : 0.9) {
+      : PrintedPattern(frame), ink_(frame.tone > 0.45 ? 0.15 : 0.8) {
     constexpr double kHalfBand = 0.015;  // of the height
     const double h = frame_.height, band = 0.1 + 0.1 * Unit(frame_.seed + 1);
     for (const double place : {band, 1 - band}) {
@@ -128,12 +130,17 @@ class Spine : public PrintedPattern {
     if (std::abs(u - 0.5 * frame_.width) > 0.32 * frame_.width || along < 0.25 || along > 0.75) {
       return value;
     }
-    return value + (ink_ - value) * TextInk(v, u, 0.6 * frame_.width, frame_.seed + 5);
+    return value + (ink_ - value) * TextInk(v - 0.25 * frame_.height,
+                                            u,
+                                            0.6 * frame_.width,
+                                            0.5 * frame_.height,
+                                            frame_.seed + 5);
   }
 
  private:
   double Ground(double u, double v) const override {
-    return frame_.tone * (1 + 0.12 * FractalNoise(40 * u, 40 * v, 3, 0.8, frame_.seed));
+    return frame_.tone * (1 + 0.12 * FractalNoise(40 * u, 40 * v, 3, 0.8, frame_.seed) +
+                          Weathering(u, v, 0.4, frame_.seed + 2));
   }
 
   double ink_;
