@@ -40,11 +40,11 @@ double TextInk(double u, double v, double line, double width, std::uint64_t seed
 double WoodGrain(double along, double across, std::uint64_t seed) {
   // The rings of a trunk are not parallel to the saw.
   const double bent =
-      across + 0.03 * FractalNoise(1.1 * along, 2.5 * across, 2, 0.6, seed + 20) + 0.02 * along;
-  const double rings = FractalNoise(1.3 * along, 16 * bent, 4, 0.6, seed);
-  const double fibres = FractalNoise(14 * along, 130 * bent, 2, 0.8, seed + 40);
+      across + 0.04 * FractalNoise(1.6 * along, 2.5 * across, 3, 0.6, seed + 20) + 0.02 * along;
+  const double rings = FractalNoise(1.8 * along, 14 * bent, 4, 0.55, seed);
+  const double fibres = FractalNoise(22 * along, 130 * bent, 2, 0.8, seed + 40);
   const double knots = Specks(along, 1.6 * across, 0.09, 0.06, seed + 60);
-  return 0.36 * rings + 0.12 * fibres - 0.45 * std::abs(knots);
+  return 0.3 * rings + 0.12 * fibres - 0.45 * std::abs(knots);
 }
 
 double Weathering(double u, double v, double strength, std::uint64_t seed) {

@@ -11,7 +11,7 @@ namespace plumbline {
 
 struct PaintedEdgeLimits {
   double min_length = 0.05;  // metres
-  double min_step = 0.06;    // of the reflectance, mean along a piece of the layout
+  double min_step = 0.04;    // of the reflectance, mean along a piece of the layout
   double min_share = 0.1;    // the same relative to the mean of both sides
   double max_gap = 0.02;     // metres that an edge may be interrupted, as a bed by a head joint
 };

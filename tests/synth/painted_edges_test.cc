@@ -68,7 +68,7 @@ TEST(PaintedEdges, TheReflectanceStepsWithinAFractionOfAMillimetre) {
           place = (static_cast<double>(i) - 10) * kStride;
         }
         ++count;
-        if (std::abs(place) > 1.01 * kStride || largest < 0.04) ++far;
+        if (std::abs(place) > 1.01 * kStride || largest < 0.025) ++far;
       }
     }
     EXPECT_GE(count, 3) << static_cast<int>(material);
