@@ -52,8 +52,8 @@ double Fabric(double u, double v, double tone, std::uint64_t seed) {
       std::sin(2 * std::numbers::pi * u / kThread) * std::sin(2 * std::numbers::pi * v / kThread);
   const double yarn = FractalNoise(90 * u, 220 * v, 2, 0.9, seed);
   const double folds = FractalNoise(3 * u, 1.2 * v, 3, 0.6, seed + 9);
-  const double worn = Weathering(u, v, 0.4, seed + 12);
-  return tone * (1 + 0.05 * weave + 0.1 * yarn + 0.25 * folds + worn);
+  const double worn = Weathering(u, v, 0.3, seed + 12);
+  return tone * (1 + 0.05 * weave + 0.1 * yarn + 0.18 * folds + worn);
 }
 
 double Acoustic(double u, double v, double tone, std::uint64_t seed) {

@@ -33,9 +33,8 @@ struct ShadowEdge {
 // of light; the penumbra is as wide as the lamp looks from the edge, across the border, times the
 // way from edge to surface; the lamp's light is compared with that of all lamps, all on, and 30 %
 // more for what surfaces throw back. Chains become one edge. Curved or blurred borders are none,
-// nor are those that hug the thing that throws them, for they look like a part of its edge. Cost:
-// about 0.1 us for each pair of an outline edge and a surface under a lamp, 5 us for each
-// centimetre of border; the result does not depend on `threads`.
+// nor are those that hug the thing that throws them, for they look like a part of its edge.
+// Cost: 3 s on one core for 12 000 edges and 24 lamps; the result does not depend on `threads`.
 std::vector<ShadowEdge> ShadowEdges(const Scene& scene,
                                     std::span<const Segment3> edges,
                                     const RayTracer& tracer,

@@ -30,7 +30,8 @@ struct TrueLineLimits {
 // lines that no frame sees are left out. Order: by kind, then as the scene has them. The result
 // does not depend on `threads`.
 //
-// Cost, one core: see LineVisibility, PaintedEdges and ShadowEdges; some seconds for a room.
+// Cost on one core: 0.5 s for 4600 edges, 7 lamps and 10 frames, 6 s for 12 000 edges, 24 lamps and
+// 2000 frames.
 std::vector<TrueLine> TrueLines(const Scene& scene,
                                 const Camera& camera,
                                 std::span<const TimedView> views,

@@ -21,7 +21,12 @@ constexpr Material kMaterials[] = {Material::kPaint,
                                    Material::kCardboard,
                                    Material::kBrick,
                                    Material::kSpine,
-                                   Material::kMetal};
+                                   Material::kMetal,
+                                   Material::kConcrete,
+                                   Material::kFabric,
+                                   Material::kAcoustic,
+                                   Material::kScreen,
+                                   Material::kMural};
 
 TEST(Noise, NormalHasUnitVarianceAndNoMean) {
   double sum = 0, squares = 0;
@@ -92,6 +97,31 @@ TEST(Texture, SamplesAreTheRecipe) {
       const double a = (x + 0.5) / 48, b = (y + 0.5) / 48;
       const double expected = 255 * EvaluateTexture(recipe, kSize * a, kSize * b, kSize, kSize);
       EXPECT_NEAR(texture.Sample(static_cast<float>(a), static_cast<float>(b), 0), expected, 0.51);
+    }
+  }
+}
+
+TEST(Texture, CellsOnAnEdgeAreMeansOverTheCell) {
+  // A joint of form boards from 1.2 to 1.206 m, which no cell meets exactly.
+  const TextureRecipe recipe{Material::kConcrete, 0.6, 5, 0};
+  constexpr double kWidth = 0.64, kHeight = 1.6;
+  constexpr int kFine = 40;
+  for (const double texel : {0.003, 0.005, 0.0073}) {
+    const Texture texture = Texture::Bake(recipe, kWidth, kHeight, texel);
+    for (int y = 0; y < texture.height(); ++y) {
+      const double b = (y + 0.5) / texture.height();
+      if (std::abs(kHeight * b - 1.203) > 0.03) continue;
+      double baked = 0, mean = 0;  // over the row, for the grain is not averaged over cells
+      for (int x = 0; x < texture.width(); ++x) {
+        const double a = (x + 0.5) / texture.width();
+        baked +=
+            static_cast<double>(texture.Sample(static_cast<float>(a), static_cast<float>(b), 0));
+        for (int k = 0; k < kFine; ++k) {
+          const double v = kHeight * (y + (k + 0.5) / kFine) / texture.height();
+          mean += 255.0 / kFine * EvaluateTexture(recipe, kWidth * a, v, kWidth, kHeight);
+        }
+      }
+      EXPECT_NEAR(baked / texture.width(), mean / texture.width(), 1.2) << texel << ' ' << y;
     }
   }
 }
