@@ -64,6 +64,32 @@ Segment3 PartOf(const Segment3& segment, const Stretch& stretch) {
   return {segment.start + stretch.from * along, segment.start + stretch.to * along};
 }
 
+// Segments that hang together, each chain in the place of its first; other places are empty.
+std::vector<std::vector<int>> FindChains(std::span<const Segment3> segments, double across) {
+  const SegmentGrid grid(segments);
+  const auto count = static_cast<int>(segments.size());
+  std::vector<int> parents(segments.size());
+  std::iota(parents.begin(), parents.end(), 0);
+  for (int i = 0; i < count; ++i) {
+    const Segment3& segment = segments[static_cast<std::size_t>(i)];
+    // Of two that overlap, an end of one lies on the other.
+    for (const Vector3d& end : {segment.start, segment.end}) {
+      for (const int j : grid.Near(end, across)) {
+        const bool same =
+            j != i && AreCollinear(segment, segments[static_cast<std::size_t>(j)], across);
+        if (!same) continue;
+        const int a = Root(parents, i), b = Root(parents, j);
+        parents[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      }
+    }
+  }
+  std::vector<std::vector<int>> chains(segments.size());
+  for (int i = 0; i < count; ++i) {
+    chains[static_cast<std::size_t>(Root(parents, i))].push_back(i);
+  }
+  return chains;
+}
+
 }  // namespace
 
 SegmentGrid::SegmentGrid(std::span<const Segment3> segments) : segments_(segments) {
@@ -99,29 +125,8 @@ std::vector<int> SegmentGrid::Near(const Vector3d& point, double radius) const {
 }
 
 std::vector<Segment3> JoinCollinear(std::span<const Segment3> segments, double across) {
-  const SegmentGrid grid(segments);
-  const auto count = static_cast<int>(segments.size());
-  std::vector<int> parents(segments.size());
-  std::iota(parents.begin(), parents.end(), 0);
-  for (int i = 0; i < count; ++i) {
-    const Segment3& segment = segments[static_cast<std::size_t>(i)];
-    // Of two that overlap, an end of one lies on the other.
-    for (const Vector3d& end : {segment.start, segment.end}) {
-      for (const int j : grid.Near(end, across)) {
-        if (j == i || !AreCollinear(segment, segments[static_cast<std::size_t>(j)], across)) {
-          continue;
-        }
-        const int a = Root(parents, i), b = Root(parents, j);
-        parents[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-      }
-    }
-  }
-  std::vector<std::vector<int>> chains(segments.size());
-  for (int i = 0; i < count; ++i) {
-    chains[static_cast<std::size_t>(Root(parents, i))].push_back(i);
-  }
   std::vector<Segment3> joined;
-  for (const std::vector<int>& chain : chains) {
+  for (const std::vector<int>& chain : FindChains(segments, across)) {
     if (chain.empty()) continue;
     const auto longest = std::max_element(chain.begin(), chain.end(), [&](int a, int b) {
       return segments[static_cast<std::size_t>(a)].Length() <

@@ -79,7 +79,7 @@ class LineVisibility::Sweep {
 
 std::optional<Vector2d> LineVisibility::Sweep::Look(double share) const {
   const Vector3d point = line_.start + share * (line_.end - line_.start);
-  const auto px = parent_.camera_.Project(parent_.camera_from_world_[frame_] * point);
+  auto px = parent_.camera_.Project(parent_.camera_from_world_[frame_] * point);
   if (!px || !parent_.camera_.Contains(*px)) return std::nullopt;
   const Vector3d& eye = parent_.views_[frame_].world_from_camera.translation;
   const Vector3d before = point + kPull * (eye - point).normalized();

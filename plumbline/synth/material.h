@@ -41,7 +41,8 @@ struct TextureRecipe {
 };
 
 // Reflectance in [0, 1] at (u, v) metres from the corner of a surface of the given size (of its
-// sheet where it is cut out of one).
+// sheet where it is cut out of one). Works out the layout each time: for many points of a surface
+// there is SurfacePattern.
 double EvaluateTexture(
     const TextureRecipe& recipe, double u, double v, double width, double height);
 

@@ -91,8 +91,8 @@ bool LampShadows::IsLit(const Surface& surface) const {
   std::vector<Vector2d> places{
       {clamped(offset.dot(surface.side_u) / surface.side_u.squaredNorm()),
        clamped(offset.dot(surface.side_v) / surface.side_v.squaredNorm())}};
-  for (int i = 0; i < kSide * kSide; ++i) {
-    places.emplace_back((i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) places.emplace_back((x + 0.5) / kSide, (y + 0.5) / kSide);
   }
   return std::any_of(places.begin(), places.end(), [&](const Vector2d& place) {
     const Vector3d point = surface.PointAt(place.x(), place.y()) + kLift * normal;

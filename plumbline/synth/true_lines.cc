@@ -93,6 +93,7 @@ std::vector<Candidate> FindCandidates(const Scene& scene,
                                       int threads) {
   std::vector<Candidate> candidates;
   const std::vector<Segment3> geometry = JoinCollinear(scene.edges, kSameGeometry);
+  candidates.reserve(geometry.size());
   for (const Segment3& edge : geometry) candidates.push_back({{edge, TrueLineKind::kGeometry}});
 
   std::vector<Segment3> all = geometry, painted;
