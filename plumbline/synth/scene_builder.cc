@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,41 @@ void SceneBuilder::AddBar(
                {(end - start).norm(), thickness, thickness},
                material,
                tone);
+}
+
+void SceneBuilder::AddPrism(const Vector3d& start,
+                            const Vector3d& end,
+                            const PrismShape& shape,
+                            Material material,
+                            double tone) {
+  PLUMBLINE_CHECK(shape.sides >= 4 && shape.sides % 2 == 0, "even number of sides of a prism");
+  constexpr double kApart = 0.002;
+  const Vector3d axis = (end - start).normalized();
+  const Vector3d guide = std::abs(axis.z()) > 0.9 ? Vector3d::UnitX() : Vector3d::UnitZ();
+  const Vector3d a = guide.cross(axis).normalized(), b = axis.cross(a);
+  const auto corner = [&](int i) -> Vector3d {
+    const double angle = 2 * std::numbers::pi * i / shape.sides;
+    return shape.radius * (std::cos(angle) * a + std::sin(angle) * b);
+  };
+  TextureRecipe mantle = Recipe(material, tone);
+  const double side = (corner(1) - corner(0)).norm();
+  mantle.sheet_width = side * shape.sides;
+  mantle.sheet_height = (end - start).norm();
+  for (int i = 0; i < shape.sides; ++i) {
+    mantle.sheet_u = side * i;
+    AddFace({start + corner(i), corner(i + 1) - corner(i), end - start, mantle});
+    AddEdge(start + corner(i), end + corner(i));
+    AddEdge(start + corner(i), start + corner(i + 1));
+    AddEdge(end + corner(i), end + corner(i + 1));
+  }
+  // A side seen from the axis spans no more than itself: the strips cover the whole polygon.
+  for (int i = 0; i < shape.sides / 2; ++i) {
+    const Vector3d along = corner(i + 1) - corner(i),
+                   across = corner(i + shape.sides / 2 + 1) - corner(i);
+    const Vector3d in = (shape.lid + kApart * i) * axis;
+    AddFace({start + corner(i) + in, across, along, Recipe(material, tone)});
+    AddFace({end + corner(i) - in, along, across, Recipe(material, tone)});
+  }
 }
 
 void SceneBuilder::AddPanel(const Vector3d& origin,

@@ -37,6 +37,13 @@ struct WallShape {
   double thickness = 0.1;
 };
 
+// The section of a round thing: a regular polygon.
+struct PrismShape {
+  double radius = 0.1;  // to its corners, metres
+  int sides = 6;        // even
+  double lid = 0;       // how far its ends lie inside its rim, metres
+};
+
 // What a panel looks like.
 struct PanelLook {
   Material material = Material::kPaint;
@@ -69,6 +76,14 @@ class SceneBuilder {
               double thickness,
               Material material,
               double tone);
+
+  // A drum, pipe or post from the middle of one end to that of the other. Its ends are strips from
+  // side to opposite side, 2 mm apart.
+  void AddPrism(const Eigen::Vector3d& start,
+                const Eigen::Vector3d& end,
+                const PrismShape& shape,
+                Material material,
+                double tone);
 
   // A rectangle in space: origin, two sides normal to each other, seen from both sides, lit from
   // the side of side_u x side_v.
