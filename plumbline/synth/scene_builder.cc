@@ -230,6 +230,15 @@ void SceneBuilder::AddReveals(const WallShape& shape,
   }
 }
 
+void SceneBuilder::AddFaceWithHoles(const Vector3d& origin,
+                                    const Vector3d& side_u,
+                                    const Vector3d& side_v,
+                                    std::span<const Opening> openings,
+                                    const PanelLook& look) {
+  AddWallFace({origin, side_u, side_v, Recipe(look.material, look.tone), look.glow, look.circuit},
+              openings);
+}
+
 void SceneBuilder::AddFloor(const Vector3d& corner,
                             const Eigen::Vector2d& size,
                             Material material,

@@ -100,6 +100,14 @@ class SceneBuilder {
                Material material,
                double tone);
 
+  // One face of a wall seen from the side of side_u x side_v (side_v up), with holes as in AddWall.
+  // No edges.
+  void AddFaceWithHoles(const Eigen::Vector3d& origin,
+                        const Eigen::Vector3d& side_u,
+                        const Eigen::Vector3d& side_v,
+                        std::span<const Opening> openings,
+                        const PanelLook& look);
+
   // A floor (facing up) or a ceiling (facing down): `corner` and the size along x and y. No edges,
   // for the walls around bring them.
   void AddFloor(const Eigen::Vector3d& corner,

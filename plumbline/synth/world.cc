@@ -16,7 +16,12 @@ constexpr std::array kWorlds = {
                "a workshop with shelves, tables, posters and a window; one loop by hand",
                "small and rich, for demonstrations and tests",
                nullptr,
-               MakeRoom}};
+               MakeRoom},
+    WorldEntry{"lowtexture",
+               "blank rooms along a corridor, suspended ceilings; a cart drives through them",
+               "few points, many lines: the synthetic sequence of the second paper",
+               nullptr,
+               MakeLowTexture}};
 
 }  // namespace
 

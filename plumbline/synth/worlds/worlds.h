@@ -10,5 +10,6 @@ namespace plumbline {
 
 // One function for each world, each in a file of its name; world.cc lists them.
 World MakeRoom(std::uint64_t seed);
+World MakeLowTexture(std::uint64_t seed);
 
 }  // namespace plumbline

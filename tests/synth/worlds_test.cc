@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+#include "plumbline/geometry/se3.h"
+#include "plumbline/synth/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// What is promised of the path of a world: metres, seconds, metres per second, radians per second.
+struct Promise {
+  double least_length = 0, most_length = 1e3;
+  double least_duration = 8, most_duration = 70;
+  double most_speed = 1.5, most_turn = 1.4;
+};
+
+Promise PromiseOf(const std::string& world) {
+  const std::map<std::string, Promise> promises = {
+      {"lowtexture", {35, 70, 40, 80, 1.1, 1.0}},
+  };
+  const auto found = promises.find(world);
+  return found == promises.end() ? Promise{} : found->second;
+}
+
+const World& Made(const WorldEntry& entry, std::uint64_t seed) {
+  static std::map<std::pair<std::string, std::uint64_t>, World> made;
+  const auto key = std::make_pair(std::string(entry.name), seed);
+  const auto found = made.find(key);
+  if (found != made.end()) return found->second;
+  return made.emplace(key, entry.make(seed)).first->second;
+}
+
+// The surface in the world at a time.
+Surface InWorld(const Scene& scene, const Surface& surface, double time) {
+  if (!surface.body) return surface;
+  const Rigid3 pose = scene.bodies[static_cast<std::size_t>(*surface.body)].world_from_body(time);
+  Surface moved = surface;
+  moved.origin = pose * surface.origin;
+  moved.side_u = pose.rotation * surface.side_u;
+  moved.side_v = pose.rotation * surface.side_v;
+  return moved;
+}
+
+double Distance(const Vector3d& point, const Surface& surface) {
+  const Vector3d offset = point - surface.origin;
+  const double a = std::clamp(offset.dot(surface.side_u) / surface.side_u.squaredNorm(), 0.0, 1.0);
+  const double b = std::clamp(offset.dot(surface.side_v) / surface.side_v.squaredNorm(), 0.0, 1.0);
+  return (point - surface.PointAt(a, b)).norm();
+}
+
+// How far along start -> start + way the surface is hit, where it is.
+std::optional<double> Hit(const Surface& surface, const Vector3d& start, const Vector3d& way) {
+  const Vector3d normal = surface.side_u.cross(surface.side_v);
+  const double slope = normal.dot(way);
+  if (slope == 0) return std::nullopt;
+  const double share = normal.dot(surface.origin - start) / slope;
+  if (share < 0) return std::nullopt;
+  const Vector3d offset = start + share * way - surface.origin;
+  const double a = offset.dot(surface.side_u) / surface.side_u.squaredNorm();
+  const double b = offset.dot(surface.side_v) / surface.side_v.squaredNorm();
+  if (a < 0 || a > 1 || b < 0 || b > 1) return std::nullopt;
+  return share;
+}
+
+class EveryWorld : public testing::TestWithParam<WorldEntry> {
+ protected:
+  const World& Get(std::uint64_t seed = 1) const { return Made(GetParam(), seed); }
+};
+
+TEST_P(EveryWorld, PathKeepsAwayFromEverything) {
+  constexpr double kStep = 0.05, kClosest = 0.25;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const World& world = Get(seed);
+    std::optional<Vector3d> last;
+    for (double time = 0; time <= world.path.duration; time += kStep) {
+      const Vector3d here = world.path.world_from_camera(time).translation;
+      for (std::size_t i = 0; i < world.scene.surfaces.size(); ++i) {
+        const Surface surface = InWorld(world.scene, world.scene.surfaces[i], time);
+        ASSERT_GT(Distance(here, surface), kClosest)
+            << "seed " << seed << ", " << time << " s, surface " << i << " at "
+            << surface.origin.transpose() << ", camera at " << here.transpose();
+        if (!last) continue;
+        const std::optional<double> hit = Hit(surface, *last, here - *last);
+        ASSERT_TRUE(!hit || *hit > 1) << "through surface " << i << " at " << time << " s";
+      }
+      last = here;
+    }
+  }
+}
+
+TEST_P(EveryWorld, PathIsSmooth) {
+  constexpr double kStep = 2e-3;
+  const Promise promise = PromiseOf(GetParam().name);
+  const CameraPath& path = Get().path;
+  Vector6d last = Vector6d::Zero();
+  for (double time = 0; time + kStep <= path.duration; time += kStep) {
+    const Rigid3 a = path.world_from_camera(time), b = path.world_from_camera(time + kStep);
+    const Vector6d velocity = LogSe3(Inverse(a) * b) / kStep;
+    ASSERT_LT(velocity.tail<3>().norm(), promise.most_speed) << time;
+    ASSERT_LT(velocity.head<3>().norm(), promise.most_turn) << time;
+    if (time > 0) {
+      // A jump of velocity would show as one of v / kStep: hundreds.
+      ASSERT_LT((velocity - last).norm() / kStep, 40) << time;
+    }
+    last = velocity;
+  }
+}
+
+TEST_P(EveryWorld, PathIsAsLongAsPromised) {
+  constexpr double kStep = 0.05;
+  const Promise promise = PromiseOf(GetParam().name);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const CameraPath& path = Get(seed).path;
+    double length = 0;
+    for (double time = kStep; time <= path.duration; time += kStep) {
+      length += (path.world_from_camera(time).translation -
+                 path.world_from_camera(time - kStep).translation)
+                    .norm();
+    }
+    EXPECT_GE(length, promise.least_length);
+    EXPECT_LE(length, promise.most_length);
+    EXPECT_GE(path.duration, promise.least_duration);
+    EXPECT_LE(path.duration, promise.most_duration);
+  }
+}
+
+// Nowhere the camera can look is there nothing.
+TEST_P(EveryWorld, IsClosedAllAround) {
+  const World& world = Get();
+  for (int i = 0; i < 400; ++i) {
+    const double time = world.path.duration * i / 400;
+    const Rigid3 pose = world.path.world_from_camera(time);
+    // Spread over the field of view by two irrational steps.
+    const double u = std::fmod(0.5 + i * std::numbers::phi, 1.0);
+    const double v = std::fmod(0.5 + i * std::numbers::sqrt2, 1.0);
+    const Vector3d way = pose.rotation * Vector3d(1.9 * (u - 0.5), 1.2 * (v - 0.5), 1);
+    const bool hit = std::any_of(
+        world.scene.surfaces.begin(), world.scene.surfaces.end(), [&](const Surface& surface) {
+          return Hit(InWorld(world.scene, surface, time), pose.translation, way).has_value();
+        });
+    ASSERT_TRUE(hit) << time << " s, from " << pose.translation.transpose() << " towards "
+                     << way.transpose();
+  }
+}
+
+TEST_P(EveryWorld, SurfacesAreRectangles) {
+  const Scene& scene = Get().scene;
+  EXPECT_LE(scene.surfaces.size(), 8000U);
+  for (const Surface& surface : scene.surfaces) {
+    const double u = surface.side_u.norm(), v = surface.side_v.norm();
+    EXPECT_GT(std::min(u, v), 1e-3) << surface.origin.transpose();
+    EXPECT_LT(std::abs(surface.side_u.dot(surface.side_v)), 1e-9 * u * v);
+    EXPECT_GE(surface.texture.tone, 0);
+    EXPECT_LE(surface.texture.tone, 1);
+  }
+  for (const Segment3& edge : scene.edges) EXPECT_GT((edge.end - edge.start).norm(), 1e-3);
+  for (const Lamp& lamp : scene.lamps) EXPECT_GE(lamp.power, 0);
+}
+
+// Every edge runs along the rim of some surface, wholly or in part.
+TEST_P(EveryWorld, EdgesLieOnRims) {
+  const Scene& scene = Get().scene;
+  const auto on_rim = [](const Surface& surface, const Vector3d& point) {
+    if (Distance(point, surface) > 1e-6) return false;
+    const Vector3d offset = point - surface.origin;
+    const double u = surface.side_u.norm(), v = surface.side_v.norm();
+    const double a = offset.dot(surface.side_u) / u, b = offset.dot(surface.side_v) / v;
+    return std::min({a, u - a, b, v - b}) < 1e-6;
+  };
+  for (std::size_t i = 0; i < scene.edges.size(); ++i) {
+    const Vector3d middle = 0.5 * (scene.edges[i].start + scene.edges[i].end);
+    EXPECT_TRUE(std::any_of(scene.surfaces.begin(),
+                            scene.surfaces.end(),
+                            [&](const Surface& s) { return on_rim(s, middle); }))
+        << "edge " << i << " at " << middle.transpose();
+  }
+}
+
+// Middle of what two surfaces of one plane share, if they do.
+std::optional<Vector3d> CoplanarOverlap(const Surface& one, const Surface& other) {
+  constexpr double kApart = 0.0015, kLeast = 0.002;
+  const Vector3d normal = one.Normal();
+  if (std::abs(normal.dot(other.Normal())) < 0.99999) return std::nullopt;
+  if (std::abs(normal.dot(other.origin - one.origin)) > kApart) return std::nullopt;
+  const Vector3d u = one.side_u.normalized(), v = one.side_v.normalized();
+  // Only rectangles turned alike: others would have to be met by a far-fetched chance.
+  const double turn = std::abs(u.dot(other.side_u.normalized()));
+  if (turn > 1e-6 && turn < 1 - 1e-6) return std::nullopt;
+  const Vector3d a = other.PointAt(0, 0) - one.origin, b = other.PointAt(1, 1) - one.origin;
+  const double left = std::max(0.0, std::min(a.dot(u), b.dot(u)));
+  const double right = std::min(one.side_u.norm(), std::max(a.dot(u), b.dot(u)));
+  const double low = std::max(0.0, std::min(a.dot(v), b.dot(v)));
+  const double high = std::min(one.side_v.norm(), std::max(a.dot(v), b.dot(v)));
+  if (right - left < kLeast || high - low < kLeast) return std::nullopt;
+  return one.origin + 0.5 * (left + right) * u + 0.5 * (low + high) * v;
+}
+
+// Of two surfaces in one plane it is chance which is seen.
+TEST_P(EveryWorld, NoTwoSurfacesAreSeenInOnePlace) {
+  const World& world = Get();
+  const std::vector<Surface>& surfaces = world.scene.surfaces;
+  std::vector<Vector3d> eyes;
+  for (double time = 0; time <= world.path.duration; time += 1) {
+    eyes.push_back(world.path.world_from_camera(time).translation);
+  }
+  const auto seen = [&](const Vector3d& point, std::size_t i, std::size_t k) {
+    return std::any_of(eyes.begin(), eyes.end(), [&](const Vector3d& eye) {
+      for (std::size_t n = 0; n < surfaces.size(); ++n) {
+        if (n == i || n == k || surfaces[n].body) continue;
+        const std::optional<double> hit = Hit(surfaces[n], eye, point - eye);
+        if (hit && *hit < 1 - 1e-9) return false;
+      }
+      return true;
+    });
+  };
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (std::size_t k = i + 1; k < surfaces.size(); ++k) {
+      if (surfaces[i].body || surfaces[k].body) continue;
+      const std::optional<Vector3d> shared = CoplanarOverlap(surfaces[i], surfaces[k]);
+      if (!shared) continue;
+      EXPECT_FALSE(seen(*shared, i, k))
+          << "surfaces " << i << " and " << k << " at " << shared->transpose();
+    }
+  }
+}
+
+TEST_P(EveryWorld, IsAFunctionOfTheSeed) {
+  const World& one = Get();
+  const World again = GetParam().make(1);
+  const World& other = Get(2);
+  ASSERT_EQ(one.scene.surfaces.size(), again.scene.surfaces.size());
+  for (std::size_t i = 0; i < one.scene.surfaces.size(); ++i) {
+    const Surface& a = one.scene.surfaces[i];
+    const Surface& b = again.scene.surfaces[i];
+    ASSERT_TRUE(a.origin == b.origin && a.side_u == b.side_u && a.side_v == b.side_v);
+    ASSERT_EQ(a.texture.seed, b.texture.seed);
+  }
+  const auto pose = [](const World& world) { return world.path.world_from_camera(3.7); };
+  EXPECT_EQ(pose(one).translation, pose(again).translation);
+  EXPECT_NE(one.scene.surfaces.front().texture.seed, other.scene.surfaces.front().texture.seed);
+  const Rigid3 a = pose(one), b = pose(other);
+  EXPECT_TRUE((a.translation - b.translation).norm() > 1e-6 ||
+              AngularDistance(a.rotation, b.rotation) > 1e-6);
+}
+
+TEST_P(EveryWorld, SaysWhatItIs) {
+  EXPECT_EQ(FindWorld(GetParam().name).name, std::string(GetParam().name));
+  EXPECT_GT(std::string(GetParam().help).size(), 10U);
+  EXPECT_GT(std::string(GetParam().purpose).size(), 10U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds,
+                         EveryWorld,
+                         testing::ValuesIn(Worlds().begin(), Worlds().end()),
+                         [](const testing::TestParamInfo<WorldEntry>& tested) {
+                           return std::string(tested.param.name);
+                         });
+
+TEST(Worlds, UnknownNameIsAnErrorThatListsThem) {
+  try {
+    FindWorld("atlantis");
+    FAIL() << "found";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("lowtexture"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
