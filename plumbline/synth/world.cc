@@ -21,13 +21,34 @@ constexpr std::array kWorlds = {
                "blank rooms along a corridor, suspended ceilings; a cart drives through them",
                "few points, many lines: the synthetic sequence of the second paper",
                nullptr,
-               MakeLowTexture}};
+               MakeLowTexture},
+    WorldEntry{"vicon_easy",
+               "a hall for motion capture: mats, drums, boards, curtains; a slow flight",
+               "a flying vehicle that moves gently",
+               [](SynthOptions& options) { options.shutter_ms = 8; },
+               MakeViconEasy},
+    WorldEntry{"vicon_medium",
+               "the same hall; a flight at 1 m/s",
+               "a flying vehicle at its usual pace, a little motion blur",
+               [](SynthOptions& options) { options.shutter_ms = 12; },
+               MakeViconMedium},
+    WorldEntry{"vicon_difficult",
+               "the same hall; a flight at 1.8 m/s with fast turns",
+               "an agile vehicle, strong motion blur",
+               [](SynthOptions& options) { options.shutter_ms = 16; },
+               MakeViconDifficult},
+    WorldEntry{"office",
+               "an open office, meeting room, kitchen and corridor; a long walk through all",
+               "a furnished building with daylight, many loops and revisits",
+               nullptr,
+               MakeOffice}};
 
 }  // namespace
 
 std::span<const WorldEntry> Worlds() { return kWorlds; }
 
 const WorldEntry& FindWorld(std::string_view name) {
+  if (name == "vicon") name = "vicon_medium";
   std::string names;
   for (const WorldEntry& known : kWorlds) {
     if (name == known.name) return known;

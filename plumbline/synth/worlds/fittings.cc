@@ -137,6 +137,49 @@ void AddDuct(SceneBuilder& scene, const Place& place, double length) {
   AddPart(scene, place, {{0, 0.03, 0}, {length, 0.054, 0.11}}, Material::kPaint, 0.65);
 }
 
+void AddCurtain(SceneBuilder& scene, const Place& place, const Vector2d& size, double tone) {
+  constexpr double kFold = 0.13, kNear = 0.04, kFar = 0.13;
+  const int folds = std::max(2, static_cast<int>(size.x() / kFold));
+  const Vector3d up = size.y() * Vector3d::UnitZ();
+  // From its own right end to the left, so that the cloth is lit on the side of the room.
+  const auto crease = [&](int i, double jitter) -> Vector3d {
+    const double x = size.x() * (0.5 - static_cast<double>(i) / folds);
+    return place.At(x, (i % 2 == 0 ? kNear : kFar) + jitter, 0);
+  };
+  Vector3d last = crease(0, 0);
+  scene.AddEdge(last, last + up);
+  for (int i = 1; i <= folds; ++i) {
+    const Vector3d next = crease(i, scene.Random(-0.02, 0.02));
+    scene.AddPanel(last, next - last, up, {Material::kFabric, tone, false});
+    scene.AddEdge(next, next + up);
+    scene.AddEdge(last, next);
+    last = next;
+  }
+  AddPart(scene,
+          place,
+          {{0, 0.085, size.y() - 0.04}, {size.x() + 0.2, 0.17, 0.08}},
+          Material::kPaint,
+          0.6);
+}
+
+void AddChecker(SceneBuilder& scene, const Place& place, int columns, int rows, double square) {
+  constexpr double kFace = 0.018, kBefore = 0.003;
+  const double margin = 0.6 * square;
+  AddSheet(scene,
+           place,
+           {columns * square + 2 * margin, rows * square + 2 * margin},
+           Material::kBlank,
+           0.85);
+  const Vector3d u = -square * (place.At(1, 0, 0) - place.base);
+  for (int row = 0; row < rows; ++row) {
+    for (int column = row % 2; column < columns; column += 2) {
+      const Vector3d corner =
+          place.At((0.5 * columns - column) * square, kFace + kBefore, margin + row * square);
+      scene.AddPanel(corner, u, square * Vector3d::UnitZ(), {Material::kBlank, 0.06});
+    }
+  }
+}
+
 void AddCeilingGrid(SceneBuilder& scene, const CeilingGrid& grid) {
   constexpr double kBar = 0.024, kDrop = 0.008, kStep = 0.002;
   const Vector3d corner = grid.corner;

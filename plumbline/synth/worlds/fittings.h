@@ -48,6 +48,12 @@ void AddSocket(SceneBuilder& scene, const Place& place);
 // A closed channel for cables, `length` along the wall.
 void AddDuct(SceneBuilder& scene, const Place& place, double length);
 
+// A curtain in folds, `size` broad and tall, under a rail.
+void AddCurtain(SceneBuilder& scene, const Place& place, const Eigen::Vector2d& size, double tone);
+
+// A white board with `columns` x `rows` squares, every other one black.
+void AddChecker(SceneBuilder& scene, const Place& place, int columns, int rows, double square);
+
 // A suspended ceiling at z = corner.z(): mineral boards over a grid of metal bars, of which those
 // along x lie 2 mm lower; a bar lies along each side of the room. Cells start at the corner.
 struct CeilingGrid {

@@ -11,5 +11,9 @@ namespace plumbline {
 // One function for each world, each in a file of its name; world.cc lists them.
 World MakeRoom(std::uint64_t seed);
 World MakeLowTexture(std::uint64_t seed);
+World MakeViconEasy(std::uint64_t seed);
+World MakeViconMedium(std::uint64_t seed);
+World MakeViconDifficult(std::uint64_t seed);
+World MakeOffice(std::uint64_t seed);
 
 }  // namespace plumbline
