@@ -41,7 +41,12 @@ constexpr std::array kWorlds = {
                "an open office, meeting room, kitchen and corridor; a long walk through all",
                "a furnished building with daylight, many loops and revisits",
                nullptr,
-               MakeOffice}};
+               MakeOffice},
+    WorldEntry{"loop",
+               "four rooms and four corridors in a ring, walked round twice",
+               "closing loops: 120 m, each place seen again a round later",
+               nullptr,
+               MakeLoop}};
 
 }  // namespace
 

@@ -127,6 +127,28 @@ void AddChair(SceneBuilder& scene, const Place& place) {
   }
 }
 
+namespace {
+
+// A book or box on a board: what the shelf hides of it, back and bottom, is left out. The place is
+// the middle of its back at the foot.
+void AddBook(SceneBuilder& scene, const Place& place, const Vector3d& size, bool box) {
+  const double tone = scene.Random(0.1, 0.95), half = 0.5 * size.x();
+  const Vector3d x = place.At(1, 0, 0) - place.base, y = place.At(0, 1, 0) - place.base;
+  const Vector3d across = -size.x() * x, deep = size.y() * y, up = size.z() * Vector3d::UnitZ();
+  const Vector3d front = place.At(half, size.y(), 0);
+  const Material cover = box ? Material::kCardboard : Material::kPaint;
+  scene.AddPanel(front, across, up, {box ? cover : Material::kSpine, tone, true});
+  scene.AddPanel(front - deep, deep, up, {cover, tone, false});     // looks along x
+  scene.AddPanel(front + across, -deep, up, {cover, tone, false});  // looks along -x
+  scene.AddPanel(front + up, across, -deep, {cover, box ? tone : 0.75, false});
+  for (const Vector3d& side : {Vector3d::Zero().eval(), across}) {
+    scene.AddEdge(front + up + side, front + up + side - deep);
+  }
+  scene.AddEdge(front + up - deep, front + up - deep + across);
+}
+
+}  // namespace
+
 void AddShelf(SceneBuilder& scene, const Place& place, const ShelfShape& shape) {
   constexpr double kBoard = 0.025, kPlinth = 0.06;
   const double y = 0.5 * shape.depth + 0.004, half = 0.5 * shape.breadth;
@@ -151,14 +173,14 @@ void AddShelf(SceneBuilder& scene, const Place& place, const ShelfShape& shape) 
     while (left < half - 0.1) {
       if (scene.Random(0, 1) > shape.filled) left += scene.Random(0.05, 0.3);
       const bool box = scene.Random(0, 1) < 0.12;
-      const double wide = box ? scene.Random(0.12, 0.2) : scene.Random(0.02, 0.06);
+      const double wide = box ? scene.Random(0.14, 0.26) : scene.Random(0.03, 0.08);
       if (left + wide > half - 0.03) break;
       const double deep = scene.Random(0.55, 0.8) * shape.depth;
-      AddPart(scene,
-              place,
-              {{left + 0.5 * wide, y, z + kBoard}, {wide, deep, scene.Random(0.62, 0.95) * room}},
-              box ? Material::kCardboard : Material::kSpine,
-              scene.Random(0.1, 0.95));
+      const double back = 0.5 * (shape.depth - deep);
+      AddBook(scene,
+              {place.At(left + 0.5 * wide, back, z + kBoard), place.facing},
+              {wide, deep, scene.Random(0.62, 0.95) * room},
+              box);
       left += wide + 0.003;
     }
   }

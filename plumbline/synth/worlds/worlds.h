@@ -15,5 +15,6 @@ World MakeViconEasy(std::uint64_t seed);
 World MakeViconMedium(std::uint64_t seed);
 World MakeViconDifficult(std::uint64_t seed);
 World MakeOffice(std::uint64_t seed);
+World MakeLoop(std::uint64_t seed);
 
 }  // namespace plumbline
