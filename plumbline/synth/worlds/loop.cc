@@ -53,7 +53,7 @@ Ring MakeRing() {
   ring.lockers = {{x + kWall, 11.6}, {far_x - kWall, 13.9}, 2.7, Material::kBlank, 0.7};
   ring.lockers.floor = Material::kTiles;
   ring.lockers.floor_tone = 0.5;
-  ring.windows = {{1.6, y + kWall}, {3.9, far_y - kWall}, 2.8, Material::kPlaster, 0.65};
+  ring.windows = {{1.6, y + kWall}, {3.9, far_y - kWall}, 2.8, Material::kPaint, 0.65};
   ring.windows.floor = Material::kPlanks;
   ring.windows.floor_tone = 0.45;
   return ring;
@@ -92,7 +92,7 @@ void AddWindows(SceneBuilder& scene) {
   WindowShape window;
   window.height = kWindowTop - kWindowFoot;
   window.recess = kWall;
-  window.power = 0.9;
+  window.power = 3;
   window.breadth = 1.2;
   for (const double y : {6.3, 8.6}) {
     AddWindow(scene, {{1.6 - kWall, y, kWindowFoot}, kEast}, window);
@@ -143,7 +143,7 @@ void FurnishWorkshop(SceneBuilder& scene) {
   for (const double x : {1.7, 4.3}) {
     for (const double y : {1.9, 3.5}) {
       scene.AddBox({{x, y, 2.9}, {1.3, 0.16, 0.08}, 0}, Material::kPaint, 0.8);
-      scene.AddCeilingLamp({x, y, 2.89}, {1.26, 0.12}, 1.5);
+      scene.AddCeilingLamp({x, y, 2.89}, {1.26, 0.12}, 4);
     }
   }
 }
@@ -197,7 +197,7 @@ void FurnishLounge(SceneBuilder& scene) {
     for (const double to : {11.4, 13.8}) {
       scene.AddBox({{at, to, 2.8}, {0.64, 0.64, 0.06}, 0}, Material::kPaint, 0.8);
       scene.AddPrism({at, to, 2.86}, {at, to, 2.9}, {0.02, 6, 0}, Material::kMetal, 0.4);
-      scene.AddCeilingLamp({at, to, 2.79}, {0.6, 0.6}, 1.4);
+      scene.AddCeilingLamp({at, to, 2.79}, {0.6, 0.6}, 3.5);
     }
   }
 }
@@ -268,19 +268,19 @@ void FurnishCorridors(SceneBuilder& scene) {
 
 void AddGridLamps(SceneBuilder& scene, const Ring& ring) {
   for (const int column : {2, 7, 12, 17, 21}) {
-    AddGridLamp(scene, ring.pictures.Ceiling(), {column, 1, 2, 1, 1.2});
-    AddGridLamp(scene, ring.lockers.Ceiling(), {column, 1, 2, 1, 1.3});
+    AddGridLamp(scene, ring.pictures.Ceiling(), {column, 1, 2, 1, 3});
+    AddGridLamp(scene, ring.lockers.Ceiling(), {column, 1, 2, 1, 3});
   }
   for (const RoomPlan* room : {&ring.office, &ring.library}) {
     for (const int column : {2, 6}) {
-      for (const int row : {2, 6}) AddGridLamp(scene, room->Ceiling(), {column, row, 2, 1, 1.4});
+      for (const int row : {2, 6}) AddGridLamp(scene, room->Ceiling(), {column, row, 2, 1, 3.5});
     }
   }
-  AddGridLamp(scene, ring.windows.Ceiling(), {1, 1, 1, 2, 1.1});
-  AddGridLamp(scene, ring.windows.Ceiling(), {1, 5, 1, 2, 1.1});
+  AddGridLamp(scene, ring.windows.Ceiling(), {1, 1, 1, 2, 2.5});
+  AddGridLamp(scene, ring.windows.Ceiling(), {1, 5, 1, 2, 2.5});
   for (const double y : {6.8, 8.8}) {
     scene.AddBox({{23.1, y, 2.86}, {0.16, 1.3, 0.038}, 0}, Material::kPaint, 0.8);
-    scene.AddCeilingLamp({23.1, y, 2.85}, {0.12, 1.26}, 1.2);
+    scene.AddCeilingLamp({23.1, y, 2.85}, {0.12, 1.26}, 3);
   }
 }
 
@@ -328,7 +328,7 @@ World MakeLoop(std::uint64_t seed) {
   FurnishLibrary(scene);
   FurnishCorridors(scene);
   AddGridLamps(scene, ring);
-  scene.SetAmbient(0.35);
+  scene.SetAmbient(0.55);
   CameraPath path = TwoRounds(scene, seed);
   return {scene.Take(), std::move(path)};
 }

@@ -59,7 +59,7 @@ void FurnishMeetingRoom(SceneBuilder& scene, const RoomPlan& room) {
   WindowShape window;
   window.breadth = 1.6;
   window.recess = kWall;
-  window.power = 1.3;
+  window.power = 3;
   AddWindow(scene, {{3.4, high.y() + kWall, 0.9}, kSouth}, window);
   AddRadiator(scene, {{3.4, high.y(), 0}, kSouth}, 1.4);
   TableShape table;
@@ -81,6 +81,7 @@ void FurnishOffice(SceneBuilder& scene, const RoomPlan& room) {
   for (const double x : {10.6, 13.4}) {
     WindowShape window;
     window.recess = kWall;
+    window.power = 2.5;
     window.blinds = x > 12 ? scene.Random(0.2, 0.5) : 0;
     AddWindow(scene, {{x, high.y() + kWall, 0.9}, kSouth}, window);
     AddRadiator(scene, {{x, high.y(), 0}, kSouth}, 1.2);
@@ -96,12 +97,12 @@ void FurnishOffice(SceneBuilder& scene, const RoomPlan& room) {
 
 void AddLamps(SceneBuilder& scene, const std::vector<RoomPlan>& rooms) {
   for (const int column : {1, 6, 11, 16, 21}) {
-    AddGridLamp(scene, rooms[0].Ceiling(), {column, 1, 2, 1, 1.6});
+    AddGridLamp(scene, rooms[0].Ceiling(), {column, 1, 2, 1, 3});
   }
   for (const RoomPlan* room : {&rooms[1], &rooms[2]}) {
     for (const int column : {2, 6}) {
       for (const int row : {1, 5}) {
-        AddGridLamp(scene, room->Ceiling(), {column, row, 1, 2, 1.5});
+        AddGridLamp(scene, room->Ceiling(), {column, row, 1, 2, 3});
       }
     }
   }
@@ -127,6 +128,7 @@ World MakeLowTexture(std::uint64_t seed) {
   AddLamps(scene, rooms);
   AddOpenLeaf(scene, {{3.0 + 0.03, kRoomLow + 0.03, 0}, kNorth}, {1.0, 2.05, 0, 0.55});
   AddOpenLeaf(scene, {{12.45 - 0.03, kRoomLow + 0.03, 0}, kNorth}, {1.0, 2.05, 0, 0.55});
+  scene.SetAmbient(0.5);
   const double a = scene.Random(-0.1, 0.1), b = scene.Random(-0.1, 0.1);
   const std::vector<Leg> legs = {
       {{3.55, 1.1 + a}},     // along the corridor

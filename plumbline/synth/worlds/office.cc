@@ -51,7 +51,7 @@ void AddWindows(SceneBuilder& scene) {
   WindowShape window;
   window.height = kWindowHeight;
   window.recess = kNiche;
-  window.power = 0.9;
+  window.power = 2.5;
   for (const double x : kSouthWindows) {
     window.breadth = 1.6;
     window.blinds = scene.Random(0, 1) < 0.5 ? scene.Random(0.15, 0.6) : 0;
@@ -158,15 +158,14 @@ void FurnishCorridor(SceneBuilder& scene) {
 
 void AddLamps(SceneBuilder& scene, const std::vector<RoomPlan>& rooms) {
   for (const int column : {2, 7, 12}) {
-    for (const int row : {2, 6, 10})
-      AddGridLamp(scene, rooms[0].Ceiling(), {column, row, 2, 1, 1.4});
+    for (const int row : {2, 6, 10}) AddGridLamp(scene, rooms[0].Ceiling(), {column, row, 2, 1, 3});
   }
   for (const int row : {1, 4}) {
-    AddGridLamp(scene, rooms[1].Ceiling(), {3, row, 2, 1, 1.4});
-    AddGridLamp(scene, rooms[2].Ceiling(), {3, row, 2, 1, 1.4});
+    AddGridLamp(scene, rooms[1].Ceiling(), {3, row, 2, 1, 3});
+    AddGridLamp(scene, rooms[2].Ceiling(), {3, row, 2, 1, 3});
   }
   for (const int column : {2, 8, 14, 20}) {
-    AddGridLamp(scene, rooms[3].Ceiling(), {column, 1, 2, 1, 1.3});
+    AddGridLamp(scene, rooms[3].Ceiling(), {column, 1, 2, 1, 2.8});
   }
 }
 
@@ -199,7 +198,7 @@ World MakeOffice(std::uint64_t seed) {
   FurnishKitchen(scene);
   FurnishCorridor(scene);
   AddLamps(scene, rooms);
-  scene.SetAmbient(0.35);
+  scene.SetAmbient(0.55);
   CameraPath path = Walk(scene, seed);
   return {scene.Take(), std::move(path)};
 }

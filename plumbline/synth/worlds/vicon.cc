@@ -51,7 +51,7 @@ void AddObstacles(SceneBuilder& scene) {
   // A block of foam and a low box among the mats.
   scene.AddBox({{4.0 + scene.Random(-0.2, 0.2), 4.1, 0.05}, {0.6, 0.5, 0.45}, scene.Random(0, 1)},
                Material::kFabric,
-               0.65);
+               0.45);
   scene.AddBox({{3.0, 5.0, 0.05}, {0.5, 0.35, 0.3}, scene.Random(0, 1)}, Material::kCardboard, 0.5);
 }
 
@@ -124,7 +124,7 @@ void AddCeilingThings(SceneBuilder& scene) {
         {{0.5 * kWidth, y, kHeight - 0.2}, {kWidth - 0.01, 0.12, 0.196}, 0}, Material::kPaint, 0.5);
     if (y > 7) break;
     for (const double x : {2.0, 6.0}) {
-      scene.AddCeilingLamp({x, y + 0.95, kHeight - 0.12}, {1.5, 0.22}, 3.2);
+      scene.AddCeilingLamp({x, y + 0.95, kHeight - 0.12}, {1.5, 0.22}, 5.2);
       scene.AddBox({{x, y + 0.95, kHeight - 0.115}, {1.54, 0.26, 0.113}, 0}, Material::kPaint, 0.8);
     }
   }
@@ -135,8 +135,8 @@ Scene MakeHall(std::uint64_t seed) {
   RoomPlan hall;
   hall.high = {kWidth, kDepth};
   hall.height = kHeight;
-  hall.wall = Material::kPlaster;
-  hall.wall_tone = 0.6;
+  hall.wall = Material::kPaint;
+  hall.wall_tone = 0.65;
   hall.floor = Material::kConcrete;
   hall.floor_tone = 0.42;
   hall.grid = false;
@@ -146,7 +146,7 @@ Scene MakeHall(std::uint64_t seed) {
   AddWalls(scene);
   AddCameraRig(scene);
   AddCeilingThings(scene);
-  scene.SetAmbient(0.3);
+  scene.SetAmbient(0.5);
   return scene.Take();
 }
 
