@@ -17,13 +17,13 @@ void AddDoorFrame(SceneBuilder& scene, const Place& place, const Vector2d& hole)
     AddPart(scene,
             place,
             {{side * (hole.x() + kBroad), 0.5 * kThick, 0}, {kBroad, kThick, hole.y() + kBroad}},
-            Material::kPaint,
+            Material::kBlank,
             kTone);
   }
   AddPart(scene,
           place,
           {{0, 0.5 * kThick, hole.y()}, {hole.x(), kThick - 0.004, kBroad}},
-          Material::kPaint,
+          Material::kBlank,
           kTone);
 }
 
@@ -35,7 +35,7 @@ void AddLeaf(SceneBuilder& scene, const Place& place, const DoorShape& shape, bo
   AddPart(scene,
           place,
           {{0, 0, 0.006}, {shape.breadth - 0.008, kThick, shape.height - 0.01}},
-          Material::kPaint,
+          Material::kBlank,
           shape.tone);
   const double tall = shape.panels > 0 ? (shape.height - 0.15) / shape.panels : 0;
   for (const double face : {1.0, -1.0}) {
@@ -46,7 +46,7 @@ void AddLeaf(SceneBuilder& scene, const Place& place, const DoorShape& shape, bo
                 place,
                 {{side * shape.breadth, face * 0.5 * kThick, 0.15 + i * tall},
                  {0.34 * shape.breadth, kRaised, tall - 0.13}},
-                Material::kPaint,
+                Material::kBlank,
                 0.9 * shape.tone);
       }
     }
@@ -87,10 +87,10 @@ void AddWindow(SceneBuilder& scene, const Place& place, const WindowShape& shape
   const double deep = kPane + 0.5 * kDeep;
   for (int i = 0; i <= shape.bars + 1; ++i) {
     const double at = (b - kBar) * (static_cast<double>(i) / (shape.bars + 1) - 0.5);
-    AddPart(scene, place, {{at, deep, 0}, {kBar, kDeep, h}}, Material::kPaint, kTone);
+    AddPart(scene, place, {{at, deep, 0}, {kBar, kDeep, h}}, Material::kBlank, kTone);
   }
   for (const double z : {0.0, h - kBar}) {
-    AddPart(scene, place, {{0, deep, z}, {b, kDeep - 0.006, kBar}}, Material::kPaint, kTone);
+    AddPart(scene, place, {{0, deep, z}, {b, kDeep - 0.006, kBar}}, Material::kBlank, kTone);
   }
   AddPart(scene,  // the sill stands out from the wall
           place,
@@ -103,7 +103,7 @@ void AddWindow(SceneBuilder& scene, const Place& place, const WindowShape& shape
     AddPart(scene,
             place,
             {{0, kPane + kDeep + 0.02, h - 0.05 - i * kSlat}, {b - 0.02, 0.025, 0.03}},
-            Material::kPaint,
+            Material::kBlank,
             i % 2 == 0 ? 0.55 : 0.65);
   }
   const double before = std::max(shape.recess, kPane + kDeep + 0.05) + 0.01;
@@ -112,29 +112,29 @@ void AddWindow(SceneBuilder& scene, const Place& place, const WindowShape& shape
 
 void AddRadiator(SceneBuilder& scene, const Place& place, double length) {
   constexpr double kFoot = 0.12, kTall = 0.6, kRib = 0.05;
-  AddPart(scene, place, {{0, 0.06, kFoot}, {length, 0.04, kTall}}, Material::kPaint, 0.75);
+  AddPart(scene, place, {{0, 0.06, kFoot}, {length, 0.04, kTall}}, Material::kBlank, 0.75);
   const int ribs = static_cast<int>(length / (2 * kRib));
   for (int i = 0; i < ribs; ++i) {
     const double x = length * ((i + 0.5) / ribs - 0.5);
     AddPart(
-        scene, place, {{x, 0.09, kFoot + 0.03}, {kRib, 0.03, kTall - 0.06}}, Material::kPaint, 0.8);
+        scene, place, {{x, 0.09, kFoot + 0.03}, {kRib, 0.03, kTall - 0.06}}, Material::kBlank, 0.8);
   }
   for (const double dx : {0.05, 0.1}) {
     AddPart(scene,
             place,
             {{0.5 * length + dx, 0.05, 0}, {0.02, 0.02, kFoot + 0.2}},
-            Material::kPaint,
+            Material::kBlank,
             0.7);
   }
 }
 
 void AddSocket(SceneBuilder& scene, const Place& place) {
-  AddPart(scene, place, {{0, 0.006, 0}, {0.08, 0.012, 0.08}}, Material::kPaint, 0.85);
-  AddPart(scene, place, {{0, 0.012, 0.015}, {0.05, 0.006, 0.05}}, Material::kPaint, 0.6);
+  AddPart(scene, place, {{0, 0.006, 0}, {0.08, 0.012, 0.08}}, Material::kBlank, 0.85);
+  AddPart(scene, place, {{0, 0.012, 0.015}, {0.05, 0.006, 0.05}}, Material::kBlank, 0.6);
 }
 
 void AddDuct(SceneBuilder& scene, const Place& place, double length) {
-  AddPart(scene, place, {{0, 0.03, 0}, {length, 0.054, 0.11}}, Material::kPaint, 0.65);
+  AddPart(scene, place, {{0, 0.03, 0}, {length, 0.054, 0.11}}, Material::kBlank, 0.65);
 }
 
 void AddCurtain(SceneBuilder& scene, const Place& place, const Vector2d& size, double tone) {
@@ -158,7 +158,7 @@ void AddCurtain(SceneBuilder& scene, const Place& place, const Vector2d& size, d
   AddPart(scene,
           place,
           {{0, 0.085, size.y() - 0.04}, {size.x() + 0.2, 0.17, 0.08}},
-          Material::kPaint,
+          Material::kBlank,
           0.6);
 }
 
@@ -193,13 +193,13 @@ void AddCeilingGrid(SceneBuilder& scene, const CeilingGrid& grid) {
   for (int i = 0; i <= bars(grid.size.y()); ++i) {
     const Vector3d base = corner + Vector3d(0.5 * grid.size.x(), at(i, grid.size.y()), 0);
     scene.AddBox({base - Vector3d(0, 0, kDrop + kStep), {grid.size.x(), kBar, kDrop + kStep}},
-                 Material::kPaint,
+                 Material::kBlank,
                  0.85);
   }
   for (int i = 0; i <= bars(grid.size.x()); ++i) {
     const Vector3d base = corner + Vector3d(at(i, grid.size.x()), 0.5 * grid.size.y(), 0);
     scene.AddBox(
-        {base - Vector3d(0, 0, kDrop), {kBar, grid.size.y(), kDrop}}, Material::kPaint, 0.85);
+        {base - Vector3d(0, 0, kDrop), {kBar, grid.size.y(), kDrop}}, Material::kBlank, 0.85);
   }
 }
 

@@ -133,7 +133,7 @@ void AddSkirting(SceneBuilder& scene, const Side& side, const RoomPlan& room, in
         scene.AddBox({middle + 0.5 * kThick * side.front,
                       {b - a, kThick, height},
                       std::atan2(side.along.y(), side.along.x())},
-                     Material::kPaint,
+                     Material::kBlank,
                      0.35);
       });
 }
@@ -162,7 +162,7 @@ void AddReveals(SceneBuilder& scene, const Passage& passage) {
   const Vector3d x = size.x() * Vector3d::UnitX(), y = size.y() * Vector3d::UnitY();
   const Vector3d up = (passage.top - passage.bottom) * Vector3d::UnitZ();
   const Vector3d wide = through_y ? x : y, deep = through_y ? y : x;
-  const PanelLook look{Material::kPaint, 0.6, false};
+  const PanelLook look{Material::kBlank, 0.6, false};
   // Each is lit on the side of the hole.
   const Vector3d first = through_y ? corner : corner + wide;
   const Vector3d second = through_y ? corner + wide : corner;
@@ -192,7 +192,7 @@ void AddBuilding(SceneBuilder& scene,
       AddCeilingGrid(scene, room.Ceiling());
     } else {
       scene.AddCeiling(
-          corner + room.height * Vector3d::UnitZ(), room.high - room.low, Material::kPaint, 0.8);
+          corner + room.height * Vector3d::UnitZ(), room.high - room.low, Material::kBlank, 0.8);
     }
     std::array<Side, 4> sides;
     for (int i = 0; i < 4; ++i) {

@@ -189,7 +189,7 @@ void AddShelf(SceneBuilder& scene, const Place& place, const ShelfShape& shape) 
 void AddCabinet(
     SceneBuilder& scene, const Place& place, const Vector3d& size, int rows, double tone) {
   constexpr double kGap = 0.006, kFront = 0.018;
-  AddPart(scene, place, {{0, 0.5 * size.y() + 0.004, 0}, size}, Material::kPaint, 0.6 * tone);
+  AddPart(scene, place, {{0, 0.5 * size.y() + 0.004, 0}, size}, Material::kBlank, 0.6 * tone);
   const double tall = (size.z() - 0.08) / rows, wide = 0.5 * size.x();
   for (int row = 0; row < rows; ++row) {
     for (const double side : {-0.5, 0.5}) {
@@ -197,7 +197,7 @@ void AddCabinet(
       AddPart(scene,
               place,
               {{side * wide, y, z}, {wide - kGap, kFront, tall - kGap}},
-              Material::kPaint,
+              Material::kBlank,
               tone);
       const double handle_x = side * wide - (side < 0 ? -1 : 1) * (0.5 * wide - 0.06);
       AddPart(scene,
