@@ -40,8 +40,7 @@ Ring MakeRing() {
   Ring ring;
   ring.workshop = {{0, 0}, {x, y}, 3.2, Material::kBrick, 0.5, Material::kConcrete, 0.45, 0, false};
   ring.office = {{far_x, 0}, {kEnd, y}, 2.7, Material::kPaint, 0.7, Material::kFabric, 0.4};
-  ring.lounge = {
-      {far_x, far_y}, {kEnd, kTop}, 2.9, Material::kPaint, 0.6, Material::kPlanks, 0.5};
+  ring.lounge = {{far_x, far_y}, {kEnd, kTop}, 2.9, Material::kPaint, 0.6, Material::kPlanks, 0.5};
   ring.lounge.grid = false;
   ring.library = {{0, far_y}, {x, kTop}, 3.0, Material::kPaint, 0.55, Material::kPlanks, 0.4};
   ring.pictures = {{x + kWall, 1.4}, {far_x - kWall, 3.8}, 2.6, Material::kPaint, 0.65};
