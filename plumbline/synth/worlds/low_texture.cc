@@ -29,6 +29,18 @@ RoomPlan BlankRoom(const Vector2d& low, const Vector2d& high, double tone) {
   return room;
 }
 
+// Boards that keep carts off the wall, from x to x along the wall y = `wall`.
+void AddGuard(SceneBuilder& scene, double from, double to, double wall) {
+  const double facing = wall > 0 ? kSouth : kNorth;
+  for (const double z : {0.25, 0.82}) {
+    AddPart(scene,
+            {{0.5 * (from + to), wall, z}, facing},
+            {{0, 0.012, 0}, {to - from, 0.02, 0.16}},
+            Material::kBlank,
+            0.5);
+  }
+}
+
 void FurnishCorridor(SceneBuilder& scene) {
   for (const double x : {2.1, 7.4, 12.9}) {
     AddDoor(scene, {{x, 0, 0}, kNorth}, {0.95, 2.05, 0, scene.Random(0.5, 0.65)});
@@ -37,8 +49,21 @@ void FurnishCorridor(SceneBuilder& scene) {
   }
   AddDoor(scene, {{kLength, 1.1, 0}, kWest}, {1.1, 2.1, 0, 0.55});
   AddSheet(scene, {{kLength, 1.1, 2.25}, kWest}, {0.4, 0.18}, Material::kPaint, 0.3);
-  AddSocket(scene, {{8.6, kWidth, 0.3}, kSouth});
-  AddSocket(scene, {{15.2, kWidth, 0.3}, kSouth});
+  AddDoor(scene, {{8.2, kWidth, 0}, kSouth}, {0.95, 2.05, 0, scene.Random(0.5, 0.65)});
+  AddDoor(scene, {{0, 1.1, 0}, kEast}, {1.1, 2.1, 0, 0.55});
+  AddSheet(scene, {{8.2 + 0.72, kWidth, 1.5}, kSouth}, {0.2, 0.12}, Material::kPaint, 0.9);
+  AddSocket(scene, {{9.1, kWidth, 0.55}, kSouth});
+  AddSocket(scene, {{15.2, kWidth, 0.55}, kSouth});
+  AddGuard(scene, 0.05, 1.45, 0);
+  AddGuard(scene, 3.1, 4.1, 0);
+  AddGuard(scene, 5.75, 6.7, 0);
+  AddGuard(scene, 8.4, 9.2, 0);
+  AddGuard(scene, 10.6, 12.25, 0);
+  AddGuard(scene, 13.9, 15.95, 0);
+  AddGuard(scene, 0.05, 2.85, kWidth);
+  AddGuard(scene, 4.2, 7.4, kWidth);
+  AddGuard(scene, 8.9, 11.25, kWidth);
+  AddGuard(scene, 12.6, 15.95, kWidth);
   AddDuct(scene, {{5.0, 0, 2.35}, kNorth}, 4.2);
   // A fire extinguisher in its bracket, a notice board, a bench.
   const double x = scene.Random(9.4, 10.4);
@@ -70,7 +95,10 @@ void FurnishMeetingRoom(SceneBuilder& scene, const RoomPlan& room) {
   AddChair(scene, {{x + 1.15, 4.7, 0}, kWest});
   AddSheet(scene, {{low.x(), 5.0, 1.0}, kEast}, {1.8, 1.1}, Material::kBlank, 0.9);
   AddCabinet(scene, {{high.x(), 6.2, 0}, kWest}, {1.2, 0.42, 1.1}, 1, 0.6);
-  AddSocket(scene, {{high.x(), 4.5, 0.3}, kWest});
+  AddDuct(scene, {{high.x(), 3.9, 0.95}, kWest}, 2.9);
+  AddDuct(scene, {{5.3, low.y(), 2.3}, kNorth}, 1.7);
+  AddSheet(scene, {{5.2, low.y(), 1.1}, kNorth}, {0.9, 0.7}, Material::kFabric, 0.5);
+  AddSocket(scene, {{high.x(), 5.7, 0.3}, kWest});
   AddSocket(scene, {{low.x(), 3.2, 1.05}, kEast});
 }
 
@@ -93,6 +121,10 @@ void FurnishOffice(SceneBuilder& scene, const RoomPlan& room) {
   AddCabinet(scene, {{low.x(), 6.4, 0}, kEast}, {1.4, 0.42, 1.9}, 2, 0.55);
   AddSheet(scene, {{low.x(), 3.9, 1.3}, kEast}, {0.7, 1.0}, Material::kPoster, 0.8);
   AddSocket(scene, {{low.x(), 5.2, 0.3}, kEast});
+  AddDuct(scene, {{low.x(), 3.9, 0.95}, kEast}, 2.8);
+  AddDuct(scene, {{high.x(), 5.0, 1.2}, kWest}, 4.4);
+  AddSheet(scene, {{10.2, low.y(), 1.0}, kNorth}, {1.2, 0.9}, Material::kBlank, 0.85);
+  AddSheet(scene, {{14.2, low.y(), 1.3}, kNorth}, {0.5, 0.7}, Material::kPaint, 0.9);
 }
 
 void AddLamps(SceneBuilder& scene, const std::vector<RoomPlan>& rooms) {
@@ -130,7 +162,7 @@ World MakeLowTexture(std::uint64_t seed) {
   AddOpenLeaf(scene, {{12.45 - 0.03, kRoomLow + 0.03, 0}, kNorth}, {1.0, 2.05, 0, 0.55});
   scene.SetAmbient(0.5);
   const double a = scene.Random(-0.1, 0.1), b = scene.Random(-0.1, 0.1);
-  const std::vector<Leg> legs = {
+  std::vector<Leg> legs = {
       {{3.55, 1.1 + a}},     // along the corridor
       {{3.6, 5.0 + a}},      // into the meeting room
       {{4.7 + b, 5.0 + a}},  // a turn in it
@@ -147,8 +179,9 @@ World MakeLowTexture(std::uint64_t seed) {
       {{14.35, 1.3}},
       {{1.9, 1.25 + a}},
   };
+  for (Leg& leg : legs) leg.pitch = -0.07;  // the ceiling is the richest there is
   const auto walk = WalkAlong({1.2, 1.1}, legs, 1.15, 0.8);
-  return {scene.Take(), WithCarrier(SplinePath(walk, {0.9, 0.6}, 0.6), Carrier::kWheels, seed)};
+  return {scene.Take(), WithCarrier(SplinePath(walk, {0.9, 0.55}, 0.6), Carrier::kWheels, seed)};
 }
 
 }  // namespace plumbline
