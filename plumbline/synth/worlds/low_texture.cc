@@ -128,7 +128,7 @@ void FurnishOffice(SceneBuilder& scene, const RoomPlan& room) {
 }
 
 void AddLamps(SceneBuilder& scene, const std::vector<RoomPlan>& rooms) {
-  for (const int column : {1, 6, 11, 16, 21}) {
+  for (const int column : {1, 6, 11, 15, 19, 23}) {
     AddGridLamp(scene, rooms[0].Ceiling(), {column, 1, 2, 1, 3});
   }
   for (const RoomPlan* room : {&rooms[1], &rooms[2]}) {
