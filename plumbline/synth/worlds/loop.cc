@@ -203,13 +203,13 @@ void FurnishLounge(SceneBuilder& scene) {
 
 void FurnishLibrary(SceneBuilder& scene) {
   const double y = kTop - kRoomY;
-  const ShelfShape tall{2.4, 2.3, 0.34, 5, 0.9, 0.45};
+  const ShelfShape tall{2.4, 2.3, 0.34, 5, 0.8, 0.45};
   AddShelf(scene, {{1.5, kTop, 0}, kSouth}, tall);
   AddShelf(scene, {{4.3, kTop, 0}, kSouth}, tall);
-  AddShelf(scene, {{0, 12.9, 0}, kEast}, {2.6, 2.3, 0.34, 5, 0.9, 0.45});
+  AddShelf(scene, {{0, 12.9, 0}, kEast}, {2.6, 2.3, 0.34, 5, 0.8, 0.45});
   AddShelf(scene, {{4.8, y, 0}, kNorth}, {1.8, 1.2, 0.34, 3, 0.9, 0.45});
-  AddShelf(scene, {{3.1, 13.02, 0}, kNorth}, {1.6, 1.3, 0.3, 3, 0.95, 0.5});  // one walks around
-  AddShelf(scene, {{3.1, 12.98, 0}, kSouth}, {1.6, 1.3, 0.3, 3, 0.95, 0.5});
+  AddShelf(scene, {{3.1, 13.02, 0}, kNorth}, {1.6, 1.3, 0.3, 3, 0.8, 0.5});  // one walks around
+  AddShelf(scene, {{3.1, 12.98, 0}, kSouth}, {1.6, 1.3, 0.3, 3, 0.8, 0.5});
   AddSheet(scene, {{4.8, y, 1.4}, kNorth}, {1.3, 0.9}, Material::kMural, 0.5);
   AddSheet(scene, {{kRoomX, 14.6, 1.2}, kWest}, {0.8, 1.1}, Material::kPoster, 0.8);
   AddSheet(scene, {{kRoomX, 11.2, 1.2}, kWest}, {0.8, 1.1}, Material::kPoster, 0.75);
