@@ -154,7 +154,8 @@ void FurnishOffice(SceneBuilder& scene) {
   AddChair(scene, {{22.2, 1.25, 0}, kNorth});
   AddShelf(scene, {{kEnd, 1.5, 0}, kWest}, {2.0, 1.95, 0.34, 5, 0.9, 0.6});
   AddCabinet(scene, {{kEnd, 3.9, 0}, kWest}, {1.5, 0.42, 1.2}, 3, 0.6);
-  AddCabinet(scene, {{x, 4.6, 0}, kEast}, {1.2, 0.42, 1.9}, 2, 0.5);
+  AddCabinet(scene, {{x, 4.6, 0}, kEast}, {1.2, 0.42, 1.0}, 2, 0.5);
+  AddSheet(scene, {{x, 4.6, 1.25}, kEast}, {0.9, 0.7}, Material::kPoster, 0.75);
   AddSheet(scene, {{21.5, kRoomY, 1.0}, kSouth}, {1.5, 1.1}, Material::kBlank, 0.85);
   AddSheet(scene, {{25.2, kRoomY, 1.2}, kSouth}, {0.8, 1.1}, Material::kPoster, 0.8);
   AddSheet(scene, {{kEnd, 3.9, 1.5}, kWest}, {1.2, 0.8}, Material::kMural, 0.5);
