@@ -91,12 +91,13 @@ void AddWindows(SceneBuilder& scene) {
   WindowShape window;
   window.height = kWindowTop - kWindowFoot;
   window.recess = kWall;
-  window.power = 3;
   window.breadth = 1.2;
+  window.power = 2;
   for (const double y : {6.3, 8.6}) {
     AddWindow(scene, {{1.6 - kWall, y, kWindowFoot}, kEast}, window);
     AddRadiator(scene, {{1.6, y, 0}, kEast}, 1.0);
   }
+  window.power = 3;
   window.breadth = 1.4;
   window.blinds = 0.35;
   for (const double x : {21.6, 24.4}) AddWindow(scene, {{x, -kWall, kWindowFoot}, kNorth}, window);
