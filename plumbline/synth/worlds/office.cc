@@ -51,7 +51,7 @@ void AddWindows(SceneBuilder& scene) {
   WindowShape window;
   window.height = kWindowHeight;
   window.recess = kNiche;
-  window.power = 2.5;
+  window.power = 1.8;
   for (const double x : kSouthWindows) {
     window.breadth = 1.6;
     window.blinds = scene.Random(0, 1) < 0.5 ? scene.Random(0.15, 0.6) : 0;
@@ -118,6 +118,8 @@ void FurnishMeetingRoom(SceneBuilder& scene) {
   AddSheet(scene, {{16, 2.1, 0.95}, kWest}, {2.0, 1.2}, Material::kScreen, 0.6);
   AddSheet(scene, {{13.2, 4.2, 0.9}, kSouth}, {1.8, 1.2}, Material::kBlank, 0.85);
   AddCabinet(scene, {{15.2, 4.2, 0}, kSouth}, {1.2, 0.42, 0.8}, 1, 0.55);
+  AddSheet(scene, {{11 + kWall, 1.2, 1.1}, kEast}, {0.9, 1.2}, Material::kPoster, 0.8);
+  AddSheet(scene, {{11 + kWall, 3.6, 1.4}, kEast}, {0.6, 0.45}, Material::kScreen, 0.5);
   AddPlant(scene, {{15.5, 0.1, 0}, kNorth}, 1.4);
 }
 
@@ -164,7 +166,7 @@ void AddLamps(SceneBuilder& scene, const std::vector<RoomPlan>& rooms) {
     AddGridLamp(scene, rooms[1].Ceiling(), {3, row, 2, 1, 3});
     AddGridLamp(scene, rooms[2].Ceiling(), {3, row, 2, 1, 3});
   }
-  for (const int column : {2, 8, 14, 20}) {
+  for (const int column : {2, 8, 14, 19, 23}) {
     AddGridLamp(scene, rooms[3].Ceiling(), {column, 1, 2, 1, 2.8});
   }
 }
