@@ -318,6 +318,50 @@ INSTANTIATE_TEST_SUITE_P(Worlds,
                            return std::string(tested.param.name);
                          });
 
+// Walls and floors, that is what is large, bear no texture; ceilings do.
+TEST(LowTexture, IsBlankWhereItIsLarge) {
+  constexpr double kLarge = 3;  // square metres
+  int large = 0;
+  for (const Surface& surface : Made(FindWorld("lowtexture"), 1).scene.surfaces) {
+    if (surface.side_u.norm() * surface.side_v.norm() < kLarge) continue;
+    ++large;
+    EXPECT_EQ(surface.texture.material,
+              surface.Normal().z() < -0.5 ? Material::kAcoustic : Material::kBlank);
+  }
+  EXPECT_GT(large, 10);
+}
+
+TEST(Vicon, HasMoreBlurTheFasterItIsFlown) {
+  double last = 0;
+  for (const char* name : {"vicon_easy", "vicon_medium", "vicon_difficult"}) {
+    SynthOptions options;
+    FindWorld(name).adjust(options);
+    EXPECT_GT(options.shutter_ms, last);
+    last = options.shutter_ms;
+  }
+}
+
+// How much of the second half of a path shows what was seen 20 s and more before.
+double ShareSeenAgain(const CameraPath& path) {
+  int seen = 0, all = 0;
+  for (double time = 0.5 * path.duration; time < path.duration; time += 0.5) {
+    const Rigid3 now = path.world_from_camera(time);
+    bool again = false;
+    for (double earlier = 0; earlier < time - 20 && !again; earlier += 0.25) {
+      const Rigid3 then = path.world_from_camera(earlier);
+      again = (now.translation - then.translation).norm() < 1 &&
+              AngularDistance(now.rotation, then.rotation) < 0.6;
+    }
+    ++all;
+    seen += again ? 1 : 0;
+  }
+  return static_cast<double>(seen) / all;
+}
+
+TEST(Office, ComesBackToWhatItHasSeen) {
+  EXPECT_GT(ShareSeenAgain(Made(FindWorld("office"), 1).path), 0.3);
+}
+
 // In the second round the camera comes within a metre of where it was, looking alike.
 TEST(Loop, IsWalkedTwice) {
   const CameraPath& path = Made(FindWorld("loop"), 1).path;

@@ -179,7 +179,7 @@ CameraPath Walk(SceneBuilder& random, std::uint64_t seed) {
       {{13.5, 6.0}},  {{13.5, 9.2}}, {{9.5, 9.2}},                   // kitchen, corridor
       {{9.5, 5.7}},   {{5.7, 5.6}},  {{5.7, 0.8}},  {{0.95, 0.8}},   // the desks again
       {{0.95, 5.3}},  {{2.5, 5.35}}, {{2.5, 9.15}}, {{9.5, 9.15}},   // the corridor again
-      {{9.5, 5.5}},   {{5.7, 5.4}},  {{5.7, 1.6}}};
+      {{9.5, 5.5}},   {{5.7, 5.4}},  {{5.7, 0.8}},  {{10.25, 0.8}}, {{10.25, 4.2}}};  // as at first
   for (Leg& leg : legs) {
     leg.gaze = random.Random(-0.2, 0.2);
     leg.pitch = random.Random(0.02, 0.15);
