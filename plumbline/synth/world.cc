@@ -46,7 +46,27 @@ constexpr std::array kWorlds = {
                "four rooms and four corridors in a ring, walked round twice",
                "closing loops: 120 m, each place seen again a round later",
                nullptr,
-               MakeLoop}};
+               MakeLoop},
+    WorldEntry{"planar",
+               "a picture as large as a wall and nothing else; by hand, sideways and up and down",
+               "initialization when all points lie in one plane",
+               nullptr,
+               MakePlanar},
+    WorldEntry{"forward",
+               "a street of shops under a roof; a cart rolling straight ahead",
+               "initialization with low parallax",
+               nullptr,
+               MakeForward},
+    WorldEntry{"lateral",
+               "a wall with niches, shelves and pipes; a cart rolling sideways along it, and back",
+               "initialization and mapping with much parallax",
+               nullptr,
+               MakeLateral},
+    WorldEntry{"degenerate",
+               "a bare hall with long level rails, pipes and boards; a cart rolling along them",
+               "lines in the epipolar planes, which have no depth",
+               nullptr,
+               MakeDegenerate}};
 
 }  // namespace
 
