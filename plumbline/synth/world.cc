@@ -11,6 +11,8 @@
 namespace plumbline {
 namespace {
 
+void FollowTheLight(SynthOptions& options) { options.auto_exposure = true; }
+
 constexpr std::array kWorlds = {
     WorldEntry{"room",
                "a workshop with shelves, tables, posters and a window; one loop by hand",
@@ -62,6 +64,31 @@ constexpr std::array kWorlds = {
                "initialization and mapping with much parallax",
                nullptr,
                MakeLateral},
+    WorldEntry{"rotation",
+               "a study; a camera that turns about its centre on a tripod, then is walked by hand",
+               "initialization after pure rotation",
+               nullptr,
+               MakeRotation},
+    WorldEntry{"static",
+               "a study; a camera on a tripod that gives by millimetres",
+               "initialization without motion",
+               nullptr,
+               MakeStatic},
+    WorldEntry{"lights",
+               "an office by day whose lamps are switched on and off; by hand, automatic exposure",
+               "changes of light",
+               FollowTheLight,
+               MakeLights},
+    WorldEntry{"dynamic",
+               "a hall with a luggage belt, people walking, fans and a swinging door; by hand",
+               "things that move by themselves",
+               nullptr,
+               MakeDynamic},
+    WorldEntry{"wires",
+               "blinds, railings, fences, cables, slats; by hand around a room",
+               "lines that are parallel, close and alike",
+               nullptr,
+               MakeWires},
     WorldEntry{"degenerate",
                "a bare hall with long level rails, pipes and boards; a cart rolling along them",
                "lines in the epipolar planes, which have no depth",

@@ -20,5 +20,10 @@ World MakePlanar(std::uint64_t seed);
 World MakeForward(std::uint64_t seed);
 World MakeLateral(std::uint64_t seed);
 World MakeDegenerate(std::uint64_t seed);
+World MakeRotation(std::uint64_t seed);
+World MakeStatic(std::uint64_t seed);
+World MakeLights(std::uint64_t seed);
+World MakeDynamic(std::uint64_t seed);
+World MakeWires(std::uint64_t seed);
 
 }  // namespace plumbline
