@@ -21,11 +21,11 @@ void AddRails(SceneBuilder& scene, const Place& wall) {
   const auto board = [&](double out, double z, double deep, double high, const Finish& finish) {
     AddPart(scene,
             wall,
-            {{kMiddle, out + 0.5 * deep + 0.003, z}, {kLong, deep, high}, 0},
+            {{kMiddle, out + 0.5 * deep, z}, {kLong, deep, high}, 0},
             finish.material,
             finish.tone);
   };
-  board(0, 0.002, 0.02, 0.1, {Material::kBlank, 0.35});     // skirting
+  board(0, 0, 0.02, 0.1, {Material::kBlank, 0.35});         // skirting
   board(0, 0.85, 0.03, 0.14, {Material::kBlank, 0.3});      // bumper rail
   board(0.03, 0.895, 0.03, 0.05, {Material::kBlank, 0.7});  // its grip
   board(0, 1.32, 0.2, 0.03, {Material::kBlank, 0.45});      // shelf
@@ -61,7 +61,7 @@ void AddSparseThings(SceneBuilder& scene, const Place& wall) {
       case 1:
         AddPart(scene,
                 wall,
-                {{x, 0.1, 1.352}, {scene.Random(0.15, 0.3), 0.16, scene.Random(0.12, 0.3)}, 0},
+                {{x, 0.1, 1.35}, {scene.Random(0.15, 0.3), 0.16, scene.Random(0.12, 0.3)}, 0},
                 Material::kCardboard,
                 scene.Random(0.35, 0.7));
         break;
@@ -70,7 +70,7 @@ void AddSparseThings(SceneBuilder& scene, const Place& wall) {
         AddSocket(scene, {wall.At(x + 0.1, 0, 0.4), wall.facing});
         break;
       default:
-        AddPart(scene, wall, {{x, 0.21, 0.002}, {0.35, 0.3, 0.5}, 0}, Material::kMetal, 0.4);
+        AddPart(scene, wall, {{x, 0.21, 0}, {0.35, 0.3, 0.5}, 0}, Material::kMetal, 0.4);
         break;
     }
     x += scene.Random(0.7, 1.1);
@@ -94,7 +94,7 @@ World MakeDegenerate(std::uint64_t seed) {
   AddRails(scene, wall);
   AddSparseThings(scene, wall);
   for (int i = 0; i < 5; ++i) {
-    AddTubeLamp(scene, {wall.At(2 + 4.0 * i, 2.6, kHeight - 0.35), wall.facing}, {3.0, 3.2});
+    AddTubeLamp(scene, {wall.At(2 + 4.0 * i, 2.6, kHeight - 0.35), wall.facing}, {3.0, 10.5});
   }
   scene.SetAmbient(0.3);
 

@@ -206,12 +206,12 @@ void Furnish(SceneBuilder& scene, const ShellShape& shell) {
   AddPlant(scene, shell.Wall(2, 11.4), 1.5);
   AddPlant(scene, shell.Wall(1, 5.2), 1.4);
   for (const double x : {1.7, 6.0, 10.3}) {  // columns
-    scene.AddBox({{x, 4.55, 0}, {0.35, 0.35, kHeight - 0.002}}, Material::kConcrete, 0.55);
+    scene.AddBox({{x, 4.55, 0}, {0.35, 0.35, kHeight}}, Material::kConcrete, 0.55);
     AddSheet(scene, {{x, 4.375, 1.3}, -0.5 * kPi}, {0.3, 0.45}, Material::kPoster, 0.8);
   }
-  for (int i = 0; i < 4; ++i) {
-    for (const double y : {2.2, 4.2, 6.4}) {
-      AddTubeLamp(scene, {{1.8 + 2.8 * i, y, kHeight - 0.3}, 0}, {1.5, 2.6});
+  for (const double x : {2.0, 6.0, 10.0}) {
+    for (const double y : {2.4, 6.4}) {
+      AddTubeLamp(scene, {{x, y, kHeight - 0.3}, 0}, {2.6, 6.5});
     }
   }
   AddSocket(scene, shell.Wall(1, 4.6, 0.4));
@@ -245,7 +245,7 @@ World MakeDynamic(std::uint64_t seed) {
   AddShell(scene, shell);
   AddSkirting(scene, shell, {Material::kPaint, 0.3});
   for (const Opening& hole : shell.openings[3]) {
-    AddViewWindow(scene, shell.Wall(3), hole, {3, 2.5, 0.4});
+    AddViewWindow(scene, shell.Wall(3), hole, {3, 3.5, 0.5});
   }
   AddSwingDoor(scene, shell.Wall(2), shell.openings[2].front(), scene.Random(5, 7));
   Furnish(scene, shell);

@@ -31,7 +31,7 @@ void AddDisplay(SceneBuilder& scene, const Place& wall, const Opening& hole) {
           {{middle, -0.28, shelf}, {hole.width - 0.01, 0.26, 0.03}, 0},
           Material::kWood,
           0.6);
-  for (const double floor : {hole.bottom + 0.001, shelf + 0.031}) {
+  for (const double floor : {hole.bottom, shelf + 0.03}) {
     double x = hole.along + 0.06;
     while (x < hole.along + hole.width - 0.4) {
       const double wide = scene.Random(0.12, 0.34), tall = scene.Random(0.12, 0.6);
@@ -48,13 +48,12 @@ void AddDisplay(SceneBuilder& scene, const Place& wall, const Opening& hole) {
   // Frame of the pane, in the plane of the wall.
   for (const double side : {-0.5, 0.0, 0.5}) {
     const double inset = -0.06 * side;
-    AddPart(scene,
-            wall,
-            {{middle + side * hole.width + inset, -0.04, hole.bottom + 0.002},
-             {0.05, 0.05, hole.height - 0.004},
-             0},
-            Material::kMetal,
-            0.3);
+    AddPart(
+        scene,
+        wall,
+        {{middle + side * hole.width + inset, -0.04, hole.bottom}, {0.05, 0.05, hole.height}, 0},
+        Material::kMetal,
+        0.3);
   }
 }
 
@@ -71,7 +70,7 @@ void AddShop(SceneBuilder& scene, const Place& wall, const Opening& window, doub
              Material::kPoster);
   if (scene.Random(0, 1) < 0.5) {  // a sign that stands out from the wall
     AddPart(scene, wall, {{door, 0.4, 2.55}, {0.05, 0.6, 0.6}, 0}, Material::kPoster, 0.7);
-    AddBarAt(scene, wall, {{door, 0.002, 3.2}, {door, 0.75, 3.2}, 0.03}, Material::kMetal, 0.3);
+    AddBarAt(scene, wall, {{door, 0, 3.2}, {door, 0.75, 3.2}, 0.03}, Material::kMetal, 0.3);
   }
   AddPart(scene,
           wall,
@@ -88,11 +87,10 @@ void AddStreetThing(SceneBuilder& scene, const Place& wall, double along) {
       AddPart(scene, wall, {{along, y, 0.42}, {1.4, 0.1, 0.035}, 0}, Material::kWood, 0.55);
     }
     for (const double x : {-0.55, 0.55}) {
-      AddPart(
-          scene, wall, {{along + x, 0.48, 0.002}, {0.06, 0.36, 0.417}, 0}, Material::kMetal, 0.3);
+      AddPart(scene, wall, {{along + x, 0.48, 0}, {0.06, 0.36, 0.42}, 0}, Material::kMetal, 0.3);
     }
   } else if (kind < 2) {  // crates
-    double z = 0.002;
+    double z = 0;
     for (int i = 0; i < 3; ++i) {
       const Vector3d size(scene.Random(0.4, 0.6), scene.Random(0.35, 0.45), 0.3);
       AddPart(scene,
@@ -100,10 +98,10 @@ void AddStreetThing(SceneBuilder& scene, const Place& wall, double along) {
               {{along, 0.45, z}, size, scene.Random(-0.3, 0.3)},
               i == 1 ? Material::kWood : Material::kCardboard,
               scene.Random(0.4, 0.7));
-      z += size.z() + 0.002;
+      z += size.z();
     }
   } else if (kind < 3) {  // a plant
-    AddPart(scene, wall, {{along, 0.4, 0.002}, {0.4, 0.4, 0.42}, 0.3}, Material::kConcrete, 0.5);
+    AddPart(scene, wall, {{along, 0.4, 0}, {0.4, 0.4, 0.42}, 0.3}, Material::kConcrete, 0.5);
     for (int i = 0; i < 14; ++i) {
       const Vector3d tip(along + scene.Random(-0.35, 0.35),
                          0.4 + scene.Random(-0.3, 0.35),
@@ -113,7 +111,7 @@ void AddStreetThing(SceneBuilder& scene, const Place& wall, double along) {
     }
   } else {  // a board with bills
     AddPart(scene, wall, {{along, 0.5, 0.1}, {0.7, 0.04, 1.1}, 0.5}, Material::kPoster, 0.75);
-    AddPart(scene, wall, {{along, 0.5, 0.002}, {0.5, 0.3, 0.05}, 0.5}, Material::kMetal, 0.3);
+    AddPart(scene, wall, {{along, 0.5, 0}, {0.5, 0.3, 0.05}, 0.5}, Material::kMetal, 0.3);
   }
 }
 
@@ -122,12 +120,9 @@ void AddSide(SceneBuilder& scene, const ShellShape& shell, std::size_t k) {
   for (const Opening& window : shell.openings[k]) {
     AddShop(scene, wall, window, window.along + window.width + 0.85);
     const double pillar = window.along - 0.45;
-    AddPart(scene,
-            wall,
-            {{pillar, 0.13, 0.002}, {0.42, 0.25, kHeight - 0.3}, 0},
-            Material::kBrick,
-            0.5);
-    AddPart(scene, wall, {{pillar, 0.145, 0.002}, {0.48, 0.28, 0.35}, 0}, Material::kConcrete, 0.5);
+    AddPart(
+        scene, wall, {{pillar, 0.125, 0}, {0.42, 0.25, kHeight - 0.3}, 0}, Material::kBrick, 0.5);
+    AddPart(scene, wall, {{pillar, 0.14, 0}, {0.48, 0.28, 0.35}, 0}, Material::kConcrete, 0.5);
     AddStreetThing(scene, wall, window.along + scene.Random(0.5, 1.2));
   }
 }
@@ -139,7 +134,7 @@ void AddRoof(SceneBuilder& scene) {
                  Material::kWood,
                  0.45);
     const Place lamp{{x + 0.5 * kBay, 0.5 * kWidth, kHeight - 0.6}, 0};
-    AddTubeLamp(scene, lamp, {1.8, 4.2});
+    AddTubeLamp(scene, lamp, {1.8, 11});
     for (const double end : {-0.7, 0.7}) {
       AddBarAt(scene, lamp, {{end, 0, 0.062}, {end, 0, 0.598}, 0.012}, Material::kMetal, 0.4);
     }
@@ -181,7 +176,7 @@ World MakeForward(std::uint64_t seed) {
   AddSide(scene, shell, 0);
   AddSide(scene, shell, 2);
   AddRoof(scene);
-  AddViewWindow(scene, shell.Wall(1), shell.openings[1].front(), {5, 6, 0.45});
+  AddViewWindow(scene, shell.Wall(1), shell.openings[1].front(), {5, 9, 0.6});
   scene.SetAmbient(0.4);
 
   const double lane = 0.5 * kWidth + scene.Random(-0.15, 0.15);

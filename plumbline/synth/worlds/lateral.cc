@@ -23,16 +23,13 @@ void AddNiche(SceneBuilder& scene, const Place& wall, const Opening& hole) {
   AddBacking(scene, wall, hole, kThickness - 0.02, {Material::kPlaster, 0.4, false});
   const double middle = hole.along + 0.5 * hole.width, left = hole.along + 0.02;
   for (const double share : {0.0, 0.5}) {
-    const double z = hole.bottom + share * hole.height + 0.001;
+    const double z = hole.bottom + share * hole.height;
     if (share > 0) {
-      AddPart(scene,
-              wall,
-              {{middle, -0.15, z}, {hole.width - 0.004, 0.26, 0.025}, 0},
-              Material::kWood,
-              0.55);
+      AddPart(
+          scene, wall, {{middle, -0.15, z}, {hole.width, 0.26, 0.025}, 0}, Material::kWood, 0.55);
     }
     AddThings(scene,
-              {wall.At(left, -0.15, z + 0.027), wall.facing},
+              {wall.At(left, -0.15, share > 0 ? z + 0.025 : z), wall.facing},
               hole.width - 0.04,
               0.4 * hole.height);
   }
@@ -43,9 +40,9 @@ void AddShelves(SceneBuilder& scene, const Place& wall, double x) {
     AddPart(scene, wall, {{x, 0.14, z}, {1.3, 0.26, 0.03}, 0}, Material::kWood, 0.6);
     for (const double side : {-0.5, 0.5}) {
       AddPart(
-          scene, wall, {{x + side, 0.1, z - 0.16}, {0.03, 0.19, 0.158}, 0}, Material::kMetal, 0.3);
+          scene, wall, {{x + side, 0.1, z - 0.16}, {0.03, 0.19, 0.16}, 0}, Material::kMetal, 0.3);
     }
-    AddThings(scene, {wall.At(x - 0.62, 0.14, z + 0.031), wall.facing}, 1.24, 0.35);
+    AddThings(scene, {wall.At(x - 0.62, 0.14, z + 0.03), wall.facing}, 1.24, 0.35);
   }
 }
 
@@ -57,7 +54,7 @@ void AddBrickField(SceneBuilder& scene, const Place& wall, double x) {
 void AddHeating(SceneBuilder& scene, const Place& wall, double x) {
   AddRadiator(scene, {wall.At(x, 0, 0), wall.facing}, 1.2);
   AddPart(scene, wall, {{x, 0.14, 0.86}, {1.4, 0.26, 0.035}, 0}, Material::kConcrete, 0.65);
-  AddThings(scene, {wall.At(x - 0.5, 0.14, 0.896), wall.facing}, 0.8, 0.3);
+  AddThings(scene, {wall.At(x - 0.5, 0.14, 0.895), wall.facing}, 0.8, 0.3);
   AddPicture(scene, {wall.At(x, 0, 1.4), wall.facing}, {1.1, 0.8}, Material::kMural);
 }
 
@@ -82,11 +79,11 @@ void AddPipes(SceneBuilder& scene, const Place& wall, double x) {
 void AddSeat(SceneBuilder& scene, const Place& wall, double x) {
   AddPart(scene, wall, {{x, 0.25, 0.42}, {1.4, 0.42, 0.05}, 0}, Material::kWood, 0.5);
   for (const double side : {-0.6, 0.6}) {
-    AddPart(scene, wall, {{x + side, 0.25, 0.002}, {0.05, 0.4, 0.416}, 0}, Material::kMetal, 0.3);
+    AddPart(scene, wall, {{x + side, 0.25, 0}, {0.05, 0.4, 0.42}, 0}, Material::kMetal, 0.3);
   }
   AddPart(scene,
           wall,
-          {{x + scene.Random(-0.3, 0.3), 0.25, 0.471}, {0.5, 0.3, 0.28}, 0.2},
+          {{x + scene.Random(-0.3, 0.3), 0.25, 0.47}, {0.5, 0.3, 0.28}, 0.2},
           Material::kCardboard,
           0.6);
   for (int i = 0; i < 6; ++i) {  // a rail of hooks with bags
@@ -131,15 +128,11 @@ void AddModule(SceneBuilder& scene, const ShellShape& shell, std::size_t kind, d
 void AddPillarsAndLamps(SceneBuilder& scene, const Place& wall) {
   for (std::size_t i = 0; i + 1 < kModules; i += 2) {
     const double x = 0.25 + kModule * (static_cast<double>(i) + 1);
-    AddPart(scene,
-            wall,
-            {{x, 0.09, 0.002}, {0.22, 0.17, kHeight - 0.004}, 0},
-            Material::kConcrete,
-            0.5);
+    AddPart(scene, wall, {{x, 0.085, 0}, {0.22, 0.17, kHeight}, 0}, Material::kConcrete, 0.5);
   }
   for (int i = 0; i < 5; ++i) {
-    AddTubeLamp(scene, {wall.At(1.8 + 3.6 * i, 1.5, kHeight - 0.35), wall.facing}, {1.5, 1.7});
-    AddTubeLamp(scene, {wall.At(1.8 + 3.6 * i, 3.6, kHeight - 0.35), wall.facing}, {1.5, 1.0});
+    AddTubeLamp(scene, {wall.At(1.8 + 3.6 * i, 1.5, kHeight - 0.35), wall.facing}, {1.5, 4.4});
+    AddTubeLamp(scene, {wall.At(1.8 + 3.6 * i, 3.6, kHeight - 0.35), wall.facing}, {1.5, 2.6});
   }
 }
 

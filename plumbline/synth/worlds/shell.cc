@@ -38,6 +38,7 @@ void AddShell(SceneBuilder& scene, const ShellShape& shell) {
 
 void AddSkirting(SceneBuilder& scene, const ShellShape& shell, const Finish& finish) {
   constexpr double kHigh = 0.08, kThick = 0.015;
+  constexpr double kFrame = 0.05;  // of doors, which it runs into
   for (std::size_t k = 0; k < 4; ++k) {
     const auto piece = [&](double left, double right) {
       AddPart(scene,
@@ -49,8 +50,8 @@ void AddSkirting(SceneBuilder& scene, const ShellShape& shell, const Finish& fin
     double left = kThick + 0.003;  // clear of the one around the corner
     for (const Opening& hole : shell.openings[k]) {
       if (hole.bottom > kHigh) continue;
-      piece(left, hole.along);
-      left = hole.along + hole.width;
+      piece(left, hole.along - kFrame);
+      left = hole.along + hole.width + kFrame;
     }
     piece(left, shell.Length(k) - kThick - 0.003);
   }

@@ -30,7 +30,7 @@ void AddStudy(SceneBuilder& scene) {
   shell.openings[3].push_back({1.6, 1.8, 0.9, 1.3});
   AddShell(scene, shell);
   AddSkirting(scene, shell, {Material::kWood, 0.4});
-  AddViewWindow(scene, shell.Wall(3), shell.openings[3].front(), {2, 2.2, 0.4, 5});
+  AddViewWindow(scene, shell.Wall(3), shell.openings[3].front(), {2, 4.5, 0.55, 5});
   AddRadiator(scene, shell.Wall(3, 2.5), 1.3);
   scene.AddBox({{0.5 * kWidth, 0.5 * kDepth, 0}, {2.4, 1.7, 0.012}, scene.Random(-0.2, 0.2)},
                Material::kCarpet,
@@ -59,7 +59,7 @@ void AddStudy(SceneBuilder& scene) {
   AddSocket(scene, shell.Wall(0, 3.75, 1.1));
   AddSocket(scene, shell.Wall(2, 3.3, 0.3));
   for (const double x : {1.7, 4.5}) {
-    AddTubeLamp(scene, {{x, 0.5 * kDepth, kHeight - 0.065}, 0}, {1.5, scene.Random(1.4, 1.7)});
+    AddTubeLamp(scene, {{x, 0.5 * kDepth, kHeight - 0.065}, 0}, {1.5, scene.Random(3.8, 4.4)});
   }
   scene.SetAmbient(0.25);
 }

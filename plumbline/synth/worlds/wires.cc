@@ -137,7 +137,7 @@ void AddCeilingThings(SceneBuilder& scene) {
                  scene.Random(0.4, 0.7));
   }
   for (const double x : {2.0, 4.5, 7.0}) {
-    for (const double y : {1.6, 5.4}) AddTubeLamp(scene, {{x, y, kHeight - 0.4}, 0}, {1.5, 1.9});
+    for (const double y : {1.6, 5.4}) AddTubeLamp(scene, {{x, y, kHeight - 0.4}, 0}, {1.5, 3.9});
   }
 }
 
@@ -162,7 +162,7 @@ World MakeWires(std::uint64_t seed) {
   AddShell(scene, shell);
   AddSkirting(scene, shell, {Material::kPaint, 0.3});
   for (const Opening& hole : shell.openings[0]) {
-    AddViewWindow(scene, shell.Wall(0), hole, {2, 1.8, 0.4, 32});
+    AddViewWindow(scene, shell.Wall(0), hole, {2, 3.5, 0.5, 32});
     AddRadiator(scene, shell.Wall(0, hole.along + 0.95), 1.7);
   }
   AddCladding(scene, shell.Wall(1, 0.1), kDepth - 0.2);
