@@ -259,17 +259,22 @@ World MakeDynamic(std::uint64_t seed) {
   // Along the near side of the hall by hand, and back, looking across it.
   const double y = 1.7 + scene.Random(-0.1, 0.1);
   constexpr double kAhead = 0.5 * kPi;
-  const std::vector<Waypoint> way = {{{2.0, y, 1.55}, kAhead - 0.3, 0.06},
-                                     {{3.5, y + 0.3, 1.5}, kAhead - 0.1, 0.06},
-                                     {{5.0, y + 0.4, 1.55}, kAhead + 0.2, 0.06},
-                                     {{6.5, y, 1.5}, kAhead + 0.3, 0.06},
-                                     {{7.6, y - 0.3, 1.55}, kAhead - 0.2, 0.06},
-                                     {{7.8, y + 0.2, 1.5}, kAhead - 0.7, 0.06},
-                                     {{6.8, y + 0.4, 1.55}, kAhead, 0.06},
-                                     {{4.8, y - 0.2, 1.6}, kAhead + 0.5, 0.06},
-                                     {{3.2, y - 0.4, 1.5}, kAhead + 0.3, 0.06},
-                                     {{2.0, y, 1.55}, kAhead - 0.1, 0.06},
-                                     {{3.0, y + 0.2, 1.55}, kAhead - 0.3, 0.06}};
+  std::vector<Waypoint> way;
+  const auto pass = [&](double x, double dy, double turn) {
+    way.push_back({{x, y + dy, scene.Random(1.5, 1.6)}, kAhead + turn, 0.06});
+  };
+  for (int round = 0; round < 2; ++round) {
+    pass(2.0, 0, -0.3);
+    pass(3.5, 0.3, -0.1);
+    pass(5.0, 0.4, 0.2);
+    pass(6.5, 0, 0.3);
+    pass(7.6, -0.3, -0.2);
+    pass(7.8, 0.2, -0.7);
+    pass(6.8, 0.4, 0);
+    pass(4.8, -0.2, 0.5);
+    pass(3.2, -0.4, 0.3);
+  }
+  pass(2.0, 0, -0.3);
   return {scene.Take(), WithCarrier(SplinePath(way, {0.6, 0.6}), Carrier::kHand, seed)};
 }
 

@@ -122,6 +122,11 @@ World MakeRotation(std::uint64_t seed) {
                                          step(-0.2, 0.8, 0, 1.2),
                                          step(-0.7, 0.2, 0.05, 1.8),
                                          step(-0.3, -0.6, 0, 1.0),
+                                         step(0.5, -0.8, 0.1, 0.3),
+                                         step(1.2, -0.3, 0.1, -0.3),
+                                         step(1.2, 0.6, 0, -0.6),
+                                         step(0.5, 0.9, 0, 0.1),
+                                         step(-0.3, 0.3, 0.05, 0.3),
                                          step(0.4, -0.5, 0, 0.4)},
                                         {0.6, 0.6});
   const CameraPath still = Then(turning, walking);

@@ -182,7 +182,7 @@ World MakeWires(std::uint64_t seed) {
   // Around the platform by hand, looking now along the walls, now over it.
   const double x = 0.5 * kWidth, y = 0.5 * kDepth, away = scene.Random(-0.1, 0.1);
   std::vector<Waypoint> way;
-  for (int k = 0; k < 11; ++k) {
+  for (int k = 0; k < 16; ++k) {
     const double turn = 0.25 * std::numbers::pi * k;
     const double gaze = turn + (k % 4 < 2 ? 0.9 : 1.9);
     way.push_back(
