@@ -42,6 +42,15 @@ Promise PromiseOf(const std::string& world) {
       {"vicon_difficult", {40, 90, 30, 60, 2.3, 2.3}},
       {"office", {80, 130, 90, 130, 1.4, 1.3}},
       {"loop", {120, 180, 100, 200, 1.5, 1.3}},
+      {"planar", {9, 15, 28, 35, 0.7, 0.5}},
+      {"forward", {20, 24, 35, 40, 0.8, 0.3}},
+      {"lateral", {20, 26, 30, 40, 0.9, 0.5}},
+      {"rotation", {9, 13, 30, 42, 0.9, 1.1}},
+      {"static", {0.01, 0.3, 30, 30, 0.05, 0.05}},
+      {"lights", {27, 34, 38, 48, 1.1, 1.1}},
+      {"dynamic", {20, 28, 38, 46, 0.9, 1.1}},
+      {"wires", {22, 28, 34, 42, 1.1, 1.2}},
+      {"degenerate", {24, 28, 36, 42, 0.9, 0.3}},
   };
   const auto found = promises.find(world);
   return found == promises.end() ? Promise{} : found->second;
