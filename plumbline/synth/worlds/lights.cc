@@ -110,7 +110,7 @@ World MakeLights(std::uint64_t seed) {
                  {Material::kPaint, 0.6},
                  {Material::kPlaster, 0.6},
                  {Material::kPaint, 0.65}};
-  shell.floor = {Material::kTiles, 0.5};
+  shell.floor = {Material::kCarpet, 0.4};
   shell.ceiling = {Material::kPaint, 0.6};
   for (const double along : {0.7, 2.6, 4.5}) shell.openings[3].push_back({along, 1.4, 0.95, 1.6});
   AddShell(scene, shell);

@@ -19,12 +19,15 @@ constexpr double kWidth = 9, kDepth = 7, kHeight = 3.2;
 void AddCladding(SceneBuilder& scene, const Place& wall, double length) {
   constexpr double kPitch = 0.095, kBoard = 0.045;
   const int count = static_cast<int>(length / kPitch);
+  // The boards' own x points up, so that their grain does.
+  Eigen::Matrix3d axes;
+  axes << Vector3d::UnitZ(), wall.At(0, 1, 0) - wall.base, wall.base - wall.At(1, 0, 0);
   for (int i = 0; i < count; ++i) {
-    AddPart(scene,
-            wall,
-            {{kPitch * (i + 0.5), 0.04, 0.1}, {kBoard, 0.05, kHeight - 0.3}},
-            Material::kWood,
-            scene.Random(0.45, 0.6));
+    scene.AddPlacedBox(
+        {Eigen::Quaterniond(axes), wall.At(kPitch * (i + 0.5), 0.04, 0.5 * kHeight - 0.05)},
+        {kHeight - 0.3, 0.05, kBoard},
+        Material::kWood,
+        scene.Random(0.45, 0.6));
   }
 }
 
@@ -148,7 +151,7 @@ ShellShape Shell() {
                  {Material::kPaint, 0.25},
                  {Material::kTiles, 0.7},
                  {Material::kPlaster, 0.55}};
-  shell.floor = {Material::kTiles, 0.45};
+  shell.floor = {Material::kConcrete, 0.45};
   shell.ceiling = {Material::kConcrete, 0.6};
   for (const double along : {0.8, 3.4, 6.0}) shell.openings[0].push_back({along, 1.9, 0.95, 1.5});
   return shell;
