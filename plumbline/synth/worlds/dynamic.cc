@@ -209,9 +209,9 @@ void Furnish(SceneBuilder& scene, const ShellShape& shell) {
     scene.AddBox({{x, 4.55, 0}, {0.35, 0.35, kHeight}}, Material::kConcrete, 0.55);
     AddSheet(scene, {{x, 4.375, 1.3}, -0.5 * kPi}, {0.3, 0.45}, Material::kPoster, 0.8);
   }
-  for (const double x : {3.2, 8.8}) {  // few but long: each lamp costs time where things move
+  for (const double x : {3.2, 8.8}) {  // few: each costs time where things move
     for (const double y : {2.4, 6.4}) {
-      AddTubeLamp(scene, {{x, y, kHeight - 0.3}, 0}, {3.6, 9.5});
+      AddTubeLamp(scene, {{x, y, kHeight - 0.3}, 0}, {1.8, 10});
     }
   }
   AddSocket(scene, shell.Wall(1, 4.6, 0.4));
@@ -244,7 +244,7 @@ World MakeDynamic(std::uint64_t seed) {
   AddShell(scene, shell);
   AddSkirting(scene, shell, {Material::kPaint, 0.3});
   for (const Opening& hole : shell.openings[3]) {
-    AddViewWindow(scene, shell.Wall(3), hole, {4, 7, 0.5});
+    AddViewWindow(scene, shell.Wall(3), hole, {4, 5, 0.5});
   }
   AddSwingDoor(scene, shell.Wall(2), shell.openings[2].front(), scene.Random(5, 7));
   Furnish(scene, shell);
