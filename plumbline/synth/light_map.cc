@@ -18,6 +18,33 @@ using Eigen::Vector3f;
 
 constexpr float kLift = 0.001F;  // metres off a surface, not to be shadowed by itself
 
+// Near the corners of a lamp and its centre, as shares of its sides from the centre.
+const std::array<Eigen::Vector2d, 5> kProbes = {Eigen::Vector2d(0, 0),
+                                                Eigen::Vector2d(-0.45, -0.45),
+                                                Eigen::Vector2d(0.45, -0.45),
+                                                Eigen::Vector2d(-0.45, 0.45),
+                                                Eigen::Vector2d(0.45, 0.45)};
+
+// As LightFrom, at a place given as shares of the sides from the centre.
+LampPoint LightAt(const Lamp& lamp,
+                  const Eigen::Vector2d& place,
+                  const Vector3d& point,
+                  const Vector3d& normal) {
+  const bool flat = !lamp.side_u.isZero();
+  const Vector3d position = lamp.centre + place.x() * lamp.side_u + place.y() * lamp.side_v;
+  const Vector3d offset = position - point;
+  const double distance = offset.norm();
+  if (distance < 1e-6) return {position, 0};
+  const double facing = normal.dot(offset) / distance;
+  const double leaving =
+      flat ? -lamp.side_u.cross(lamp.side_v).normalized().dot(offset) / distance : 1;
+  if (facing <= 0 || leaving <= 0) return {position, 0};
+  // A large lamp close by: no part of it gives more than it would from an eighth of its size.
+  const double nearest = 0.0625 * (lamp.side_u.norm() + lamp.side_v.norm());
+  const double squared = std::max(distance * distance, nearest * nearest);
+  return {position, lamp.power * facing * leaving / squared};
+}
+
 // Share of the lamp that a point sees, weighted by what its parts give: the light it gets.
 double LightOfLamp(const Lamp& lamp,
                    const Vector3d& point,
@@ -30,24 +57,26 @@ double LightOfLamp(const Lamp& lamp,
     const LampPoint whole = LightFrom(lamp, 0, point, normal);
     return whole.light > 0 && seen(whole.position) ? whole.light : 0;
   }
-  constexpr std::array<int, 4> kCorners = {
-      0, kLampSide - 1, kLampPoints - kLampSide, kLampPoints - 1};
-  double corner_sum = 0;
-  int seen_corners = 0;
-  for (const int i : kCorners) {
-    const LampPoint corner = LightFrom(lamp, i, point, normal);
-    corner_sum += corner.light / kCorners.size();
-    seen_corners += corner.light > 0 && seen(corner.position) ? 1 : 0;
+  int seen_probes = 0;
+  for (const Eigen::Vector2d& place : kProbes) {
+    const LampPoint probe = LightAt(lamp, place, point, normal);
+    seen_probes += probe.light > 0 && seen(probe.position) ? 1 : 0;
   }
-  if (seen_corners == 0) return 0;
-  const bool whole = seen_corners == static_cast<int>(kCorners.size());
-  const double size = lamp.side_u.norm() + lamp.side_v.norm();
-  const bool far = (lamp.centre - point).squaredNorm() > 4 * size * size;
-  if (whole && far) return corner_sum;
+  if (seen_probes == 0) return 0;
   double sum = 0;
-  for (int i = 0; i < kLampPoints; ++i) {
-    const LampPoint part = LightFrom(lamp, i, point, normal);
-    if (part.light > 0 && (whole || seen(part.position))) sum += part.light / kLampPoints;
+  if (seen_probes < static_cast<int>(kProbes.size())) {
+    for (int i = 0; i < kLampPoints; ++i) {
+      const LampPoint part = LightFrom(lamp, i, point, normal);
+      if (part.light > 0 && seen(part.position)) sum += part.light / kLampPoints;
+    }
+    return sum;
+  }
+  // All of it: an even grid, as fine as the distance asks for.
+  const double size = lamp.side_u.norm() + lamp.side_v.norm();
+  const int side = (lamp.centre - point).squaredNorm() > 9 * size * size ? 2 : 4;
+  for (int i = 0; i < side * side; ++i) {
+    const Eigen::Vector2d place((i % side + 0.5) / side - 0.5, (i / side + 0.5) / side - 0.5);
+    sum += LightAt(lamp, place, point, normal).light / (side * side);
   }
   return sum;
 }
@@ -137,24 +166,11 @@ void AddLayers(const std::vector<LightMaps::Layer>& coarse,
 
 }  // namespace
 
-LampPoint LightFrom(const Lamp& lamp, int index, const Vector3d& point, const Vector3d& normal) {
-  const bool flat = !lamp.side_u.isZero();
-  Vector3d place = lamp.centre;
-  if (flat) {
-    place += ((index % kLampSide + 0.5) / kLampSide - 0.5) * lamp.side_u +
-             ((index / kLampSide + 0.5) / kLampSide - 0.5) * lamp.side_v;
-  }
-  const Vector3d offset = place - point;
-  const double distance = offset.norm();
-  if (distance < 1e-6) return {place, 0};
-  const double facing = normal.dot(offset) / distance;
-  const double leaving =
-      flat ? -lamp.side_u.cross(lamp.side_v).normalized().dot(offset) / distance : 1;
-  if (facing <= 0 || leaving <= 0) return {place, 0};
-  // A large lamp close by: no part of it gives more than it would from a quarter of its size.
-  const double nearest = 0.25 * (lamp.side_u.norm() + lamp.side_v.norm()) / kLampSide;
-  const double squared = std::max(distance * distance, nearest * nearest);
-  return {place, lamp.power * facing * leaving / squared};
+LampPoint LightFrom(const Lamp& lamp, int number, const Vector3d& point, const Vector3d& normal) {
+  // A sequence of low discrepancy: any first n of it cover the lamp evenly.
+  constexpr double kStepU = 0.7548776662466927, kStepV = 0.5698402909980532;
+  const double u = 0.5 + kStepU * number, v = 0.5 + kStepV * number;
+  return LightAt(lamp, {u - std::floor(u) - 0.5, v - std::floor(v) - 0.5}, point, normal);
 }
 
 LightMaps::LightMaps(const Scene& scene,

@@ -19,10 +19,14 @@ struct LampPoint {
   Eigen::Vector3d position;
   double light;
 };
-constexpr int kLampSide = 4, kLampPoints = kLampSide * kLampSide;
-// `index` in [0, kLampPoints): the centre of a cell of the lamp's 4 x 4 grid.
+
+// How many points stand for a rectangular lamp in half shadow. No two are in line with a side of
+// the lamp, so that the edge of a body covers them one by one.
+constexpr int kLampPoints = 64;
+
+// The point of that number in [0, kLampPoints); the first few are spread over the lamp as well.
 LampPoint LightFrom(const Lamp& lamp,
-                    int index,
+                    int number,
                     const Eigen::Vector3d& point,
                     const Eigen::Vector3d& normal);
 
@@ -30,7 +34,7 @@ LampPoint LightFrom(const Lamp& lamp,
 // that stands still, and from surface to surface. Computed once, since nothing in it moves; lamps
 // that are switched are kept apart and put together when an image is made.
 //
-// How: on a grid on each surface, lamp by lamp, 16 rays to a rectangular one (4 where they agree);
+// How: on a grid on each surface, lamp by lamp, 64 rays to a rectangular one (5 where they agree);
 // then, on a grid ten times as coarse, two rounds of gathering what the surfaces around throw back
 // (64 rays into the half space, each surface at its mean tone). Linear between grid points. Cost:
 // some 3 us for each lamp and grid point in reach, 30 us for each point of the coarse grid.

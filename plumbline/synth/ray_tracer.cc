@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <embree3/rtcore.h>
 
@@ -39,7 +41,6 @@ class Tree {
       for (std::size_t k = 0; k < 4; ++k) {
         indices[4 * i + k] = static_cast<unsigned>(4 * i + k);
         Eigen::Map<Vector3f>(vertices + 3 * (4 * i + k)) = corners[k].cast<float>();
-        box_.extend(corners[k].cast<float>());
       }
     }
     rtcCommitGeometry(geometry);
@@ -48,9 +49,7 @@ class Tree {
     rtcCommitScene(tree_);
   }
   Tree(Tree&& other) noexcept
-      : tree_(std::exchange(other.tree_, nullptr)),
-        surfaces_(std::move(other.surfaces_)),
-        box_(other.box_) {}
+      : tree_(std::exchange(other.tree_, nullptr)), surfaces_(std::move(other.surfaces_)) {}
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
   Tree& operator=(Tree&&) = delete;
@@ -59,37 +58,11 @@ class Tree {
   }
 
   unsigned SurfaceOf(unsigned primitive) const { return surfaces_[primitive]; }
-  Vector3f Centre() const { return box_.isEmpty() ? Vector3f::Zero().eval() : box_.center(); }
-  float Radius() const { return box_.isEmpty() ? 0 : 0.5F * box_.diagonal().norm(); }
-
-  void Intersect(const int* valid, RTCRayHit8& packet) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect8(valid, tree_, &context, &packet);
-  }
-
-  // Whether something is on from + t * step, t in [0, 1].
-  bool Blocks(const Vector3f& from, const Vector3f& step) const {
-    RTCRay ray{};
-    ray.org_x = from.x();
-    ray.org_y = from.y();
-    ray.org_z = from.z();
-    ray.dir_x = step.x();
-    ray.dir_y = step.y();
-    ray.dir_z = step.z();
-    ray.tfar = 1;
-    ray.mask = ~0U;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(tree_, &context, &ray);
-    return ray.tfar < 0;  // minus infinity when something is in the way
-  }
+  RTCScene scene() const { return tree_; }
 
  private:
   RTCScene tree_ = nullptr;
   std::vector<unsigned> surfaces_;
-  Eigen::AlignedBox3f box_;
 };
 
 struct Step {
@@ -104,14 +77,61 @@ Step Shortened(const Vector3f& from, const Vector3f& to, float margin) {
   return {from + cut * whole, (1 - 2 * cut) * whole};
 }
 
-float DistanceToPiece(const Vector3f& point, const Step& piece) {
-  const float along = piece.step.squaredNorm();
-  const float t =
-      along > 0 ? std::clamp((point - piece.from).dot(piece.step) / along, 0.0F, 1.0F) : 0;
-  return (piece.from + t * piece.step - point).norm();
+void Intersect(RTCScene tree, const int* valid, RTCRayHit8& packet) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, tree, &context, &packet);
+}
+
+// Whether something is on the way.
+bool Blocks(RTCScene tree, const Step& way) {
+  RTCRay ray{};
+  ray.org_x = way.from.x();
+  ray.org_y = way.from.y();
+  ray.org_z = way.from.z();
+  ray.dir_x = way.step.x();
+  ray.dir_y = way.step.y();
+  ray.dir_z = way.step.z();
+  ray.tfar = 1;
+  ray.mask = ~0U;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(tree, &context, &ray);
+  return ray.tfar < 0;  // minus infinity when something is in the way
 }
 
 }  // namespace
+
+// All bodies where they are at one time: instances of their trees, numbered as the bodies are.
+class BodyTree {
+ public:
+  BodyTree(RTCDevice device,
+           const std::vector<Tree>& trees,
+           const std::vector<Rigid3>& world_from_body)
+      : tree_(rtcNewScene(device)) {
+    rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(tree_, RTC_BUILD_QUALITY_LOW);
+    for (std::size_t i = 0; i < world_from_body.size(); ++i) {
+      RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(instance, trees[i].scene());
+      const Eigen::Matrix4f matrix = world_from_body[i].Matrix().cast<float>();
+      rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, matrix.data());
+      rtcCommitGeometry(instance);
+      rtcAttachGeometryByID(tree_, instance, static_cast<unsigned>(i));
+      rtcReleaseGeometry(instance);
+    }
+    rtcCommitScene(tree_);
+  }
+  BodyTree(const BodyTree&) = delete;
+  BodyTree& operator=(const BodyTree&) = delete;
+  ~BodyTree() { rtcReleaseScene(tree_); }
+
+  RTCScene scene() const { return tree_; }
+
+ private:
+  RTCScene tree_;
+};
 
 class RayTracer::Implementation {
  public:
@@ -123,25 +143,30 @@ class RayTracer::Implementation {
       const std::optional<int>& body = scene.surfaces[i].body;
       parts[body ? static_cast<std::size_t>(*body) + 1 : 0].push_back(static_cast<unsigned>(i));
     }
-    for (auto& part : parts) trees_.emplace_back(device_, scene, std::move(part));
+    still_.emplace(device_, scene, std::move(parts[0]));
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      body_trees_.emplace_back(device_, scene, std::move(parts[i]));
+    }
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
   ~Implementation() {
-    trees_.clear();
+    body_trees_.clear();
+    still_.reset();
     rtcReleaseDevice(device_);
   }
 
   Moment At(double time) const {
     Moment moment;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Rigid3 world_from_body = bodies_[i].world_from_body(time);
-      const Rigid3 body_from_world = Inverse(world_from_body);
-      moment.bodies.push_back(
-          {body_from_world.rotation.toRotationMatrix().cast<float>(),
-           body_from_world.translation.cast<float>(),
-           (world_from_body * trees_[i + 1].Centre().cast<double>()).cast<float>()});
+    if (bodies_.empty()) return moment;
+    std::vector<Rigid3> world_from_body;
+    for (const Body& body : bodies_) {
+      world_from_body.push_back(body.world_from_body(time));
+      const Rigid3 body_from_world = Inverse(world_from_body.back());
+      moment.bodies.push_back({body_from_world.rotation.toRotationMatrix().cast<float>(),
+                               body_from_world.translation.cast<float>()});
     }
+    moment.tree = std::make_shared<const BodyTree>(device_, body_trees_, world_from_body);
     return moment;
   }
 
@@ -149,79 +174,53 @@ class RayTracer::Implementation {
     alignas(32) int valid[kPacket];
     RTCRayHit8 packet;
     for (int i = 0; i < kPacket; ++i) {
-      valid[i] = i < rays.count ? -1 : 0;
-      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-      hits[i] = kNothing;
-    }
-    IntersectPart(0, rays.origin, rays, valid, packet, hits);
-    for (std::size_t k = 0; k < moment.bodies.size(); ++k) {
-      const Moment::Pose& pose = moment.bodies[k];
-      Rays local;
-      local.count = rays.count;
-      for (int i = 0; i < rays.count; ++i) {
-        const auto lane = static_cast<std::size_t>(i);
-        local.directions[lane] = pose.rotation * rays.directions[lane];
-      }
-      local.origin = pose.rotation * rays.origin + pose.translation;
-      IntersectPart(k + 1, local.origin, local, valid, packet, hits);
-    }
-  }
-
-  bool StillSees(const Vector3f& from, const Vector3f& to, float margin) const {
-    const Step piece = Shortened(from, to, margin);
-    return !trees_[0].Blocks(piece.from, piece.step);
-  }
-
-  bool BodiesLetPass(const Vector3f& from,
-                     const Vector3f& to,
-                     float margin,
-                     const Moment& moment) const {
-    const Step piece = Shortened(from, to, margin);
-    for (std::size_t k = 0; k < moment.bodies.size(); ++k) {
-      const Moment::Pose& pose = moment.bodies[k];
-      if (DistanceToPiece(pose.centre, piece) > trees_[k + 1].Radius()) continue;
-      if (trees_[k + 1].Blocks(pose.rotation * piece.from + pose.translation,
-                               pose.rotation * piece.step)) {
-        return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  // Continues a packet, whose tfar holds the nearest hits so far, with the tree of one part.
-  void IntersectPart(std::size_t part,
-                     const Vector3f& origin,
-                     const Rays& rays,
-                     const int* valid,
-                     RTCRayHit8& packet,
-                     unsigned* hits) const {
-    for (int i = 0; i < kPacket; ++i) {
       const Vector3f& direction =
           rays.directions[static_cast<std::size_t>(std::min(i, rays.count - 1))];
-      packet.ray.org_x[i] = origin.x();
-      packet.ray.org_y[i] = origin.y();
-      packet.ray.org_z[i] = origin.z();
+      valid[i] = i < rays.count ? -1 : 0;
+      packet.ray.org_x[i] = rays.origin.x();
+      packet.ray.org_y[i] = rays.origin.y();
+      packet.ray.org_z[i] = rays.origin.z();
       packet.ray.dir_x[i] = direction.x();
       packet.ray.dir_y[i] = direction.y();
       packet.ray.dir_z[i] = direction.z();
       packet.ray.tnear[i] = 0;
+      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
       packet.ray.time[i] = 0;
       packet.ray.mask[i] = ~0U;
       packet.ray.id[i] = 0;
       packet.ray.flags[i] = 0;
       packet.hit.geomID[i] = kNothing;
       packet.hit.primID[i] = kNothing;
+      packet.hit.instID[0][i] = kNothing;
     }
-    trees_[part].Intersect(valid, packet);
+    Intersect(still_->scene(), valid, packet);
+    if (moment.tree) Intersect(moment.tree->scene(), valid, packet);
     for (int i = 0; i < rays.count; ++i) {
-      if (packet.hit.geomID[i] != kNothing) hits[i] = trees_[part].SurfaceOf(packet.hit.primID[i]);
+      const unsigned body = packet.hit.instID[0][i], primitive = packet.hit.primID[i];
+      if (packet.hit.geomID[i] == kNothing) {
+        hits[i] = kNothing;
+      } else {
+        hits[i] = (body == kNothing ? *still_ : body_trees_[body]).SurfaceOf(primitive);
+      }
     }
   }
 
+  bool StillSees(const Vector3f& from, const Vector3f& to, float margin) const {
+    return !Blocks(still_->scene(), Shortened(from, to, margin));
+  }
+
+  static bool BodiesLetPass(const Vector3f& from,
+                            const Vector3f& to,
+                            float margin,
+                            const Moment& moment) {
+    return !moment.tree || !Blocks(moment.tree->scene(), Shortened(from, to, margin));
+  }
+
+ private:
   RTCDevice device_;
   std::vector<Body> bodies_;
-  std::vector<Tree> trees_;  // what stands still, then the bodies
+  std::optional<Tree> still_;
+  std::vector<Tree> body_trees_;
 };
 
 RayTracer::RayTracer(const Scene& scene)
@@ -242,7 +241,7 @@ bool RayTracer::BodiesLetPass(const Vector3f& from,
                               const Vector3f& to,
                               float margin,
                               const Moment& moment) const {
-  return implementation_->BodiesLetPass(from, to, margin, moment);
+  return Implementation::BodiesLetPass(from, to, margin, moment);
 }
 
 }  // namespace plumbline

@@ -24,9 +24,9 @@ class RayTracer {
     struct Pose {
       Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();  // body_from_world
       Eigen::Vector3f translation = Eigen::Vector3f::Zero();
-      Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // of a ball around the body, world
     };
-    std::vector<Pose> bodies;  // body_from_world
+    std::vector<Pose> bodies;
+    std::shared_ptr<const class BodyTree> tree;  // to find what rays meet; none without bodies
   };
 
   // Some rays from one point.

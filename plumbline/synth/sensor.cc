@@ -22,12 +22,43 @@ float Shoulder(float value) {
   return kKnee + kRoom * (1 - std::exp(-(value - kKnee) / kRoom));
 }
 
+// Three weights of a filter with the variance of a Gaussian.
+struct Spread {
+  float side, centre;
+
+  explicit Spread(double sigma)
+      : side(static_cast<float>(0.5 * std::min(sigma * sigma, 1.0))), centre(1 - 2 * side) {}
+};
+
+// The image of a lens that is not perfectly sharp; the border is continued.
+Image<float> ThroughLens(const Image<float>& light, double blur_px) {
+  const Spread spread(blur_px);
+  const int width = light.width(), height = light.height();
+  Image<float> rows(width, height), result(width, height);
+  for (int y = 0; y < height; ++y) {
+    const float* from = light.row(y);
+    for (int x = 0; x < width; ++x) {
+      rows.at(x, y) = spread.centre * from[x] +
+                      spread.side * (from[std::max(x - 1, 0)] + from[std::min(x + 1, width - 1)]);
+    }
+  }
+  for (int y = 0; y < height; ++y) {
+    const float *above = rows.row(std::max(y - 1, 0)), *here = rows.row(y);
+    const float* below = rows.row(std::min(y + 1, height - 1));
+    for (int x = 0; x < width; ++x) {
+      result.at(x, y) = spread.centre * here[x] + spread.side * (above[x] + below[x]);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-GrayImage Expose(const Image<float>& light,
+GrayImage Expose(const Image<float>& scene,
                  const SensorModel& model,
                  std::uint64_t chip,
                  std::uint64_t stream) {
+  const Image<float> light = ThroughLens(scene, model.blur_px);
   const int width = light.width(), height = light.height();
   const auto noise = static_cast<float>(model.noise);
   const auto gain = static_cast<float>(model.gain) / 255;

@@ -240,8 +240,11 @@ std::vector<double> SyntheticSequence::FindGains(int threads) const {
 
 GrayImage SyntheticSequence::Sense(const Image<float>& light, int frame, int camera) const {
   const double control = gains_.empty() ? 1 : gains_[static_cast<std::size_t>(frame)];
-  const SensorModel model{
-      options_.exposure * control, options_.gamma, options_.vignetting, options_.noise};
+  const SensorModel model{options_.exposure * control,
+                          options_.gamma,
+                          options_.vignetting,
+                          options_.noise,
+                          options_.lens_blur};
   const std::uint64_t chip = HashCell(camera, 0, MixBits(options_.seed + kNoiseStream));
   const std::uint64_t stream = HashCell(frame, camera, MixBits(options_.seed + kNoiseStream));
   return Expose(light, model, chip, stream);

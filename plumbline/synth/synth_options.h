@@ -24,6 +24,7 @@ struct SynthOptions {
   bool auto_exposure = false;
   double gamma = 1;  // of the response curve, 1 linear
   double vignetting = 0.22;
+  double lens_blur = 0.5;  // pixels
   double noise = 1;
   bool depth = false;  // depth images in the EuRoC format too
   double depth_noise = 1;
@@ -53,6 +54,7 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("auto_exposure", o.auto_exposure, "brightness follows the scene, as a camera sets it");
   visit("gamma", o.gamma, "of the response curve, 1 linear", Range{1, 3});
   visit("vignetting", o.vignetting, "loss of light in the corners", Range{0, 0.9});
+  visit("lens_blur", o.lens_blur, "unsharpness of the lens, sigma [px]", Range{0, 1});
   visit("noise", o.noise, "sensor noise, 1 as a real camera, 0 none", Range{0, 20});
   visit("depth", o.depth, "write depth images in the EuRoC format too (TUM always has them)");
   visit("depth_noise",

@@ -97,6 +97,23 @@ TEST(Expose, GammaBrightensTheDark) {
   EXPECT_EQ(value, std::round(255 * std::pow(0.2, 1 / 2.2)));
 }
 
+TEST(Expose, TheLensSpreadsAPoint) {
+  Image<float> light(9, 9);
+  light.at(4, 4) = 200;
+  SensorModel model = Flat(0);
+  model.blur_px = 0.5;
+  const GrayImage image = Expose(light, model, 1, 1);
+  double sum = 0, variance = 0;
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      sum += image.at(x, y);
+      variance += image.at(x, y) * (x - 4) * (x - 4);
+    }
+  }
+  EXPECT_NEAR(sum, 200, 3);
+  EXPECT_NEAR(variance / sum, 0.25, 0.01);
+}
+
 TEST(SenseDepth, ErrorsGrowWithTheSquareOfTheDistance) {
   for (const float depth : {1.0F, 3.0F}) {
     const DepthImage sensed = SenseDepth(DepthImage(kSize, kSize, depth), 1, 5);
