@@ -25,13 +25,17 @@ const std::array<Eigen::Vector2d, 5> kProbes = {Eigen::Vector2d(0, 0),
                                                 Eigen::Vector2d(-0.45, 0.45),
                                                 Eigen::Vector2d(0.45, 0.45)};
 
-// As LightFrom, at a place given as shares of the sides from the centre.
+// A place given as shares of the sides from the centre.
+Vector3d At(const Lamp& lamp, const Eigen::Vector2d& place) {
+  return lamp.centre + place.x() * lamp.side_u + place.y() * lamp.side_v;
+}
+
+// As LightFrom, at such a place.
 LampPoint LightAt(const Lamp& lamp,
-                  const Eigen::Vector2d& place,
+                  const Vector3d& position,
                   const Vector3d& point,
                   const Vector3d& normal) {
   const bool flat = !lamp.side_u.isZero();
-  const Vector3d position = lamp.centre + place.x() * lamp.side_u + place.y() * lamp.side_v;
   const Vector3d offset = position - point;
   const double distance = offset.norm();
   if (distance < 1e-6) return {position, 0};
@@ -59,7 +63,7 @@ double LightOfLamp(const Lamp& lamp,
   }
   int seen_probes = 0;
   for (const Eigen::Vector2d& place : kProbes) {
-    const LampPoint probe = LightAt(lamp, place, point, normal);
+    const LampPoint probe = LightAt(lamp, At(lamp, place), point, normal);
     seen_probes += probe.light > 0 && seen(probe.position) ? 1 : 0;
   }
   if (seen_probes == 0) return 0;
@@ -76,7 +80,7 @@ double LightOfLamp(const Lamp& lamp,
   const int side = (lamp.centre - point).squaredNorm() > 9 * size * size ? 2 : 4;
   for (int i = 0; i < side * side; ++i) {
     const Eigen::Vector2d place((i % side + 0.5) / side - 0.5, (i / side + 0.5) / side - 0.5);
-    sum += LightAt(lamp, place, point, normal).light / (side * side);
+    sum += LightAt(lamp, At(lamp, place), point, normal).light / (side * side);
   }
   return sum;
 }
@@ -166,11 +170,15 @@ void AddLayers(const std::vector<LightMaps::Layer>& coarse,
 
 }  // namespace
 
-LampPoint LightFrom(const Lamp& lamp, int number, const Vector3d& point, const Vector3d& normal) {
+Vector3d PlaceOn(const Lamp& lamp, int number) {
   // A sequence of low discrepancy: any first n of it cover the lamp evenly.
   constexpr double kStepU = 0.7548776662466927, kStepV = 0.5698402909980532;
   const double u = 0.5 + kStepU * number, v = 0.5 + kStepV * number;
-  return LightAt(lamp, {u - std::floor(u) - 0.5, v - std::floor(v) - 0.5}, point, normal);
+  return At(lamp, {u - std::floor(u) - 0.5, v - std::floor(v) - 0.5});
+}
+
+LampPoint LightFrom(const Lamp& lamp, int number, const Vector3d& point, const Vector3d& normal) {
+  return LightAt(lamp, PlaceOn(lamp, number), point, normal);
 }
 
 LightMaps::LightMaps(const Scene& scene,

@@ -25,6 +25,7 @@ struct LampPoint {
 constexpr int kLampPoints = 64;
 
 // The point of that number in [0, kLampPoints); the first few are spread over the lamp as well.
+Eigen::Vector3d PlaceOn(const Lamp& lamp, int number);
 LampPoint LightFrom(const Lamp& lamp,
                     int number,
                     const Eigen::Vector3d& point,

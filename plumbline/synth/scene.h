@@ -6,6 +6,7 @@
 #include "plumbline/geometry/segment.h"
 #include "plumbline/synth/texture.h"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -29,6 +30,14 @@ struct Surface {
 
   Eigen::Vector3d PointAt(double a, double b) const { return origin + a * side_u + b * side_v; }
   Eigen::Vector3d Normal() const { return side_u.cross(side_v).normalized(); }
+
+  // How far a point is from the nearest one of the rectangle, metres.
+  double DistanceTo(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d offset = point - origin;
+    const double a = std::clamp(offset.dot(side_u) / side_u.squaredNorm(), 0.0, 1.0);
+    const double b = std::clamp(offset.dot(side_v) / side_v.squaredNorm(), 0.0, 1.0);
+    return (point - PointAt(a, b)).norm();
+  }
 };
 
 // A flat rectangular lamp (a tube, a panel, a window): each part of it shines into the half space

@@ -93,13 +93,6 @@ int CountFrames(const CameraPath& path, const SynthOptions& options) {
   return options.frames > 0 ? std::min(options.frames, whole) : whole;
 }
 
-double DistanceTo(const Surface& surface, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d offset = point - surface.origin;
-  const double a = offset.dot(surface.side_u) / surface.side_u.squaredNorm();
-  const double b = offset.dot(surface.side_v) / surface.side_v.squaredNorm();
-  return (point - surface.PointAt(std::clamp(a, 0.0, 1.0), std::clamp(b, 0.0, 1.0))).norm();
-}
-
 // A share of a pixel where the path comes closest to a surface; bodies are taken to come to 1 m.
 std::vector<double> TexelSizes(const World& world, const SynthOptions& options, double seconds) {
   constexpr double kFinest = 0.002, kCoarsest = 0.05, kStep = 0.2, kBodies = 1;
@@ -116,7 +109,7 @@ std::vector<double> TexelSizes(const World& world, const SynthOptions& options, 
           places.end(),
           1e9,
           [](double a, double b) { return std::min(a, b); },
-          [&](const Eigen::Vector3d& place) { return DistanceTo(surface, place); });
+          [&](const Eigen::Vector3d& place) { return surface.DistanceTo(place); });
     }
     const double texel = options.texel * closest / (kFocal * options.scale);
     texels.push_back(std::clamp(texel, kFinest, kCoarsest));

@@ -109,12 +109,8 @@ float Shading::StillLight(const SurfaceHit& hit,
     const float level = instant.levels[static_cast<std::size_t>(layer.source)];
     if (level == 0) continue;
     if (const Lamp* lamp = lights_.LampOf(layer.source)) {
-      const Vector3d normal = planes_[hit.surface].normal.cast<double>();
-      const LampPoint from =
-          LightFrom(*lamp, hit.sample % kLampPoints, point.cast<double>(), normal);
-      if (!tracer_.BodiesLetPass(point, from.position.cast<float>(), kLift, instant.moment)) {
-        continue;
-      }
+      const Vector3f place_on_lamp = PlaceOn(*lamp, hit.sample % kLampPoints).cast<float>();
+      if (!tracer_.BodiesLetPass(point, place_on_lamp, kLift, instant.moment)) continue;
     }
     light += level * LightMaps::Sample(layer.grid, place.x(), place.y());
   }

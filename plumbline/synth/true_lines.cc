@@ -25,11 +25,7 @@ struct Candidate {
 double ClosestView(const Surface& surface, std::span<const TimedView> views) {
   double closest = 1e9;
   for (const TimedView& view : views) {
-    const Vector3d offset = view.world_from_camera.translation - surface.origin;
-    const double a = offset.dot(surface.side_u) / surface.side_u.squaredNorm();
-    const double b = offset.dot(surface.side_v) / surface.side_v.squaredNorm();
-    const Vector3d nearest = surface.PointAt(std::clamp(a, 0.0, 1.0), std::clamp(b, 0.0, 1.0));
-    closest = std::min(closest, (view.world_from_camera.translation - nearest).norm());
+    closest = std::min(closest, surface.DistanceTo(view.world_from_camera.translation));
   }
   return closest;
 }

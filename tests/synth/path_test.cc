@@ -17,13 +17,6 @@ using Eigen::Vector3d;
 
 const Vector3d kRoomSize(6.4, 5.2, 2.8);
 
-double Distance(const Vector3d& point, const Surface& surface) {
-  const Vector3d offset = point - surface.origin;
-  const double a = std::clamp(offset.dot(surface.side_u) / surface.side_u.squaredNorm(), 0.0, 1.0);
-  const double b = std::clamp(offset.dot(surface.side_v) / surface.side_v.squaredNorm(), 0.0, 1.0);
-  return (point - surface.PointAt(a, b)).norm();
-}
-
 // Highest speed [m/s], turn rate [rad/s] and accelerations of both on a path.
 struct Motion {
   double speed = 0, turn = 0, acceleration = 0, turn_acceleration = 0;
@@ -147,7 +140,7 @@ TEST(HandHeldLoop, KeepsAwayFromEverything) {
     for (double time = 0; time < 10; time += 0.1) {
       const Vector3d position = loop.WorldFromCamera(time).translation;
       for (const Surface& surface : scene.surfaces) {
-        ASSERT_GT(Distance(position, surface), 0.5) << time;
+        ASSERT_GT(surface.DistanceTo(position), 0.5) << time;
       }
     }
   }

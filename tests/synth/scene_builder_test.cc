@@ -30,13 +30,6 @@ bool IsSideOf(const Segment3& segment, const Surface& surface) {
   return false;
 }
 
-double Distance(const Vector3d& point, const Surface& surface) {
-  const Vector3d offset = point - surface.origin;
-  const double a = std::clamp(offset.dot(surface.side_u) / surface.side_u.squaredNorm(), 0.0, 1.0);
-  const double b = std::clamp(offset.dot(surface.side_v) / surface.side_v.squaredNorm(), 0.0, 1.0);
-  return (point - surface.PointAt(a, b)).norm();
-}
-
 TEST(Scene, EveryEdgeIsWhereTwoFacesMeet) {
   const Scene scene = MakeRoom(3).scene;
   ASSERT_GT(scene.edges.size(), 500U);
@@ -92,7 +85,7 @@ TEST(SceneBuilder, AWallHasHolesAndOneTexture) {
     int count = 0;
     for (const Surface& surface : scene.surfaces) {
       for (const double side : {-0.1, 0.1}) {
-        count += Distance(middle + side * Vector3d::UnitY(), surface) < 1e-9 ? 1 : 0;
+        count += surface.DistanceTo(middle + side * Vector3d::UnitY()) < 1e-9 ? 1 : 0;
       }
     }
     return count;
@@ -102,8 +95,8 @@ TEST(SceneBuilder, AWallHasHolesAndOneTexture) {
   // Pieces of a face that touch agree in what their texture shows at the seam.
   const Surface *below = nullptr, *left = nullptr;
   for (const Surface& surface : scene.surfaces) {
-    if (Distance({3.05, 0.9, 0.4}, surface) < 1e-9) below = &surface;
-    if (Distance({2.95, 0.9, 0.4}, surface) < 1e-9) left = &surface;
+    if (surface.DistanceTo({3.05, 0.9, 0.4}) < 1e-9) below = &surface;
+    if (surface.DistanceTo({2.95, 0.9, 0.4}) < 1e-9) left = &surface;
   }
   ASSERT_TRUE(below != nullptr && left != nullptr && below != left);
   const auto value = [](const Surface& surface, const Vector3d& point) {

@@ -75,13 +75,6 @@ Surface InWorld(const Scene& scene, const Surface& surface, double time) {
   return moved;
 }
 
-double Distance(const Vector3d& point, const Surface& surface) {
-  const Vector3d offset = point - surface.origin;
-  const double a = std::clamp(offset.dot(surface.side_u) / surface.side_u.squaredNorm(), 0.0, 1.0);
-  const double b = std::clamp(offset.dot(surface.side_v) / surface.side_v.squaredNorm(), 0.0, 1.0);
-  return (point - surface.PointAt(a, b)).norm();
-}
-
 // How far along start -> start + way the surface is hit, where it is.
 std::optional<double> Hit(const Surface& surface, const Vector3d& start, const Vector3d& way) {
   const Vector3d normal = surface.side_u.cross(surface.side_v);
@@ -130,7 +123,7 @@ TEST_P(EveryWorld, PathKeepsAwayFromEverything) {
         const bool moves = world.scene.surfaces[i].body.has_value();
         if (!moves && !balls[i].IsWithin(here, 0.5)) continue;  // a step is shorter
         const Surface surface = InWorld(world.scene, world.scene.surfaces[i], time);
-        ASSERT_GT(Distance(here, surface), kClosest)
+        ASSERT_GT(surface.DistanceTo(here), kClosest)
             << "seed " << seed << ", " << time << " s, surface " << i << " at "
             << surface.origin.transpose() << ", camera at " << here.transpose();
         if (!last) continue;
@@ -217,7 +210,7 @@ TEST_P(EveryWorld, SurfacesAreRectangles) {
 TEST_P(EveryWorld, EdgesLieOnRims) {
   const Scene& scene = Get().scene;
   const auto on_rim = [](const Surface& surface, const Vector3d& point) {
-    if (Distance(point, surface) > 1e-6) return false;
+    if (surface.DistanceTo(point) > 1e-6) return false;
     const Vector3d offset = point - surface.origin;
     const double u = surface.side_u.norm(), v = surface.side_v.norm();
     const double a = offset.dot(surface.side_u) / u, b = offset.dot(surface.side_v) / v;
