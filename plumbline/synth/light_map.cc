@@ -3,9 +3,9 @@
 #include "plumbline/synth/light_map.h"
 
 #include "plumbline/base/parallel.h"
+#include "plumbline/synth/direct_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -15,75 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-
-constexpr float kLift = 0.001F;  // metres off a surface, not to be shadowed by itself
-
-// Near the corners of a lamp and its centre, as shares of its sides from the centre.
-const std::array<Eigen::Vector2d, 5> kProbes = {Eigen::Vector2d(0, 0),
-                                                Eigen::Vector2d(-0.45, -0.45),
-                                                Eigen::Vector2d(0.45, -0.45),
-                                                Eigen::Vector2d(-0.45, 0.45),
-                                                Eigen::Vector2d(0.45, 0.45)};
-
-// A place given as shares of the sides from the centre.
-Vector3d At(const Lamp& lamp, const Eigen::Vector2d& place) {
-  return lamp.centre + place.x() * lamp.side_u + place.y() * lamp.side_v;
-}
-
-// As LightFrom, at such a place.
-LampPoint LightAt(const Lamp& lamp,
-                  const Vector3d& position,
-                  const Vector3d& point,
-                  const Vector3d& normal) {
-  const bool flat = !lamp.side_u.isZero();
-  const Vector3d offset = position - point;
-  const double distance = offset.norm();
-  if (distance < 1e-6) return {position, 0};
-  const double facing = normal.dot(offset) / distance;
-  const double leaving =
-      flat ? -lamp.side_u.cross(lamp.side_v).normalized().dot(offset) / distance : 1;
-  if (facing <= 0 || leaving <= 0) return {position, 0};
-  // A large lamp close by: no part of it gives more than it would from an eighth of its size.
-  const double nearest = 0.0625 * (lamp.side_u.norm() + lamp.side_v.norm());
-  const double squared = std::max(distance * distance, nearest * nearest);
-  return {position, lamp.power * facing * leaving / squared};
-}
-
-// Share of the lamp that a point sees, weighted by what its parts give: the light it gets.
-double LightOfLamp(const Lamp& lamp,
-                   const Vector3d& point,
-                   const Vector3d& normal,
-                   const RayTracer& tracer) {
-  const auto seen = [&](const Vector3d& place) {
-    return tracer.StillSees(point.cast<float>(), place.cast<float>(), kLift);
-  };
-  if (lamp.side_u.isZero()) {
-    const LampPoint whole = LightFrom(lamp, 0, point, normal);
-    return whole.light > 0 && seen(whole.position) ? whole.light : 0;
-  }
-  int seen_probes = 0;
-  for (const Eigen::Vector2d& place : kProbes) {
-    const LampPoint probe = LightAt(lamp, At(lamp, place), point, normal);
-    seen_probes += probe.light > 0 && seen(probe.position) ? 1 : 0;
-  }
-  if (seen_probes == 0) return 0;
-  double sum = 0;
-  if (seen_probes < static_cast<int>(kProbes.size())) {
-    for (int i = 0; i < kLampPoints; ++i) {
-      const LampPoint part = LightFrom(lamp, i, point, normal);
-      if (part.light > 0 && seen(part.position)) sum += part.light / kLampPoints;
-    }
-    return sum;
-  }
-  // All of it: an even grid, as fine as the distance asks for.
-  const double size = lamp.side_u.norm() + lamp.side_v.norm();
-  const int side = (lamp.centre - point).squaredNorm() > 9 * size * size ? 2 : 4;
-  for (int i = 0; i < side * side; ++i) {
-    const Eigen::Vector2d place((i % side + 0.5) / side - 0.5, (i / side + 0.5) / side - 0.5);
-    sum += LightAt(lamp, At(lamp, place), point, normal).light / (side * side);
-  }
-  return sum;
-}
 
 // Directions of a cosine-weighted half sphere around z (Hammersley points).
 std::vector<Vector3f> HalfSphere(unsigned count) {
@@ -110,29 +41,6 @@ Eigen::Vector2f MeetingPoint(const Surface& surface, const Vector3f& from, const
       .cast<float>();
 }
 
-// A grid on a surface: how many points, and where they are, a little off the surface and its rim,
-// which other bodies touch.
-struct SurfaceGrid {
-  int columns, rows;
-  double margin_a, margin_b;
-  const Surface& surface;
-  Vector3d normal;
-
-  SurfaceGrid(const Surface& on, double cell) : surface(on), normal(on.Normal()) {
-    constexpr double kMargin = 0.004;  // metres
-    const double width = on.side_u.norm(), height = on.side_v.norm();
-    columns = 2 + static_cast<int>(width / cell);
-    rows = 2 + static_cast<int>(height / cell);
-    margin_a = std::min(0.5, kMargin / width);
-    margin_b = std::min(0.5, kMargin / height);
-  }
-  Vector3d At(int x, int y) const {
-    const double a = std::clamp(x / (columns - 1.0), margin_a, 1 - margin_a);
-    const double b = std::clamp(y / (rows - 1.0), margin_b, 1 - margin_b);
-    return surface.PointAt(a, b) + static_cast<double>(kLift) * normal;
-  }
-};
-
 std::vector<LightMaps::Layer> WithoutDark(std::vector<Image<float>> grids) {
   std::vector<LightMaps::Layer> layers;
   for (std::size_t source = 0; source < grids.size(); ++source) {
@@ -155,14 +63,14 @@ void AddLayers(const std::vector<LightMaps::Layer>& coarse,
       return layer.source == from.source;
     });
     if (to == fine.end()) {
-      to = fine.insert(fine.end(), {from.source, Image<float>(grid.columns, grid.rows)});
+      to = fine.insert(fine.end(), {from.source, Image<float>(grid.columns(), grid.rows())});
     }
-    for (int y = 0; y < grid.rows; ++y) {
-      for (int x = 0; x < grid.columns; ++x) {
+    for (int y = 0; y < grid.rows(); ++y) {
+      for (int x = 0; x < grid.columns(); ++x) {
         to->grid.at(x, y) +=
             LightMaps::Sample(from.grid,
-                              static_cast<float>(x) / static_cast<float>(grid.columns - 1),
-                              static_cast<float>(y) / static_cast<float>(grid.rows - 1));
+                              static_cast<float>(x) / static_cast<float>(grid.columns() - 1),
+                              static_cast<float>(y) / static_cast<float>(grid.rows() - 1));
       }
     }
   }
@@ -170,24 +78,13 @@ void AddLayers(const std::vector<LightMaps::Layer>& coarse,
 
 }  // namespace
 
-Vector3d PlaceOn(const Lamp& lamp, int number) {
-  // A sequence of low discrepancy: any first n of it cover the lamp evenly.
-  constexpr double kStepU = 0.7548776662466927, kStepV = 0.5698402909980532;
-  const double u = 0.5 + kStepU * number, v = 0.5 + kStepV * number;
-  return At(lamp, {u - std::floor(u) - 0.5, v - std::floor(v) - 0.5});
-}
-
-LampPoint LightFrom(const Lamp& lamp, int number, const Vector3d& point, const Vector3d& normal) {
-  return LightAt(lamp, PlaceOn(lamp, number), point, normal);
-}
-
 LightMaps::LightMaps(const Scene& scene,
                      const RayTracer& tracer,
                      std::span<const double> cells,
                      int threads)
     : scene_(scene), lamps_apart_(!scene.bodies.empty()) {
   constexpr int kRounds = 2;
-  constexpr double kCoarser = 10, kFinest = 0.1, kCoarsest = 0.4;
+  constexpr double kCoarser = 25, kFinest = 0.1, kCoarsest = 0.4;
   const auto count = static_cast<int>(scene_.surfaces.size());
   using Layers = std::vector<Layer>;
   const std::vector<Layers> direct = ParallelMap<Layers>(count, threads, [&](int i) {
@@ -235,18 +132,9 @@ std::vector<LightMaps::Layer> LightMaps::BakeDirect(unsigned index,
   const Surface& surface = scene_.surfaces[index];
   if (surface.body) return {};
   const SurfaceGrid grid(surface, cell);
-  std::vector<Image<float>> light(static_cast<std::size_t>(source_count()),
-                                  Image<float>(grid.columns, grid.rows));
-  for (int y = 0; y < grid.rows; ++y) {
-    for (int x = 0; x < grid.columns; ++x) {
-      const Vector3d point = grid.At(x, y);
-      for (std::size_t k = 0; k < scene_.lamps.size(); ++k) {
-        light[static_cast<std::size_t>(SourceOf(k))].at(x, y) +=
-            static_cast<float>(LightOfLamp(scene_.lamps[k], point, grid.normal, tracer));
-      }
-    }
-  }
-  return WithoutDark(std::move(light));
+  std::vector<int> sources;
+  for (std::size_t k = 0; k < scene_.lamps.size(); ++k) sources.push_back(SourceOf(k));
+  return WithoutDark(DirectLight(grid, scene_.lamps, sources, source_count(), tracer));
 }
 
 // What each point gets from the surfaces around it, lit as `light` says, and from the sky.
@@ -266,12 +154,12 @@ std::vector<LightMaps::Layer> LightMaps::Gather(
   const SurfaceGrid grid(surface, cell);
   Eigen::Matrix3f axes;
   axes << surface.side_u.normalized().cast<float>(), surface.side_v.normalized().cast<float>(),
-      grid.normal.cast<float>();
+      grid.normal().cast<float>();
   std::vector<Image<float>> sums(static_cast<std::size_t>(source_count()),
-                                 Image<float>(grid.columns, grid.rows));
+                                 Image<float>(grid.columns(), grid.rows()));
   const RayTracer::Moment nobody;
-  for (int y = 0; y < grid.rows; ++y) {
-    for (int x = 0; x < grid.columns; ++x) {
+  for (int y = 0; y < grid.rows(); ++y) {
+    for (int x = 0; x < grid.columns(); ++x) {
       RayTracer::Rays rays;
       rays.origin = grid.At(x, y).cast<float>();
       rays.count = RayTracer::kPacket;

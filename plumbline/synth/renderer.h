@@ -33,7 +33,7 @@ struct RendererOptions {
   int samples = 4;        // per pixel; edges get at least 16
   int time_samples = 16;  // least number of them while a shutter is open
   // Size of the texture cells of each surface, metres; empty: 3 mm everywhere. Light is kept on a
-  // grid 8 times as coarse (10 to 100 mm).
+  // grid 3 times as coarse (6 to 100 mm).
   std::vector<double> texels;
   int threads = 1;  // for baking textures and light; the result does not depend on it
 };

@@ -21,7 +21,7 @@ constexpr double kFill = 0.2;    // light from other surfaces that a moving body
 
 std::vector<double> LightCells(std::span<const double> texels) {
   std::vector<double> cells;
-  for (const double texel : texels) cells.push_back(std::clamp(8 * texel, 0.01, 0.1));
+  for (const double texel : texels) cells.push_back(std::clamp(3 * texel, 0.006, 0.1));
   return cells;
 }
 

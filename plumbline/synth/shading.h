@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/synth/lamp_light.h"
 #include "plumbline/synth/light_map.h"
 #include "plumbline/synth/ray_tracer.h"
 #include "plumbline/synth/scene.h"

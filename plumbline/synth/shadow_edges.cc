@@ -4,7 +4,7 @@
 
 #include "plumbline/base/parallel.h"
 #include "plumbline/synth/collinear.h"
-#include "plumbline/synth/light_map.h"
+#include "plumbline/synth/lamp_light.h"
 #include "plumbline/synth/pattern.h"
 
 #include <algorithm>

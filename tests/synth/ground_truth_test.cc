@@ -56,6 +56,28 @@ Scene OpenYard() {
   return builder.Take();
 }
 
+// Plates in the light of a small lamp, over a floor and before a wall that catch their shadows.
+Scene LampLitStage() {
+  SceneBuilder builder(4);
+  builder.SetAmbient(0.15);
+  builder.AddFloor({-1, -4, 0}, {6, 8}, Material::kBlank, 0.7);
+  builder.AddPanel({3.8, 2.5, 0}, {0, -5, 0}, {0, 0, 2.4}, {Material::kBlank, 0.7});
+  for (int i = 0; i < 5; ++i) {  // over the floor, and before the wall
+    const double along = -1.7 + 0.8 * i, turn = 0.2 * i;
+    const Vector3d across(0.45 * std::cos(turn), 0.45 * std::sin(turn), 0);
+    builder.AddPanel({2 + 0.15 * (i % 2), along, 0.2},
+                     across,
+                     0.7 * Vector3d::UnitZ().cross(across),
+                     {Material::kBlank, 0.3});
+    builder.AddPanel({3.6, along + 0.5, 0.7 + 0.3 * (i % 3)},
+                     {0, -0.35, 0.1 * i},
+                     {0, 0.05, 0.3},
+                     {Material::kBlank, 0.3});
+  }
+  builder.AddLamp({{0.9, 0.2, 2.3}, {0, 0.02, 0}, {0.02, 0, 0}, 5});
+  return builder.Take();
+}
+
 std::vector<TimedView> Views() {
   std::vector<TimedView> views;
   for (int i = 0; i < 3; ++i) {
@@ -165,16 +187,20 @@ struct Offsets {
   }
 };
 
-TEST(GroundTruth, LinesLieOnTheStepsOfTheImage) {
-  const Scene scene = OpenYard();
+// How far the steps of the images lie from the true lines, by kind of line; pixels.
+struct LineOffsets {
+  std::array<Offsets, kTrueLineKinds> signed_px, distances_px;
+};
+
+LineOffsets MeasureOffsets(const Scene& scene, double texel) {
   const Camera camera = WideCamera();
   const std::vector<TimedView> views = Views();
   const std::vector<TrueLine> lines = TrueLines(scene, camera, views, {}, 2);
   const Renderer renderer(
       scene,
-      {.samples = 16, .texels = std::vector<double>(scene.surfaces.size(), 0.003), .threads = 2});
+      {.samples = 16, .texels = std::vector<double>(scene.surfaces.size(), texel), .threads = 2});
   const RayTable rays(camera);
-  std::array<Offsets, kTrueLineKinds> offsets, distances;
+  LineOffsets offsets;
   for (std::size_t frame = 0; frame < views.size(); ++frame) {
     const Rendering rendering = renderer.Render(rays, views[frame].world_from_camera);
     const auto now = static_cast<int>(frame);
@@ -188,18 +214,32 @@ TEST(GroundTruth, LinesLieOnTheStepsOfTheImage) {
       if (!curve || !IsAlone(line.segment, lines, camera, views[frame].world_from_camera)) continue;
       const auto step = StepAcross(rendering.light, *curve);
       if (!step) continue;
-      offsets[static_cast<std::size_t>(line.kind)].values.push_back(*step);
-      distances[static_cast<std::size_t>(line.kind)].values.push_back(std::abs(*step));
+      const auto kind = static_cast<std::size_t>(line.kind);
+      offsets.signed_px[kind].values.push_back(*step);
+      offsets.distances_px[kind].values.push_back(std::abs(*step));
     }
   }
-  for (const TrueLineKind kind : {TrueLineKind::kGeometry, TrueLineKind::kTexture}) {
-    const auto k = static_cast<std::size_t>(kind);
-    ASSERT_GT(offsets[k].values.size(), 20U) << k;
-    // What is left: texture and light that change beside the step, and sampling.
-    EXPECT_LT(std::abs(offsets[k].Quantile(0.5)), 0.05) << k;
-    EXPECT_LT(distances[k].Quantile(0.5), 0.1) << k;
-    EXPECT_LT(distances[k].Quantile(0.9), 0.2) << k;
-  }
+  return offsets;
+}
+
+// What is left: texture and light that change beside the step, and sampling.
+void ExpectOnTheSteps(LineOffsets offsets, TrueLineKind kind) {
+  const auto k = static_cast<std::size_t>(kind);
+  ASSERT_GT(offsets.signed_px[k].values.size(), 20U) << k;
+  EXPECT_LT(std::abs(offsets.signed_px[k].Quantile(0.5)), 0.05) << k;
+  EXPECT_LT(offsets.distances_px[k].Quantile(0.5), 0.1) << k;
+  EXPECT_LT(offsets.distances_px[k].Quantile(0.9), 0.2) << k;
+}
+
+TEST(GroundTruth, LinesLieOnTheStepsOfTheImage) {
+  const LineOffsets offsets = MeasureOffsets(OpenYard(), 0.003);
+  ExpectOnTheSteps(offsets, TrueLineKind::kGeometry);
+  ExpectOnTheSteps(offsets, TrueLineKind::kTexture);
+}
+
+// As finely as light is kept.
+TEST(GroundTruth, ShadowLinesLieOnTheShadowsOfTheImage) {
+  ExpectOnTheSteps(MeasureOffsets(LampLitStage(), 0.002), TrueLineKind::kShadow);
 }
 
 TEST(GroundTruth, DepthOfOneViewIsThatOfAnother) {

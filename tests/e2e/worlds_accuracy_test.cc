@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs over small rendered worlds: the path of the camera, and how well the lines of the map lie on
+// the true ones. To see the figures of one:
+//
+//   plumbline synth WORLD --set scale=0.5 --set frames=100 --out W
+//   plumbline run W --out R && plumbline evaluate W R
+#include "plumbline/synth/sequence_cache.h"
+#include "plumbline/synth/world.h"
+
+#include "tests/e2e/program.h"
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+struct WorldGate {
+  const char* world;
+  const char* settings;  // of the run
+  double max_ate_m;
+  double min_recall, min_precision;  // of lines, at 5 cm
+};
+
+void Check(const WorldGate& gate) {
+  constexpr int kFrames = 100, kThreads = 2;
+  SynthOptions options;
+  if (const auto adjust = FindWorld(gate.world).adjust) adjust(options);
+  options.scale = 0.5;
+  options.frames = kFrames;
+  const ScratchFolder folder;
+  const std::filesystem::path world =
+      CachedSequence(PLUMBLINE_RENDERED_FOLDER, gate.world, options, kThreads);
+  const std::string run = Quoted(folder / "run");
+  for (const std::string& command :
+       {"run " + Quoted(world) + " " + gate.settings + " --quiet --out " + run,
+        "evaluate " + Quoted(world) + " " + run + " --json " + Quoted(folder / "errors.json")}) {
+    const Outcome outcome = RunProgram(folder, command);
+    ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
+  }
+  const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
+  EXPECT_EQ(summary["frames"]["tracked"], kFrames);
+  EXPECT_EQ(summary["maps"], 1);
+  EXPECT_LE(summary["accuracy"]["ate"]["rmse"], gate.max_ate_m);
+  if (gate.min_recall == 0) return;
+  const auto errors = nlohmann::json::parse(Contents(folder / "errors.json"));
+  const auto& at_5_cm = errors["line_map"]["tolerances"][2];
+  EXPECT_GE(at_5_cm["recall"], gate.min_recall);
+  EXPECT_GE(at_5_cm["precision"], gate.min_precision);
+}
+
+TEST(WorldsAccuracy, Room) { Check({"room", "", 0.045, 0.1, 0.09}); }
+TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.008, 0.095, 0.09}); }
+TEST(WorldsAccuracy, Lateral) { Check({"lateral", "", 0.011, 0.125, 0.22}); }
+TEST(WorldsAccuracy, Planar) { Check({"planar", "", 0.007, 0, 0}); }
+TEST(WorldsAccuracy, PlanarWithPointsOnly) {
+  Check({"planar", "--set features.lines=false", 0.007, 0, 0});
+}
+
+}  // namespace
+}  // namespace plumbline
