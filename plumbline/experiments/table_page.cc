@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/table_page.h"
 
+#include "plumbline/base/escape_html.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -30,40 +32,17 @@ figure { margin: 0 0 1.5rem; }
 figure svg { max-width: 100%; height: auto; }
 )";
 
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string Cell(const TableRow& row, const TableCell& cell, const Metric& metric) {
   const std::string text = CellText(row, cell, metric);
   const std::string kind = cell.best ? " class=\"best\"" : cell.spread ? "" : " class=\"none\"";
   const auto space = text.find(' ');
   if (!cell.spread || space == std::string::npos) {
-    return fmt::format("<td{}>{}</td>", kind, Escaped(text));
+    return fmt::format("<td{}>{}</td>", kind, EscapeHtml(text));
   }
   return fmt::format("<td{}>{} <span class=\"range\">{}</span></td>",
                      kind,
-                     Escaped(text.substr(0, text[space - 1] == ',' ? space - 1 : space)),
-                     Escaped(text.substr(space + 1)));
+                     EscapeHtml(text.substr(0, text[space - 1] == ',' ? space - 1 : space)),
+                     EscapeHtml(text.substr(space + 1)));
 }
 
 std::string Table(const Plan& plan, const ResultTable& table) {
@@ -71,9 +50,9 @@ std::string Table(const Plan& plan, const ResultTable& table) {
       "<div class=\"scroll\"><table>\n<thead><tr><th>sequence</th><th>variant</th><th>runs</th>";
   for (const Metric* metric : table.columns) {
     html += fmt::format("<th title=\"{}\">{} <span>{}</span></th>",
-                        Escaped(metric->help),
-                        Escaped(metric->name),
-                        Escaped(metric->unit));
+                        EscapeHtml(metric->help),
+                        EscapeHtml(metric->name),
+                        EscapeHtml(metric->unit));
   }
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
@@ -81,8 +60,8 @@ std::string Table(const Plan& plan, const ResultTable& table) {
     const bool first = r == 0 || table.rows[r - 1].sequence != row.sequence;
     html += fmt::format("<tr{}><th>{}</th><td>{}</td><td class=\"runs\">{}</td>",
                         first ? " class=\"first\"" : "",
-                        first ? Escaped(plan.sequences[row.sequence].name) : "",
-                        Escaped(plan.experiment.variants[row.variant].name),
+                        first ? EscapeHtml(plan.sequences[row.sequence].name) : "",
+                        EscapeHtml(plan.experiment.variants[row.variant].name),
                         RunsText(row));
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       html += Cell(row, row.cells[c], *table.columns[c]);
@@ -99,9 +78,10 @@ std::string Variants(const Plan& plan) {
     parts.insert(parts.end(), variant.arguments.begin(), variant.arguments.end());
     html += fmt::format(
         "<li><b>{}</b>: {}</li>\n",
-        Escaped(variant.name),
-        parts.empty() ? "as it is"
-                      : "<code>" + Escaped(fmt::format("{}", fmt::join(parts, " "))) + "</code>");
+        EscapeHtml(variant.name),
+        parts.empty()
+            ? "as it is"
+            : "<code>" + EscapeHtml(fmt::format("{}", fmt::join(parts, " "))) + "</code>");
   }
   return html + "</ul>\n";
 }
@@ -111,14 +91,14 @@ std::string Gaps(const Plan& plan, const ResultTable& table) {
   if (plan.missing.empty() && table.failures.empty()) return "";
   std::string html = "<h2>What is missing</h2>\n<ul>\n";
   for (const std::string& pattern : plan.missing) {
-    html += fmt::format("<li>no sequence {}</li>\n", Escaped(pattern));
+    html += fmt::format("<li>no sequence {}</li>\n", EscapeHtml(pattern));
   }
   for (const Failure& failure : table.failures) {
     html += fmt::format("<li>{}, {}, {}: {}</li>\n",
-                        Escaped(plan.sequences[failure.sequence].name),
-                        Escaped(plan.experiment.variants[failure.variant].name),
+                        EscapeHtml(plan.sequences[failure.sequence].name),
+                        EscapeHtml(plan.experiment.variants[failure.variant].name),
                         failure.runs == 1 ? "1 run" : fmt::format("{} runs", failure.runs),
-                        Escaped(failure.reason));
+                        EscapeHtml(failure.reason));
   }
   return html + "</ul>\n";
 }
@@ -128,7 +108,7 @@ std::string Legend(const std::vector<ResultTable>& tables) {
   for (const ResultTable& table : tables) {
     for (const Metric* metric : table.columns) {
       html += fmt::format(
-          "<li><b>{}</b>: {}</li>\n", Escaped(ColumnTitle(*metric)), Escaped(metric->help));
+          "<li><b>{}</b>: {}</li>\n", EscapeHtml(ColumnTitle(*metric)), EscapeHtml(metric->help));
     }
   }
   return html + "</ul>\n";
@@ -145,9 +125,9 @@ std::string FormatPage(const Plan& plan,
       "<p class=\"note\">Median, below it the range over the runs; runs with the same trajectory "
       "count once. Green: the best on a sequence among the variants that cover as much of "
       "it.</p>\n",
-      Escaped(plan.experiment.name),
+      EscapeHtml(plan.experiment.name),
       kStyle,
-      Escaped(plan.experiment.help));
+      EscapeHtml(plan.experiment.help));
   for (const ResultTable& table : tables) {
     if (table.columns.empty()) continue;
     html += table.kind == MetricKind::kTiming ? "<h2>Speed</h2>\n" : "<h2>Results</h2>\n";

@@ -3,6 +3,7 @@
 #include "plumbline/report/html_report.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/escape_html.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/report/report_page.h"
 
@@ -23,32 +24,6 @@ void Fill(std::string& page, std::string_view mark, std::string_view value) {
 }
 
 }  // namespace
-
-std::string EscapeHtml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 std::string EscapeScriptJson(std::string_view json) {
   // In JSON "<" stands within strings only, where the escape means the same.

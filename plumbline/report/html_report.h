@@ -10,9 +10,6 @@
 
 namespace plumbline {
 
-// Text as it may stand in the body of an HTML page.
-std::string EscapeHtml(std::string_view text);
-
 // JSON as it may stand in a <script> element: no "<" is left, which could end the element.
 std::string EscapeScriptJson(std::string_view json);
 

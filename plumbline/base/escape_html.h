@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace plumbline {
+
+// Text as it may stand in the body of an HTML page or in an attribute within quotes.
+std::string EscapeHtml(std::string_view text);
+
+}  // namespace plumbline
