@@ -85,6 +85,7 @@ def describe(program, world, frames, pictures):
         images = sorted((out / "mav0/cam0/data").iterdir())
         if pictures:
             from PIL import Image
+            pictures.mkdir(parents=True, exist_ok=True)
             Image.open(images[len(images) // 3]).save(pictures / f"{world}.jpg", quality=80)
     steps = np.linalg.norm(np.diff(positions, axis=0), axis=1)
     stride = max(1, round(0.1 / float(np.median(np.diff(stamps)))))
