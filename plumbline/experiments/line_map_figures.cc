@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTolerance = 0.02;  // metres
+constexpr double kTolerance = 0.05;  // metres
 
 std::optional<TrajectoryError> CompareWithTruth(const fs::path& sequence, const fs::path& run) {
   const auto dataset = OpenDataset(sequence);
