@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A pixel of one image and the pixel of another that shows the same.
+struct PixelPair {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+};
+
+// Where the pixels of one image are in another, from some matches: an affine map fitted robustly
+// to all of them, and on top of it the median of what the nearest of them leave over, since
+// parallax moves near things further than far ones.
+class ImageMotion {
+ public:
+  ImageMotion() = default;  // nothing moves
+  // With fewer than three pairs (or all on one line) nothing but their median shift. Cost: O(n).
+  explicit ImageMotion(std::span<const PixelPair> matches);
+
+  // Whether it was made from matches.
+  bool known() const { return !places_.empty(); }
+
+  // Cost: O(n).
+  Eigen::Vector2d operator()(const Eigen::Vector2d& px) const;
+  Segment2 operator()(const Segment2& segment) const {
+    return {(*this)(segment.start), (*this)(segment.end)};
+  }
+
+ private:
+  Eigen::Vector2d Affine(const Eigen::Vector2d& px) const {
+    return linear_ * (px - origin_) + shift_;
+  }
+
+  // px -> linear (px - origin) + shift
+  Eigen::Matrix2d linear_ = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> places_;     // of the matches, in the first image
+  std::vector<Eigen::Vector2d> leftovers_;  // of the affine map there
+};
+
+}  // namespace plumbline
