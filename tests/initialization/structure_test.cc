@@ -162,7 +162,7 @@ TEST(AdjustStructure, BringsPosesBackAndDropsWhatDoesNotFit) {
     EXPECT_LT(AngularDistance(pose.rotation, truth[i].rotation),
               0.25 * kDegree);  // the noise limit is 0.13
     EXPECT_GT(pose.translation.normalized().dot(truth[i].translation.normalized()),
-              std::cos(3 * kDegree));
+              std::cos(5 * kDegree));
   }
   for (const InitialPoint& point : map.points) {
     EXPECT_GE(point.observations.size(), 2U);

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/solvers/pose_refinement.h"
+
+#include "plumbline/solvers/epipolar_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+namespace plumbline {
+namespace {
+
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
+struct NormalEquations {
+  Matrix5d information = Matrix5d::Zero();
+  Vector5d gradient = Vector5d::Zero();
+  double cost = 0;
+};
+
+// Tukey's biweight of a squared residual: loss, and weight of the normal equations.
+struct Biweight {
+  double limit;  // squared
+
+  double Loss(double chi2) const {
+    if (chi2 >= limit) return limit / 6;
+    const double rest = 1 - chi2 / limit;
+    return limit / 6 * (1 - rest * rest * rest);
+  }
+  double Weight(double chi2) const {
+    if (chi2 >= limit) return 0;
+    const double rest = 1 - chi2 / limit;
+    return rest * rest;
+  }
+};
+
+NormalEquations Linearize(std::span<const RayMatch> matches,
+                          const Rigid3& pose,
+                          const Biweight& loss) {
+  NormalEquations equations;
+  const Eigen::Matrix<double, 3, 2> basis = BasisAcross(pose.translation);
+  for (const RayMatch& match : matches) {
+    const SampsonResidual r = EvaluateSampson(pose, basis, match);
+    const double chi2 = r.value * r.value;
+    equations.cost += loss.Loss(chi2);
+    const double weight = loss.Weight(chi2);
+    if (weight == 0) continue;
+    const Vector5d weighted = weight * r.jacobian.transpose();
+    equations.information += weighted * r.jacobian;
+    equations.gradient += r.value * weighted;
+  }
+  return equations;
+}
+
+double CostOf(std::span<const RayMatch> matches, const Rigid3& pose, const Biweight& loss) {
+  const Eigen::Matrix3d E = Skew(pose.translation) * pose.rotation.toRotationMatrix();
+  double cost = 0;
+  for (const RayMatch& match : matches) cost += loss.Loss(SampsonChi2(E, match));
+  return cost;
+}
+
+Rigid3 Moved(const Rigid3& pose, const Vector5d& step) {
+  const Eigen::Vector3d t = pose.translation + BasisAcross(pose.translation) * step.tail<2>();
+  return {(ExpSo3(step.head<3>()) * pose.rotation).normalized(), t.normalized()};
+}
+
+// The free part of the damped normal equations: all five, or the last two.
+Vector5d Step(const NormalEquations& equations, double damping, bool rotation_known) {
+  Matrix5d damped = equations.information;
+  damped.diagonal() *= 1 + damping;
+  // Where nothing is known nothing moves.
+  damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff() + 1e-300;
+  Vector5d step = Vector5d::Zero();
+  if (rotation_known) {
+    step.tail<2>() = -damped.bottomRightCorner<2, 2>().ldlt().solve(equations.gradient.tail<2>());
+  } else {
+    step = -damped.ldlt().solve(equations.gradient);
+  }
+  return step.allFinite() ? step : Vector5d::Zero();
+}
+
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> InverseOrInfinite(
+    const Eigen::Matrix<double, kSize, kSize>& information) {
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  const Eigen::LLT<Matrix> factor(information);
+  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-14)) {
+    Matrix unknown = Matrix::Zero();
+    unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
+    return unknown;
+  }
+  return factor.solve(Matrix::Identity());
+}
+
+Matrix5d Covariance(std::span<const RayMatch> matches, const Rigid3& pose, bool rotation_known) {
+  const Eigen::Matrix<double, 3, 2> basis = BasisAcross(pose.translation);
+  Matrix5d information = Matrix5d::Zero();
+  for (const RayMatch& match : matches) {
+    const SampsonResidual r = EvaluateSampson(pose, basis, match);
+    if (r.value * r.value < kChi2OneDof) information += r.jacobian.transpose() * r.jacobian;
+  }
+  if (!rotation_known) return InverseOrInfinite<5>(information);
+  Matrix5d covariance = Matrix5d::Zero();
+  covariance.bottomRightCorner<2, 2>() =
+      InverseOrInfinite<2>(information.bottomRightCorner<2, 2>());
+  return covariance;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 3, 2> BasisAcross(const Eigen::Vector3d& direction) {
+  Eigen::Index smallest = 0;
+  direction.cwiseAbs().minCoeff(&smallest);
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = direction.cross(Eigen::Vector3d::Unit(smallest)).normalized();
+  basis.col(1) = direction.cross(basis.col(0)).normalized();
+  return basis;
+}
+
+SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
+                                const Eigen::Matrix<double, 3, 2>& basis,
+                                const RayMatch& match) {
+  const Eigen::Matrix3d R = b_from_a.rotation.toRotationMatrix();
+  const Eigen::Vector3d& t = b_from_a.translation;
+  const Eigen::Vector3d b = match.b.homogeneous();
+  const Eigen::Vector3d q = R * match.a.homogeneous();
+  const Eigen::Vector3d in_b = t.cross(q);    // epipolar line, E x_a
+  const Eigen::Vector3d across = b.cross(t);  // R E^T x_b
+  const Eigen::Vector2d in_a = R.leftCols<2>().transpose() * across;
+  const double error = b.dot(in_b);
+  const double variance_a = match.sigma_a * match.sigma_a;
+  const double variance_b = match.sigma_b * match.sigma_b;
+  const double variance =
+      variance_b * in_b.head<2>().squaredNorm() + variance_a * in_a.squaredNorm();
+  SampsonResidual r;
+  if (!(variance > 0)) return r;
+  const double inverse_sigma = 1 / std::sqrt(variance);
+  r.value = error * inverse_sigma;
+
+  // error = b . (t x q): by w, with dq = w x q, and by t. Half the derivative of the variance: the
+  // same for the lines, weighted with themselves.
+  const Eigen::Vector3d line_b(variance_b * in_b.x(), variance_b * in_b.y(), 0);
+  const Eigen::Vector3d line_a = variance_a * (R.leftCols<2>() * in_a);
+  const Eigen::Vector3d of_q = line_b.cross(t);  // d(line_b . (t x q)) / dq
+  const Eigen::Vector3d error_by_w = q.cross(across);
+  const Eigen::Vector3d error_by_t = q.cross(b);
+  const Eigen::Vector3d variance_by_w = q.cross(of_q) + line_a.cross(across);
+  const Eigen::Vector3d variance_by_t = q.cross(line_b) + line_a.cross(b);
+  const double shrink = r.value * inverse_sigma;
+  r.jacobian.head<3>() = inverse_sigma * (error_by_w - shrink * variance_by_w).transpose();
+  r.jacobian.tail<2>() = inverse_sigma * (error_by_t - shrink * variance_by_t).transpose() * basis;
+  return r;
+}
+
+RefinedPose RefinePose(std::span<const RayMatch> matches,
+                       const Rigid3& start,
+                       const PoseRefinementOptions& options) {
+  const Biweight loss{options.loss_scale * options.loss_scale};
+  RefinedPose result;
+  result.b_from_a = start;
+  NormalEquations equations = Linearize(matches, start, loss);
+  double damping = 1e-4;
+  for (; result.iterations < options.max_iterations && damping < 1e6; ++result.iterations) {
+    const Vector5d step = Step(equations, damping, options.rotation_known);
+    const Rigid3 trial = Moved(result.b_from_a, step);
+    const double cost = CostOf(matches, trial, loss);
+    if (!(cost <= equations.cost)) {
+      damping *= 10;
+      continue;
+    }
+    const bool converged = equations.cost - cost <= 1e-9 * equations.cost || step.norm() < 1e-10;
+    result.b_from_a = trial;
+    damping = std::max(damping * 0.1, 1e-9);
+    if (converged) break;
+    equations = Linearize(matches, trial, loss);
+  }
+  result.cost = CostOf(matches, result.b_from_a, loss);
+  result.covariance = Covariance(matches, result.b_from_a, options.rotation_known);
+  return result;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+#include "plumbline/solvers/relative_pose.h"
+
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Two directions of unit length at right angles to a unit vector and to each other: the columns.
+// What a change of a translation's direction is written in: t + basis d, scaled to length 1.
+Eigen::Matrix<double, 3, 2> BasisAcross(const Eigen::Vector3d& direction);
+
+// The signed Sampson distance of a match over its deviation (its square is SampsonChi2), and its
+// derivative by (w, d): rotation <- Exp(w) rotation, translation <- translation + basis d.
+struct SampsonResidual {
+  double value = 0;
+  Eigen::Matrix<double, 1, 5> jacobian = Eigen::Matrix<double, 1, 5>::Zero();
+};
+SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
+                                const Eigen::Matrix<double, 3, 2>& basis,
+                                const RayMatch& match);
+
+struct PoseRefinementOptions {
+  int max_iterations = 15;
+  bool rotation_known = false;  // only the direction of the translation is refined
+  double loss_scale = 4.685;    // of Tukey's biweight: 95 % efficient on normal residuals
+};
+
+struct RefinedPose {
+  Rigid3 b_from_a;  // |translation| = 1
+  // Of (w, d) as above, from the inliers (chi2 at 95 %); that of w is zero with a known rotation.
+  // Infinite on the diagonal where the matches do not determine the pose.
+  Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
+  double cost = 0;  // sum of the loss
+  int iterations = 0;
+};
+
+// The relative pose nearest to `start` that fits the matches best: Levenberg-Marquardt on the
+// Sampson distances under Tukey's loss. To first order in the noise this is the maximum of the
+// likelihood with the points eliminated, so that it reaches the Cramér-Rao bound.
+//
+//   start    |translation| = 1
+//   returns  its cheirality is that of the start; it is not looked at here
+//   cost     about 15 us per iteration and 300 matches
+RefinedPose RefinePose(std::span<const RayMatch> matches,
+                       const Rigid3& start,
+                       const PoseRefinementOptions& options = {});
+
+}  // namespace plumbline

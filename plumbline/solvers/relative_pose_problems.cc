@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/solvers/relative_pose_problems.h"
+
+#include "plumbline/geometry/epipolar.h"
+#include "plumbline/solvers/pose_refinement.h"
+#include "plumbline/solvers/translation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline {
+namespace {
+
+// Essential matrices of norm 1 that differ by less lead to the same pose when refined.
+constexpr double kSameEssential = 0.05;
+// The model of a sample is off by many times the noise, and its best inliers are not all inliers.
+constexpr PoseRefinementOptions kFirstImprovement{.max_iterations = 3, .loss_scale = 15};
+constexpr PoseRefinementOptions kSecondImprovement{.max_iterations = 3};
+
+template <std::size_t kSize>
+std::array<RayMatch, kSize> Pick(std::span<const RayMatch> matches,
+                                 const std::array<std::size_t, kSize>& sample) {
+  std::array<RayMatch, kSize> picked;
+  for (std::size_t i = 0; i < kSize; ++i) picked[i] = matches[sample[i]];
+  return picked;
+}
+
+double Ratio(std::ptrdiff_t part, std::size_t all) {
+  return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+}  // namespace
+
+double EssentialProblem::InlierRatio(const Model& E) const {
+  return Ratio(cost_.CountBelow(E, kChi2OneDof), size());
+}
+
+EssentialProblem::Model EssentialProblem::Improve(const Model& E) const {
+  // The cost is the same for all four poses.
+  const Rigid3 pose = PosesFromEssential(E).front();
+  const Rigid3 near = RefinePose(matches_, pose, kFirstImprovement).b_from_a;
+  return EssentialMatrix(RefinePose(matches_, near, kSecondImprovement).b_from_a).normalized();
+}
+
+bool EssentialProblem::Same(const Model& E, const Model& F) const {
+  return std::min((E - F).squaredNorm(), (E + F).squaredNorm()) < kSameEssential * kSameEssential;
+}
+
+std::vector<Eigen::Matrix3d> FivePointProblem::Solve(
+    const std::array<std::size_t, kSampleSize>& sample) const {
+  return EssentialFromFivePoints(Pick(matches_, sample));
+}
+
+std::vector<Eigen::Matrix3d> EightPointProblem::Solve(
+    const std::array<std::size_t, kSampleSize>& sample) const {
+  const auto E = EssentialFromEightPoints(Pick(matches_, sample));
+  return E ? std::vector<Model>{*E} : std::vector<Model>{};
+}
+
+HomographyProblem::HomographyProblem(std::span<const RayMatch> matches) : matches_(matches) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const RayMatch& match : matches) sum += match.a.homogeneous();
+  if (!matches.empty()) mean_ray_ = sum.normalized();
+}
+
+std::vector<Eigen::Matrix3d> HomographyProblem::Solve(
+    const std::array<std::size_t, kSampleSize>& sample) const {
+  const auto H = HomographyFromFourPoints(Pick(matches_, sample));
+  return H ? std::vector<Model>{*H} : std::vector<Model>{};
+}
+
+double HomographyProblem::Cost(const Model& H, double limit) const {
+  double sum = 0;
+  for (const RayMatch& match : matches_) {
+    sum += std::min(SquaredTransferError(H, match), kChi2TwoDof);
+    if (sum > limit) break;
+  }
+  return sum;
+}
+
+double HomographyProblem::InlierRatio(const Model& H) const {
+  const auto count = std::count_if(matches_.begin(), matches_.end(), [&](const RayMatch& m) {
+    return SquaredTransferError(H, m) < kChi2TwoDof;
+  });
+  return Ratio(count, size());
+}
+
+HomographyProblem::Model HomographyProblem::Improve(const Model& H) const {
+  Model improved = H;
+  for (int i = 0; i < 2; ++i) {
+    std::vector<RayMatch> inliers;
+    for (const RayMatch& match : matches_) {
+      if (SquaredTransferError(improved, match) < 2 * kChi2TwoDof) inliers.push_back(match);
+    }
+    const auto fitted = HomographyFromPoints(inliers, &improved);
+    if (!fitted) break;
+    improved = *fitted;
+  }
+  return improved;
+}
+
+std::vector<Eigen::Vector3d> TranslationProblem::Solve(
+    const std::array<std::size_t, kSampleSize>& sample) const {
+  const auto t = TranslationFromTwoPoints(b_from_a_, Pick(matches_, sample));
+  return t ? std::vector<Model>{*t} : std::vector<Model>{};
+}
+
+double TranslationProblem::Cost(const Model& t, double limit) const {
+  return cost_.Truncated(EssentialMatrix({b_from_a_, t}), kChi2OneDof, limit);
+}
+
+double TranslationProblem::InlierRatio(const Model& t) const {
+  return Ratio(cost_.CountBelow(EssentialMatrix({b_from_a_, t}), kChi2OneDof), size());
+}
+
+TranslationProblem::Model TranslationProblem::Improve(const Model& t) const {
+  const Eigen::Matrix3d E = EssentialMatrix({b_from_a_, t});
+  std::vector<RayMatch> inliers;
+  for (const RayMatch& match : matches_) {
+    if (SampsonChi2(E, match) < 2 * kChi2OneDof) inliers.push_back(match);
+  }
+  return TranslationFromPoints(b_from_a_, inliers, t).value_or(t);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/solvers/epipolar_cost.h"
+#include "plumbline/solvers/essential.h"
+#include "plumbline/solvers/homography.h"
+#include "plumbline/solvers/relative_pose.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// What RANSAC (ransac.h) asks of a problem, for the solvers of two views. All keep a view of the
+// matches.
+
+// Essential matrices, Frobenius norm 1, from samples of five.
+class EssentialProblem {
+ public:
+  using Model = Eigen::Matrix3d;
+
+  explicit EssentialProblem(std::span<const RayMatch> matches)
+      : matches_(matches), cost_(matches) {}
+
+  std::size_t size() const { return matches_.size(); }
+  double Cost(const Model& E, double limit) const { return cost_.Truncated(E, kChi2OneDof, limit); }
+  double InlierRatio(const Model& E) const;
+  // A few steps of RefinePose under a wide loss.
+  Model Improve(const Model& E) const;
+  // Up to their sign.
+  bool Same(const Model& E, const Model& F) const;
+
+ protected:
+  std::span<const RayMatch> matches_;
+
+ private:
+  EpipolarCost cost_;
+};
+
+class FivePointProblem : public EssentialProblem {
+ public:
+  static constexpr std::size_t kSampleSize = 5;
+  using EssentialProblem::EssentialProblem;
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const;
+};
+
+class EightPointProblem : public EssentialProblem {
+ public:
+  static constexpr std::size_t kSampleSize = 8;
+  using EssentialProblem::EssentialProblem;
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const;
+};
+
+class HomographyProblem {
+ public:
+  using Model = Eigen::Matrix3d;
+  static constexpr std::size_t kSampleSize = 4;
+
+  explicit HomographyProblem(std::span<const RayMatch> matches);
+
+  std::size_t size() const { return matches_.size(); }
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const;
+  double Cost(const Model& H, double limit) const;
+  double InlierRatio(const Model& H) const;
+  // Least squares on the inliers.
+  Model Improve(const Model& H) const;
+  bool Same(const Model&, const Model&) const { return true; }  // the best alone
+
+  Eigen::Vector3d MeanRay() const { return mean_ray_; }  // of camera a
+
+ private:
+  std::span<const RayMatch> matches_;
+  Eigen::Vector3d mean_ray_ = Eigen::Vector3d::UnitZ();
+};
+
+// Directions of the translation with the rotation known.
+class TranslationProblem {
+ public:
+  using Model = Eigen::Vector3d;
+  static constexpr std::size_t kSampleSize = 2;
+
+  TranslationProblem(std::span<const RayMatch> matches, const Eigen::Quaterniond& b_from_a)
+      : matches_(matches), cost_(matches), b_from_a_(b_from_a) {}
+
+  std::size_t size() const { return matches_.size(); }
+  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const;
+  double Cost(const Model& t, double limit) const;
+  double InlierRatio(const Model& t) const;
+  // Least squares on the inliers.
+  Model Improve(const Model& t) const;
+  bool Same(const Model&, const Model&) const { return true; }  // the best alone
+
+ private:
+  std::span<const RayMatch> matches_;
+  EpipolarCost cost_;
+  Eigen::Quaterniond b_from_a_;
+};
+
+}  // namespace plumbline
