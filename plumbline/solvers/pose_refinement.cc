@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/pose_refinement.h"
 
+#include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -15,6 +19,49 @@ namespace {
 
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
+// A pose with what all its residuals share.
+struct SampsonModel {
+  SampsonModel(const Rigid3& b_from_a, const Eigen::Matrix<double, 3, 2>& across_t)
+      : R(b_from_a.rotation.toRotationMatrix()), t(b_from_a.translation), basis(across_t) {}
+
+  SampsonResidual Evaluate(const RayMatch& match) const;
+
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+  Eigen::Matrix<double, 3, 2> basis;
+};
+
+SampsonResidual SampsonModel::Evaluate(const RayMatch& match) const {
+  const Eigen::Vector3d b = match.b.homogeneous();
+  const Eigen::Vector3d q = R * match.a.homogeneous();
+  const Eigen::Vector3d in_b = t.cross(q);    // epipolar line, E x_a
+  const Eigen::Vector3d across = b.cross(t);  // R E^T x_b
+  const Eigen::Vector2d in_a = R.leftCols<2>().transpose() * across;
+  const double error = b.dot(in_b);
+  const double variance_a = match.sigma_a * match.sigma_a;
+  const double variance_b = match.sigma_b * match.sigma_b;
+  const double variance =
+      variance_b * in_b.head<2>().squaredNorm() + variance_a * in_a.squaredNorm();
+  SampsonResidual r;
+  if (!(variance > 0)) return r;
+  const double inverse_sigma = 1 / std::sqrt(variance);
+  r.value = error * inverse_sigma;
+
+  // error = b . (t x q): by w, with dq = w x q, and by t. Half the derivative of the variance: the
+  // same for the lines, weighted with themselves.
+  const Eigen::Vector3d line_b(variance_b * in_b.x(), variance_b * in_b.y(), 0);
+  const Eigen::Vector3d line_a = variance_a * (R.leftCols<2>() * in_a);
+  const Eigen::Vector3d of_q = line_b.cross(t);  // d(line_b . (t x q)) / dq
+  const Eigen::Vector3d error_by_w = q.cross(across);
+  const Eigen::Vector3d error_by_t = q.cross(b);
+  const Eigen::Vector3d variance_by_w = q.cross(of_q) + line_a.cross(across);
+  const Eigen::Vector3d variance_by_t = q.cross(line_b) + line_a.cross(b);
+  const double shrink = r.value * inverse_sigma;
+  r.jacobian.head<3>() = inverse_sigma * (error_by_w - shrink * variance_by_w).transpose();
+  r.jacobian.tail<2>() = inverse_sigma * (error_by_t - shrink * variance_by_t).transpose() * basis;
+  return r;
+}
 
 struct NormalEquations {
   Matrix5d information = Matrix5d::Zero();
@@ -42,9 +89,9 @@ NormalEquations Linearize(std::span<const RayMatch> matches,
                           const Rigid3& pose,
                           const Biweight& loss) {
   NormalEquations equations;
-  const Eigen::Matrix<double, 3, 2> basis = BasisAcross(pose.translation);
+  const SampsonModel model(pose, BasisAcross(pose.translation));
   for (const RayMatch& match : matches) {
-    const SampsonResidual r = EvaluateSampson(pose, basis, match);
+    const SampsonResidual r = model.Evaluate(match);
     const double chi2 = r.value * r.value;
     equations.cost += loss.Loss(chi2);
     const double weight = loss.Weight(chi2);
@@ -97,10 +144,10 @@ Eigen::Matrix<double, kSize, kSize> InverseOrInfinite(
 }
 
 Matrix5d Covariance(std::span<const RayMatch> matches, const Rigid3& pose, bool rotation_known) {
-  const Eigen::Matrix<double, 3, 2> basis = BasisAcross(pose.translation);
+  const SampsonModel model(pose, BasisAcross(pose.translation));
   Matrix5d information = Matrix5d::Zero();
   for (const RayMatch& match : matches) {
-    const SampsonResidual r = EvaluateSampson(pose, basis, match);
+    const SampsonResidual r = model.Evaluate(match);
     if (r.value * r.value < kChi2OneDof) information += r.jacobian.transpose() * r.jacobian;
   }
   if (!rotation_known) return InverseOrInfinite<5>(information);
@@ -124,36 +171,7 @@ Eigen::Matrix<double, 3, 2> BasisAcross(const Eigen::Vector3d& direction) {
 SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
                                 const Eigen::Matrix<double, 3, 2>& basis,
                                 const RayMatch& match) {
-  const Eigen::Matrix3d R = b_from_a.rotation.toRotationMatrix();
-  const Eigen::Vector3d& t = b_from_a.translation;
-  const Eigen::Vector3d b = match.b.homogeneous();
-  const Eigen::Vector3d q = R * match.a.homogeneous();
-  const Eigen::Vector3d in_b = t.cross(q);    // epipolar line, E x_a
-  const Eigen::Vector3d across = b.cross(t);  // R E^T x_b
-  const Eigen::Vector2d in_a = R.leftCols<2>().transpose() * across;
-  const double error = b.dot(in_b);
-  const double variance_a = match.sigma_a * match.sigma_a;
-  const double variance_b = match.sigma_b * match.sigma_b;
-  const double variance =
-      variance_b * in_b.head<2>().squaredNorm() + variance_a * in_a.squaredNorm();
-  SampsonResidual r;
-  if (!(variance > 0)) return r;
-  const double inverse_sigma = 1 / std::sqrt(variance);
-  r.value = error * inverse_sigma;
-
-  // error = b . (t x q): by w, with dq = w x q, and by t. Half the derivative of the variance: the
-  // same for the lines, weighted with themselves.
-  const Eigen::Vector3d line_b(variance_b * in_b.x(), variance_b * in_b.y(), 0);
-  const Eigen::Vector3d line_a = variance_a * (R.leftCols<2>() * in_a);
-  const Eigen::Vector3d of_q = line_b.cross(t);  // d(line_b . (t x q)) / dq
-  const Eigen::Vector3d error_by_w = q.cross(across);
-  const Eigen::Vector3d error_by_t = q.cross(b);
-  const Eigen::Vector3d variance_by_w = q.cross(of_q) + line_a.cross(across);
-  const Eigen::Vector3d variance_by_t = q.cross(line_b) + line_a.cross(b);
-  const double shrink = r.value * inverse_sigma;
-  r.jacobian.head<3>() = inverse_sigma * (error_by_w - shrink * variance_by_w).transpose();
-  r.jacobian.tail<2>() = inverse_sigma * (error_by_t - shrink * variance_by_t).transpose() * basis;
-  return r;
+  return SampsonModel(b_from_a, basis).Evaluate(match);
 }
 
 RefinedPose RefinePose(std::span<const RayMatch> matches,
@@ -181,6 +199,33 @@ RefinedPose RefinePose(std::span<const RayMatch> matches,
   result.cost = CostOf(matches, result.b_from_a, loss);
   result.covariance = Covariance(matches, result.b_from_a, options.rotation_known);
   return result;
+}
+
+RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, Rng& rng) {
+  constexpr int kSubsets = 10;
+  constexpr std::size_t kSubsetSize = 40;
+  constexpr PoseRefinementOptions kRough{.max_iterations = 4, .loss_scale = 6};
+  RefinedPose best = RefinePose(matches, start);
+  std::vector<RayMatch> near;
+  const Eigen::Matrix3d E = EssentialMatrix(best.b_from_a);
+  for (const RayMatch& match : matches) {
+    if (SampsonChi2(E, match) < 2 * kChi2OneDof) near.push_back(match);
+  }
+  if (near.size() < kSubsetSize) return best;
+  const EpipolarCost cost(matches);
+  double lowest = cost.Truncated(E, kChi2OneDof, std::numeric_limits<double>::infinity());
+  Rigid3 pose = best.b_from_a;
+  std::array<RayMatch, kSubsetSize> subset;
+  for (int i = 0; i < kSubsets; ++i) {
+    for (RayMatch& match : subset) match = near[rng.Index(near.size())];
+    const Rigid3 trial = RefinePose(subset, pose, kRough).b_from_a;
+    const double trial_cost = cost.Truncated(EssentialMatrix(trial), kChi2OneDof, lowest);
+    if (!(trial_cost < lowest)) continue;
+    lowest = trial_cost;
+    pose = trial;
+  }
+  const RefinedPose polished = RefinePose(matches, pose);
+  return polished.cost < best.cost ? polished : best;
 }
 
 }  // namespace plumbline

@@ -87,7 +87,7 @@ class Ransac {
   }
 
  private:
-  static constexpr std::size_t kMostKept = 8;
+  static constexpr std::size_t kMostKept = 4;
 
   int Needed() const {
     if (kept_.empty()) return budget_.max_iterations;

@@ -72,12 +72,12 @@ bool AreSame(const Rigid3& a, const Rigid3& b) {
 
 class HypothesisList {
  public:
-  explicit HypothesisList(std::span<const RayMatch> matches) : matches_(matches) {}
+  HypothesisList(std::span<const RayMatch> matches, Rng& rng) : matches_(matches), rng_(rng) {}
 
   // Refines one pose of each pair that differs in the sign of the translation.
   void Add(RelativePoseModel model, const Rigid3& start) {
     if (IsRefinedAlready(start)) return;
-    RelativePoseHypothesis h = Judge(matches_, RefinePose(matches_, start));
+    RelativePoseHypothesis h = Judge(matches_, PolishPose(matches_, start, rng_));
     h.model = model;
     RelativePoseHypothesis opposite = Opposite(matches_, h);
     list_.push_back(std::move(h));
@@ -114,6 +114,7 @@ class HypothesisList {
   }
 
   std::span<const RayMatch> matches_;
+  Rng& rng_;
   std::vector<RelativePoseHypothesis> list_;
 };
 
@@ -184,7 +185,7 @@ std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMat
                                                           const RelativePoseOptions& options,
                                                           Rng& rng,
                                                           std::span<const Rigid3> guesses) {
-  HypothesisList list(matches);
+  HypothesisList list(matches, rng);
   if (options.method == RelativePoseMethod::kEightPoint) {
     AddEssentials<EightPointProblem>(matches, options, guesses, rng, list);
   } else {

@@ -16,6 +16,9 @@
 namespace plumbline {
 namespace {
 
+// Enough for two right ones of which a quarter is right.
+constexpr int kMaxSamples = 110;
+
 struct TransferResidual {
   Eigen::Vector2d value = Eigen::Vector2d::Zero();  // over its standard deviation
   Eigen::Matrix<double, 2, 3> jacobian = Eigen::Matrix<double, 2, 3>::Zero();  // by w, Exp(w) R
@@ -36,8 +39,10 @@ bool Evaluate(const Eigen::Matrix3d& R, const RayMatch& match, TransferResidual&
 }
 
 double Chi2(const Eigen::Matrix3d& R, const RayMatch& match) {
-  TransferResidual r;
-  return Evaluate(R, match, r) ? r.value.squaredNorm() : std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d q = R * match.a.homogeneous();
+  if (!(q.z() > 0)) return std::numeric_limits<double>::infinity();
+  return (match.b - q.head<2>() / q.z()).squaredNorm() /
+         (match.sigma_a * match.sigma_a + match.sigma_b * match.sigma_b);
 }
 
 class RotationProblem {
@@ -115,7 +120,7 @@ class RotationProblem {
 RotationFit FitRotation(std::span<const RayMatch> matches, Rng& rng) {
   RotationFit fit;
   const RotationProblem problem(matches);
-  const auto best = Ransac<RotationProblem>(problem, {.max_iterations = 200}, 1)
+  const auto best = Ransac<RotationProblem>(problem, {.max_iterations = kMaxSamples}, 1)
                         .Run(std::array{Eigen::Matrix3d(Eigen::Matrix3d::Identity())}, rng);
   if (best.empty()) return fit;
   const Eigen::Matrix3d& R = best.front().model;
