@@ -5,8 +5,11 @@
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
 #include "plumbline/features/types.h"
+#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/initialization/image_motion.h"
+#include "plumbline/solvers/relative_pose.h"
 
+#include <span>
 #include <vector>
 
 namespace plumbline {
@@ -44,5 +47,11 @@ ReferenceMatches MatchToReference(const Features& reference,
                                   const Features& frame,
                                   const ImageMotion& guess = {},
                                   const ReferenceMatchOptions& options = {});
+
+// Matches as rays, for the solvers of two views: one for each pair, in order.
+std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
+                                   const Features& a,
+                                   const Features& b,
+                                   std::span<const PointMatch> matches);
 
 }  // namespace plumbline

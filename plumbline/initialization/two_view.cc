@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/two_view.h"
+
+#include "plumbline/initialization/structure.h"
+#include "plumbline/solvers/epipolar_cost.h"
+#include "plumbline/solvers/essential.h"
+#include "plumbline/solvers/homography.h"
+#include "plumbline/solvers/ransac.h"
+#include "plumbline/solvers/relative_pose_problems.h"
+#include "plumbline/solvers/rotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// Values of the paper (eq. 2, 4 and section IV) and of its published settings.
+constexpr std::size_t kMinFeatures = 100;
+constexpr std::size_t kMinMatches = 100;
+constexpr std::size_t kMinPoints = 50;
+constexpr double kHomographyShare = 0.45;
+constexpr double kRivalPart = 0.75;
+constexpr double kMinGoodPart = 0.9;  // of the inliers of the model
+constexpr double kMinParallaxDeg = 1;
+constexpr int kSamples = 200;
+
+double Gain(double chi2, double limit) { return chi2 < limit ? kChi2TwoDof - chi2 : 0; }
+
+// Squared distance of a point from an image line, over the variance of a coordinate.
+double LineChi2(const Eigen::Vector3d& line, const Eigen::Vector2d& point, double sigma) {
+  const double distance = line.dot(point.homogeneous());
+  return distance * distance / (line.head<2>().squaredNorm() * sigma * sigma + 1e-300);
+}
+
+double PointChi2(const Eigen::Vector3d& mapped, const Eigen::Vector2d& point, double sigma) {
+  if (mapped.z() == 0) return 2 * kChi2TwoDof;
+  return (mapped.head<2>() / mapped.z() - point).squaredNorm() / (sigma * sigma);
+}
+
+bool ExplainedByModel(const Eigen::Matrix3d& model, TwoViewModel kind, const RayMatch& match) {
+  return kind == TwoViewModel::kEssential ? SampsonChi2(model, match) < kChi2OneDof
+                                          : SquaredTransferError(model, match) < kChi2TwoDof;
+}
+
+std::vector<RayMatch> Inliers(const Eigen::Matrix3d& model,
+                              TwoViewModel kind,
+                              std::span<const RayMatch> matches) {
+  std::vector<RayMatch> inliers;
+  for (const RayMatch& match : matches) {
+    if (ExplainedByModel(model, kind, match)) inliers.push_back(match);
+  }
+  return inliers;
+}
+
+std::vector<Rigid3> MotionsOf(const Eigen::Matrix3d& model, TwoViewModel kind) {
+  std::vector<Rigid3> motions;
+  if (kind == TwoViewModel::kEssential) {
+    const auto poses = PosesFromEssential(model);
+    motions.assign(poses.begin(), poses.end());
+    return motions;
+  }
+  for (const PlanarMotion& motion : MotionsFromHomography(model)) {
+    const double length = motion.b_from_a.translation.norm();
+    if (length > 0) {
+      motions.push_back({motion.b_from_a.rotation, motion.b_from_a.translation / length});
+    }
+  }
+  return motions;
+}
+
+bool IsGood(const Rigid3& pose, const Eigen::Matrix3d& essential, const RayMatch& match) {
+  return SampsonChi2(essential, match) < kChi2OneDof && IsInFront(pose, match);
+}
+
+struct MotionVote {
+  Rigid3 pose;
+  std::size_t good = 0;
+};
+
+// All motions, the one with most good points first.
+std::vector<MotionVote> Vote(std::span<const Rigid3> motions, std::span<const RayMatch> inliers) {
+  std::vector<MotionVote> votes;
+  for (const Rigid3& pose : motions) {
+    const Eigen::Matrix3d E = Skew(pose.translation) * pose.rotation.toRotationMatrix();
+    const auto good = std::count_if(
+        inliers.begin(), inliers.end(), [&](const RayMatch& m) { return IsGood(pose, E, m); });
+    votes.push_back({pose, static_cast<std::size_t>(good)});
+  }
+  std::stable_sort(votes.begin(), votes.end(), [](const MotionVote& a, const MotionVote& b) {
+    return a.good > b.good;
+  });
+  return votes;
+}
+
+void MarkGood(std::span<const RayMatch> matches, TwoViewSolution& solution) {
+  const Rigid3& pose = solution.b_from_a;
+  const Eigen::Matrix3d E = Skew(pose.translation) * pose.rotation.toRotationMatrix();
+  std::vector<RayMatch> good;
+  for (const RayMatch& match : matches) {
+    solution.is_good.push_back(IsGood(pose, E, match));
+    if (solution.is_good.back()) good.push_back(match);
+  }
+  solution.parallax_deg = MedianParallax(good, pose.rotation) / kDegree;
+}
+
+InitializationWait Verdict(std::span<const MotionVote> votes,
+                           std::size_t inliers,
+                           double parallax_deg) {
+  const std::size_t best = votes.front().good;
+  const double required =
+      std::max(static_cast<double>(kMinPoints), kMinGoodPart * static_cast<double>(inliers));
+  if (parallax_deg < kMinParallaxDeg) return InitializationWait::kTooLittleParallax;
+  if (votes.size() > 1 &&
+      static_cast<double>(votes[1].good) > kRivalPart * static_cast<double>(best)) {
+    return InitializationWait::kAmbiguous;
+  }
+  if (static_cast<double>(best) < required) return InitializationWait::kInaccurate;
+  return InitializationWait::kNone;
+}
+
+}  // namespace
+
+double EpipolarScore(const Eigen::Matrix3d& essential, std::span<const RayMatch> matches) {
+  double score = 0;
+  for (const RayMatch& m : matches) {
+    score += Gain(LineChi2(essential * m.a.homogeneous(), m.b, m.sigma_b), kChi2OneDof);
+    score += Gain(LineChi2(essential.transpose() * m.b.homogeneous(), m.a, m.sigma_a), kChi2OneDof);
+  }
+  return score;
+}
+
+double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch> matches) {
+  const Eigen::Matrix3d inverse = homography.inverse();
+  double score = 0;
+  for (const RayMatch& m : matches) {
+    score += Gain(PointChi2(homography * m.a.homogeneous(), m.b, m.sigma_b), kChi2TwoDof);
+    score += Gain(PointChi2(inverse * m.b.homogeneous(), m.a, m.sigma_a), kChi2TwoDof);
+  }
+  return score;
+}
+
+TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
+  TwoViewSolution solution;
+  solution.wait = InitializationWait::kTooFewMatches;
+  if (matches.size() < kMinMatches) return solution;
+  const RansacBudget budget{.max_iterations = kSamples};
+  const EightPointProblem essentials(matches);
+  const HomographyProblem homographies(matches);
+  const auto E = Ransac<EightPointProblem>(essentials, budget, 1).Run({}, rng);
+  const auto H = Ransac<HomographyProblem>(homographies, budget, 1).Run({}, rng);
+  if (E.empty() || H.empty()) return solution;
+  const double epipolar = EpipolarScore(E.front().model, matches);
+  const double transfer = TransferScore(H.front().model, matches);
+  const bool plane = transfer > kHomographyShare * (transfer + epipolar);  // eq. 4
+  solution.model = plane ? TwoViewModel::kHomography : TwoViewModel::kEssential;
+  const Eigen::Matrix3d& model = plane ? H.front().model : E.front().model;
+
+  const std::vector<RayMatch> inliers = Inliers(model, solution.model, matches);
+  const std::vector<MotionVote> votes = Vote(MotionsOf(model, solution.model), inliers);
+  if (votes.empty()) {  // a homography that is a mere turn
+    solution.wait = InitializationWait::kTooLittleParallax;
+    return solution;
+  }
+  solution.b_from_a = votes.front().pose;
+  MarkGood(matches, solution);
+  solution.wait = Verdict(votes, inliers.size(), solution.parallax_deg);
+  return solution;
+}
+
+std::optional<InitialMap> TwoViewInitializer::BuildMap(const InitializationFrame& frame,
+                                                       const ReferenceMatches& matches,
+                                                       const TwoViewSolution& solution) const {
+  std::vector<FeatureTrack> points;
+  for (std::size_t i = 0; i < matches.points.size(); ++i) {
+    if (!solution.is_good[i]) continue;
+    points.push_back({{0, matches.points[i].a}, {1, matches.points[i].b}});
+  }
+  std::vector<FeatureTrack> lines;
+  for (const LineMatch& match : matches.lines) lines.push_back({{0, match.a}, {1, match.b}});
+  std::vector<InitialView> views{{*reference_, Rigid3{}}, {frame, solution.b_from_a}};
+  InitialMap map = BuildStructure(camera_, std::move(views), points, lines);
+  if (map.points.size() < kMinPoints) return std::nullopt;
+  AdjustStructure(camera_, map);
+  if (map.points.size() < kMinPoints) return std::nullopt;
+  return map;
+}
+
+InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {
+  InitializationResult result;
+  const Features& features = frame.indexed->features;
+  if (features.points.size() < kMinFeatures) {
+    Reset();
+    result.wait = InitializationWait::kTooFewFeatures;
+    return result;
+  }
+  if (!reference_) {
+    reference_ = frame;
+    result.wait = InitializationWait::kTooFewFrames;
+    return result;
+  }
+  const Features& before = reference_->indexed->features;
+  const ReferenceMatches matches = MatchToReference(before, features, motion_);
+  result.matches = static_cast<int>(matches.points.size());
+  if (matches.points.size() < kMinMatches) {
+    reference_ = frame;
+    motion_ = {};
+    result.wait = InitializationWait::kTooFewMatches;
+    return result;
+  }
+  motion_ = matches.motion;
+  Rng rng(seed_, "two_view", static_cast<std::uint64_t>(frame.id.value));
+  const auto rays = RayMatchesOf(camera_, before, features, matches.points);
+  const TwoViewSolution solution = SolveTwoViews(rays, rng);
+  result.parallax_deg = solution.parallax_deg;
+  result.wait = solution.wait;
+  if (result.wait != InitializationWait::kNone) return result;
+  result.map = BuildMap(frame, matches, solution);
+  if (!result.map) result.wait = InitializationWait::kInaccurate;
+  return result;
+}
+
+void TwoViewInitializer::Reset() {
+  reference_.reset();
+  motion_ = {};
+}
+
+}  // namespace plumbline
