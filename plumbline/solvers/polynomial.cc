@@ -86,6 +86,9 @@ Points RootsInside(const Polynomial& p) {
 std::vector<double> RealRoots(std::span<const double> coefficients) {
   PLUMBLINE_CHECK(coefficients.size() <= kMaxDegree + 1, "a polynomial of too high a degree");
   std::vector<double> roots;
+  while (!coefficients.empty() && coefficients.back() == 0) {
+    coefficients = coefficients.first(coefficients.size() - 1);
+  }
   if (coefficients.size() < 2) return roots;
   Polynomial p;
   p.degree = coefficients.size() - 1;

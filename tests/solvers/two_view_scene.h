@@ -16,7 +16,9 @@ namespace plumbline::testing {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-enum class SceneKind { kGeneral, kPlane, kForward, kLowParallax, kTurnOnly };
+// kPlane: moving along it, so that the other solution has points behind the cameras; kTwofoldPlane:
+// towards it, so that it has none.
+enum class SceneKind { kGeneral, kPlane, kTwofoldPlane, kForward, kLowParallax, kTurnOnly };
 
 // Two views of the same points, 2 to 8 in front of the first.
 struct TwoViewScene {
@@ -34,6 +36,8 @@ struct TwoViewOptions {
 
 inline Eigen::Vector3d TranslationOf(SceneKind kind) {
   switch (kind) {
+    case SceneKind::kTwofoldPlane:
+      return {0.15, 0.05, -0.5};
     case SceneKind::kForward:
       return {0.02, 0.01, -0.4};
     case SceneKind::kLowParallax:
@@ -47,7 +51,7 @@ inline Eigen::Vector3d TranslationOf(SceneKind kind) {
 
 inline double DepthOf(SceneKind kind, const Eigen::Vector2d& a, Rng& rng) {
   const double depth = rng.Uniform(2, 8);
-  if (kind != SceneKind::kPlane) return depth;
+  if (kind != SceneKind::kPlane && kind != SceneKind::kTwofoldPlane) return depth;
   return 4 / Eigen::Vector3d(0.3, -0.2, 1).dot(a.homogeneous());
 }
 

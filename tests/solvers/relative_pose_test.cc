@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/solvers/relative_pose.h"
+
+#include "plumbline/geometry/epipolar.h"
+#include "plumbline/solvers/epipolar_cost.h"
+
+#include "tests/solvers/two_view_scene.h"
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::AngleBetween;
+using testing::kDegree;
+using testing::MakeTwoViewScene;
+using testing::SceneKind;
+using testing::TwoViewOptions;
+using testing::TwoViewScene;
+
+std::vector<RelativePoseHypothesis> Estimate(const TwoViewScene& scene,
+                                             RelativePoseMethod method,
+                                             std::span<const Rigid3> guesses = {}) {
+  Rng rng(1, "relative_pose");
+  return EstimateRelativePoses(scene.matches, {.method = method}, rng, guesses);
+}
+
+bool IsRight(const RelativePoseHypothesis& h, const TwoViewScene& scene, double max_direction) {
+  return AngularDistance(h.b_from_a.rotation, scene.b_from_a.rotation) < 0.6 * kDegree &&
+         AngleBetween(h.b_from_a.translation, scene.b_from_a.translation) < max_direction;
+}
+
+// Scenes of 40 in which a hypothesis, and the first one, is right.
+struct Found {
+  int any = 0;
+  int first = 0;
+};
+Found CountFound(SceneKind kind, RelativePoseMethod method, double max_direction) {
+  Found found;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const TwoViewScene scene =
+        MakeTwoViewScene(seed, {.kind = kind, .outliers = 0.2, .sigma = 0.5 / 500});
+    const auto all = Estimate(scene, method);
+    const auto right = [&](const auto& h) { return IsRight(h, scene, max_direction); };
+    found.any += std::any_of(all.begin(), all.end(), right) ? 1 : 0;
+    found.first += !all.empty() && right(all.front()) ? 1 : 0;
+  }
+  return found;
+}
+
+TEST(EstimateRelativePoses, FindsThePoseInAllKindsOfScenes) {
+  const auto method = RelativePoseMethod::kFivePoint;
+  EXPECT_EQ(CountFound(SceneKind::kGeneral, method, 3 * kDegree).first, 40);
+  EXPECT_EQ(CountFound(SceneKind::kForward, method, 3 * kDegree).first, 40);
+  EXPECT_GE(CountFound(SceneKind::kLowParallax, method, 12 * kDegree).any, 39);
+  // The other solution of the plane may be first; it must not be the only one.
+  EXPECT_GE(CountFound(SceneKind::kPlane, method, 5 * kDegree).any, 38);
+}
+
+TEST(EstimateRelativePoses, EightPointsServeInSpaceAndFailOnPlanes) {
+  const auto method = RelativePoseMethod::kEightPoint;
+  EXPECT_EQ(CountFound(SceneKind::kGeneral, method, 3 * kDegree).first, 40);
+  EXPECT_LT(CountFound(SceneKind::kPlane, method, 5 * kDegree).any, 20);
+}
+
+TEST(EstimateRelativePoses, KeepsBothSolutionsOfAPlane) {
+  int both = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const TwoViewScene scene = MakeTwoViewScene(
+        seed, {.kind = SceneKind::kTwofoldPlane, .outliers = 0.1, .sigma = 0.5 / 500});
+    const auto all = Estimate(scene, RelativePoseMethod::kFivePoint);
+    if (all.size() < 2) continue;
+    const bool first = IsRight(all[0], scene, 5 * kDegree);
+    both += first != IsRight(all[1], scene, 5 * kDegree) ? 1 : 0;
+    EXPECT_GT(all[1].in_front, 0.9 * all[1].inliers);
+  }
+  EXPECT_GE(both, 18);
+}
+
+TEST(EstimateRelativePoses, DropsTheSolutionOfAPlaneWithPointsBehind) {
+  const TwoViewScene scene =
+      MakeTwoViewScene(1, {.kind = SceneKind::kPlane, .noise = 0.1, .sigma = 0.5 / 500});
+  const auto all = Estimate(scene, RelativePoseMethod::kFivePoint);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_TRUE(IsRight(all.front(), scene, 1 * kDegree));
+}
+
+TEST(EstimateRelativePoses, WhatIsSaidOfAHypothesisIsTrue) {
+  const TwoViewScene scene = MakeTwoViewScene(3, {.outliers = 0.2});
+  const auto all = Estimate(scene, RelativePoseMethod::kFivePoint);
+  ASSERT_FALSE(all.empty());
+  for (const RelativePoseHypothesis& h : all) {
+    EXPECT_NEAR(h.b_from_a.translation.norm(), 1, 1e-12);
+    ASSERT_EQ(h.is_inlier.size(), scene.matches.size());
+    double cost = 0;
+    int in_front = 0;
+    for (std::size_t i = 0; i < scene.matches.size(); ++i) {
+      const double chi2 = SampsonChi2(EssentialMatrix(h.b_from_a), scene.matches[i]);
+      EXPECT_EQ(h.is_inlier[i], chi2 < kChi2OneDof);
+      cost += std::min(chi2, kChi2OneDof);
+      in_front += h.is_inlier[i] && IsInFront(h.b_from_a, scene.matches[i]) ? 1 : 0;
+    }
+    EXPECT_NEAR(h.cost, cost, 1e-9);
+    EXPECT_EQ(h.in_front, in_front);
+    EXPECT_EQ(h.inliers, std::count(h.is_inlier.begin(), h.is_inlier.end(), true));
+  }
+  EXPECT_NEAR(all.front().inliers, 0.8 * 0.95 * 300, 25);
+}
+
+TEST(EstimateRelativePoses, AGuessIsEnoughWithoutSamples) {
+  const TwoViewScene scene = MakeTwoViewScene(3, {.outliers = 0.2});
+  Rigid3 guess = scene.b_from_a;
+  guess.rotation = ExpSo3({0.005, -0.005, 0.003}) * guess.rotation;
+  guess.translation = 7 * guess.translation;
+  Rng rng(1);
+  const auto all =
+      EstimateRelativePoses(scene.matches,
+                            {.method = RelativePoseMethod::kEightPoint, .max_iterations = 1},
+                            rng,
+                            std::array{guess});
+  ASSERT_FALSE(all.empty());
+  EXPECT_TRUE(IsRight(all.front(), scene, 3 * kDegree));
+}
+
+TEST(EstimateRelativePoses, SameSeedSameBytes) {
+  const TwoViewScene scene = MakeTwoViewScene(3, {.outliers = 0.3});
+  const auto first = Estimate(scene, RelativePoseMethod::kFivePoint);
+  const auto second = Estimate(scene, RelativePoseMethod::kFivePoint);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].b_from_a.rotation.coeffs(), second[i].b_from_a.rotation.coeffs());
+    EXPECT_EQ(first[i].b_from_a.translation, second[i].b_from_a.translation);
+  }
+}
+
+TEST(EstimateRelativePoses, TooFewMatchesGiveNothing) {
+  const TwoViewScene scene = MakeTwoViewScene(3, {.points = 3});
+  EXPECT_TRUE(Estimate(scene, RelativePoseMethod::kFivePoint).empty());
+  EXPECT_TRUE(Estimate({}, RelativePoseMethod::kEightPoint).empty());
+}
+
+TEST(RefineRelativePose, GivesThePoseOfTheNoiseLimit) {
+  const TwoViewScene scene = MakeTwoViewScene(3, {});
+  Rigid3 start = scene.b_from_a;
+  start.translation *= 3;
+  const RelativePoseHypothesis h = RefineRelativePose(scene.matches, start);
+  EXPECT_TRUE(IsRight(h, scene, 3 * kDegree));
+  EXPECT_GT(h.in_front, 270);
+  EXPECT_NEAR(h.inliers, 285, 15);
+}
+
+TEST(EstimateTranslation, FindsDirectionAndSign) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const TwoViewScene scene = MakeTwoViewScene(seed, {.outliers = 0.3});
+    Rng rng(seed);
+    const auto h = EstimateTranslation(scene.matches, scene.b_from_a.rotation, {}, rng);
+    EXPECT_LT(AngleBetween(h.b_from_a.translation, scene.b_from_a.translation), 1.5 * kDegree);
+    EXPECT_GT(h.covariance(3, 3), 0);
+  }
+}
+
+TEST(EstimateTranslation, OfNothingHasNoInliers) {
+  Rng rng(1);
+  const auto h = EstimateTranslation({}, Eigen::Quaterniond::Identity(), {}, rng);
+  EXPECT_TRUE(h.is_inlier.empty());
+  EXPECT_EQ(h.inliers, 0);
+}
+
+TEST(IsInFront, HoldsForOneOfTheFourPoses) {
+  const TwoViewScene scene = MakeTwoViewScene(5, {.points = 50, .noise = 0});
+  const Rigid3& truth = scene.b_from_a;
+  const Eigen::Quaterniond half_turn(
+      Eigen::AngleAxisd(std::numbers::pi, truth.translation.normalized()));
+  for (const RayMatch& match : scene.matches) {
+    EXPECT_TRUE(IsInFront(truth, match));
+    EXPECT_FALSE(IsInFront({truth.rotation, -truth.translation}, match));
+    EXPECT_FALSE(IsInFront({half_turn * truth.rotation, truth.translation}, match));
+    EXPECT_FALSE(IsInFront({half_turn * truth.rotation, -truth.translation}, match));
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
