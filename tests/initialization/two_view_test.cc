@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/two_view.h"
+
+#include "plumbline/geometry/epipolar.h"
+
+#include "tests/solvers/two_view_scene.h"
+#include "tests/support/synthetic_world.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::AngleBetween;
+using testing::kDegree;
+using testing::MakeTwoViewScene;
+using testing::SceneKind;
+using testing::TwoViewScene;
+
+InitializationFrame FrameOf(int index, const SyntheticFrame& sensed) {
+  return {FrameId{index}, index * 50'000'000, sensed.indexed, nullptr};
+}
+
+TEST(TwoViewScores, OfExactMatchesAreTheMost) {
+  const TwoViewScene plane =
+      MakeTwoViewScene(1, {.kind = SceneKind::kPlane, .points = 50, .noise = 0});
+  const Eigen::Vector3d over_distance =
+      testing::TranslationOf(SceneKind::kPlane) / 4;  // the plane is (0.3, -0.2, 1) X = 4
+  const Eigen::Matrix3d H =
+      plane.b_from_a.rotation.toRotationMatrix() + over_distance * Eigen::RowVector3d(0.3, -0.2, 1);
+  EXPECT_NEAR(TransferScore(H, plane.matches), 2 * 50 * 5.991, 1e-6);
+  EXPECT_NEAR(EpipolarScore(EssentialMatrix(plane.b_from_a), plane.matches), 2 * 50 * 5.991, 1e-6);
+  EXPECT_LT(TransferScore(Eigen::Matrix3d::Identity(), plane.matches), 200);
+}
+
+TEST(SolveTwoViews, ChoosesTheModelOfTheScene) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Rng rng(seed);
+    const TwoViewScene space = MakeTwoViewScene(seed, {.outliers = 0.1, .sigma = 0.5 / 500});
+    const TwoViewSolution in_space = SolveTwoViews(space.matches, rng);
+    EXPECT_EQ(in_space.model, TwoViewModel::kEssential);
+    EXPECT_EQ(in_space.wait, InitializationWait::kNone);
+    EXPECT_LT(AngularDistance(in_space.b_from_a.rotation, space.b_from_a.rotation), 0.5 * kDegree);
+    EXPECT_LT(AngleBetween(in_space.b_from_a.translation, space.b_from_a.translation), 5 * kDegree);
+    EXPECT_EQ(in_space.is_good.size(), space.matches.size());
+    const TwoViewScene plane =
+        MakeTwoViewScene(seed, {.kind = SceneKind::kPlane, .outliers = 0.1, .sigma = 0.5 / 500});
+    const TwoViewSolution on_plane = SolveTwoViews(plane.matches, rng);
+    EXPECT_EQ(on_plane.model, TwoViewModel::kHomography);
+    EXPECT_LT(AngleBetween(on_plane.b_from_a.translation, plane.b_from_a.translation), 9 * kDegree);
+  }
+}
+
+TEST(SolveTwoViews, WaitsWhereTheFramesDoNotDecide) {
+  Rng rng(1);
+  const auto wait = [&](SceneKind kind, int points) {
+    const TwoViewScene scene =
+        MakeTwoViewScene(2, {.kind = kind, .points = points, .sigma = 0.5 / 500});
+    return SolveTwoViews(scene.matches, rng).wait;
+  };
+  EXPECT_EQ(wait(SceneKind::kGeneral, 99), InitializationWait::kTooFewMatches);
+  EXPECT_EQ(wait(SceneKind::kTwofoldPlane, 300), InitializationWait::kAmbiguous);
+  EXPECT_EQ(wait(SceneKind::kTurnOnly, 300), InitializationWait::kTooLittleParallax);
+}
+
+TEST(TwoViewInitializer, StartsAMapOnceThereIsParallax) {
+  const SyntheticWorld world = MakeSyntheticWorld(600, 60);
+  TwoViewInitializer initializer(world.Imaging(), 1);
+  Rng rng(2);
+  InitializationResult result;
+  int last = 0;
+  for (int i = 0; i < 30 && !result.map; ++i) {
+    last = i;
+    const SyntheticFrame sensed = Sense(world, PoseOnPath(i), {.depth = false, .noise = 0.5}, rng);
+    result = initializer.Add(FrameOf(i, sensed));
+    EXPECT_EQ(result.map.has_value(), result.wait == InitializationWait::kNone);
+  }
+  ASSERT_TRUE(result.map);
+  EXPECT_GT(last, 1);
+  EXPECT_GE(result.parallax_deg, 1);
+  const InitialMap& map = *result.map;
+  ASSERT_EQ(map.views.size(), 2U);
+  EXPECT_EQ(map.views.front().frame.id, FrameId{0});
+  EXPECT_EQ(map.views.back().frame.id, FrameId{last});
+  EXPECT_EQ(map.views.front().cam_from_world.translation.norm(), 0);
+  EXPECT_GT(map.points.size(), 100U);
+  EXPECT_GT(map.lines.size(), 3U);
+  const Rigid3 truth = PoseOnPath(last);
+  const Rigid3& pose = map.views.back().cam_from_world;
+  EXPECT_LT(AngularDistance(pose.rotation, truth.rotation), 0.5 * kDegree);
+  EXPECT_LT(AngleBetween(pose.translation, truth.translation), 8 * kDegree);
+}
+
+TEST(TwoViewInitializer, ReplacesAReferenceThatIsOutOfSight) {
+  const SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  TwoViewInitializer initializer(world.Imaging(), 1);
+  Rng rng(2);
+  const SensorModel sensor{.depth = false};
+  const auto add = [&](int index, const Rigid3& pose) {
+    return initializer.Add(FrameOf(index, Sense(world, pose, sensor, rng)));
+  };
+  EXPECT_EQ(add(0, {}).wait, InitializationWait::kTooFewFrames);
+  const Rigid3 aside{ExpSo3({0, 0.6, 0}), {0, 0, 0}};
+  EXPECT_EQ(add(1, aside).wait, InitializationWait::kTooFewMatches);
+  EXPECT_EQ(add(2, aside).wait, InitializationWait::kTooLittleParallax);
+  initializer.Reset();
+  EXPECT_EQ(add(3, aside).wait, InitializationWait::kTooFewFrames);
+  const SyntheticFrame nothing{IndexFeatures(world.camera, {}), {}, {}};
+  EXPECT_EQ(initializer.Add(FrameOf(4, nothing)).wait, InitializationWait::kTooFewFeatures);
+}
+
+}  // namespace
+}  // namespace plumbline
