@@ -20,7 +20,7 @@ namespace plumbline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Values of the paper (eq. 2, 4 and section IV) and of its published settings.
+// Values of the paper (section IV); those that it does not give are ours.
 constexpr std::size_t kMinFeatures = 100;
 constexpr std::size_t kMinMatches = 100;
 constexpr std::size_t kMinPoints = 50;
@@ -165,7 +165,7 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
   if (E.empty() || H.empty()) return solution;
   const double epipolar = EpipolarScore(E.front().model, matches);
   const double transfer = TransferScore(H.front().model, matches);
-  const bool plane = transfer > kHomographyShare * (transfer + epipolar);  // eq. 4
+  const bool plane = transfer > kHomographyShare * (transfer + epipolar);
   solution.model = plane ? TwoViewModel::kHomography : TwoViewModel::kEssential;
   const Eigen::Matrix3d& model = plane ? H.front().model : E.front().model;
 

@@ -16,9 +16,9 @@
 namespace plumbline {
 
 // How well a model of two views explains matches (Mur-Artal, Montiel and Tardos, "ORB-SLAM", 2015,
-// eq. 2): the sum of 5.99 - d^2 over both images of all matches, where d^2, the squared distance
-// over its variance, is below 3.84 (distance from the epipolar line) or 5.99 (from the mapped
-// point).
+// section IV): the sum of 5.99 - d^2 over both images of all matches, where d^2, the squared
+// distance over its variance, is below 3.84 (distance from the epipolar line) or 5.99 (from the
+// mapped point).
 double EpipolarScore(const Eigen::Matrix3d& essential, std::span<const RayMatch> matches);
 double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch> matches);
 

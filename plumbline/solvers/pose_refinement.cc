@@ -181,30 +181,34 @@ RefinedPose RefinePose(std::span<const RayMatch> matches,
   RefinedPose result;
   result.b_from_a = start;
   NormalEquations equations = Linearize(matches, start, loss);
+  result.cost = equations.cost;
   double damping = 1e-4;
   for (; result.iterations < options.max_iterations && damping < 1e6; ++result.iterations) {
     const Vector5d step = Step(equations, damping, options.rotation_known);
     const Rigid3 trial = Moved(result.b_from_a, step);
     const double cost = CostOf(matches, trial, loss);
-    if (!(cost <= equations.cost)) {
+    if (!(cost <= result.cost)) {
       damping *= 10;
       continue;
     }
-    const bool converged = equations.cost - cost <= 1e-9 * equations.cost || step.norm() < 1e-10;
+    const bool converged = result.cost - cost <= 1e-9 * result.cost || step.norm() < 1e-10;
     result.b_from_a = trial;
+    result.cost = cost;
     damping = std::max(damping * 0.1, 1e-9);
-    if (converged) break;
+    if (converged || result.iterations + 1 == options.max_iterations) break;
     equations = Linearize(matches, trial, loss);
   }
-  result.cost = CostOf(matches, result.b_from_a, loss);
-  result.covariance = Covariance(matches, result.b_from_a, options.rotation_known);
+  if (options.covariance) {
+    result.covariance = Covariance(matches, result.b_from_a, options.rotation_known);
+  }
   return result;
 }
 
 RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, Rng& rng) {
   constexpr int kSubsets = 10;
   constexpr std::size_t kSubsetSize = 40;
-  constexpr PoseRefinementOptions kRough{.max_iterations = 4, .loss_scale = 6};
+  constexpr PoseRefinementOptions kRough{
+      .max_iterations = 4, .loss_scale = 6, .covariance = false};
   RefinedPose best = RefinePose(matches, start);
   std::vector<RayMatch> near;
   const Eigen::Matrix3d E = EssentialMatrix(best.b_from_a);

@@ -30,6 +30,7 @@ struct PoseRefinementOptions {
   int max_iterations = 15;
   bool rotation_known = false;  // only the direction of the translation is refined
   double loss_scale = 4.685;    // of Tukey's biweight: 95 % efficient on normal residuals
+  bool covariance = true;       // false: left at zero
 };
 
 struct RefinedPose {

@@ -15,8 +15,10 @@ namespace {
 // Essential matrices of norm 1 that differ by less lead to the same pose when refined.
 constexpr double kSameEssential = 0.05;
 // The model of a sample is off by many times the noise, and its best inliers are not all inliers.
-constexpr PoseRefinementOptions kFirstImprovement{.max_iterations = 3, .loss_scale = 15};
-constexpr PoseRefinementOptions kSecondImprovement{.max_iterations = 3};
+constexpr PoseRefinementOptions kFirstImprovement{
+    .max_iterations = 3, .loss_scale = 15, .covariance = false};
+constexpr PoseRefinementOptions kSecondImprovement{.max_iterations = 2, .covariance = false};
+constexpr std::size_t kEnoughForFirst = 100;  // matches
 
 template <std::size_t kSize>
 std::array<RayMatch, kSize> Pick(std::span<const RayMatch> matches,
@@ -32,6 +34,12 @@ double Ratio(std::ptrdiff_t part, std::size_t all) {
 
 }  // namespace
 
+EssentialProblem::EssentialProblem(std::span<const RayMatch> matches)
+    : matches_(matches), cost_(matches) {
+  const std::size_t step = std::max<std::size_t>(1, matches.size() / kEnoughForFirst);
+  for (std::size_t i = 0; i < matches.size(); i += step) thinned_.push_back(matches[i]);
+}
+
 double EssentialProblem::InlierRatio(const Model& E) const {
   return Ratio(cost_.CountBelow(E, kChi2OneDof), size());
 }
@@ -39,7 +47,7 @@ double EssentialProblem::InlierRatio(const Model& E) const {
 EssentialProblem::Model EssentialProblem::Improve(const Model& E) const {
   // The cost is the same for all four poses.
   const Rigid3 pose = PosesFromEssential(E).front();
-  const Rigid3 near = RefinePose(matches_, pose, kFirstImprovement).b_from_a;
+  const Rigid3 near = RefinePose(thinned_, pose, kFirstImprovement).b_from_a;
   return EssentialMatrix(RefinePose(matches_, near, kSecondImprovement).b_from_a).normalized();
 }
 

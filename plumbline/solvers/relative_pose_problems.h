@@ -25,8 +25,7 @@ class EssentialProblem {
  public:
   using Model = Eigen::Matrix3d;
 
-  explicit EssentialProblem(std::span<const RayMatch> matches)
-      : matches_(matches), cost_(matches) {}
+  explicit EssentialProblem(std::span<const RayMatch> matches);
 
   std::size_t size() const { return matches_.size(); }
   double Cost(const Model& E, double limit) const { return cost_.Truncated(E, kChi2OneDof, limit); }
@@ -41,6 +40,7 @@ class EssentialProblem {
 
  private:
   EpipolarCost cost_;
+  std::vector<RayMatch> thinned_;  // enough of them to come near
 };
 
 class FivePointProblem : public EssentialProblem {
