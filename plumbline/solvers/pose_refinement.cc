@@ -207,8 +207,7 @@ RefinedPose RefinePose(std::span<const RayMatch> matches,
 RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, Rng& rng) {
   constexpr int kSubsets = 10;
   constexpr std::size_t kSubsetSize = 40;
-  constexpr PoseRefinementOptions kRough{
-      .max_iterations = 4, .loss_scale = 6, .covariance = false};
+  constexpr PoseRefinementOptions kRough{.max_iterations = 4, .loss_scale = 6, .covariance = false};
   RefinedPose best = RefinePose(matches, start);
   std::vector<RayMatch> near;
   const Eigen::Matrix3d E = EssentialMatrix(best.b_from_a);

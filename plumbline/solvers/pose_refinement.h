@@ -48,14 +48,14 @@ struct RefinedPose {
 //
 //   start    |translation| = 1
 //   returns  its cheirality is that of the start; it is not looked at here
-//   cost     about 15 us per iteration and 300 matches
+//   cost     about 20 us per iteration and 300 matches
 RefinedPose RefinePose(std::span<const RayMatch> matches,
                        const Rigid3& start,
                        const PoseRefinementOptions& options = {});
 
 // The same from a start that may lie in the basin of another minimum: where matches are wrong, a
 // loss that forgets them has several. From subsets of the inliers (they jump between the basins, as
-// the inner samples of LO-RANSAC do) to the one of least truncated cost. About 200 us.
+// the inner samples of LO-RANSAC do) to the one of least truncated cost. About 300 us.
 RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, Rng& rng);
 
 }  // namespace plumbline

@@ -118,8 +118,7 @@ class HypothesisList {
   std::vector<RelativePoseHypothesis> list_;
 };
 
-// The two rotations of an essential matrix, each with one of its translations, those first that
-// have more points in front.
+// The two rotations of an essential matrix, each with one of its translations.
 std::array<Rigid3, 2> RotationsOf(const Eigen::Matrix3d& essential) {
   const std::array<Rigid3, 4> poses = PosesFromEssential(essential);
   return {poses[0], poses[2]};

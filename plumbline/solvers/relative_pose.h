@@ -76,7 +76,7 @@ void VisitFields(Visitor&& visit, RelativePoseOptions& o) {
 //   returns  sorted by cost; empty with fewer matches than a sample has, or when no sample gave a
 //            pose. Nothing is said about the sense of a translation: where there is no parallax,
 //            the direction is that of the noise, and the covariance says so.
-//   cost     about 0.5 ms for 300 matches of which a fifth are wrong
+//   cost     1 to 2 ms for 300 matches of which a fifth are wrong
 std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMatch> matches,
                                                           const RelativePoseOptions& options,
                                                           Rng& rng,
