@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/options.h"
+#include "plumbline/solvers/relative_pose.h"
 
 #include <array>
 #include <type_traits>
@@ -20,6 +21,11 @@ constexpr auto EnumNames(std::type_identity<InitializationMethod>) {
 struct InitializationOptions {
   InitializationMethod method = InitializationMethod::kRank1;
   int frames = 3;  // m of the first paper: frames after the reference that are solved together
+  RelativePoseMethod relative_pose = RelativePoseMethod::kFivePoint;
+  bool interpolate = true;
+  double max_interpolation_px = 2;
+  double min_line_angle_deg = 0;
+  int reweighting = 5;
 };
 
 template <class Visitor>
@@ -30,6 +36,25 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         "interpolation), rank1_klt (of tracks alive in all frames), two_view (homography or "
         "essential matrix of two frames)");
   visit("frames", o.frames, "frames after the reference that are solved together", Range{2, 30});
+  visit("relative_pose",
+        o.relative_pose,
+        "of rank1: five_point (and homographies), eight_point (as the paper; fails on planes)");
+  visit("interpolate",
+        o.interpolate,
+        "rank1: complete tracks by geometric interpolation; false: factorize complete tracks only");
+  visit("max_interpolation_px",
+        o.max_interpolation_px,
+        "largest standard deviation of an interpolated place that is used [px]",
+        Range{0, 1000});
+  visit("min_line_angle_deg",
+        o.min_line_angle_deg,
+        "smallest angle at which the epipolar lines of an interpolated place meet (the paper: 5) "
+        "[deg]",
+        Range{0, 90});
+  visit("reweighting",
+        o.reweighting,
+        "steps of robust reweighting of the factorization; 0: outliers count in full",
+        Range{0, 100});
 }
 
 }  // namespace plumbline

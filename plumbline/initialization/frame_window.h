@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/initialization/initializer.h"
+#include "plumbline/initialization/matching.h"
+#include "plumbline/initialization/structure.h"
+#include "plumbline/initialization/window_tracks.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+// A reference frame and the frames since, matched with it. Frames are kept when an attempt at a map
+// fails; beyond a limit every second one is left out.
+class FrameWindow {
+ public:
+  explicit FrameWindow(const RectifiedCamera& camera) : camera_(camera) {}
+
+  void Reset();
+  bool empty() const { return !reference_; }
+  int size() const { return static_cast<int>(frames_.size()); }  // without the reference
+  const InitializationFrame& reference() const { return *reference_; }
+
+  // The first frame becomes the reference; later ones are matched with it. Returns the matches.
+  int Add(const InitializationFrame& frame);
+  // Makes the frame halfway to the newest the reference and matches those after it anew.
+  void MoveReference();
+  // Leaves out the newest frame.
+  void DropNewest() { frames_.pop_back(); }
+
+  // `count` frames spread evenly since the reference, the newest last (first paper: the subsequent
+  // frames, which at video rate have not moved yet). At most size().
+  std::vector<int> Spread(int count) const;
+
+  // What the frames show of the reference's points: at most `max_points` of them, spread over the
+  // image, those that most frames show first.
+  WindowTracks TracksOf(const std::vector<int>& frames, int max_points) const;
+
+  // The same as features of views, the reference being view 0: points and lines seen at least
+  // twice.
+  std::vector<FeatureTrack> PointTracks(const std::vector<int>& frames) const;
+  std::vector<FeatureTrack> LineTracks(const std::vector<int>& frames) const;
+  const InitializationFrame& frame(int index) const {
+    return frames_[static_cast<std::size_t>(index)].frame;
+  }
+
+ private:
+  struct Matched {
+    InitializationFrame frame;
+    ReferenceMatches matches;
+  };
+
+  RectifiedCamera camera_;
+  std::optional<InitializationFrame> reference_;
+  std::vector<Matched> frames_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/initializer.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/initialization/klt_initializer.h"
+#include "plumbline/initialization/rank1_initializer.h"
+#include "plumbline/initialization/two_view.h"
+
+namespace plumbline {
+
+std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
+                                             const InitializationOptions& options,
+                                             std::uint64_t seed) {
+  switch (options.method) {
+    case InitializationMethod::kRank1:
+      return std::make_unique<Rank1Initializer>(imaging, options, seed);
+    case InitializationMethod::kRank1Klt:
+      return std::make_unique<KltInitializer>(imaging, options, seed);
+    case InitializationMethod::kTwoView:
+      return std::make_unique<TwoViewInitializer>(imaging, seed);
+  }
+  throw BugError("unknown initialization method");
+}
+
+}  // namespace plumbline

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/klt_initializer.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/random.h"
+#include "plumbline/initialization/structure.h"
+#include "plumbline/solvers/relative_pose.h"
+#include "plumbline/solvers/rotation.h"
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+constexpr int kMinFeatures = 60;
+constexpr int kMinTracks = 50;
+constexpr int kMinPoints = 30;  // of a map
+constexpr std::size_t kMaxFrames = 80;
+constexpr double kTrackSigmaPx = 0.5;
+constexpr double kAttachRadiusPx = 1.5;
+constexpr double kMinShareInFront = 0.9;
+constexpr double kMaxSpread = 2;  // of the residuals, in standard deviations
+constexpr double kMinParallaxDeg = 1;
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<RayMatch> Matches(const TrackedPoints& a, const TrackedPoints& b) {
+  std::vector<RayMatch> matches;
+  for (std::size_t k = 0; k < a.points.size(); ++k) {
+    matches.push_back({a.points[k], b.points[k], a.sigmas[k], b.sigmas[k]});
+  }
+  return matches;
+}
+
+struct Poses {
+  std::vector<Rigid3> cam_from_reference;  // |translation| = 1
+  double parallax_deg = 0;                 // of the newest
+};
+
+// The best relative pose of each frame by itself; nullopt where one has none.
+std::optional<Poses> RelativePoses(const WindowTracks& tracks, Rng& rng) {
+  Poses poses;
+  for (const TrackedPoints& view : tracks.views) {
+    const std::vector<RayMatch> matches = Matches(tracks.reference, view);
+    const auto hypotheses = EstimateRelativePoses(matches, {}, rng);
+    if (hypotheses.empty()) return std::nullopt;
+    const Rigid3& pose = hypotheses.front().b_from_a;
+    poses.cam_from_reference.push_back(pose);
+    poses.parallax_deg = MedianParallax(matches, pose.rotation) * 180 / std::numbers::pi;
+  }
+  return poses;
+}
+
+std::optional<Rank1Solution> Factorize(const WindowTracks& tracks, const Poses& poses) {
+  std::vector<Rank1View> views;
+  for (std::size_t i = 0; i < tracks.views.size(); ++i) {
+    const Rigid3 reference_from_cam = Inverse(poses.cam_from_reference[i]);
+    views.push_back({reference_from_cam.rotation,
+                     reference_from_cam.translation.normalized(),
+                     tracks.views[i].points,
+                     tracks.views[i].sigmas});
+  }
+  return FactorizeRank1(tracks.reference.points, views);
+}
+
+InitializationResult Wait(InitializationWait reason) {
+  InitializationResult result;
+  result.wait = reason;
+  return result;
+}
+
+}  // namespace
+
+KltInitializer::KltInitializer(const ImagingModel& imaging,
+                               const InitializationOptions& options,
+                               std::uint64_t seed)
+    : imaging_(imaging), options_(options), seed_(seed) {}
+
+void KltInitializer::Reset() {
+  reference_.reset();
+  frames_.clear();
+}
+
+void KltInitializer::Start(const InitializationFrame& frame) {
+  reference_ = frame;
+  frames_.clear();
+  std::vector<Eigen::Vector2d> points;
+  for (const PointFeature& feature : frame.indexed->features.points) points.push_back(feature.px);
+  tracks_ = KltTracks(frame.image, points);
+}
+
+InitializationResult KltInitializer::Add(const InitializationFrame& frame) {
+  using enum InitializationWait;
+  PLUMBLINE_CHECK(frame.image != nullptr, "optical flow needs the image");
+  const bool enough = static_cast<int>(frame.indexed->features.points.size()) >= kMinFeatures;
+  if (!reference_) {
+    if (!enough) return Wait(kTooFewFeatures);
+    Start(frame);
+    return Wait(kTooFewFrames);
+  }
+  tracks_.Follow(frame.image);
+  InitializationResult result;
+  if (tracks_.alive() < kMinTracks) {
+    if (enough) Start(frame);
+    result.wait = kTooFewMatches;
+  } else {
+    if (frames_.size() == kMaxFrames) frames_.erase(frames_.begin());
+    frames_.push_back({frame, tracks_.places()});
+    const bool window = static_cast<int>(frames_.size()) >= options_.frames;
+    result = window ? Attempt() : Wait(kTooFewFrames);
+  }
+  result.matches = tracks_.alive();
+  return result;
+}
+
+std::vector<int> KltInitializer::Spread() const {
+  const int size = static_cast<int>(frames_.size());
+  std::vector<int> frames;
+  for (int j = 1; j <= options_.frames; ++j) frames.push_back(j * size / options_.frames - 1);
+  return frames;
+}
+
+WindowTracks KltInitializer::TracksOf(const std::vector<int>& frames) const {
+  WindowTracks tracks;
+  tracks.views.resize(frames.size());
+  const double sigma = kTrackSigmaPx / imaging_.camera.fx;
+  const auto add = [&](const Eigen::Vector2d& px, TrackedPoints& points) {
+    points.points.emplace_back(imaging_.camera.Unproject(px).hnormalized());
+    points.sigmas.push_back(sigma);
+  };
+  const std::vector<PointFeature>& features = reference_->indexed->features.points;
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    if (!tracks_.places()[k]) continue;  // alive in the last is alive in all
+    tracks.features.push_back(static_cast<int>(k));
+    add(features[k].px, tracks.reference);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      add(*frames_[Index(frames[i])].places[k], tracks.views[i]);
+    }
+  }
+  return tracks;
+}
+
+InitializationResult KltInitializer::Attempt() {
+  using enum InitializationWait;
+  const std::vector<int> frames = Spread();
+  const WindowTracks tracks = TracksOf(frames);
+  Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frames_.back().frame.id.value));
+  const auto poses = RelativePoses(tracks, rng);
+  if (!poses) return Wait(kInaccurate);
+  InitializationResult result;
+  result.parallax_deg = poses->parallax_deg;
+  result.wait = kTooLittleParallax;
+  if (poses->parallax_deg < kMinParallaxDeg) return result;
+  const auto factors = Factorize(tracks, *poses);
+  result.wait = kInaccurate;
+  if (!factors || factors->in_front < kMinShareInFront * factors->solved ||
+      factors->spread > kMaxSpread) {
+    return result;
+  }
+  std::vector<Rigid3> solved = poses->cam_from_reference;
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    solved[i].translation = -(solved[i].rotation * factors->centres[i]);
+  }
+  result.map = BuildMap(frames, solved);
+  if (result.map) result.wait = kNone;
+  return result;
+}
+
+std::optional<InitialMap> KltInitializer::BuildMap(const std::vector<int>& frames,
+                                                   const std::vector<Rigid3>& poses) const {
+  std::vector<InitialView> views{{*reference_, Rigid3{}}};
+  std::vector<FeatureTrack> by_feature(reference_->indexed->features.points.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Followed& followed = frames_[Index(frames[i])];
+    views.push_back({followed.frame, poses[i]});
+    const std::vector<int> nearest =
+        NearestFeatures(*followed.frame.indexed, followed.places, kAttachRadiusPx);
+    for (std::size_t k = 0; k < nearest.size(); ++k) {
+      if (nearest[k] < 0 || !tracks_.places()[k]) continue;
+      if (by_feature[k].empty()) by_feature[k].push_back({0, static_cast<int>(k)});
+      by_feature[k].push_back({static_cast<int>(i) + 1, nearest[k]});
+    }
+  }
+  std::erase_if(by_feature, [](const FeatureTrack& track) { return track.empty(); });
+  InitialMap map = BuildStructure(imaging_.camera, std::move(views), by_feature, {});
+  if (static_cast<int>(map.points.size()) < kMinPoints) return std::nullopt;
+  AdjustStructure(imaging_.camera, map);
+  if (static_cast<int>(map.points.size()) < kMinPoints) return std::nullopt;
+  return map;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/klt_tracks.h"
+
+#include "plumbline/image/opencv_bridge.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include <opencv2/video/tracking.hpp>
+
+namespace plumbline {
+namespace {
+
+constexpr int kWindow = 21;
+constexpr int kLevels = 3;
+constexpr double kMaxReturnError = 1;  // px
+
+struct Flow {
+  std::vector<cv::Point2f> to;
+  std::vector<unsigned char> found;
+};
+
+// From the places `from` in image a to image b; `guess` where they may be there.
+Flow OpticalFlow(const GrayImage& a,
+                 const GrayImage& b,
+                 const std::vector<cv::Point2f>& from,
+                 const std::vector<cv::Point2f>& guess) {
+  Flow flow{guess, {}};
+  std::vector<float> error;
+  cv::calcOpticalFlowPyrLK(AsMat(a),
+                           AsMat(b),
+                           from,
+                           flow.to,
+                           flow.found,
+                           error,
+                           cv::Size(kWindow, kWindow),
+                           kLevels,
+                           {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.01},
+                           cv::OPTFLOW_USE_INITIAL_FLOW);
+  return flow;
+}
+
+std::vector<std::optional<Eigen::Vector2d>> FollowThereAndBack(
+    const GrayImage& a, const GrayImage& b, const std::vector<cv::Point2f>& from) {
+  const Flow there = OpticalFlow(a, b, from, from);
+  const Flow back = OpticalFlow(b, a, there.to, from);
+  std::vector<std::optional<Eigen::Vector2d>> places(from.size());
+  for (std::size_t j = 0; j < from.size(); ++j) {
+    const cv::Point2f& to = there.to[j];
+    const bool inside = to.x >= 0 && to.y >= 0 && to.x <= static_cast<float>(b.width() - 1) &&
+                        to.y <= static_cast<float>(b.height() - 1);
+    if (there.found[j] == 0 || back.found[j] == 0 || !inside) continue;
+    if (cv::norm(back.to[j] - from[j]) > kMaxReturnError) continue;
+    places[j] = Eigen::Vector2d(to.x, to.y);
+  }
+  return places;
+}
+
+}  // namespace
+
+KltTracks::KltTracks(std::shared_ptr<const GrayImage> image,
+                     const std::vector<Eigen::Vector2d>& points)
+    : image_(std::move(image)), places_(points.begin(), points.end()) {}
+
+int KltTracks::alive() const {
+  return static_cast<int>(std::count_if(
+      places_.begin(), places_.end(), [](const auto& place) { return place.has_value(); }));
+}
+
+void KltTracks::Follow(std::shared_ptr<const GrayImage> image) {
+  std::vector<std::size_t> followed;
+  std::vector<cv::Point2f> from;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (!places_[k]) continue;
+    followed.push_back(k);
+    from.emplace_back(static_cast<float>(places_[k]->x()), static_cast<float>(places_[k]->y()));
+  }
+  if (!followed.empty()) {
+    const std::vector<std::optional<Eigen::Vector2d>> to =
+        FollowThereAndBack(*image_, *image, from);
+    for (std::size_t j = 0; j < followed.size(); ++j) places_[followed[j]] = to[j];
+  }
+  image_ = std::move(image);
+}
+
+std::vector<int> NearestFeatures(const IndexedFeatures& features,
+                                 const std::vector<std::optional<Eigen::Vector2d>>& places,
+                                 double radius_px) {
+  struct Pair {
+    double squared_distance = 0;
+    int place = 0;
+    int feature = 0;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (!places[k]) continue;
+    for (const int f : features.point_grid.InWindow(*places[k], radius_px)) {
+      const Eigen::Vector2d& px = features.features.points[static_cast<std::size_t>(f)].px;
+      const double squared = (px - *places[k]).squaredNorm();
+      if (squared <= radius_px * radius_px) pairs.push_back({squared, static_cast<int>(k), f});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.squared_distance < b.squared_distance;
+  });
+  std::vector<int> nearest(places.size(), -1);
+  std::vector<bool> taken(features.features.points.size(), false);
+  for (const Pair& pair : pairs) {
+    int& feature = nearest[static_cast<std::size_t>(pair.place)];
+    if (feature >= 0 || taken[static_cast<std::size_t>(pair.feature)]) continue;
+    feature = pair.feature;
+    taken[static_cast<std::size_t>(pair.feature)] = true;
+  }
+  return nearest;
+}
+
+}  // namespace plumbline

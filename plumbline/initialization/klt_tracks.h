@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/features/types.h"
+#include "plumbline/image/image.h"
+#include "plumbline/map/frame.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Points followed from image to image by the optical flow of Lucas and Kanade on pyramids (OpenCV),
+// each step checked by following it back.
+class KltTracks {
+ public:
+  KltTracks() = default;
+  KltTracks(std::shared_ptr<const GrayImage> image, const std::vector<Eigen::Vector2d>& points);
+
+  // Follows the points that are left into the next image, of the same size. Those that leave it,
+  // are not found or do not come back are lost for good. Cost: about 2 ms for 500 points in VGA.
+  void Follow(std::shared_ptr<const GrayImage> image);
+
+  // By point, where it is in the newest image; nullopt: lost.
+  const std::vector<std::optional<Eigen::Vector2d>>& places() const { return places_; }
+  int alive() const;
+
+ private:
+  std::shared_ptr<const GrayImage> image_;
+  std::vector<std::optional<Eigen::Vector2d>> places_;
+};
+
+// The feature nearest to each place, no further than `radius_px` and each feature at most once (the
+// nearer place has it); -1 where there is none.
+std::vector<int> NearestFeatures(const IndexedFeatures& features,
+                                 const std::vector<std::optional<Eigen::Vector2d>>& places,
+                                 double radius_px);
+
+}  // namespace plumbline

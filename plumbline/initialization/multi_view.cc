@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/multi_view.h"
+
+#include "plumbline/initialization/window_adjustment.h"
+#include "plumbline/initialization/window_covariance.h"
+#include "plumbline/solvers/pose_refinement.h"
+#include "plumbline/solvers/relative_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// Of a measurement in variances: 99 % of two degrees of freedom.
+constexpr double kMaxChi2 = 9.21;
+// Solutions nearer to each other than this are the same.
+constexpr double kSameRotation = 0.3 * kDegree;
+constexpr double kSameDirection = 3 * kDegree;
+// A hypothesis this much worse than the best before adjustment is not worth one.
+constexpr double kHopeless = 2;
+constexpr int kIterations = 6;
+
+struct Explanation {
+  WindowSolution solution;
+  WindowFit fit;
+};
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<RayMatch> MatchesOfNewest(const WindowTracks& tracks) {
+  std::vector<RayMatch> matches;
+  const TrackedPoints& newest = tracks.views.back();
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (!newest.Has(k)) continue;
+    matches.push_back({tracks.reference.points[k],
+                       newest.points[k],
+                       tracks.reference.sigmas[k],
+                       newest.sigmas[k]});
+  }
+  return matches;
+}
+
+// Angle between the rays to the newest and to the reference frame, of the median point.
+double ParallaxDeg(const WindowTracks& tracks, const WindowSolution& solution) {
+  const Eigen::Vector3d centre = Inverse(solution.cam_from_reference.back()).translation;
+  std::vector<double> angles;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (!tracks.views.back().Has(k)) continue;
+    const Eigen::Vector3d to_centre = solution.points[k] - centre;
+    const Eigen::Vector3d& point = solution.points[k];
+    angles.push_back(
+        solution.is_known[k] ? std::atan2(point.cross(to_centre).norm(), point.dot(to_centre)) : 0);
+  }
+  return Median(std::move(angles)) / kDegree;
+}
+
+bool IsSame(const WindowSolution& a, const WindowSolution& b) {
+  const Rigid3& pose_a = a.cam_from_reference.back();
+  const Rigid3& pose_b = b.cam_from_reference.back();
+  const Eigen::Vector3d centre_a = Inverse(pose_a).translation;
+  const Eigen::Vector3d centre_b = Inverse(pose_b).translation;
+  const double angle = std::atan2(centre_a.cross(centre_b).norm(), centre_a.dot(centre_b));
+  return AngularDistance(pose_a.rotation, pose_b.rotation) < kSameRotation &&
+         angle < kSameDirection;
+}
+
+// Adds an explanation; of two that are the same the better stays.
+void Insert(Explanation explanation, std::vector<Explanation>& explanations) {
+  const auto same =
+      std::find_if(explanations.begin(), explanations.end(), [&](const Explanation& other) {
+        return IsSame(other.solution, explanation.solution);
+      });
+  if (same == explanations.end()) {
+    explanations.push_back(std::move(explanation));
+  } else if (explanation.fit.cost < same->fit.cost) {
+    *same = std::move(explanation);
+  }
+}
+
+// All hypotheses carried through all frames.
+std::vector<Explanation> Explain(const WindowTracks& tracks,
+                                 const std::vector<WindowHypothesis>& hypotheses,
+                                 const WindowDecisionOptions& options) {
+  std::vector<Explanation> explanations;
+  for (const WindowHypothesis& hypothesis : hypotheses) {
+    auto solution = FactorizeWindow(tracks, hypothesis, options.factorization);
+    if (!solution) continue;
+    const WindowFit fit = Evaluate(tracks, *solution, kMaxChi2);
+    Insert({std::move(*solution), fit}, explanations);
+  }
+  return explanations;
+}
+
+void Adjust(const WindowTracks& tracks, int iterations, Explanation& explanation) {
+  explanation.solution = AdjustWindow(tracks, explanation.solution, iterations);
+  explanation.fit = Evaluate(tracks, explanation.solution, kMaxChi2);
+}
+
+void SortByCost(std::vector<Explanation>& explanations) {
+  std::stable_sort(explanations.begin(), explanations.end(), [](const auto& a, const auto& b) {
+    return a.fit.cost < b.fit.cost;
+  });
+}
+
+// Adjusts all that are worth it. The best first; of those that become the same, the best.
+void AdjustAll(const WindowTracks& tracks, std::vector<Explanation>& explanations) {
+  SortByCost(explanations);
+  const double limit = kHopeless * explanations.front().fit.cost;
+  std::vector<Explanation> adjusted;
+  for (Explanation& e : explanations) {
+    if (e.fit.cost > limit) break;
+    Adjust(tracks, kIterations, e);
+    Insert(std::move(e), adjusted);
+  }
+  explanations = std::move(adjusted);
+  SortByCost(explanations);
+}
+
+// Of the matches, in the standard deviation that they are said to have: by the median distance from
+// the epipolar lines, which has one degree of freedom.
+double NoiseOf(const std::vector<RayMatch>& matches, const RelativePoseHypothesis& hypothesis) {
+  constexpr double kMedianOfChi2 = 0.4549;
+  std::vector<double> chi2;
+  const Eigen::Matrix<double, 3, 2> basis = BasisAcross(hypothesis.b_from_a.translation);
+  for (const RayMatch& match : matches) {
+    const double distance = EvaluateSampson(hypothesis.b_from_a, basis, match).value;
+    chi2.push_back(distance * distance);
+  }
+  return std::sqrt(Median(std::move(chi2)) / kMedianOfChi2);
+}
+
+// The same matches with the noise that they turned out to have.
+WindowTracks WithNoise(WindowTracks tracks, double noise) {
+  const auto scale = [noise](TrackedPoints& view) {
+    for (double& sigma : view.sigmas) sigma *= noise;
+  };
+  scale(tracks.reference);
+  for (TrackedPoints& view : tracks.views) scale(view);
+  return tracks;
+}
+
+// Of the depths of all points of the tracks; those without count as unknown.
+double MedianDepthSigma(const WindowCovariance& covariance) {
+  std::vector<double> sigmas = covariance.relative_depth_sigmas;
+  for (double& sigma : sigmas) {
+    if (sigma < 0) sigma = std::numeric_limits<double>::infinity();
+  }
+  return Median(std::move(sigmas));
+}
+
+// Whether what is promised for a solution is good enough.
+InitializationWait Accuracy(const WindowTracks& tracks,
+                            const Explanation& explanation,
+                            const WindowDecisionOptions& options) {
+  // Where wrong matches raised the noise measured before, that of the rest is smaller; but then its
+  // errors hang together, and less than the whole is not to be promised.
+  const double noise = std::max(1.0, explanation.fit.noise);
+  const auto covariance =
+      ComputeWindowCovariance(tracks, explanation.solution, noise, kMaxChi2 / (noise * noise));
+  if (!covariance) return InitializationWait::kTooLittleParallax;
+  const double depth = MedianDepthSigma(*covariance);
+  const int newest = static_cast<int>(tracks.views.size()) - 1;
+  const PoseAccuracy pose = AccuracyOf(explanation.solution, *covariance, newest);
+  // Depths that are not known at all: there is no parallax.
+  constexpr double kUnknown = 0.3;
+  if (!(depth < kUnknown)) return InitializationWait::kTooLittleParallax;
+  if (depth > options.max_depth || pose.rotation > options.max_rotation_deg * kDegree ||
+      pose.direction > options.max_direction_deg * kDegree) {
+    return InitializationWait::kInaccurate;
+  }
+  return InitializationWait::kNone;
+}
+
+// The best must be good and no other may come near. An explanation that is not out of the question
+// must have had its chance as well: the wrong interpretation of a plane often shows more parallax
+// and so seems to be known before the right one is.
+InitializationWait Judge(const WindowTracks& tracks,
+                         const std::vector<Explanation>& explanations,
+                         const WindowDecisionOptions& options) {
+  const Explanation& best = explanations.front();
+  if (best.fit.inliers < options.min_inlier_share * best.fit.measurements) {
+    return InitializationWait::kInaccurate;
+  }
+  if (ParallaxDeg(tracks, best.solution) < options.min_parallax_deg) {
+    return InitializationWait::kTooLittleParallax;
+  }
+  for (const Explanation& e : explanations) {
+    if (e.fit.cost > kHopeless * best.fit.cost) break;
+    const InitializationWait accuracy = Accuracy(tracks, e, options);
+    if (accuracy != InitializationWait::kNone) return accuracy;
+  }
+  if (explanations.size() > 1 &&
+      explanations[1].fit.cost < best.fit.cost * (1 + options.min_margin)) {
+    return InitializationWait::kAmbiguous;
+  }
+  return InitializationWait::kNone;
+}
+
+std::vector<WindowSolution> Possible(const std::vector<Explanation>& explanations) {
+  std::vector<WindowSolution> possible;
+  for (const Explanation& e : explanations) {
+    if (e.fit.cost <= kHopeless * explanations.front().fit.cost) possible.push_back(e.solution);
+  }
+  return possible;
+}
+
+WindowDecision Wait(InitializationWait reason) {
+  WindowDecision decision;
+  decision.wait = reason;
+  return decision;
+}
+
+// Whether the points of the window before, which was sure of itself as well, see the newest frame
+// where the solution has it: what two windows find by chance is not the same.
+bool Confirms(const WindowTracks& tracks,
+              const WindowHypothesis& before,
+              const WindowSolution& solution) {
+  const auto pose = PoseOfNewest(tracks, before);
+  if (!pose) return false;
+  return IsSame({{*pose}, {}, {}}, {{solution.cam_from_reference.back()}, {}, {}});
+}
+
+}  // namespace
+
+void WindowMemory::Keep(const WindowTracks& tracks,
+                        const std::vector<WindowSolution>& solutions,
+                        bool sure) {
+  Clear();
+  sure_ = sure;
+  for (const WindowSolution& solution : solutions) {
+    Explanation kept{solution.cam_from_reference.back(), {}};
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+      if (!solution.is_known[k]) continue;
+      kept.inverse_distances[tracks.features[k]] = 1 / solution.points[k].norm();
+    }
+    explanations_.push_back(std::move(kept));
+  }
+}
+
+std::vector<WindowHypothesis> WindowMemory::HypothesesFor(const WindowTracks& tracks) const {
+  std::vector<WindowHypothesis> hypotheses;
+  for (const Explanation& kept : explanations_) {
+    WindowHypothesis hypothesis{kept.newest_from_reference, {}};
+    for (const int feature : tracks.features) {
+      const auto found = kept.inverse_distances.find(feature);
+      hypothesis.inverse_distances.push_back(found == kept.inverse_distances.end() ? 0
+                                                                                   : found->second);
+    }
+    hypotheses.push_back(std::move(hypothesis));
+  }
+  return hypotheses;
+}
+
+WindowDecision DecideWindow(const WindowTracks& tracks,
+                            const WindowDecisionOptions& options,
+                            WindowMemory& memory,
+                            Rng& rng) {
+  const std::vector<RayMatch> matches = MatchesOfNewest(tracks);
+  if (static_cast<int>(matches.size()) < options.min_matches) {
+    return Wait(InitializationWait::kTooFewMatches);
+  }
+  const auto hypotheses = EstimateRelativePoses(matches, options.relative_pose, rng);
+  if (hypotheses.empty()) return Wait(InitializationWait::kInaccurate);
+  const double noise = NoiseOf(matches, hypotheses.front());
+  const WindowTracks scaled = WithNoise(tracks, std::max(options.min_noise, noise));
+  std::vector<WindowHypothesis> starts = memory.HypothesesFor(scaled);
+  for (const RelativePoseHypothesis& h : hypotheses) starts.push_back({h.b_from_a, {}});
+  std::vector<Explanation> explanations = Explain(scaled, starts, options);
+  if (explanations.empty()) return Wait(InitializationWait::kInaccurate);
+  AdjustAll(scaled, explanations);
+  Explanation& best = explanations.front();
+  WindowDecision decision;
+  decision.parallax_deg = ParallaxDeg(scaled, best.solution);
+  decision.wait = Judge(scaled, explanations, options);
+  const bool sure = decision.wait == InitializationWait::kNone;
+  if (sure &&
+      !(memory.sure() && Confirms(scaled, memory.HypothesesFor(scaled).front(), best.solution))) {
+    decision.wait = InitializationWait::kInaccurate;
+  }
+  memory.Keep(scaled, Possible(explanations), sure);
+  if (decision.wait != InitializationWait::kNone) return decision;
+  ScaleToMedianDepth(best.solution);
+  decision.solution = std::move(best.solution);
+  return decision;
+}
+
+}  // namespace plumbline

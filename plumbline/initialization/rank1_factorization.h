@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// What one frame after the reference knows of the reference's points.
+struct Rank1View {
+  Eigen::Quaterniond reference_from_cam;  // rotation alone
+  // Unit vector to the camera's centre, in the reference frame. Its sign does not matter.
+  Eigen::Vector3d centre_direction = Eigen::Vector3d::UnitX();
+  std::vector<Eigen::Vector2d> points;  // ideal image coordinates (x/z, y/z), by point
+  // Standard deviation of each coordinate, by point; 0: not seen in this frame.
+  std::vector<double> sigmas;
+};
+
+struct Rank1Options {
+  int iterations = 5;  // of reweighting; 0: one plain factorization, as the paper
+  // Rays nearer to the line of the centres than this say nothing of the length of the motion.
+  double min_epipole_angle = 0.02;  // radians
+  double loss_width = 2.385;        // of the Cauchy loss, in standard deviations
+};
+
+// Cameras and points that are rank one together.
+struct Rank1Solution {
+  std::vector<Eigen::Vector3d> centres;  // of the views, in the reference frame; unit length in all
+  std::vector<double> inverse_distances;  // by point, along its unit ray; 0 where nothing is known
+  int in_front = 0;                       // points with a positive one
+  int solved = 0;                         // points with any
+  double spread = 0;  // of the residuals, by their median, in standard deviations
+};
+
+// The 3m x n matrix of the first paper's eq. 4: column k has, frame by frame, the camera centre in
+// units of the distance of point k. Noise-free it is centres times inverse distances.
+//
+// By eq. 1-3 as corrected: with p the unit ray of the point in the reference, q its measured ray in
+// the frame turned into the reference (printed: p itself turned), t the direction of the centre and
+// c = t . q, the lengths of t and q that bring a = s0 t and b = p - s q together are
+//
+//   s0 = (t.p - c q.p) / (1 - c^2),  s = (q.p - c t.p) / (1 - c^2)
+//
+// and the entry is (a + b) / 2. Its error is that of the rays over the sine of the angle between t
+// and q, whence the weights of the factorization.
+class Rank1Matrix {
+ public:
+  // All views with as many points and sigmas as `reference_points` (BugError otherwise).
+  Rank1Matrix(std::span<const Eigen::Vector2d> reference_points,
+              std::span<const Rank1View> views,
+              double min_epipole_angle);
+
+  const Eigen::MatrixXd& entries() const { return entries_; }  // 3m x n; 0 where unknown
+  const Eigen::MatrixXd& weights() const { return weights_; }  // m x n: 1 / variance; 0: unknown
+
+ private:
+  Eigen::MatrixXd entries_;
+  Eigen::MatrixXd weights_;
+};
+
+// The leading pair of a dense matrix, centres (3m) times inverse distances (n), |centres| = 1, by
+// power iteration on the small Gram matrix. Sign: the majority of the inverse distances is
+// positive. O(9 m^2 n).
+struct RankOne {
+  Eigen::VectorXd centres;
+  Eigen::VectorXd inverse_distances;
+};
+RankOne LeadingPair(const Eigen::MatrixXd& entries);
+
+// Solves for all centres and inverse distances at once (eq. 5).
+//
+// The first solution is that of an SVD, with columns scaled by their noise and unknown entries left
+// zero; then points and cameras are solved for in turn by weighted least squares (the "reweighted"
+// error that an SVD cannot have), the weights from the noise of each entry and the Cauchy loss of
+// its residual, whose scale is measured by the median.
+//
+//   views    at least one
+//   returns  nullopt where fewer than 3 points have an entry, or a frame has none
+//   cost     O(m n) for each iteration
+std::optional<Rank1Solution> FactorizeRank1(std::span<const Eigen::Vector2d> reference_points,
+                                            std::span<const Rank1View> views,
+                                            const Rank1Options& options = {});
+
+}  // namespace plumbline

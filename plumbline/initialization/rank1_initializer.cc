@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/rank1_initializer.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+constexpr int kMinFeatures = 60;
+constexpr int kDecisionPoints = 300;
+// Share of the most matches with the reference below which they have died out: those that are left
+// are more and more often wrong.
+constexpr double kDiedOut = 0.3;
+constexpr int kMinPoints = 30;  // of a map
+
+InitializationResult Wait(InitializationWait reason) {
+  InitializationResult result;
+  result.wait = reason;
+  return result;
+}
+
+}  // namespace
+
+Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
+                                   const InitializationOptions& options,
+                                   std::uint64_t seed)
+    : imaging_(imaging), options_(options), seed_(seed), window_(imaging.camera) {
+  const double focal = 0.5 * (imaging.camera.fx + imaging.camera.fy);
+  WindowFactorizationOptions& factorization = decision_.factorization;
+  factorization.interpolate = options.interpolate;
+  factorization.max_interpolation_sigma = options.max_interpolation_px / focal;
+  factorization.min_line_angle = options.min_line_angle_deg * std::numbers::pi / 180;
+  factorization.reweighting = options.reweighting;
+  decision_.relative_pose.method = options.relative_pose;
+}
+
+void Rank1Initializer::Reset() {
+  window_.Reset();
+  memory_.Clear();
+  most_matches_ = 0;
+}
+
+InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
+  using enum InitializationWait;
+  if (static_cast<int>(frame.indexed->features.points.size()) < kMinFeatures) {
+    return Wait(kTooFewFeatures);
+  }
+  if (window_.empty()) {
+    window_.Add(frame);
+    return Wait(kTooFewFrames);
+  }
+  InitializationResult result;
+  result.matches = window_.Add(frame);
+  most_matches_ = std::max(most_matches_, result.matches);
+  if (result.matches < std::max<double>(decision_.min_matches, kDiedOut * most_matches_)) {
+    window_.MoveReference();
+    memory_.Clear();
+    most_matches_ = 0;
+    result.wait = kTooFewMatches;
+  } else if (window_.size() < options_.frames) {
+    result.wait = kTooFewFrames;
+  } else {
+    const int matches = result.matches;
+    result = Attempt();
+    result.matches = matches;
+  }
+  return result;
+}
+
+InitializationResult Rank1Initializer::Attempt() {
+  const std::vector<int> frames = window_.Spread(options_.frames);
+  const WindowTracks tracks = window_.TracksOf(frames, kDecisionPoints);
+  Rng rng(
+      seed_, "initialization", static_cast<std::uint64_t>(window_.frame(frames.back()).id.value));
+  const WindowDecision decision = DecideWindow(tracks, decision_, memory_, rng);
+  InitializationResult result;
+  result.wait = decision.wait;
+  result.parallax_deg = decision.parallax_deg;
+  if (!decision.solution) return result;
+  std::vector<InitialView> views{{window_.reference(), Rigid3{}}};
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    views.push_back({window_.frame(frames[i]), decision.solution->cam_from_reference[i]});
+  }
+  InitialMap map = BuildStructure(
+      imaging_.camera, std::move(views), window_.PointTracks(frames), window_.LineTracks(frames));
+  if (!map.points.empty()) Scale(1 / MedianDepth(map), map);
+  if (static_cast<int>(map.points.size()) < kMinPoints) {
+    result.wait = InitializationWait::kInaccurate;
+    return result;
+  }
+  result.map = std::move(map);
+  return result;
+}
+
+}  // namespace plumbline

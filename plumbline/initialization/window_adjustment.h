@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/initialization/window_tracks.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// How well a solution explains all that was matched.
+struct WindowFit {
+  // Squared reprojection errors over their variances, each at most `max_chi2`, summed over all
+  // matches of all points with the reference: those of points without a place count in full.
+  double cost = 0;
+  int measurements = 0;  // that are summed, two coordinates each
+  int inliers = 0;       // of them within max_chi2
+  // Of a measurement, in the standard deviation assumed: by the median of the errors, which are
+  // smaller than the noise since the parameters follow it.
+  double noise = 0;
+};
+
+//   max_chi2  in variances as assumed
+WindowFit Evaluate(const WindowTracks& tracks, const WindowSolution& solution, double max_chi2);
+
+// A short joint bundle adjustment of all frames and points on the matches alone (interpolated
+// places are not measurements). The reference and, by damping, the unit stay.
+WindowSolution AdjustWindow(const WindowTracks& tracks,
+                            const WindowSolution& solution,
+                            int max_iterations);
+
+// The factor on the unit that brings the median depth in the reference to one, applied.
+void ScaleToMedianDepth(WindowSolution& solution);
+
+}  // namespace plumbline

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/initialization/window_tracks.h"
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// How well a window of frames fixes its cameras and points, to first order.
+struct WindowCovariance {
+  // Of the left perturbations [rotation, translation] of all views, 6 by 6 for each; the scale of
+  // the whole is held.
+  Eigen::MatrixXd poses;
+  // By point, of its depth in the reference over that depth once the scale of all points has been
+  // brought to the true one; negative where the point is not known.
+  std::vector<double> relative_depth_sigmas;
+};
+
+// From the normal equations of the reprojection errors at a solution, the points eliminated: the
+// reference and the unit are fixed, all else is free.
+//
+//   noise    factor on the standard deviations of all measurements
+//   max_chi2 measurements whose squared error exceeds it, in those deviations, do not count
+//   returns  nullopt where the frames do not fix all poses
+//   cost     O(points views^2)
+std::optional<WindowCovariance> ComputeWindowCovariance(const WindowTracks& tracks,
+                                                        const WindowSolution& solution,
+                                                        double noise,
+                                                        double max_chi2);
+
+// Standard deviations of the pose of one view.
+struct PoseAccuracy {
+  double rotation = 0;   // radians, along the worst axis
+  double direction = 0;  // of the line of the two camera centres, radians, along the worst axis
+};
+PoseAccuracy AccuracyOf(const WindowSolution& solution,
+                        const WindowCovariance& covariance,
+                        int view);
+
+}  // namespace plumbline

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/window_factorization.h"
+
+#include "plumbline/initialization/geometric_interpolation.h"
+#include "plumbline/initialization/rank1_factorization.h"
+#include "plumbline/initialization/window_covariance.h"
+#include "plumbline/optimization/pose_only.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+// A point whose inverse distance is not above this part of the median is as good as infinitely far:
+// it is put there, where it still holds the rotations.
+constexpr double kFarthest = 0.02;
+// Of measurements that enter the covariance, in variances: 99.99 % of two degrees of freedom.
+constexpr double kMaxChi2 = 18.4;
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Rank1View ViewOf(const TrackedPoints& seen, const Rigid3& pose) {
+  const Rigid3 reference_from_cam = Inverse(pose);
+  const double length = reference_from_cam.translation.norm();
+  Rank1View view{reference_from_cam.rotation,
+                 length > 0 ? Eigen::Vector3d(reference_from_cam.translation / length)
+                            : Eigen::Vector3d::UnitX(),
+                 seen.points,
+                 seen.sigmas};
+  return view;
+}
+
+double MedianOfPositive(const std::vector<double>& inverse_distances) {
+  std::vector<double> positive;
+  for (const double d : inverse_distances) {
+    if (d > 0) positive.push_back(d);
+  }
+  return Median(std::move(positive));
+}
+
+// The points in space, those near infinity put at `kFarthest`.
+WindowSolution ToSolution(const WindowTracks& tracks,
+                          const std::vector<double>& inverse_distances,
+                          std::vector<Rigid3> poses) {
+  WindowSolution solution{std::move(poses), {}, {}};
+  const double farthest = kFarthest * MedianOfPositive(inverse_distances);
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const double d = inverse_distances[k];
+    const Eigen::Vector3d ray = tracks.reference.points[k].homogeneous().normalized();
+    const bool known = d > -farthest && d != 0 && farthest > 0;
+    solution.points.push_back(known ? Eigen::Vector3d(ray / std::max(d, farthest)) : ray);
+    solution.is_known.push_back(known);
+  }
+  return solution;
+}
+
+// Inverse distances from two frames alone: a factorization of one view.
+std::optional<WindowSolution> PointsOfTwoFrames(const WindowTracks& tracks, const Rigid3& newest) {
+  const Rank1View view = ViewOf(tracks.views.back(), newest);
+  const auto factors =
+      FactorizeRank1(tracks.reference.points, std::span(&view, 1), {.iterations = 0});
+  if (!factors || 2 * factors->in_front <= factors->solved) return std::nullopt;
+  const double sign = view.centre_direction.dot(factors->centres.front());
+  // Most points must be in front for the translation as it was given.
+  if (!(sign > 0)) return std::nullopt;
+  std::vector<Rigid3> poses{newest};
+  poses.front().translation.normalize();
+  return ToSolution(tracks, factors->inverse_distances, std::move(poses));
+}
+
+// The pose of a frame between from the points of two frames; nullopt where it does not go with
+// them.
+std::optional<Rigid3> PoseBetween(const WindowTracks& tracks,
+                                  const TrackedPoints& seen,
+                                  const WindowSolution& structure,
+                                  const Rigid3& guess,
+                                  const WindowFactorizationOptions& options) {
+  PoseProblem problem;
+  problem.camera.fx = problem.camera.fy = 1;
+  problem.cam_from_world = guess;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (!structure.is_known[k] || !seen.Has(k)) continue;
+    // The points are not better known than the places they come from.
+    const double sigma = std::sqrt(2.0) * seen.sigmas[k];
+    problem.points.push_back({structure.points[k], {seen.points[k], sigma, std::nullopt}});
+  }
+  if (static_cast<int>(problem.points.size()) < options.min_matches) return std::nullopt;
+  const PoseOnlyResult result = SolvePose(problem);
+  const auto matches = static_cast<double>(problem.points.size());
+  if (result.inlier_points < options.min_matches ||
+      result.inlier_points < options.min_robust_share * matches) {
+    return std::nullopt;
+  }
+  return result.cam_from_world;
+}
+
+// Poses of all views in the unit of the hypothesis, that of the newest frame being held or not.
+std::optional<std::vector<Rigid3>> PosesOfAll(const WindowTracks& tracks,
+                                              const WindowSolution& structure,
+                                              bool newest_held,
+                                              const WindowFactorizationOptions& options) {
+  const Rigid3& newest = structure.cam_from_reference.front();
+  std::vector<Rigid3> poses;
+  const auto m = static_cast<double>(tracks.views.size());
+  const std::size_t solved = tracks.views.size() - (newest_held ? 1 : 0);
+  for (std::size_t i = 0; i < solved; ++i) {
+    const Rigid3 guess = Interpolate({}, newest, static_cast<double>(i + 1) / m);
+    const auto pose = PoseBetween(tracks, tracks.views[i], structure, guess, options);
+    if (!pose) return std::nullopt;
+    poses.push_back(*pose);
+  }
+  if (newest_held) poses.push_back(newest);
+  return poses;
+}
+
+// Factorizes the views and puts the centres found into the poses.
+std::optional<WindowSolution> Factorize(const WindowTracks& tracks,
+                                        const std::vector<TrackedPoints>& seen,
+                                        const std::vector<Rigid3>& poses,
+                                        const WindowFactorizationOptions& options) {
+  std::vector<Rank1View> views;
+  for (std::size_t i = 0; i < seen.size(); ++i) views.push_back(ViewOf(seen[i], poses[i]));
+  const auto factors =
+      FactorizeRank1(tracks.reference.points, views, {.iterations = options.reweighting});
+  if (!factors || 2 * factors->in_front <= factors->solved) return std::nullopt;
+  std::vector<Rigid3> solved = poses;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    solved[i].translation = -(poses[i].rotation * factors->centres[i]);
+  }
+  return ToSolution(tracks, factors->inverse_distances, std::move(solved));
+}
+
+// The views with only the points that all of them show.
+std::vector<TrackedPoints> CompleteTracks(const WindowTracks& tracks) {
+  std::vector<TrackedPoints> complete = tracks.views;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const bool all = std::all_of(tracks.views.begin(),
+                                 tracks.views.end(),
+                                 [k](const TrackedPoints& view) { return view.Has(k); });
+    if (all) continue;
+    for (TrackedPoints& view : complete) view.sigmas[k] = 0;
+  }
+  return complete;
+}
+
+// The views completed by interpolation between the reference and the newest.
+std::vector<TrackedPoints> Interpolated(const WindowTracks& tracks,
+                                        const WindowSolution& solution,
+                                        const WindowFactorizationOptions& options) {
+  std::vector<TrackedPoints> completed = tracks.views;
+  const auto covariance = ComputeWindowCovariance(tracks, solution, 1, kMaxChi2);
+  if (!covariance) return completed;
+  const TrackedPoints& newest = tracks.views.back();
+  const auto last = static_cast<Eigen::Index>(6 * (tracks.views.size() - 1));
+  for (std::size_t i = 0; i + 1 < completed.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(6 * i);
+    InterpolationPoses poses{solution.cam_from_reference[i], solution.cam_from_reference.back()};
+    poses.covariance << covariance->poses.block<6, 6>(row, row),
+        covariance->poses.block<6, 6>(row, last), covariance->poses.block<6, 6>(last, row),
+        covariance->poses.block<6, 6>(last, last);
+    const GeometricInterpolation interpolation(poses);
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+      if (completed[i].Has(k) || !newest.Has(k)) continue;
+      const auto place = interpolation.Interpolate(tracks.reference.points[k],
+                                                   tracks.reference.sigmas[k],
+                                                   newest.points[k],
+                                                   newest.sigmas[k]);
+      if (!place || place->line_angle < options.min_line_angle) continue;
+      const double sigma = std::sqrt(place->covariance.trace() / 2);
+      if (!(sigma <= options.max_interpolation_sigma)) continue;
+      completed[i].points[k] = place->point;
+      completed[i].sigmas[k] = sigma;
+    }
+  }
+  return completed;
+}
+
+}  // namespace
+
+std::optional<Rigid3> PoseOfNewest(const WindowTracks& tracks, const WindowHypothesis& hypothesis) {
+  const Rigid3& guess = hypothesis.newest_from_reference;
+  const WindowSolution structure = ToSolution(tracks, hypothesis.inverse_distances, {guess});
+  return PoseBetween(tracks, tracks.views.back(), structure, guess, {});
+}
+
+std::optional<WindowSolution> FactorizeWindow(const WindowTracks& tracks,
+                                              const WindowHypothesis& hypothesis,
+                                              const WindowFactorizationOptions& options) {
+  const bool two_frames = hypothesis.inverse_distances.empty();
+  const Rigid3& newest = hypothesis.newest_from_reference;
+  const auto structure = two_frames ? PointsOfTwoFrames(tracks, newest)
+                                    : ToSolution(tracks, hypothesis.inverse_distances, {newest});
+  if (!structure) return std::nullopt;
+  const auto poses = PosesOfAll(tracks, *structure, two_frames, options);
+  if (!poses) return std::nullopt;
+  if (!options.interpolate) return Factorize(tracks, CompleteTracks(tracks), *poses, options);
+  auto first = Factorize(tracks, CompleteTracks(tracks), *poses, options);
+  // Few complete tracks: what the frames share with the first and the newest must do.
+  if (!first) first = Factorize(tracks, tracks.views, *poses, options);
+  if (!first) return std::nullopt;
+  return Factorize(
+      tracks, Interpolated(tracks, *first, options), first->cam_from_reference, options);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+#include "plumbline/initialization/window_tracks.h"
+
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+struct WindowFactorizationOptions {
+  bool interpolate = true;
+  double max_interpolation_sigma = 0.004;  // of a place that is used, ideal coordinates
+  double min_line_angle = 0;               // of the two epipolar lines, radians
+  int reweighting = 5;                     // steps; 0: the plain factorization
+  double min_robust_share = 0.5;           // of a frame's matches that must fit
+  int min_matches = 20;                    // of a frame, that fit
+};
+
+// Where the solution of a window may begin: the pose of its newest frame and, where an earlier
+// window of the same reference gave them, its points.
+struct WindowHypothesis {
+  Rigid3 newest_from_reference;  // the translation of any length but zero
+  // Along the unit rays, by point of the tracks, 0 where unknown; empty: from the two frames.
+  std::vector<double> inverse_distances;
+};
+
+// The pose of the newest frame from the points of a hypothesis that has them; nullopt where too few
+// of them fit.
+std::optional<Rigid3> PoseOfNewest(const WindowTracks& tracks, const WindowHypothesis& hypothesis);
+
+// All cameras and points of a window at once (first paper, section 2), from one hypothesis.
+//
+// 1. The points of the hypothesis give the poses of the frames between. This is where the two
+//    interpretations of a plane part: each gives poses of its own to all frames. A frame that does
+//    not go with the points ends the hypothesis.
+// 2. Rank-1 factorization of the points that all frames show gives all centres in one unit, so that
+//    poses can be chained.
+// 3. Geometric interpolation places the points that the first and the newest frame show in frames
+//    that do not, where the propagated standard deviation allows; then all are factorized.
+//
+//   returns  nullopt where a frame does not go with the hypothesis, or too few points are left
+std::optional<WindowSolution> FactorizeWindow(const WindowTracks& tracks,
+                                              const WindowHypothesis& hypothesis,
+                                              const WindowFactorizationOptions& options);
+
+}  // namespace plumbline

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/frame_window.h"
+
+#include "tests/support/synthetic_world.h"
+#include <cmath>
+#include <set>
+#include <span>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+struct Sequence {
+  SyntheticWorld world = MakeSyntheticWorld(500, 60);
+  Rng rng{3, "frame_window"};
+  std::vector<SyntheticFrame> sensed;
+
+  InitializationFrame Next() {
+    const int index = static_cast<int>(sensed.size());
+    sensed.push_back(Sense(world, PoseOnPath(index), {.depth = false, .noise = 0.2}, rng));
+    return {FrameId{index}, index * 50'000'000, sensed.back().indexed, nullptr};
+  }
+};
+
+TEST(FrameWindow, SpreadsFramesSinceTheReference) {
+  Sequence sequence;
+  FrameWindow window(sequence.world.camera);
+  EXPECT_TRUE(window.empty());
+  for (int i = 0; i < 11; ++i) window.Add(sequence.Next());
+  EXPECT_EQ(window.size(), 10);
+  EXPECT_EQ(window.reference().id.value, 0);
+  EXPECT_EQ(window.Spread(3), (std::vector<int>{2, 6, 9}));
+  EXPECT_EQ(window.Spread(10).size(), 10U);
+  EXPECT_EQ(window.Spread(20).size(), 10U);
+  EXPECT_EQ(window.frame(window.Spread(3).back()).id.value, 10);
+}
+
+TEST(FrameWindow, TracksShowTheSamePoints) {
+  Sequence sequence;
+  FrameWindow window(sequence.world.camera);
+  int matches = 0;
+  for (int i = 0; i < 7; ++i) matches = window.Add(sequence.Next());
+  EXPECT_GT(matches, 100);
+  const std::vector<int> frames = window.Spread(3);
+  const WindowTracks tracks = window.TracksOf(frames, 80);
+  ASSERT_EQ(tracks.size(), 80U);
+  const RectifiedCamera& camera = sequence.world.camera;
+  double worst = 0;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const auto feature = static_cast<std::size_t>(tracks.features[k]);
+    const std::size_t landmark = sequence.sensed[0].point_truth[feature];
+    const Eigen::Vector3d& position = sequence.world.points[landmark].position;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      if (!tracks.views[i].Has(k)) continue;
+      const Rigid3 pose = PoseOnPath(frames[i] + 1);
+      worst = std::max(
+          worst, (tracks.views[i].points[k] - (pose * position).hnormalized()).norm() * camera.fx);
+    }
+  }
+  EXPECT_LT(worst, 3) << "px";
+  EXPECT_GE(window.PointTracks(frames).size(), 80U);
+  for (const FeatureTrack& track : window.LineTracks(frames)) EXPECT_GE(track.size(), 2U);
+}
+
+TEST(FrameWindow, TakesPointsFromAllOverTheImage) {
+  Sequence sequence;
+  FrameWindow window(sequence.world.camera);
+  for (int i = 0; i < 4; ++i) window.Add(sequence.Next());
+  // Cells of a quarter of the image's focal length: 40 points are in more of them than the
+  // first 40.
+  const auto cells_of = [](std::span<const Eigen::Vector2d> points) {
+    std::set<std::pair<int, int>> cells;
+    for (const Eigen::Vector2d& p : points) {
+      cells.insert(
+          {static_cast<int>(std::floor(4 * p.x())), static_cast<int>(std::floor(4 * p.y()))});
+    }
+    return cells.size();
+  };
+  const auto spread = window.TracksOf(window.Spread(3), 40).reference.points;
+  const auto all = window.TracksOf(window.Spread(3), 100000).reference.points;
+  ASSERT_EQ(spread.size(), 40U);
+  EXPECT_GT(cells_of(spread), cells_of(std::span(all).first(40)) + 2);
+}
+
+TEST(FrameWindow, MovesTheReferenceForward) {
+  Sequence sequence;
+  FrameWindow window(sequence.world.camera);
+  for (int i = 0; i < 9; ++i) window.Add(sequence.Next());
+  window.MoveReference();
+  EXPECT_EQ(window.reference().id.value, 4);
+  EXPECT_EQ(window.size(), 4);
+  EXPECT_EQ(window.frame(3).id.value, 8);
+  EXPECT_GT(window.PointTracks(window.Spread(3)).size(), 50U);
+  window.Reset();
+  EXPECT_TRUE(window.empty());
+  EXPECT_EQ(window.size(), 0);
+}
+
+TEST(FrameWindow, KeepsEverySecondOfTooMany) {
+  Sequence sequence;
+  FrameWindow window(sequence.world.camera);
+  const InitializationFrame first = sequence.Next();
+  window.Add(first);
+  for (int i = 0; i < 41; ++i) {
+    InitializationFrame frame = first;
+    frame.id = FrameId{i + 1};
+    window.Add(frame);
+  }
+  EXPECT_EQ(window.size(), 21);
+  EXPECT_EQ(window.frame(20).id.value, 41);
+  EXPECT_EQ(window.frame(19).id.value - window.frame(18).id.value, 2);
+}
+
+}  // namespace
+}  // namespace plumbline

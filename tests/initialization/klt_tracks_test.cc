@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/klt_tracks.h"
+
+#include "tests/support/moving_poster.h"
+#include "tests/support/synthetic_world.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+std::shared_ptr<const GrayImage> ImageOf(const MovingPoster& poster, int index) {
+  return std::make_shared<const GrayImage>(poster.Frame(index).left);
+}
+
+std::vector<Eigen::Vector2d> Places() {
+  std::vector<Eigen::Vector2d> places;
+  for (int y = 40; y < 270; y += 15) {
+    for (int x = 20; x < 380; x += 15) places.emplace_back(x, y);
+  }
+  return places;
+}
+
+TEST(KltTracks, FollowThePicture) {
+  const MovingPoster poster;
+  const std::vector<Eigen::Vector2d> start = Places();
+  KltTracks tracks(ImageOf(poster, 0), start);
+  EXPECT_EQ(tracks.alive(), static_cast<int>(start.size()));
+  for (int i = 1; i <= 4; ++i) tracks.Follow(ImageOf(poster, i));
+  int right = 0;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    if (!tracks.places()[k]) continue;
+    const Eigen::Vector2d moved = start[k] - Eigen::Vector2d(4 * MovingPoster::kStepPx, 0);
+    right += (*tracks.places()[k] - moved).norm() < 0.5 ? 1 : 0;
+  }
+  EXPECT_GT(tracks.alive(), static_cast<int>(0.5 * static_cast<double>(start.size())));
+  EXPECT_GT(right, 0.9 * tracks.alive());
+}
+
+TEST(KltTracks, AreLostWhereThePictureLeaves) {
+  const MovingPoster poster;
+  KltTracks tracks(ImageOf(poster, 0), {{4, 150}, {6, 100}});
+  for (int i = 1; i <= 6; ++i) tracks.Follow(ImageOf(poster, i));
+  EXPECT_EQ(tracks.alive(), 0);
+}
+
+TEST(NearestFeatures, GivesEachFeatureToTheNearest) {
+  Features features;
+  for (const Eigen::Vector2d& px : {Eigen::Vector2d(50, 50), Eigen::Vector2d(100, 50)}) {
+    features.points.push_back({});
+    features.points.back().px = px;
+  }
+  const auto indexed = IndexFeatures(TestCamera(), std::move(features));
+  const auto nearest = NearestFeatures(
+      *indexed,
+      {Eigen::Vector2d(51, 50), Eigen::Vector2d(50.5, 50), std::nullopt, Eigen::Vector2d(102, 50)},
+      1.5);
+  EXPECT_EQ(nearest, (std::vector<int>{-1, 0, -1, -1}));
+}
+
+}  // namespace
+}  // namespace plumbline

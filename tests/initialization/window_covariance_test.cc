@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/window_covariance.h"
+
+#include "plumbline/initialization/window_adjustment.h"
+
+#include "tests/initialization/window_scene.h"
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::CurvedMotion;
+using testing::MakeWindowScene;
+using testing::WindowScene;
+
+constexpr double kMaxChi2 = 25;
+constexpr double kSigma = 5e-4;
+
+double Median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+// What bundle adjustment makes of many draws of the noise spreads as the covariance says.
+TEST(WindowCovariance, IsThatOfManyDraws) {
+  const std::vector<Rigid3> poses = CurvedMotion(3);
+  const WindowScene exact = MakeWindowScene(1, poses, {.points = 80});
+  WindowTracks tracks = exact.tracks;
+  for (double& sigma : tracks.reference.sigmas) sigma = kSigma;
+  for (TrackedPoints& view : tracks.views) view.sigmas = tracks.reference.sigmas;
+  const auto covariance = ComputeWindowCovariance(tracks, exact.truth, 1, kMaxChi2);
+  ASSERT_TRUE(covariance);
+  constexpr int kDraws = 150;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d direction = Eigen::Matrix3d::Zero();
+  std::vector<double> relative_depths;
+  const Eigen::Vector3d centre = Inverse(poses.back()).translation.normalized();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Rng rng(9, "draw", static_cast<std::uint64_t>(draw));
+    WindowTracks noisy = tracks;
+    for (Eigen::Vector2d& place : noisy.reference.points) place += RandomVector<2>(rng, kSigma);
+    for (TrackedPoints& view : noisy.views) {
+      for (Eigen::Vector2d& place : view.points) place += RandomVector<2>(rng, kSigma);
+    }
+    WindowSolution solved = AdjustWindow(noisy, exact.truth, 15);
+    const Rigid3& newest = solved.cam_from_reference.back();
+    const Eigen::Vector3d w = LogSo3(newest.rotation * poses.back().rotation.conjugate());
+    rotation += w * w.transpose() / kDraws;
+    // In the camera's axes, as the perturbation is.
+    const Eigen::Vector3d turned =
+        newest.rotation * (Inverse(newest).translation.normalized() - centre);
+    direction += turned * turned.transpose() / kDraws;
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < solved.points.size(); ++k) {
+      ratios.push_back(solved.points[k].z() / exact.truth.points[k].z());
+    }
+    const double scale = Median(ratios);
+    for (const double ratio : ratios) relative_depths.push_back(std::abs(ratio / scale - 1));
+  }
+  const int last = static_cast<int>(poses.size()) - 1;
+  const Eigen::Matrix3d predicted = covariance->poses.block<3, 3>(6 * last, 6 * last);
+  EXPECT_NEAR(std::sqrt(rotation.trace() / predicted.trace()), 1, 0.15);
+  const PoseAccuracy accuracy = AccuracyOf(exact.truth, *covariance, last);
+  const auto largest = [](const Eigen::Matrix3d& m) {
+    return std::sqrt(
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues()(2));
+  };
+  EXPECT_NEAR(accuracy.rotation, largest(predicted), 1e-12);
+  EXPECT_NEAR(largest(direction) / accuracy.direction, 1, 0.2);
+  // The median of the absolute value of a normal variable is 0.6745 of its deviation.
+  const double depth = Median(covariance->relative_depth_sigmas);
+  EXPECT_NEAR(Median(relative_depths) / (0.6745 * depth), 1, 0.2);
+}
+
+TEST(WindowCovariance, GrowsWithTheNoise) {
+  const WindowScene scene = MakeWindowScene(2, CurvedMotion(3));
+  const auto one = ComputeWindowCovariance(scene.tracks, scene.truth, 1, kMaxChi2);
+  const auto two = ComputeWindowCovariance(scene.tracks, scene.truth, 2, kMaxChi2);
+  ASSERT_TRUE(one && two);
+  EXPECT_NEAR(two->poses.trace() / one->poses.trace(), 4, 1e-6);
+}
+
+TEST(WindowCovariance, SaysThatATurningCameraKnowsNoDepth) {
+  std::vector<Rigid3> poses = CurvedMotion(3, 1e-4);
+  const WindowScene scene = MakeWindowScene(3, poses);
+  const auto covariance = ComputeWindowCovariance(scene.tracks, scene.truth, 1, kMaxChi2);
+  if (covariance) {
+    EXPECT_GT(Median(covariance->relative_depth_sigmas), 1);
+    EXPECT_GT(AccuracyOf(scene.truth, *covariance, 2).direction, 0.5);
+  }
+  WindowScene empty = MakeWindowScene(4, poses, {.points = 2});
+  EXPECT_FALSE(ComputeWindowCovariance(empty.tracks, empty.truth, 1, kMaxChi2));
+}
+
+}  // namespace
+}  // namespace plumbline
