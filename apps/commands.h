@@ -16,6 +16,7 @@ int EvaluateCommand(std::span<const std::string> arguments);
 int ExperimentCommand(std::span<const std::string> arguments);
 int InfoCommand(std::span<const std::string> arguments);
 int RunCommand(std::span<const std::string> arguments);
+int StartsCommand(std::span<const std::string> arguments);
 int SynthCommand(std::span<const std::string> arguments);
 
 }  // namespace plumbline

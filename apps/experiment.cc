@@ -35,7 +35,8 @@ CommandSyntax Syntax() {
            {"--cache", "DIR", "folder for rendered sequences (default: OUT/sequences)"},
            {"--size",
             "test|full",
-            "of rendered sequences: 376x240 and at most 150 frames, or as the world has it (test)"},
+            "of rendered sequences: 376x240 and at most 150 frames, or as the world has it (the "
+            "experiment's own)"},
            {"--runs", "N", "runs of each variant on each sequence (the experiment's own)"},
            {"--only",
             "PATTERN",
@@ -51,7 +52,7 @@ CommandSyntax Syntax() {
 
 void ListExperiments() {
   for (const Experiment& experiment : Experiments()) {
-    std::cout << fmt::format("{:<12}{}\n", experiment.name, experiment.help);
+    std::cout << fmt::format("{:<24}{}\n", experiment.name, experiment.help);
   }
 }
 
@@ -74,13 +75,14 @@ void ListParts(const Experiment& experiment) {
   }
 }
 
-PlanRequest ReadRequest(const CommandLine& line) {
+PlanRequest ReadRequest(const CommandLine& line, const Experiment& experiment) {
   PlanRequest request;
   const auto out = line.Value("--out");
   if (!out) throw InputError("experiment: expected --out DIR");
   request.out = *out;
   if (const auto data = line.Value("--data")) request.sources.data = *data;
   request.sources.cache = line.Value("--cache").value_or((request.out / "sequences").string());
+  request.sources.size = experiment.size;
   if (const auto size = line.Value("--size")) {
     request.sources.size = ParseChoice<WorldSize>("--size", *size);
   }
@@ -169,7 +171,7 @@ int ExperimentCommand(std::span<const std::string> arguments) {
   }
   const bool quiet = line.Has("--quiet");
   const RunnerOptions options = ReadRunnerOptions(line);
-  const Plan plan = MakePlan(experiment, ReadRequest(line));
+  const Plan plan = MakePlan(experiment, ReadRequest(line, experiment));
   for (const std::string& pattern : plan.missing) {
     if (!quiet) std::cerr << "plumbline: no sequence " << pattern << " found; left out\n";
   }

@@ -29,6 +29,7 @@ struct Command {
 constexpr std::array kCommands = {
     Command{"run", RunCommand, "track the camera through a sequence and map what it sees"},
     Command{"evaluate", EvaluateCommand, "errors of a trajectory against ground truth"},
+    Command{"starts", StartsCommand, "try monocular starts at many frames, against ground truth"},
     Command{"synth", SynthCommand, "render a stereo sequence of an invented world"},
     Command{"experiment", ExperimentCommand, "make the tables and plots of an experiment"},
     Command{"info", InfoCommand, "what is at a path: format, sensors, frames, calibration"},

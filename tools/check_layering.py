@@ -27,11 +27,13 @@ LAYERS = {
     "slam": ["base", "geometry", "image", "features", "optimization", "map", "association",
              "initialization", "tracking", "mapping"],
     "io": ["base", "geometry", "image", "features", "map"],
+    "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
+               "slam"],
     "synth": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
     "experiments": ["base", "geometry", "image", "features", "map", "association", "initialization",
-                    "io", "slam", "synth", "eval"],
+                    "io", "slam", "starts", "synth", "eval"],
 }
 # third-party prefix -> the files of plumbline/ that may include it (regular expression). Headers are
 # left out but for three, so that nobody needs more than Eigen and fmt to include the library.

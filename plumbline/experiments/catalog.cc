@@ -5,8 +5,103 @@
 #include "plumbline/base/error.h"
 
 #include <array>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace plumbline {
+namespace {
+
+// Starts on recorded sequences and on the worlds made for them, as large as they are.
+Experiment StartExperiment(const std::string& name,
+                           const std::string& help,
+                           std::vector<Variant> variants,
+                           const std::string& abscissa) {
+  const auto world = [](const char* pattern, const char* frames) {
+    return SequenceChoice{pattern, {frames, "depth=true", "depth_noise=0"}};
+  };
+  // There is too little parallax for any map.
+  const auto still = [&](const char* pattern, const char* frames) {
+    SequenceChoice choice = world(pattern, frames);
+    choice.arguments = {"--least-parallax", "0.5"};
+    return choice;
+  };
+  Experiment experiment;
+  experiment.name = name;
+  experiment.help = help;
+  experiment.sequences = {world("worlds/planar", "frames=500"),
+                          world("worlds/forward", "frames=500"),
+                          world("worlds/lateral", "frames=500"),
+                          world("worlds/office", "frames=400"),
+                          world("worlds/lowtexture", "frames=400"),
+                          still("worlds/rotation", "frames=300"),
+                          still("worlds/static", "frames=200"),
+                          {"euroc/*"},
+                          {"kitti/*"},
+                          {"tum/*"},
+                          {"icl/*"}};
+  experiment.variants = std::move(variants);
+  experiment.metrics = {"starts",          "possible",
+                        "success",         "wrong",
+                        "wrong_rate",      "waiting",
+                        "accepted",        "map_frames",
+                        "map_frames_p95",  "map_seconds",
+                        "map_seconds_p95", "map_parallax",
+                        "rotation_error",  "rotation_error_p95",
+                        "direction_error", "direction_error_p95",
+                        "depth_error",     "depth_error_p95",
+                        "depth_outliers",  "map_points",
+                        "map_lines",       "add_ms",
+                        "add_p95_ms",      "add_max_ms"};
+  experiment.plots = {
+      "success", "wrong", "map_frames", "rotation_error", "direction_error", "depth_error"};
+  experiment.runs = 1;
+  experiment.command = RunCommandKind::kStarts;
+  experiment.size = WorldSize::kFull;
+  // Without ICL, whose depth is not known.
+  const std::vector<std::string> synthetic = {"worlds/*"}, real = {"euroc/*", "kitti/*", "tum/*"};
+  experiment.pools = {{"synthetic", synthetic}, {"real", real}, {"all", synthetic}};
+  experiment.pools.back().patterns.insert(
+      experiment.pools.back().patterns.end(), real.begin(), real.end());
+  experiment.abscissa = abscissa;
+  return experiment;
+}
+
+// Figure 7 of the first paper.
+std::vector<Variant> FrameVariants() {
+  std::vector<Variant> variants;
+  for (const char* method : {"rank1", "rank1_klt"}) {
+    for (int frames = 3; frames <= 10; ++frames) {
+      const std::string number = std::to_string(frames);
+      variants.push_back(
+          {method + ("_m" + number),
+           {std::string("initialization.method=") + method, "initialization.frames=" + number},
+           {},
+           method,
+           static_cast<double>(frames)});
+    }
+  }
+  return variants;
+}
+
+// Figure 8 of the first paper.
+std::vector<Variant> PointVariants() {
+  std::vector<Variant> variants;
+  for (const char* method : {"rank1", "rank1_klt", "two_view"}) {
+    for (const int points : {100, 200, 500, 1000, 2000}) {
+      const std::string number = std::to_string(points);
+      variants.push_back(
+          {method + ("_p" + number),
+           {std::string("initialization.method=") + method, "features.point_count=" + number},
+           {},
+           method,
+           static_cast<double>(points)});
+    }
+  }
+  return variants;
+}
+
+}  // namespace
 
 std::span<const Experiment> Experiments() {
   static const std::array kExperiments = {
@@ -22,6 +117,20 @@ std::span<const Experiment> Experiments() {
                       "lines",        "line_recall", "line_precision", "fps",       "frame_ms",
                       "frame_p95_ms", "cpu_ms",      "first_pose_s",   "memory_mb", "dropped"},
           .plots = {"ate", "rpe_rmse", "roe_rmse", "coverage", "frame_ms"}},
+      StartExperiment("initialization",
+                      "how often, how soon and how well a monocular map begins, by three methods",
+                      {{"rank1", {"initialization.method=rank1"}},
+                       {"rank1_klt", {"initialization.method=rank1_klt"}},
+                       {"two_view", {"initialization.method=two_view"}}},
+                      ""),
+      StartExperiment("initialization_frames",
+                      "monocular starts by the number of frames that are solved together",
+                      FrameVariants(),
+                      "frames after the reference"),
+      StartExperiment("initialization_points",
+                      "monocular starts by the number of points in an image",
+                      PointVariants(),
+                      "points in an image"),
   };
   return kExperiments;
 }

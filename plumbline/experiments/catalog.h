@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -13,7 +16,11 @@ namespace plumbline {
 struct Variant {
   std::string name;                         // also the name of a folder: letters, digits, + - _
   std::vector<std::string> settings;        // KEY=VALUE, as of plumbline run --set
-  std::vector<std::string> arguments = {};  // further arguments of plumbline run: {"--blur", "5"}
+  std::vector<std::string> arguments = {};  // further arguments of the command: {"--blur", "5"}
+  // Where a plot has a curve over a number that differs between the variants: the curve and the
+  // number of this one.
+  std::string curve = {};
+  double abscissa = 0;
 };
 
 // Sequences to run, by name: FOLDER/NAME for what is found in a folder of the data (euroc, kitti,
@@ -22,6 +29,28 @@ struct SequenceChoice {
   std::string pattern;
   std::vector<std::string> world_settings = {};  // KEY=VALUE, as of plumbline synth --set
   std::string label = {};  // for worlds with settings: the sequence is called worlds/NAME@label
+  std::vector<std::string> arguments = {};  // further arguments of the command on these
+};
+
+// Of rendered worlds. Recorded sequences are taken as they are.
+enum class WorldSize {
+  kTest,  // half as wide and high, at most 150 frames
+  kFull,  // as the options of the world have it
+};
+constexpr auto EnumNames(std::type_identity<WorldSize>) {
+  return std::array{std::pair{WorldSize::kTest, "test"}, std::pair{WorldSize::kFull, "full"}};
+}
+
+// The command that makes the figures of a run.
+enum class RunCommandKind {
+  kRun,     // plumbline run
+  kStarts,  // plumbline starts
+};
+
+// Sequences whose starts are also taken together.
+struct SequencePool {
+  std::string name;
+  std::vector<std::string> patterns;  // as SequenceChoice::pattern
 };
 
 // What makes a table or a figure: every variant on every sequence, several times.
@@ -33,6 +62,10 @@ struct Experiment {
   std::vector<std::string> metrics;  // of metrics.h: columns of the table, in this order
   std::vector<std::string> plots;    // metrics that get a plot
   int runs = 5;
+  RunCommandKind command = RunCommandKind::kRun;
+  WorldSize size = WorldSize::kTest;     // unless asked for otherwise
+  std::vector<SequencePool> pools = {};  // kStarts: additional rows
+  std::string abscissa = {};             // what Variant::abscissa is; empty: no plots over it
 };
 
 // The experiments there are. A new one is an entry here and nothing else.

@@ -102,6 +102,46 @@ constexpr std::array kEntries = {
            false,
            2},
           {}},
+    Entry{{"starts", "", "monocular starts that were tried"}, {"/starts/starts"}},
+    Entry{{"possible", "", "starts whose true median parallax reaches 2 degrees in time"},
+          {"/starts/possible"}},
+    Entry{{"success", "%", "of the possible starts: with a right map", kHigher, false, 1},
+          {"/starts/success"}},
+    Entry{{"waiting", "", "possible starts without a map", kLower}, {"/starts/waiting"}},
+    Entry{{"wrong", "", "starts with a wrong map", kLower}, {"/starts/wrong"}},
+    Entry{{"wrong_rate", "%", "starts with a wrong map, of all", kLower, false, 2},
+          {"/starts/wrong_rate"}},
+    Entry{{"accepted", "%", "starts with a map, right or wrong, of all", kNeither, false, 1},
+          {"/starts/accepted"}},
+    Entry{{"map_frames", "", "frames until there is a map, median", kLower},
+          {"/starts/map_frames"}},
+    Entry{{"map_frames_p95", "", "the same, 95th percentile", kLower}, {"/starts/map_frames_p95"}},
+    Entry{{"map_seconds", "s", "of video until there is a map, median", kLower, false, 2},
+          {"/starts/map_seconds"}},
+    Entry{{"map_seconds_p95", "s", "the same, 95th percentile", kLower, false, 2},
+          {"/starts/map_seconds_p95"}},
+    Entry{{"map_parallax", "deg", "true median parallax of a map, median", kNeither, false, 2},
+          {"/starts/map_parallax"}},
+    Entry{{"rotation_error", "deg", "of a map's newest view, median", kLower, false, 3},
+          {"/starts/rotation_error"}},
+    Entry{{"rotation_error_p95", "deg", "the same, 95th percentile", kLower, false, 3},
+          {"/starts/rotation_error_p95"}},
+    Entry{{"direction_error", "deg", "of the way to a map's newest view, median", kLower, false, 2},
+          {"/starts/direction_error"}},
+    Entry{{"direction_error_p95", "deg", "the same, 95th percentile", kLower, false, 2},
+          {"/starts/direction_error_p95"}},
+    Entry{{"depth_error", "%", "inverse depth of a map's points, median", kLower, false, 2},
+          {"/starts/depth_error"}},
+    Entry{{"depth_error_p95", "%", "of the medians of maps, 95th percentile", kLower, false, 2},
+          {"/starts/depth_error_p95"}},
+    Entry{{"depth_outliers", "%", "points off by more than a fifth, median", kLower, false, 1},
+          {"/starts/depth_outliers"}},
+    Entry{{"map_points", "", "points of a map, median"}, {"/starts/map_points"}},
+    Entry{{"map_lines", "", "lines of a map, median"}, {"/starts/map_lines"}},
+    Entry{{"add_ms", "ms", "an initializer takes a frame, median", kLower, kTiming, 2},
+          {"/add/median_ms"}},
+    Entry{{"add_p95_ms", "ms", "the same, 95th percentile", kLower, kTiming, 2}, {"/add/p95_ms"}},
+    Entry{{"add_max_ms", "ms", "the same, most", kLower, kTiming, 2}, {"/add/max_ms"}},
     Entry{{"fps",
            "1/s",
            "frames a second over the whole run, reading and writing included",
@@ -170,6 +210,7 @@ std::optional<double> Evaluate(const Json& summary, const Source& source) {
 
 std::string WhyMissing(const Json& summary, const char* pointer) {
   const std::string_view number = pointer == nullptr ? "" : pointer;
+  if (number.starts_with("/starts")) return "no such start, or the truth is not known";
   if (NumberAt(summary, "/frames/tracked").value_or(0) == 0) return "no frame has a pose";
   if (number.empty()) return "the true lines are not known";
   if (!number.starts_with("/accuracy")) return "not measured";
@@ -202,7 +243,9 @@ std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
       figures.reasons[name] = WhyMissing(summary, entry.source.number);
     }
   }
-  figures.trajectory = ReadText(folder / "trajectory.txt").value_or("");
+  for (const char* name : {"trajectory.txt", "starts.csv"}) {
+    figures.trajectory += ReadText(folder / name).value_or("");
+  }
   return figures;
 }
 

@@ -35,10 +35,12 @@ const Metric* FindMetric(std::string_view name);
 struct RunFigures {
   std::map<std::string, double, std::less<>> values;        // by name of the metric
   std::map<std::string, std::string, std::less<>> reasons;  // why others have none
-  std::string trajectory;  // the bytes of trajectory.txt, to tell whether two runs are the same
+  // The bytes of trajectory.txt or starts.csv, to tell whether two runs are the same.
+  std::string trajectory;
 };
 
-// The figures of a run from the files in its folder (summary.json, trajectory.txt); nullopt where
+// The figures of a run from the files in its folder (summary.json; trajectory.txt or
+// starts.csv); nullopt where
 // summary.json is missing or not whole.
 std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder);
 

@@ -8,6 +8,7 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/crc32.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/starts/start_bench.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -33,12 +34,21 @@ std::optional<std::string> ReadText(const fs::path& path) {
   return text.str();
 }
 
-void CheckSettings(const Experiment& experiment, const std::vector<std::string>& settings) {
-  SlamOptions options;
+template <class Options>
+void CheckSettingsAs(const Experiment& experiment, const std::vector<std::string>& settings) {
+  Options options;
   OptionTable table(options);
   for (const std::string& setting : settings) table.Set(setting);
   for (const Variant& variant : experiment.variants) {
     for (const std::string& setting : variant.settings) table.Set(setting);
+  }
+}
+
+void CheckSettings(const Experiment& experiment, const std::vector<std::string>& settings) {
+  if (experiment.command == RunCommandKind::kStarts) {
+    CheckSettingsAs<StartOptions>(experiment, settings);
+  } else {
+    CheckSettingsAs<SlamOptions>(experiment, settings);
   }
 }
 
@@ -52,6 +62,7 @@ bool IsChosen(const std::string& name, const std::vector<std::string>& only) {
 Job MakeJob(const ExperimentSequence& sequence,
             const Variant& variant,
             int run,
+            RunCommandKind command,
             const PlanRequest& request) {
   std::vector<std::string> arguments = {
       "--seed", std::to_string(run), "--from", std::to_string(run - 1)};
@@ -71,7 +82,8 @@ Job MakeJob(const ExperimentSequence& sequence,
                         sequence.name,
                         sequence.identity,
                         fmt::join(arguments, " "));
-  job.command = {"run", sequence.path.string(), "--out", job.folder.string(), "--quiet"};
+  const std::string name = command == RunCommandKind::kStarts ? "starts" : "run";
+  job.command = {name, sequence.path.string(), "--out", job.folder.string(), "--quiet"};
   job.command.insert(job.command.end(), arguments.begin(), arguments.end());
   return job;
 }
@@ -115,7 +127,7 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
       const Variant& variant = experiment.variants[v];
       if (!IsChosen(sequence.name + "/" + variant.name, request.only)) continue;
       for (int run = 1; run <= runs; ++run) {
-        jobs.push_back(MakeJob(sequence, variant, run, request));
+        jobs.push_back(MakeJob(sequence, variant, run, experiment.command, request));
         jobs.back().variant = v;
         jobs.back().sequence = plan.sequences.size();
       }

@@ -4,6 +4,8 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/experiments/dot_plot.h"
+#include "plumbline/experiments/start_plots.h"
+#include "plumbline/experiments/start_pools.h"
 #include "plumbline/experiments/table.h"
 #include "plumbline/experiments/table_page.h"
 #include "plumbline/io/atomic_file.h"
@@ -29,6 +31,7 @@ void RemovePlots(const fs::path& folder) {
 
 std::vector<PagePlot> MakePlots(const Plan& plan, const std::vector<ResultTable>& tables) {
   std::vector<PagePlot> plots;
+  if (!plan.experiment.abscissa.empty()) return plots;  // they are over that
   for (const std::string& name : plan.experiment.plots) {
     for (const ResultTable& table : tables) {
       const auto column = std::find_if(
@@ -39,6 +42,28 @@ std::vector<PagePlot> MakePlots(const Plan& plan, const std::vector<ResultTable>
     }
   }
   return plots;
+}
+
+void WriteTables(const Plan& plan,
+                 const std::vector<JobResult>& results,
+                 const std::vector<PagePlot>& more_plots) {
+  MakeFolder(plan.out / "plots");
+  RemovePlots(plan.out / "plots");
+  std::vector<ResultTable> tables;
+  for (const MetricKind kind : {MetricKind::kRepeatable, MetricKind::kTiming}) {
+    const bool timing = kind == MetricKind::kTiming;
+    tables.push_back(MakeTable(plan, results, kind));
+    WriteFileAtomically(plan.out / (timing ? "timing.json" : "results.json"),
+                        FormatResults(plan.experiment.name, CollectResults(plan, results, kind)));
+    WriteFileAtomically(plan.out / (timing ? "timing.md" : "table.md"),
+                        FormatMarkdown(plan, tables.back()));
+  }
+  std::vector<PagePlot> plots = MakePlots(plan, tables);
+  plots.insert(plots.end(), more_plots.begin(), more_plots.end());
+  for (const PagePlot& plot : plots) {
+    WriteFileAtomically(plan.out / "plots" / (plot.metric + ".svg"), plot.svg);
+  }
+  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots));
 }
 
 }  // namespace
@@ -108,22 +133,14 @@ std::string FormatResults(const std::string& experiment, const std::vector<Resul
 }
 
 void WriteResults(const Plan& plan, const std::vector<JobResult>& results) {
-  MakeFolder(plan.out / "plots");
-  RemovePlots(plan.out / "plots");
-  std::vector<ResultTable> tables;
-  for (const MetricKind kind : {MetricKind::kRepeatable, MetricKind::kTiming}) {
-    const bool timing = kind == MetricKind::kTiming;
-    tables.push_back(MakeTable(plan, results, kind));
-    WriteFileAtomically(plan.out / (timing ? "timing.json" : "results.json"),
-                        FormatResults(plan.experiment.name, CollectResults(plan, results, kind)));
-    WriteFileAtomically(plan.out / (timing ? "timing.md" : "table.md"),
-                        FormatMarkdown(plan, tables.back()));
+  if (plan.experiment.command != RunCommandKind::kStarts) {
+    WriteTables(plan, results, {});
+    return;
   }
-  const std::vector<PagePlot> plots = MakePlots(plan, tables);
-  for (const PagePlot& plot : plots) {
-    WriteFileAtomically(plan.out / "plots" / (plot.metric + ".svg"), plot.svg);
-  }
-  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots));
+  const StartsByJob starts = ReadStartsByJob(plan, results);
+  const PooledResults pooled = WithPools(plan, results, starts);
+  WriteTables(pooled.plan, pooled.results, StartPlots(plan, starts));
+  WriteFileAtomically(plan.out / "starts.csv", FormatStartsByJob(plan, starts));
 }
 
 }  // namespace plumbline

@@ -122,6 +122,8 @@ std::vector<ExperimentSequence> RecordedSequences(const SequenceChoice& choice,
   for (const fs::path& path : paths) {
     if (!MatchesPattern(folder + "/" + path.filename().string(), choice.pattern)) continue;
     sequences.push_back(Recorded(folder, path));
+    auto& arguments = sequences.back().arguments;
+    arguments.insert(arguments.end(), choice.arguments.begin(), choice.arguments.end());
   }
   return sequences;
 }
@@ -150,6 +152,7 @@ std::vector<ExperimentSequence> RenderedSequences(const SequenceChoice& choice,
     sequence.identity = SequenceKey(world.name, options);
     sequence.path = sources.cache / sequence.identity;
     sequence.frames = static_cast<std::size_t>(options.frames);
+    sequence.arguments = choice.arguments;
     sequence.rendered = RenderedWorld{world.name, options};
     sequences.push_back(std::move(sequence));
   }

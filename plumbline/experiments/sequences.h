@@ -5,25 +5,13 @@
 #include "plumbline/experiments/catalog.h"
 #include "plumbline/synth/synth_options.h"
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace plumbline {
-
-// Of rendered worlds. Recorded sequences are taken as they are.
-enum class WorldSize {
-  kTest,  // half as wide and high, at most 150 frames
-  kFull,  // as the options of the world have it
-};
-constexpr auto EnumNames(std::type_identity<WorldSize>) {
-  return std::array{std::pair{WorldSize::kTest, "test"}, std::pair{WorldSize::kFull, "full"}};
-}
 
 // A sequence that is to be rendered where it is not in the cache (sequence_cache.h).
 struct RenderedWorld {

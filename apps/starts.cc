@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/options_io.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/io/text_rows.h"
+#include "plumbline/starts/start_bench.h"
+#include "plumbline/starts/start_figures.h"
+
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "apps/stop_signal.h"
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+CommandSyntax Syntax() {
+  return {"starts",
+          "Tries to start a monocular map at many frames of a sequence, each by itself, and "
+          "compares the maps with\nthe ground truth. Writes starts.csv and summary.json.",
+          {"PATH"},
+          {{"--camera", "FILE", "camera file, or the name of a built-in camera"},
+           {"--config", "FILE", "options from a YAML file; may be repeated"},
+           {"--set", "KEY=VALUE", "one option; may be repeated"},
+           {"--seed", "N", "of everything random (0)"},
+           {"--from", "N", "first start (0)"},
+           {"--every", "N", "from one start to the next, frames (5)"},
+           {"--start", "N", "only the start at this frame; may be repeated"},
+           {"--seconds", "N", "of video until there must be a map (2)"},
+           {"--least-parallax",
+            "DEG",
+            "a map from less true parallax is wrong however small its errors are (0)"},
+           {"--out", "DIR", "folder for the results"},
+           {"--quiet", "", "print nothing but errors"}}};
+}
+
+struct Setup {
+  StartOptions options;
+  std::string options_yaml;
+  std::optional<std::string> camera;
+  int seed = 0;
+  std::filesystem::path folder;
+  bool quiet = false;
+};
+
+Setup ReadSetup(const CommandLine& line) {
+  Setup setup;
+  OptionTable table(setup.options);
+  for (const std::string& file : line.Values("--config")) table.LoadFile(file);
+  for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
+  setup.options_yaml = table.Dump();
+  setup.camera = line.Value("--camera");
+  setup.seed = line.Count("--seed", 0, 0);
+  const auto folder = line.Value("--out");
+  if (!folder) throw InputError("starts: expected --out DIR");
+  setup.folder = *folder;
+  setup.quiet = line.Has("--quiet");
+  return setup;
+}
+
+double ReadNumber(const CommandLine& line, const std::string& option) {
+  const auto text = line.Value(option);
+  if (!text) return 0;
+  const auto number = ParseNumber(*text);
+  if (!number || *number < 0) {
+    throw InputError(option + ": expected a number of at least 0, found " + *text);
+  }
+  return *number;
+}
+
+StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
+  StartPlan plan;
+  plan.seconds = line.Count("--seconds", 2, 1);
+  plan.limits.parallax_deg = ReadNumber(line, "--least-parallax");
+  const int from = line.Count("--from", 0, 0);
+  plan.frames = EveryStart(dataset.size(), from, line.Count("--every", 5, 1));
+  if (plan.frames.empty()) {
+    throw InputError(fmt::format(
+        "--from {}: expected a frame with one behind it; there are {}", from, dataset.size()));
+  }
+  if (!line.Has("--start")) return plan;
+  plan.frames.clear();
+  for (const std::string& text : line.Values("--start")) {
+    const auto number = ParseNumber(text);
+    const auto frame = static_cast<int>(number.value_or(-1));
+    if (!number || frame != *number || frame < 0 || frame + 1 >= static_cast<int>(dataset.size())) {
+      throw InputError(
+          fmt::format("--start: expected a frame with one behind it, 0 to {}, found {}",
+                      static_cast<int>(dataset.size()) - 2,
+                      text));
+    }
+    plan.frames.push_back(frame);
+  }
+  std::sort(plan.frames.begin(), plan.frames.end());
+  return plan;
+}
+
+nlohmann::ordered_json Figures(const StartResults& results) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : FiguresOf(results.records)) json[name] = value;
+  return json;
+}
+
+std::string FormatSummary(const Setup& setup,
+                          const std::string& sequence,
+                          const StartResults& results,
+                          double wall_seconds) {
+  nlohmann::ordered_json json = {{"version", PLUMBLINE_VERSION},
+                                 {"sequence", sequence},
+                                 {"seed", setup.seed},
+                                 {"starts", Figures(results)}};
+  if (!results.add_ms.empty()) {
+    json["add"] = {{"median_ms", Percentile(results.add_ms, 0.5)},
+                   {"p95_ms", Percentile(results.add_ms, 0.95)},
+                   {"max_ms", Percentile(results.add_ms, 1)}};
+  }
+  json["wall_seconds"] = wall_seconds;
+  json["options"] = setup.options_yaml;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void PrintResult(const StartResults& results, const Setup& setup) {
+  const auto figures = FiguresOf(results.records);
+  const auto figure = [&](const char* name) {
+    const auto found = figures.find(name);
+    return found == figures.end() ? std::string("unknown") : fmt::format("{:.4g}", found->second);
+  };
+  std::cout << fmt::format(
+      "{} starts, {} possible: {} % right, {} wait; {} wrong of all; {} frames to a map\n"
+      "results in {}\n",
+      figure("starts"),
+      figure("possible"),
+      figure("success"),
+      figure("waiting"),
+      figure("wrong"),
+      figure("map_frames"),
+      setup.folder.string());
+}
+
+}  // namespace
+
+int StartsCommand(std::span<const std::string> arguments) {
+  const CommandLine line(Syntax(), arguments);
+  if (line.help()) {
+    std::cout << HelpText(Syntax());
+    return 0;
+  }
+  const auto start = Clock::now();
+  const Setup setup = ReadSetup(line);
+  const auto dataset =
+      OpenDataset(line.Positional(0), {.sensor = SensorKind::kMono, .camera = setup.camera});
+  if (!dataset->info().ground_truth) {
+    throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
+  }
+  const StartPlan plan = ReadPlan(line, *dataset);
+  MakeFolder(setup.folder);
+  CatchStopSignals();
+  Countdown progress("starts", plan.frames.size(), setup.quiet);
+  const StartResults results = RunStarts(
+      *dataset,
+      setup.camera,
+      setup.options,
+      plan,
+      [&](const ImagingModel& imaging) {
+        return MakeInitializer(
+            imaging, setup.options.initialization, static_cast<std::uint64_t>(setup.seed));
+      },
+      [&](std::size_t done) {
+        progress.Show(done);
+        return !StopRequested();
+      });
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  WriteFileAtomically(setup.folder / "starts.csv", FormatStarts(results.records));
+  WriteFileAtomically(setup.folder / "summary.json",
+                      FormatSummary(setup, dataset->info().name, results, seconds));
+  if (!setup.quiet) PrintResult(results, setup);
+  return results.records.size() == plan.frames.size() ? 0 : 1;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/initialization/initializer.h"
+#include "plumbline/starts/start_errors.h"
+#include "plumbline/starts/start_record.h"
+#include "plumbline/starts/start_truth.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+// The frames of a sequence, as an initializer takes them; nullopt for one that cannot be read. Ids
+// are the numbers of the frames.
+using StartFrames = std::function<std::optional<InitializationFrame>(int frame)>;
+
+// Frames begin, ..., end - 1 are offered until there is a map.
+struct StartRange {
+  int begin = 0, end = 0;
+};
+
+// Tries to start a map at one frame, and holds what comes of it against the truth.
+//
+// The newest view is compared with the first one of the map, which need not be the first frame
+// offered. Frames that cannot be read are left out.
+//
+//   initializer    without frames
+//   milliseconds   the time of each call of Add is appended
+StartRecord TryStart(const StartRange& range,
+                     const StartFrames& frames,
+                     const StartTruth& truth,
+                     const RectifiedCamera& camera,
+                     const StartLimits& limits,
+                     Initializer& initializer,
+                     std::vector<double>& milliseconds);
+
+}  // namespace plumbline
