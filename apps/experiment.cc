@@ -71,7 +71,7 @@ void ListParts(const Experiment& experiment) {
   }
   std::cout << "metrics:\n";
   for (const std::string& name : experiment.metrics) {
-    std::cout << fmt::format("  {:<14}{}\n", name, FindMetric(name)->help);
+    std::cout << fmt::format("  {:<20}{}\n", name, FindMetric(name)->help);
   }
 }
 
