@@ -18,7 +18,7 @@ Experiment StartExperiment(const std::string& name,
                            std::vector<Variant> variants,
                            const std::string& abscissa) {
   const auto world = [](const char* pattern, const char* frames) {
-    return SequenceChoice{pattern, {frames, "depth=true", "depth_noise=0"}};
+    return SequenceChoice{pattern, {frames, "depth=true", "depth_noise=0"}, "depth"};
   };
   // There is too little parallax for any map.
   const auto still = [&](const char* pattern, const char* frames) {

@@ -5,6 +5,7 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/experiments/metrics.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/starts/start_bench.h"
 #include "plumbline/synth/synth_options.h"
 
 #include "tests/io/scratch_folder.h"
@@ -34,10 +35,14 @@ TEST(Catalog, EveryEntryNamesOnlyWhatThereIs) {
     for (const Variant& variant : experiment.variants) {
       EXPECT_TRUE(variants.insert(variant.name).second) << variant.name;
       EXPECT_TRUE(std::regex_match(variant.name, std::regex("[A-Za-z0-9_+-]+"))) << variant.name;
-      SlamOptions options;
+      SlamOptions of_run;
+      StartOptions of_starts;
+      OptionTable table = experiment.command == RunCommandKind::kStarts ? OptionTable(of_starts)
+                                                                        : OptionTable(of_run);
       for (const std::string& setting : variant.settings) {
-        EXPECT_EQ(MessageOf([&] { OptionTable(options).Set(setting); }), "no error");
+        EXPECT_EQ(MessageOf([&] { table.Set(setting); }), "no error");
       }
+      EXPECT_EQ(variant.curve.empty(), experiment.abscissa.empty()) << variant.name;
     }
     for (const SequenceChoice& choice : experiment.sequences) {
       EXPECT_NE(choice.pattern.find('/'), std::string::npos) << choice.pattern;

@@ -27,6 +27,20 @@ TEST(Metrics, AreReadInTheirUnits) {
   EXPECT_EQ(figures->trajectory, "1.0 0 0 0 0 0 0 1\n");
 }
 
+TEST(Metrics, OfStartsAreReadFromTheirSummary) {
+  const ScratchFolder folder;
+  folder.Write("summary.json",
+               R"({"starts": {"success": 97.5, "wrong": 0}, "add": {"median_ms": 1.5}})");
+  folder.Write("starts.csv", "frame\n1\n");
+  const auto figures = ReadFigures(folder.path());
+  ASSERT_TRUE(figures.has_value());
+  EXPECT_DOUBLE_EQ(figures->values.at("success"), 97.5);
+  EXPECT_DOUBLE_EQ(figures->values.at("wrong"), 0);
+  EXPECT_DOUBLE_EQ(figures->values.at("add_ms"), 1.5);
+  EXPECT_EQ(figures->reasons.at("depth_error"), "no such start, or the truth is not known");
+  EXPECT_EQ(figures->trajectory, "frame\n1\n");
+}
+
 TEST(Metrics, SayWhyThereIsNoValue) {
   const ScratchFolder folder;
   folder.Write("summary.json", Summary(0.01));

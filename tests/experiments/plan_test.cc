@@ -143,5 +143,32 @@ TEST(ProgramId, IsThatOfTheBytes) {
   EXPECT_THAT(MessageOf([&] { ProgramId(folder / "none"); }), HasSubstr("cannot read the program"));
 }
 
+TEST(Plan, StartsAreACommandOfTheirOwnWithTheirOwnOptions) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.command = RunCommandKind::kStarts;
+  experiment.sequences[0].arguments = {"--least-parallax", "0.5"};
+  experiment.variants = {{"few", {"initialization.frames=4"}}};
+  const Plan plan = MakePlan(experiment, RequestIn(folder));
+  EXPECT_THAT(plan.jobs[0].command,
+              ElementsAre("starts",
+                          (folder / "data/euroc/a").string(),
+                          "--out",
+                          (folder / "out/runs/euroc/a/few/1").string(),
+                          "--quiet",
+                          "--seed",
+                          "1",
+                          "--from",
+                          "0",
+                          "--least-parallax",
+                          "0.5",
+                          "--set",
+                          "initialization.frames=4"));
+  experiment.variants = {{"few", {"tracking.reference=last_frame"}}};
+  EXPECT_THAT(MessageOf([&] { MakePlan(experiment, RequestIn(folder)); }),
+              HasSubstr("unknown option 'tracking.reference'"));
+}
+
 }  // namespace
 }  // namespace plumbline
