@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/e2e/poster_sequence.h"
+#include "tests/e2e/program.h"
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+Outcome RunStarts(const ScratchFolder& folder, const std::string& more, const char* out = "out") {
+  return RunProgram(
+      folder,
+      "starts " + Quoted(folder / "sequence") + " --out " + Quoted(folder / out) + " " + more);
+}
+
+long Lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+TEST(StartsCommand, WritesTheSameStartsTwice) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  for (const char* out : {"first", "second"}) {
+    const Outcome outcome = RunStarts(folder, "--every 4", out);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("3 starts, "));
+    EXPECT_THAT(outcome.err, HasSubstr("3/3 starts"));
+  }
+  const std::string starts = Contents(folder / "first/starts.csv");
+  EXPECT_EQ(starts, Contents(folder / "second/starts.csv"));
+  EXPECT_EQ(Lines(starts), 4);
+  const auto summary = nlohmann::json::parse(Contents(folder / "first/summary.json"));
+  EXPECT_EQ(summary["starts"]["starts"], 3);
+  EXPECT_EQ(summary["starts"]["possible"], 2) << "from 0 and 4, not from 8";
+  EXPECT_GT(summary["add"]["median_ms"], 0);
+  const Outcome one = RunStarts(folder, "--start 3", "third");
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_THAT(Contents(folder / "third/starts.csv"), HasSubstr("\n3,"));
+}
+
+TEST(StartsCommand, RefusesBadInputInOneLine) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  struct Case {
+    std::string arguments, message;
+  };
+  const std::vector<Case> cases = {
+      {"--from 11", "--from 11: expected a frame with one behind it; there are 12"},
+      {"--start 11", "--start: expected a frame with one behind it, 0 to 10, found 11"},
+      {"--start x", "found x"},
+      {"--least-parallax -1", "--least-parallax: expected a number of at least 0, found -1"},
+      {"--set tracking.reference=last_frame", "unknown option 'tracking.reference'"},
+      {"--set initialization.method=guess", "initialization.method"},
+  };
+  for (const Case& c : cases) {
+    const Outcome outcome = RunStarts(folder, c.arguments);
+    EXPECT_EQ(outcome.code, 2) << c.arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(c.message));
+    EXPECT_EQ(Lines(outcome.err), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder / "out")) << c.arguments;
+  }
+  fs::remove_all(folder / "sequence/mav0/state_groundtruth_estimate0");
+  EXPECT_THAT(RunStarts(folder, "").err, HasSubstr("expected ground truth, found none"));
+}
+
+TEST(StartsCommand, TheExperimentMakesTablesOfThem) {
+  const ScratchFolder folder;
+  fs::create_directories(folder / "data/euroc");
+  fs::rename(WritePosterSequence(folder, 12), folder / "data/euroc/poster");
+  const std::string command = "experiment initialization --only euroc --data " +
+                              Quoted(folder / "data") + " --out " + Quoted(folder / "out");
+  const Outcome outcome = RunProgram(folder, command);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("3 runs; results in "));
+  const std::string table = Contents(folder / "out/table.md");
+  for (const char* method : {"rank1", "rank1_klt", "two_view"}) {
+    EXPECT_THAT(table, HasSubstr("| euroc/poster | " + std::string(method) + " | 1 | 3 | "));
+    EXPECT_THAT(table, HasSubstr("| real | " + std::string(method) + " | 1 | 3 | "));
+  }
+  EXPECT_EQ(Lines(Contents(folder / "out/starts.csv")), 10);
+  EXPECT_THAT(Contents(folder / "out/table.html"), HasSubstr("possible starts with a right map"));
+  const auto results = nlohmann::json::parse(Contents(folder / "out/results.json"));
+  EXPECT_EQ(results[0]["metric"], "starts");
+  EXPECT_EQ(results[0]["value"], 3);
+  const Outcome again = RunProgram(folder, command + " --dry-run");
+  EXPECT_EQ(again.out.find("run   "), std::string::npos) << again.out;
+}
+
+}  // namespace
+}  // namespace plumbline
