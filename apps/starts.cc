@@ -4,6 +4,7 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/text_rows.h"
+#include "plumbline/io/trajectory_io.h"
 #include "plumbline/starts/start_bench.h"
 #include "plumbline/starts/start_figures.h"
 
@@ -45,6 +46,9 @@ CommandSyntax Syntax() {
            {"--least-parallax",
             "DEG",
             "a map from less true parallax is wrong however small its errors are (0)"},
+           {"--poses",
+            "FILE",
+            "compare with this trajectory of the camera (TUM form) in place of the ground truth"},
            {"--out", "DIR", "folder for the results"},
            {"--quiet", "", "print nothing but errors"}}};
 }
@@ -89,6 +93,7 @@ StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
   plan.limits.parallax_deg = ReadNumber(line, "--least-parallax");
   const int from = line.Count("--from", 0, 0);
   plan.frames = EveryStart(dataset.size(), from, line.Count("--every", 5, 1));
+  if (const auto path = line.Value("--poses")) plan.poses = ReadTrajectory(*path).poses;
   if (plan.frames.empty()) {
     throw InputError(fmt::format(
         "--from {}: expected a frame with one behind it; there are {}", from, dataset.size()));
@@ -164,7 +169,7 @@ int StartsCommand(std::span<const std::string> arguments) {
   const Setup setup = ReadSetup(line);
   const auto dataset =
       OpenDataset(line.Positional(0), {.sensor = SensorKind::kMono, .camera = setup.camera});
-  if (!dataset->info().ground_truth) {
+  if (!dataset->info().ground_truth && !line.Has("--poses")) {
     throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
   }
   const StartPlan plan = ReadPlan(line, *dataset);

@@ -34,12 +34,17 @@ bool Offers(const Dataset& dataset, SensorKind kind) {
 
 SequenceTruth::SequenceTruth(const Dataset& mono,
                              const Rectifier& rectifier,
-                             const std::optional<std::string>& camera)
+                             const std::optional<std::string>& camera,
+                             const std::optional<Trajectory>& poses)
     : mono_(mono),
       camera_(rectifier.camera()),
       rectified_from_raw_(rectifier.rectified_left_from_left()) {
   const DatasetInfo& info = mono.info();
-  if (info.ground_truth) poses_ = info.ground_truth->OfCamera(mono.calibration());
+  if (poses) {
+    poses_ = *poses;
+  } else if (info.ground_truth) {
+    poses_ = info.ground_truth->OfCamera(mono.calibration());
+  }
   if (fs::exists(info.path / "mav0" / "depth0" / "data.csv")) {
     OpenDepthImages(info.path / "mav0" / "depth0");
     return;

@@ -19,7 +19,8 @@ namespace plumbline {
 
 // The truth of a recorded or rendered sequence that is also read as monocular.
 //
-// Poses are those of the ground truth, interpolated over gaps of at most 0.25 s. Depth is the best
+// Poses are those of the ground truth, or others where given, interpolated over gaps of at most
+// 0.25 s. Depth is the best
 // there is: exact depth images of a rendered world (mav0/depth0), those of an RGB-D sensor, or the
 // points of the sequence's own stereo pairs, measured in each frame by itself and known to 0.2 px
 // at best.
@@ -28,10 +29,12 @@ class SequenceTruth : public StartTruth {
   //   mono        the sequence as monocular; must outlive this. Frames are numbered as there
   //   rectifier   of its images
   //   camera      as DatasetOptions::camera
+  //   poses       of the camera as delivered, in place of the ground truth; nullopt: that
   // Throws InputError when the sequence cannot be opened.
   SequenceTruth(const Dataset& mono,
                 const Rectifier& rectifier,
-                const std::optional<std::string>& camera);
+                const std::optional<std::string>& camera,
+                const std::optional<Trajectory>& poses = std::nullopt);
 
   std::optional<Rigid3> WorldFromCamera(int frame) const override;
   // Decodes and, of a stereo pair, measures: up to some 100 ms.

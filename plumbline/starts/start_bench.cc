@@ -68,7 +68,7 @@ StartResults RunStarts(const Dataset& mono,
                        const InitializerFactory& make_initializer,
                        const std::function<bool(std::size_t done)>& progress) {
   const FrontEnd front_end(mono.calibration(), options.rectification, options.features);
-  const SequenceTruth truth(mono, front_end.rectifier(), camera);
+  const SequenceTruth truth(mono, front_end.rectifier(), camera, plan.poses);
   const ImagingModel imaging{front_end.rectifier().camera(), options.features.orb.scale_factor};
   MeasuredFrames frames(mono, front_end);
   StartResults results;

@@ -35,6 +35,7 @@ struct StartPlan {
   std::vector<int> frames;  // first frames, ascending
   double seconds = 2;       // of video, until there must be a map
   StartLimits limits;
+  std::optional<Trajectory> poses = std::nullopt;  // as of SequenceTruth
 };
 
 // Every `every`-th frame from `from` on that has another frame behind it.

@@ -44,6 +44,17 @@ TEST(SequenceTruth, TakesPosesAndStereoDepth) {
   EXPECT_GT(near, samples.size() * 9 / 10);
 }
 
+TEST(SequenceTruth, TakesOtherPosesInPlaceOfTheGroundTruth) {
+  const ScratchFolder folder;
+  const Opened opened(WritePosterSequence(folder, 12));
+  const Trajectory poses = {{MovingPoster::StampNs(2), {ExpSo3({0, 0, 1}), {5, 6, 7}}}};
+  const SequenceTruth truth(*opened.mono, opened.rectifier, std::nullopt, poses);
+  EXPECT_FALSE(truth.WorldFromCamera(1));
+  ASSERT_TRUE(truth.WorldFromCamera(2));
+  EXPECT_EQ(truth.WorldFromCamera(2)->translation, Eigen::Vector3d(5, 6, 7));
+  EXPECT_NEAR(AngularDistance(truth.WorldFromCamera(2)->rotation, ExpSo3({0, 0, 1})), 0, 1e-12);
+}
+
 TEST(SequenceTruth, PrefersTheDepthImagesOfARenderedWorld) {
   const ScratchFolder folder;
   const auto path = WritePosterSequence(folder, 12);
