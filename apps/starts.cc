@@ -11,6 +11,7 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/progress.h"
+#include "apps/start_drawing.h"
 #include "apps/stop_signal.h"
 #include <algorithm>
 #include <chrono>
@@ -46,6 +47,7 @@ CommandSyntax Syntax() {
            {"--least-parallax",
             "DEG",
             "a map from less true parallax is wrong however small its errors are (0)"},
+           {"--draw", "", "write start_<frame>.png of every map: two views with points and lines"},
            {"--poses",
             "FILE",
             "compare with this trajectory of the camera (TUM form) in place of the ground truth"},
@@ -157,6 +159,27 @@ void PrintResult(const StartResults& results, const Setup& setup) {
       setup.folder.string());
 }
 
+void DrawMaps(const Dataset& dataset, const Setup& setup, StartPlan& plan) {
+  const Rectifier rectifier(dataset.calibration(), setup.options.rectification);
+  plan.on_map = [&setup, camera = rectifier.camera()](const StartRecord& start,
+                                                      const InitialMap& map) {
+    WriteStartDrawing(map, camera, setup.folder / fmt::format("start_{:06d}.png", start.frame));
+  };
+}
+
+StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& plan) {
+  const auto make_initializer = [&setup](const ImagingModel& imaging) {
+    return MakeInitializer(
+        imaging, setup.options.initialization, static_cast<std::uint64_t>(setup.seed));
+  };
+  Countdown progress("starts", plan.frames.size(), setup.quiet);
+  return RunStarts(
+      dataset, setup.camera, setup.options, plan, make_initializer, [&](std::size_t done) {
+        progress.Show(done);
+        return !StopRequested();
+      });
+}
+
 }  // namespace
 
 int StartsCommand(std::span<const std::string> arguments) {
@@ -165,31 +188,19 @@ int StartsCommand(std::span<const std::string> arguments) {
     std::cout << HelpText(Syntax());
     return 0;
   }
-  const auto start = Clock::now();
+  const auto began = Clock::now();
   const Setup setup = ReadSetup(line);
   const auto dataset =
       OpenDataset(line.Positional(0), {.sensor = SensorKind::kMono, .camera = setup.camera});
   if (!dataset->info().ground_truth && !line.Has("--poses")) {
     throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
   }
-  const StartPlan plan = ReadPlan(line, *dataset);
+  StartPlan plan = ReadPlan(line, *dataset);
   MakeFolder(setup.folder);
+  if (line.Has("--draw")) DrawMaps(*dataset, setup, plan);
   CatchStopSignals();
-  Countdown progress("starts", plan.frames.size(), setup.quiet);
-  const StartResults results = RunStarts(
-      *dataset,
-      setup.camera,
-      setup.options,
-      plan,
-      [&](const ImagingModel& imaging) {
-        return MakeInitializer(
-            imaging, setup.options.initialization, static_cast<std::uint64_t>(setup.seed));
-      },
-      [&](std::size_t done) {
-        progress.Show(done);
-        return !StopRequested();
-      });
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const StartResults results = Run(*dataset, setup, plan);
+  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
   WriteFileAtomically(setup.folder / "starts.csv", FormatStarts(results.records));
   WriteFileAtomically(setup.folder / "summary.json",
                       FormatSummary(setup, dataset->info().name, results, seconds));

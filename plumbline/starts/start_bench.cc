@@ -70,19 +70,15 @@ StartResults RunStarts(const Dataset& mono,
   const FrontEnd front_end(mono.calibration(), options.rectification, options.features);
   const SequenceTruth truth(mono, front_end.rectifier(), camera, plan.poses);
   const ImagingModel imaging{front_end.rectifier().camera(), options.features.orb.scale_factor};
-  MeasuredFrames frames(mono, front_end);
+  MeasuredFrames measured(mono, front_end);
+  const StartFrames frames = [&measured](int index) { return measured.Get(index); };
+  const StartTask task{frames, truth, imaging.camera, plan.limits, plan.on_map};
   StartResults results;
   for (const int first : plan.frames) {
-    frames.ForgetBefore(first);
+    measured.ForgetBefore(first);
     const auto initializer = make_initializer(imaging);
-    results.records.push_back(TryStart(
-        RangeOf(mono, first, plan.seconds),
-        [&frames](int index) { return frames.Get(index); },
-        truth,
-        imaging.camera,
-        plan.limits,
-        *initializer,
-        results.add_ms));
+    results.records.push_back(
+        TryStart(RangeOf(mono, first, plan.seconds), task, *initializer, results.add_ms));
     if (progress && !progress(results.records.size())) break;
   }
   return results;

@@ -35,7 +35,8 @@ struct StartPlan {
   std::vector<int> frames;  // first frames, ascending
   double seconds = 2;       // of video, until there must be a map
   StartLimits limits;
-  std::optional<Trajectory> poses = std::nullopt;  // as of SequenceTruth
+  std::optional<Trajectory> poses = std::nullopt;                          // as of SequenceTruth
+  std::function<void(const StartRecord&, const InitialMap&)> on_map = {};  // as of StartTask
 };
 
 // Every `every`-th frame from `from` on that has another frame behind it.

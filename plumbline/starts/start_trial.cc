@@ -75,19 +75,16 @@ void Judge(const StartLimits& limits, StartRecord& record) {
 }  // namespace
 
 StartRecord TryStart(const StartRange& range,
-                     const StartFrames& frames,
-                     const StartTruth& truth,
-                     const RectifiedCamera& camera,
-                     const StartLimits& limits,
+                     const StartTask& task,
                      Initializer& initializer,
                      std::vector<double>& milliseconds) {
   StartRecord record;
   record.frame = range.begin;
   record.greatest_parallax_deg =
-      GreatestParallaxDeg(range, truth, truth.DepthAt(range.begin).get(), camera);
+      GreatestParallaxDeg(range, task.truth, task.truth.DepthAt(range.begin).get(), task.camera);
   std::optional<std::int64_t> first_stamp_ns;
   for (int index = range.begin; index < range.end; ++index) {
-    const auto frame = frames(index);
+    const auto frame = task.frames(index);
     if (!frame) continue;
     if (!first_stamp_ns) first_stamp_ns = frame->stamp_ns;
     const auto start = Clock::now();
@@ -96,10 +93,11 @@ StartRecord TryStart(const StartRange& range,
     ++record.offered;
     record.reason = NameOf(result.wait);
     if (!result.map) continue;
-    record.map = DescribeMap(result, truth, camera);
+    record.map = DescribeMap(result, task.truth, task.camera);
     record.map->frames = record.offered;
     record.map->seconds = 1e-9 * static_cast<double>(frame->stamp_ns - *first_stamp_ns);
-    Judge(limits, record);
+    Judge(task.limits, record);
+    if (task.on_map) task.on_map(record, *result.map);
     break;
   }
   return record;

@@ -23,6 +23,16 @@ struct StartRange {
   int begin = 0, end = 0;
 };
 
+// What all starts of a sequence have in common.
+struct StartTask {
+  const StartFrames& frames;
+  const StartTruth& truth;
+  RectifiedCamera camera;
+  StartLimits limits;
+  // Called with every map.
+  std::function<void(const StartRecord&, const InitialMap&)> on_map = {};
+};
+
 // Tries to start a map at one frame, and holds what comes of it against the truth.
 //
 // The newest view is compared with the first one of the map, which need not be the first frame
@@ -31,10 +41,7 @@ struct StartRange {
 //   initializer    without frames
 //   milliseconds   the time of each call of Add is appended
 StartRecord TryStart(const StartRange& range,
-                     const StartFrames& frames,
-                     const StartTruth& truth,
-                     const RectifiedCamera& camera,
-                     const StartLimits& limits,
+                     const StartTask& task,
                      Initializer& initializer,
                      std::vector<double>& milliseconds);
 

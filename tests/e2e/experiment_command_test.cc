@@ -37,7 +37,8 @@ Outcome RunExperiment(const ScratchFolder& folder,
 TEST(ExperimentCommand, ListsWhatThereIsAndWhatItWouldDo) {
   const ScratchFolder folder;
   WriteData(folder);
-  EXPECT_THAT(RunProgram(folder, "experiment --list").out, HasSubstr("sensors                 points"));
+  EXPECT_THAT(RunProgram(folder, "experiment --list").out,
+              HasSubstr("sensors                 points"));
   const Outcome parts = RunProgram(folder, "experiment sensors --list");
   EXPECT_THAT(parts.out, HasSubstr("worlds/* euroc/*"));
   EXPECT_THAT(parts.out, HasSubstr("features.lines=false"));

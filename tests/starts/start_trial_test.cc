@@ -13,9 +13,15 @@ StartRecord Try(Initializer& initializer,
                 const StartTruth& truth,
                 const StartLimits& limits = {},
                 std::vector<double>* times = nullptr) {
+  const StartFrames frames = BlankFrame;
+  int maps = 0;
+  const StartTask task{
+      frames, truth, StartCamera(), limits, [&maps](const auto& /*record*/, const auto& map) {
+        maps += !map.views.empty();
+      }};
   std::vector<double> milliseconds;
-  const StartRecord record =
-      TryStart({1, 12}, BlankFrame, truth, StartCamera(), limits, initializer, milliseconds);
+  const StartRecord record = TryStart({1, 12}, task, initializer, milliseconds);
+  EXPECT_EQ(maps, record.map ? 1 : 0);
   if (times != nullptr) *times = milliseconds;
   return record;
 }
