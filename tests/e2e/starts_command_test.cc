@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -44,6 +45,39 @@ TEST(StartsCommand, WritesTheSameStartsTwice) {
   const Outcome one = RunStarts(folder, "--start 3", "third");
   EXPECT_EQ(one.code, 0) << one.err;
   EXPECT_THAT(Contents(folder / "third/starts.csv"), HasSubstr("\n3,"));
+}
+
+// Starts with a map.
+long Maps(const std::string& starts) {
+  long maps = Lines(starts) - 1;
+  const std::string waiting = ",waiting,";
+  for (auto at = starts.find(waiting); at != std::string::npos; at = starts.find(waiting, at + 1)) {
+    --maps;
+  }
+  return maps;
+}
+
+TEST(StartsCommand, DrawsEveryMap) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  const Outcome outcome = RunStarts(folder, "--every 4 --draw");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  long drawings = 0;
+  for (const std::string& name : FilesOf(folder / "out")) drawings += name.ends_with(".png");
+  EXPECT_EQ(drawings, Maps(Contents(folder / "out/starts.csv")));
+}
+
+TEST(StartsCommand, JudgesByOtherPosesWhereAskedTo) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  std::string still;
+  for (int i = 0; i < 12; ++i) still += fmt::format("{:.9f} 0 0 0 0 0 0 1\n", 1 + 0.05 * i);
+  const Outcome outcome =
+      RunStarts(folder, "--every 4 --poses " + Quoted(folder.Write("still.txt", still)));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(Contents(folder / "out/summary.json"));
+  EXPECT_EQ(summary["starts"]["possible"], 0) << "without motion";
+  EXPECT_EQ(summary["starts"]["wrong"], Maps(Contents(folder / "out/starts.csv")));
 }
 
 TEST(StartsCommand, RefusesBadInputInOneLine) {
