@@ -64,6 +64,7 @@ TEST(StartsCommand, DrawsEveryMap) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   long drawings = 0;
   for (const std::string& name : FilesOf(folder / "out")) drawings += name.ends_with(".png");
+  EXPECT_GT(drawings, 0);
   EXPECT_EQ(drawings, Maps(Contents(folder / "out/starts.csv")));
 }
 
@@ -77,6 +78,7 @@ TEST(StartsCommand, JudgesByOtherPosesWhereAskedTo) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(Contents(folder / "out/summary.json"));
   EXPECT_EQ(summary["starts"]["possible"], 0) << "without motion";
+  EXPECT_GT(summary["starts"]["wrong"], 0);
   EXPECT_EQ(summary["starts"]["wrong"], Maps(Contents(folder / "out/starts.csv")));
 }
 
