@@ -261,10 +261,6 @@ int RunCommand(std::span<const std::string> arguments) {
   const auto start = Clock::now();
   const RunSetup setup = ReadSetup(line);
   const auto dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
-  if (dataset->sensor() == SensorKind::kMono) {
-    throw InputError(dataset->info().path.string() +
-                     ": monocular sequences cannot be run yet; expected stereo or RGB-D data");
-  }
   const std::vector<std::size_t> frames = ChooseFrames(line, *dataset);
   MakeFolder(setup.folder);
   RemoveEarlierRun(setup.folder);

@@ -57,6 +57,17 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   return times;
 }
 
+std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFrameId newest) {
+  std::vector<MappingStep> times;
+  Timed("take_in", times, [&] {
+    map.Apply(edit);
+    Watch(edit);
+  });
+  Timed("adjust", times, [&] { Adjust(map, newest); });
+  Timed("create", times, [&] { CreateLandmarks(map, newest); });
+  return times;
+}
+
 void LocalMapper::TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores) {
   MapEdit edit{edit::AddKeyFrame{keyframe}};
   for (const auto& [id, score] : scores.points) {
@@ -74,17 +85,22 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   const auto create = [&](const auto& creator) {
     const MapEdit edit = creator(map, imaging_, id, options_.creation);
     map.Apply(edit);
-    for (const MapChange& change : edit) {
-      if (const auto* point = std::get_if<edit::AddPoint>(&change)) {
-        young_.points.push_back(point->point.id);
-      } else if (const auto* line = std::get_if<edit::AddLine>(&change)) {
-        young_.lines.push_back(line->line.id);
-      }
-    }
+    Watch(edit);
   };
   create(CreateFromDepth);
   create(CreatePointsFromViews);
   create(CreateLinesFromViews);
+}
+
+// The landmarks that an edit added are young from now on.
+void LocalMapper::Watch(const MapEdit& edit) {
+  for (const MapChange& change : edit) {
+    if (const auto* point = std::get_if<edit::AddPoint>(&change)) {
+      young_.points.push_back(point->point.id);
+    } else if (const auto* line = std::get_if<edit::AddLine>(&change)) {
+      young_.lines.push_back(line->line.id);
+    }
+  }
 }
 
 void LocalMapper::Fuse(Map& map, KeyFrameId id) const {

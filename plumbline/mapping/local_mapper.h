@@ -29,12 +29,17 @@ class LocalMapper {
   // Returns the time of each step, in order.
   std::vector<MappingStep> Add(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
 
+  // Begins a map with several keyframes and their landmarks (an edit of the empty map), of which
+  // `newest` is the last: bundle adjustment of all of it, then as Add. Times as Add's.
+  std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
+
   // Forgets what belongs to the map worked on so far.
   void StartNewMap() { young_ = {}; }
 
  private:
   void TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
   void CreateLandmarks(Map& map, KeyFrameId id);
+  void Watch(const MapEdit& edit);
   void Fuse(Map& map, KeyFrameId id) const;
   void Adjust(Map& map, KeyFrameId id) const;
 

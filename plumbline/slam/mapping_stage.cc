@@ -26,13 +26,23 @@ MappingStage::~MappingStage() {
 }
 
 void MappingStage::Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map) {
+  Submit(frame, std::variant<NewKeyFrame, MapStart>(std::move(keyframe)), starts_map);
+}
+
+void MappingStage::Submit(std::int64_t frame, MapStart start) {
+  Submit(frame, std::variant<NewKeyFrame, MapStart>(std::move(start)), true);
+}
+
+void MappingStage::Submit(std::int64_t frame,
+                          std::variant<NewKeyFrame, MapStart> work,
+                          bool starts_map) {
   ++submitted_;
   if (mode_ != RunMode::kLive || starts_map) {
     dues_.push_back({starts_map ? frame : frame + 1 + lag_, submitted_});
   }
   {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back({submitted_, std::move(keyframe), starts_map});
+    tasks_.push_back({submitted_, std::move(work), starts_map});
   }
   task_added_.notify_one();
 }
@@ -102,7 +112,7 @@ void MappingStage::WorkUntilStopped() {
   }
 }
 
-// Takes in the next keyframe, without holding the lock meanwhile.
+// Does the next task, without holding the lock meanwhile.
 void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   const Task task = std::move(tasks_.front());
   tasks_.pop_front();
@@ -112,9 +122,17 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
     maps_.emplace_back(MapId{static_cast<std::int64_t>(maps_.size())});
   }
   Map& map = maps_.back();
-  const KeyFrame& keyframe = task.keyframe.keyframe;
-  const auto times = mapper_.Add(map, keyframe, task.keyframe.scores);
-  auto snapshot = TakeSnapshot(map, keyframe.id, kSnapshotKeyFrames);
+  KeyFrameId newest;
+  std::vector<MappingStep> times;
+  if (const auto* start = std::get_if<MapStart>(&task.work)) {
+    newest = start->keyframes.back();
+    times = mapper_.Start(map, start->edit, newest);
+  } else {
+    const auto& added = std::get<NewKeyFrame>(task.work);
+    newest = added.keyframe.id;
+    times = mapper_.Add(map, added.keyframe, added.scores);
+  }
+  auto snapshot = TakeSnapshot(map, newest, kSnapshotKeyFrames);
   lock.lock();
   versions_.push_back({task.number, std::move(snapshot)});
   times_.insert(times_.end(), times.begin(), times.end());

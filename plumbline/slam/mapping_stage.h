@@ -6,6 +6,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/local_mapper.h"
+#include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/tracking/tracker.h"
 
@@ -17,6 +18,7 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace plumbline {
@@ -24,7 +26,7 @@ namespace plumbline {
 // The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
 //
 // When a keyframe takes effect is part of the algorithm, not of the machine's speed: one made at
-// frame f is in the snapshot from frame f + 1 + lag on, the first one of a map at once. Inline, the
+// frame f is in the snapshot from frame f + 1 + lag on, the start of a map at once. Inline, the
 // work is done when the snapshot is asked for, in the caller's thread. In lockstep a thread of its
 // own begins as soon as a keyframe comes, and the caller waits for exactly the snapshot that the
 // frame is due: the same bytes. Live, the caller gets the newest snapshot there is and waits only
@@ -41,6 +43,8 @@ class MappingStage {
 
   // Opens a new map when `starts_map`; frames count from 0.
   void Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
+  // Opens a new map that begins with several keyframes.
+  void Submit(std::int64_t frame, MapStart start);
 
   // The map around its newest keyframe as frame `frame` may know it; null before the first
   // keyframe. Rethrows what mapping threw.
@@ -60,10 +64,10 @@ class MappingStage {
   std::vector<MappingStep> TakeTimes();
 
  private:
-  // A keyframe to be taken in. Tasks are numbered from 1 in the order of submission.
+  // Something to be taken in. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
-    NewKeyFrame keyframe;
+    std::variant<NewKeyFrame, MapStart> work;
     bool starts_map = false;
   };
   struct Due {
@@ -75,6 +79,7 @@ class MappingStage {
     std::shared_ptr<const MapSnapshot> snapshot;
   };
 
+  void Submit(std::int64_t frame, std::variant<NewKeyFrame, MapStart> work, bool starts_map);
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
   void DoNext(std::unique_lock<std::mutex>& lock);

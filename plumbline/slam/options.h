@@ -6,6 +6,7 @@
 #include "plumbline/base/options.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/image/rectify.h"
+#include "plumbline/initialization/options.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/tracking/tracker.h"
 
@@ -47,6 +48,7 @@ struct SlamOptions {
   RectifierOptions rectification;
   FeatureOptions features;
   LineOptions lines;
+  InitializationOptions initialization;
   TrackingOptions tracking;
   MappingOptions mapping;
   ExecutionOptions slam;
@@ -58,6 +60,7 @@ void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("rectification", o.rectification, "from raw to ideal images");
   visit("features", o.features, "what is measured in the images");
   visit("lines", o.lines, "how lines enter optimization");
+  visit("initialization", o.initialization, "start of a map from one camera");
   visit("tracking", o.tracking, "pose of each frame");
   visit("mapping", o.mapping, "keyframes, landmarks, local bundle adjustment");
 }

@@ -14,6 +14,14 @@ Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
   return {rectifier.rectified_left_from_left().conjugate(), Eigen::Vector3d::Zero()};
 }
 
+// The camera's motion between the last two views of a map, as a left tangent per second.
+Vector6d LastVelocity(const InitialMap& initial) {
+  const InitialView& last = initial.views.back();
+  const InitialView& before = initial.views[initial.views.size() - 2];
+  const double seconds = 1e-9 * static_cast<double>(last.frame.stamp_ns - before.frame.stamp_ns);
+  return LogSe3(last.cam_from_world * Inverse(before.cam_from_world)) / seconds;
+}
+
 }  // namespace
 
 System::System(const Calibration& calibration, const SlamOptions& options)
@@ -24,7 +32,11 @@ System::System(const Calibration& calibration, const SlamOptions& options)
       tracker_(imaging_,
                options_.tracking,
                options_.lines.weighting,
-               WorldFromFirstCamera(front_end_.rectifier())) {}
+               WorldFromFirstCamera(front_end_.rectifier())) {
+  if (imaging_.camera.baseline == 0) {
+    monocular_start_ = std::make_unique<MonocularStart>(imaging_, options_);
+  }
+}
 
 System::~System() = default;
 
@@ -46,6 +58,16 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   StageClock clock = std::move(measured.clock);
   clock.Done("wait");  // until tracking had time
 
+  const bool start = monocular_start_ && tracker_.state() == TrackerState::kInitializing;
+  TrackingResult result = start ? StartMap(measured, record) : FollowMap(measured, record, clock);
+  clock.Done(start ? "initialize" : "track");
+  record.times = clock.Finish();
+  view_ = {std::move(measured.images), std::move(result.frame)};
+  frames_.push_back(std::move(record));
+  return frames_.back();
+}
+
+TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock) {
   const auto snapshot = mapping_.SnapshotFor(record.id.value);
   clock.Done("map");
   for (const MappingStep& step : mapping_.TakeTimes()) {
@@ -59,12 +81,47 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
     record.keyframe = true;
     maps_started_ += result.starts_map;
   }
-  clock.Done("track");
+  if (monocular_start_ && result.state == TrackerState::kInitializing) monocular_start_->Restart();
   RecordTracking(result, record);
-  record.times = clock.Finish();
-  view_ = {std::move(measured.images), std::move(result.frame)};
-  frames_.push_back(std::move(record));
-  return frames_.back();
+  return result;
+}
+
+// A frame of a single camera that has no map.
+TrackingResult System::StartMap(const MeasuredFrame& measured, FrameRecord& record) {
+  const InitializationResult start = monocular_start_->Offer(record.id, measured);
+  if (start.map) return StartFrom(*start.map, record);
+  record.status = FrameStatus::kInitializing;
+  record.reason = NameOf(start.wait);
+  record.counts.matched_points = start.matches;
+  TrackingResult result;
+  result.frame.id = record.id;
+  result.frame.stamp_ns = record.stamp_ns;
+  result.frame.indexed = measured.indexed;
+  result.frame.points.resize(measured.indexed->features.points.size());
+  result.frame.lines.resize(measured.indexed->features.lines.size());
+  return result;
+}
+
+// The newest view is the frame of today; the others are frames that got their pose later.
+TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record) {
+  const MapStart start = MakeMapStart(
+      initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
+  mapping_.Submit(record.id.value, start);
+  const MapId map{maps_started_++};
+  monocular_start_->MapStarted(map, start);
+  TrackingResult result =
+      tracker_.StartFrom(*mapping_.SnapshotFor(record.id.value), LastVelocity(initial));
+  RecordTracking(result, record);
+  record.keyframe = true;
+  for (std::size_t i = 0; i + 1 < start.frames.size(); ++i) {
+    FrameRecord& earlier = frames_[static_cast<std::size_t>(start.frames[i].value)];
+    earlier.status = FrameStatus::kTracked;
+    earlier.reason.clear();
+    earlier.map = map;
+    earlier.reference = start.keyframes[i];
+    earlier.keyframe = true;
+  }
+  return result;
 }
 
 void System::RecordTracking(const TrackingResult& result, FrameRecord& record) const {
@@ -82,7 +139,19 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) c
   record.causal_world_from_camera = AsDelivered(*result.cam_from_world);
 }
 
-void System::Finish() { mapping_.Finish(); }
+void System::Finish() {
+  mapping_.Finish();
+  if (!monocular_start_) return;
+  for (const EarlierFrame& earlier : monocular_start_->Locate(mapping_.maps())) {
+    FrameRecord& record = frames_[static_cast<std::size_t>(earlier.id.value)];
+    record.status = FrameStatus::kTracked;
+    record.reason.clear();
+    record.map = earlier.map;
+    record.reference = earlier.reference;
+    record.cam_from_reference = earlier.cam_from_reference;
+    record.counts = earlier.counts;
+  }
+}
 
 Rigid3 System::AsDelivered(const Rigid3& rectified_cam_from_world) const {
   const Rigid3 rectified_from_delivered{rectifier().rectified_left_from_left(),

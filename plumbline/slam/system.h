@@ -9,6 +9,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/mapping_stage.h"
+#include "plumbline/slam/monocular_start.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/stage_clock.h"
 #include "plumbline/tracking/tracker.h"
@@ -75,7 +76,8 @@ class System {
   const FrameRecord& Track(MeasuredFrame frame);
   // A frame that could not be read, or was left out.
   const FrameRecord& Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Completes the mapping of all frames so far.
+  // Completes the mapping of all frames so far, and with it the records of frames that came before
+  // a monocular map: they get a pose, but no causal one.
   void Finish();
 
   const std::vector<FrameRecord>& frames() const { return frames_; }
@@ -96,6 +98,9 @@ class System {
 
  private:
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
+  TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
+  TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
+  TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
 
   SlamOptions options_;
@@ -103,6 +108,7 @@ class System {
   ImagingModel imaging_;
   MappingStage mapping_;
   Tracker tracker_;
+  std::unique_ptr<MonocularStart> monocular_start_;  // null where depth is measured
   std::int64_t maps_started_ = 0;
   std::vector<FrameRecord> frames_;
   FrameView view_;

@@ -96,6 +96,27 @@ void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to
   CopyMatches(from.lines, from.line_of_feature, of_map, to.lines, to.line_of_feature);
 }
 
+template <class LandmarkId, class Candidate>
+void Associate(const std::vector<LandmarkId>& ids,
+               const MapSnapshot& snapshot,
+               std::vector<Candidate>& candidates,
+               std::vector<int>& match_of_feature) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto* landmark = ids[i].valid() ? snapshot.Find(ids[i]) : nullptr;
+    if (landmark == nullptr) continue;
+    match_of_feature[i] = static_cast<int>(candidates.size());
+    candidates.push_back({ids[i], *landmark});
+  }
+}
+
+// The matches of a frame of the map.
+FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot) {
+  FrameAssociation association(frame.points.size(), frame.lines.size());
+  Associate(frame.points, snapshot, association.points, association.point_of_feature);
+  Associate(frame.lines, snapshot, association.lines, association.line_of_feature);
+  return association;
+}
+
 }  // namespace
 
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after) {
@@ -156,6 +177,27 @@ TrackingResult Tracker::StartMap(Frame frame) {
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
   last_ = LastFrame{std::move(frame), FrameAssociation(points, lines), newest_keyframe_, Rigid3{}};
+  return result;
+}
+
+TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& velocity) {
+  const Frame& frame = snapshot.reference->frame;
+  newest_keyframe_ = snapshot.centre;
+  next_keyframe_ = KeyFrameId{newest_keyframe_.value + 1};
+  frames_since_keyframe_ = 0;
+  scores_ = {};
+  lost_frames_ = 0;
+  velocity_ = velocity;
+  state_ = NextState(state_, true, 0, options_.new_map_after);
+  FrameAssociation association = AssociationOf(frame, snapshot);
+  TrackingResult result;
+  result.state = state_;
+  result.counts.matched_points = result.counts.inlier_points = association.PointMatches();
+  result.counts.matched_lines = result.counts.inlier_lines = association.LineMatches();
+  result.cam_from_world = frame.cam_from_world;
+  result.reference = newest_keyframe_;
+  result.frame = frame;
+  last_ = LastFrame{frame, std::move(association), newest_keyframe_, Rigid3{}};
   return result;
 }
 

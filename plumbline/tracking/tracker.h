@@ -145,7 +145,14 @@ class Tracker {
                        const MapSnapshot* snapshot,
                        bool mapping_behind = false);
 
+  // Begins to follow a map that was made of several frames: the snapshot is centred on its newest
+  // keyframe, which is made of the frame of today.
+  //   velocity  of the camera there, as a left tangent per second
+  TrackingResult StartFrom(const MapSnapshot& snapshot, const Vector6d& velocity);
+
   TrackerState state() const { return state_; }
+  // The id that the next keyframe will get.
+  KeyFrameId next_keyframe() const { return next_keyframe_; }
 
  private:
   struct LastFrame {

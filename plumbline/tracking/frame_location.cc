@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/frame_location.h"
+
+#include "plumbline/tracking/frame_association.h"
+#include "plumbline/tracking/pose_estimation.h"
+
+namespace plumbline {
+namespace {
+
+FrameAssociation WithLandmarksOf(const MapSnapshot& snapshot, const Features& features) {
+  FrameAssociation association(features.points.size(), features.lines.size());
+  for (const SnapshotPoint& point : snapshot.points) {
+    association.points.push_back({point.id, point});
+  }
+  for (const SnapshotLine& line : snapshot.lines) association.lines.push_back({line.id, line});
+  return association;
+}
+
+}  // namespace
+
+std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
+                                        const IndexedFeatures& image,
+                                        const Rigid3& predicted,
+                                        const MapSnapshot& snapshot,
+                                        LineWeighting weighting,
+                                        const TrackingOptions& options) {
+  for (const double factor : {1.0, options.wide_factor}) {
+    FrameAssociation association = WithLandmarksOf(snapshot, image.features);
+    ProjectionSearchOptions search = options.search;
+    search.point_radius_px = factor * options.first_radius_px;
+    search.line_offset_px = factor * options.first_radius_px;
+    LocatedFrame located;
+    const auto accepted = [&](const Rigid3& initial) {
+      located.counts.matched_points = association.PointMatches();
+      located.counts.matched_lines = association.LineMatches();
+      const PoseEstimate pose = EstimatePose(
+          imaging.camera, image.features, initial, weighting, options.pose, association);
+      located.cam_from_world = pose.cam_from_world;
+      located.counts.inlier_points = pose.inlier_points;
+      located.counts.inlier_lines = pose.inlier_lines;
+      return pose.converged && pose.Inliers() >= options.min_inliers;
+    };
+    MatchCandidates(imaging, image, predicted, search, association);
+    if (!accepted(predicted)) continue;
+    const Rigid3 first = located.cam_from_world;
+    MatchCandidates(imaging, image, first, options.search, association);
+    if (accepted(first)) return located;
+  }
+  return std::nullopt;
+}
+
+}  // namespace plumbline
