@@ -24,7 +24,7 @@ CommandSyntax Syntax() {
           "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
           {"PATH"},
           {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
-           {"--format", "auto|euroc|tum|kitti|images", "how the data is stored (auto)"},
+           {"--format", "auto|euroc|tum|kitti|images|video", "how the data is stored (auto)"},
            {"--camera", "FILE", "camera file or name of a built-in camera"},
            {"--check", "", "decode every image and name those that cannot be used"}}};
 }

@@ -42,7 +42,7 @@ CommandSyntax Syntax() {
           "Tracks the camera through a recorded sequence and maps what it sees.",
           {"PATH"},
           {{"--sensor", "mono|stereo|rgbd", "default: the richest the data offers"},
-           {"--format", "auto|euroc|tum|kitti|images", "default: found out from the folder"},
+           {"--format", "auto|euroc|tum|kitti|images|video", "default: found out from PATH"},
            {"--camera", "FILE", "camera file, or the name of a built-in camera"},
            {"--config", "FILE", "options from a YAML file; may be repeated"},
            {"--set", "KEY=VALUE", "one option; may be repeated"},
@@ -239,8 +239,11 @@ void PrintResult(const System& system, const Dataset& dataset, const RunSetup& s
       counts.lines,
       counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
   if (const auto error = CompareWithGroundTruth(system, dataset)) {
-    std::cout << fmt::format("ATE {:.4f} m RMSE over {} poses, coverage {:.1f} %\n",
+    const double scale = error->reference_from_estimate.scale;
+    const bool mono = dataset.sensor() == SensorKind::kMono;
+    std::cout << fmt::format("ATE {:.4f} m RMSE{} over {} poses, coverage {:.1f} %\n",
                              error->ate.rmse,
+                             mono ? fmt::format(" (scale {:.4g})", scale) : std::string(),
                              error->poses.size(),
                              100.0 * counts.tracked / std::max(counts.frames, 1));
   } else if (counts.tracked > 0) {

@@ -21,6 +21,7 @@ namespace plumbline {
 
 enum class LineWeighting { kNone, kScalar, kCovariance };
 enum class LineResidualKind { kObservedEnds };
+enum class LineReconstruction { kNView, kTwoView };
 
 constexpr auto EnumNames(std::type_identity<LineWeighting>) {
   return std::array{std::pair{LineWeighting::kNone, "none"},
@@ -30,11 +31,16 @@ constexpr auto EnumNames(std::type_identity<LineWeighting>) {
 constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
   return std::array{std::pair{LineResidualKind::kObservedEnds, "observed_ends"}};
 }
+constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
+  return std::array{std::pair{LineReconstruction::kNView, "n_view"},
+                    std::pair{LineReconstruction::kTwoView, "two_view"}};
+}
 
-// How lines enter all optimization.
+// How lines are made from several views and enter all optimization.
 struct LineOptions {
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
+  LineReconstruction reconstruction = LineReconstruction::kNView;
   LineWeighting weighting = LineWeighting::kCovariance;
 };
 
@@ -47,6 +53,10 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
   visit("residual",
         o.residual,
         "observed_ends: distance of the measured end points from the projected line");
+  visit("reconstruction",
+        o.reconstruction,
+        "of a line from several keyframes: n_view (all closest ones together, pairs where they "
+        "disagree), two_view (the closest pair that agrees)");
   visit(
       "weighting",
       o.weighting,

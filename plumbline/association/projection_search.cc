@@ -9,7 +9,8 @@
 namespace plumbline {
 namespace {
 
-constexpr double kNearPlane = 0.05;  // metres
+// Keeps the division by depth finite, no more: a single camera's map has no unit.
+constexpr double kNearPlane = 1e-3;
 constexpr double kDisparityGateSigmas = 4;
 
 double Radians(double degrees) { return degrees * std::numbers::pi / 180; }

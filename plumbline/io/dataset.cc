@@ -8,6 +8,7 @@
 #include "plumbline/io/image_folder.h"
 #include "plumbline/io/kitti.h"
 #include "plumbline/io/tum_rgbd.h"
+#include "plumbline/io/video.h"
 
 #include <system_error>
 
@@ -38,6 +39,7 @@ Trajectory GroundTruth::OfCamera(const Calibration& calibration) const {
 
 std::optional<DatasetFormat> FindFormat(const fs::path& path) {
   std::error_code error;
+  if (fs::is_regular_file(path, error)) return DatasetFormat::kVideo;
   const auto has = [&](const char* name) { return fs::exists(path / name, error); };
   if (has("mav0") || has("cam0")) return DatasetFormat::kEuroc;
   if (has("rgb.txt")) return DatasetFormat::kTum;
@@ -49,10 +51,13 @@ std::optional<DatasetFormat> FindFormat(const fs::path& path) {
 std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
-  if (!fs::is_directory(path, error)) {
-    throw InputError(path.string() + ": expected a folder, found a file");
+  const DatasetFormat format = options.format ? *options.format : DetectFormat(path);
+  const bool folder = fs::is_directory(path, error);
+  if (folder != (format != DatasetFormat::kVideo)) {
+    throw InputError(path.string() + (folder ? ": expected a video file, found a folder"
+                                             : ": expected a folder, found a file"));
   }
-  switch (options.format ? *options.format : DetectFormat(path)) {
+  switch (format) {
     case DatasetFormat::kEuroc:
       return OpenEuroc(path, options);
     case DatasetFormat::kTum:
@@ -61,6 +66,8 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
       return OpenKitti(path, options);
     case DatasetFormat::kImages:
       return OpenImageFolder(path, options);
+    case DatasetFormat::kVideo:
+      return OpenVideo(path, options);
   }
   throw BugError("a format without a reader");
 }

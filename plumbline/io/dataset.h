@@ -28,12 +28,13 @@ constexpr auto EnumNames(std::type_identity<SensorKind>) {
                     std::pair{SensorKind::kRgbd, "rgbd"}};
 }
 
-enum class DatasetFormat { kEuroc, kTum, kKitti, kImages };
+enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo };
 constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
   return std::array{std::pair{DatasetFormat::kEuroc, "euroc"},
                     std::pair{DatasetFormat::kTum, "tum"},
                     std::pair{DatasetFormat::kKitti, "kitti"},
-                    std::pair{DatasetFormat::kImages, "images"}};
+                    std::pair{DatasetFormat::kImages, "images"},
+                    std::pair{DatasetFormat::kVideo, "video"}};
 }
 
 // Reference poses as delivered with a data set, not transformed.
@@ -97,13 +98,13 @@ struct DatasetOptions {
   bool allow_missing_camera = false;
 };
 
-// How the recorded sequence in a folder is stored, from the names in it; nullopt where there is
-// none.
+// How a recorded sequence is stored: a file is a video, a folder tells by the names in it; nullopt
+// where there is none.
 std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
 
 // Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and
-// calib.txt) or a folder of images, and reads its lists, calibration and ground truth, not its
-// images. Throws InputError naming file and line for what is missing or malformed, and where the
+// calib.txt), a folder of images or a video file, and reads its lists, calibration and ground
+// truth, not its images (a video is decoded once, see video.h). Throws InputError naming file and line for what is missing or malformed, and where the
 // data does not offer the sensor asked for.
 std::unique_ptr<Dataset> OpenDataset(const std::filesystem::path& path,
                                      const DatasetOptions& options = {});

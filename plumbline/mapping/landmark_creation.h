@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/options.h"
@@ -24,12 +25,14 @@ MapEdit CreatePointsFromViews(const Map& map,
                               KeyFrameId id,
                               const LandmarkCreationOptions& options);
 
-// New lines from line features without landmark in the keyframe and in up to two of its closest
-// neighbours (section 3.3): n-view reconstruction, kept where the end points of every view lie on
+// New lines from line features without landmark in the keyframe and in up to three of its closest
+// neighbours (section 3.3): n-view reconstruction, from two views where the views disagree or where
+// `reconstruction` says so, kept where the end points of every view lie on
 // the projected line (chi2 95 %) and the interpretation planes meet at a large enough angle.
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,
-                             const LandmarkCreationOptions& options);
+                             const LandmarkCreationOptions& options,
+                             LineReconstruction reconstruction = LineReconstruction::kNView);
 
 }  // namespace plumbline

@@ -89,7 +89,9 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   };
   create(CreateFromDepth);
   create(CreatePointsFromViews);
-  create(CreateLinesFromViews);
+  create([&](const auto&... arguments) {
+    return CreateLinesFromViews(arguments..., lines_.reconstruction);
+  });
 }
 
 // The landmarks that an edit added are young from now on.

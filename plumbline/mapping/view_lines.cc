@@ -86,7 +86,8 @@ std::optional<MapLine> Reconstruct(const Map& map,
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,
-                             const LandmarkCreationOptions& options) {
+                             const LandmarkCreationOptions& options,
+                             LineReconstruction reconstruction) {
   const Frame& frame = map.Find(id)->frame;
   const FreeLines mine(frame);
   std::map<std::size_t, std::vector<LineViewOf>> tracks;  // by feature of this keyframe
@@ -104,9 +105,11 @@ MapEdit CreateLinesFromViews(const Map& map,
   MapEdit edit;
   LineId next = map.NextLineId();
   for (const auto& [feature, views] : tracks) {
-    auto line = Reconstruct(map, imaging.camera, views, min_angle);
+    std::optional<MapLine> line;
+    const bool all = reconstruction == LineReconstruction::kNView && views.size() > 2;
+    if (all) line = Reconstruct(map, imaging.camera, views, min_angle);
     // Two-view fallback: one wrong match spoils three views, but not those of the right pair.
-    for (std::size_t k = 1; !line && views.size() > 2 && k < views.size(); ++k) {
+    for (std::size_t k = 1; !line && k < views.size(); ++k) {
       line = Reconstruct(map, imaging.camera, {views.front(), views[k]}, min_angle);
     }
     if (!line) continue;

@@ -17,8 +17,10 @@
 namespace plumbline {
 namespace {
 
-constexpr double kNearestDepth =
-    0.3;  // metres, in both views; the search along the epipolar line starts here
+// The search along the epipolar line starts at this part of the median depth, in both views: in no
+// unit, since a single camera knows none.
+constexpr double kNearestDepth = 0.05;
+constexpr double kFarthestDepth = 1e4;  // the same
 constexpr double kEpipolarChi2 = 3.84;  // 95 %, one degree of freedom
 constexpr double kDepthSigmas = 3;      // of a measured but poor depth
 constexpr double kMaxScaleRatio = 1.8;  // of octave and distance between the views
@@ -33,10 +35,12 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
                                            const Rigid3& b_from_a,
                                            const PointFeature& feature,
                                            const std::optional<Disparity>& disparity,
+                                           double median_depth,
                                            double slack_px) {
   const Eigen::Vector3d ray = camera.Unproject(feature.px);
-  double near = kNearestDepth;
-  double far = 1e4;
+  const double nearest = kNearestDepth * median_depth;
+  double near = nearest;
+  double far = kFarthestDepth * median_depth;
   if (disparity) {
     const double high = disparity->px + kDepthSigmas * disparity->sigma_px;
     const double low = disparity->px - kDepthSigmas * disparity->sigma_px;
@@ -46,11 +50,11 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
   // In the second view the depth is slope * depth + offset; there, too, it must be large enough.
   const double slope = (b_from_a.rotation * ray).z();
   const double offset = b_from_a.translation.z();
-  if (slope > 0) near = std::max(near, (kNearestDepth - offset) / slope);
-  if (slope < 0) far = std::min(far, (kNearestDepth - offset) / slope);
+  if (slope > 0) near = std::max(near, (nearest - offset) / slope);
+  if (slope < 0) far = std::min(far, (nearest - offset) / slope);
   const Eigen::Vector3d p = b_from_a * (near * ray);
   const Eigen::Vector3d q = b_from_a * (far * ray);
-  if (near > far || std::min(p.z(), q.z()) < 0.5 * kNearestDepth) return std::nullopt;
+  if (near > far || std::min(p.z(), q.z()) < 0.5 * nearest) return std::nullopt;
   const Eigen::Vector2d a = camera.Project(p);
   const Eigen::Vector2d b = camera.Project(q);
   const Eigen::Vector2d slack(slack_px, slack_px);
@@ -63,10 +67,12 @@ class PairSearch {
   PairSearch(const RectifiedCamera& camera,
              const Frame& a,
              const Frame& b,
+             double median_depth,
              const LandmarkCreationOptions& options)
       : camera_(camera),
         a_(a),
         b_(b),
+        median_depth_(median_depth),
         options_(options),
         b_from_a_(b.cam_from_world * Inverse(a.cam_from_world)),
         F_ba_(FundamentalMatrix(camera, b_from_a_)) {}
@@ -74,8 +80,12 @@ class PairSearch {
   // Index of the match in b, for feature i of a.
   std::optional<std::size_t> Find(std::size_t i, const std::vector<bool>& taken_in_b) {
     const PointFeature& feature = a_.features().points[i];
-    const auto window = EpipolarWindow(
-        camera_, b_from_a_, feature, a_.features().point_disparity[i], 2 * feature.sigma_px);
+    const auto window = EpipolarWindow(camera_,
+                                       b_from_a_,
+                                       feature,
+                                       a_.features().point_disparity[i],
+                                       median_depth_,
+                                       2 * feature.sigma_px);
     if (!window) return std::nullopt;
     const Eigen::Vector3d line = F_ba_ * feature.px.homogeneous();
     const double norm2 = line.head<2>().squaredNorm();
@@ -130,11 +140,24 @@ class PairSearch {
   const RectifiedCamera& camera_;
   const Frame& a_;
   const Frame& b_;
+  double median_depth_;
   const LandmarkCreationOptions& options_;
   Rigid3 b_from_a_;
   Eigen::Matrix3d F_ba_;
   std::vector<int> near_;
 };
+
+// Of the points that a keyframe shows; nullopt where it shows none.
+std::optional<double> MedianDepth(const Map& map, const Frame& frame) {
+  std::vector<double> depths;
+  for (const PointId id : frame.points) {
+    if (id.valid()) depths.push_back((frame.cam_from_world * map.Find(id)->position).z());
+  }
+  if (depths.empty()) return std::nullopt;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle > 0 ? std::optional(*middle) : std::nullopt;
+}
 
 MapPoint NewPoint(const Frame& frame, std::size_t i, const Eigen::Vector3d& position) {
   const Eigen::Vector3d from_camera = position - Inverse(frame.cam_from_world).translation;
@@ -154,6 +177,8 @@ MapEdit CreatePointsFromViews(const Map& map,
                               KeyFrameId id,
                               const LandmarkCreationOptions& options) {
   const Frame& frame = map.Find(id)->frame;
+  const std::optional<double> median_depth = MedianDepth(map, frame);
+  if (!median_depth) return {};
   std::vector<bool> done(frame.points.size());
   for (std::size_t i = 0; i < done.size(); ++i) done[i] = frame.points[i].valid();
   MapEdit edit;
@@ -164,7 +189,7 @@ MapEdit CreatePointsFromViews(const Map& map,
   }
   for (const auto& neighbour : neighbours) {
     const Frame& other = map.Find(neighbour.id)->frame;
-    PairSearch search(imaging.camera, frame, other, options);
+    PairSearch search(imaging.camera, frame, other, *median_depth, options);
     std::vector<bool> taken(other.points.size(), false);
     for (std::size_t i = 0; i < done.size(); ++i) {
       if (done[i]) continue;

@@ -11,10 +11,12 @@ KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
   const auto fewer_than = [&](double ratio) {
     return situation.tracked_landmarks < ratio * situation.reference_landmarks;
   };
+  const double min_ratio =
+      situation.monocular ? options.monocular_landmark_ratio : options.min_landmark_ratio;
   if (fewer_than(options.critical_ratio)) return KeyFrameReason::kAlmostLost;
   if (situation.mapping_behind) return KeyFrameReason::kNone;
   if (situation.frames_since_keyframe < options.min_frames) return KeyFrameReason::kNone;
-  if (fewer_than(options.min_landmark_ratio)) return KeyFrameReason::kFewLandmarks;
+  if (fewer_than(min_ratio)) return KeyFrameReason::kFewLandmarks;
   if (needs_close) return KeyFrameReason::kNeedsClosePoints;
   if (situation.frames_since_keyframe >= options.max_frames) return KeyFrameReason::kLongAgo;
   return KeyFrameReason::kNone;

@@ -10,6 +10,7 @@ struct KeyFramePolicyOptions {
   int max_frames = 20;               // a keyframe at the latest after so many frames
   int min_frames = 2;                // and never sooner than this, unless tracking is about to fail
   double min_landmark_ratio = 0.75;  // landmarks tracked of those the last keyframe shows
+  double monocular_landmark_ratio = 0.9;  // the same where new landmarks need a second view
   double critical_ratio = 0.35;      // below this at once
   int min_close = 100;               // enough near landmarks to fix the translation
   int min_new_close = 70;            // near points without landmark that a keyframe would add
@@ -23,6 +24,10 @@ void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
   visit("min_landmark_ratio",
         o.min_landmark_ratio,
         "keyframe when a smaller share of the last keyframe's landmarks is tracked",
+        Range{0, 1});
+  visit("monocular_landmark_ratio",
+        o.monocular_landmark_ratio,
+        "the same for a single camera, whose new landmarks need a second keyframe",
         Range{0, 1});
   visit("critical_ratio", o.critical_ratio, "the same share, without waiting", Range{0, 1});
   visit("min_close", o.min_close, "near points tracked that are enough", Range{0, 10000});
@@ -39,6 +44,7 @@ struct KeyFrameSituation {
   int close_tracked = 0;        // points with good disparity that show a map point
   int close_untracked = 0;      // and that show none
   bool mapping_behind = false;  // live: mapping has not finished earlier keyframes
+  bool monocular = false;       // no depth is measured
 };
 
 // Whether a tracked frame should become a keyframe, and why. A pure function.

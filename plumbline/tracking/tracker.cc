@@ -187,6 +187,7 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   frames_since_keyframe_ = 0;
   scores_ = {};
   lost_frames_ = 0;
+  trial_keyframes_ = options_.trial_keyframes;
   velocity_ = velocity;
   state_ = NextState(state_, true, 0, options_.new_map_after);
   FrameAssociation association = AssociationOf(frame, snapshot);
@@ -385,6 +386,7 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
                                      const FrameAssociation& association,
                                      const MapSnapshot& snapshot) const {
   KeyFrameSituation situation;
+  situation.monocular = imaging_.camera.baseline == 0;
   situation.frames_since_keyframe = static_cast<int>(frames_since_keyframe_);
   for (const PointId id : frame.points) situation.tracked_landmarks += id.valid();
   for (const LineId id : frame.lines) situation.tracked_landmarks += id.valid();
@@ -406,7 +408,9 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
 
 TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
   ++lost_frames_;
-  state_ = NextState(state_, false, lost_frames_, options_.new_map_after);
+  // A map that loses the camera right after its start was a bad one more often than not.
+  const int patience = trial_keyframes_ > 0 ? 1 : options_.new_map_after;
+  state_ = NextState(state_, false, lost_frames_, patience);
   velocity_.setZero();
   TrackingResult result;
   result.state = state_;
@@ -420,6 +424,7 @@ NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame, KeyFrameId parent, KeyFram
   newest_keyframe_ = next_keyframe_;
   next_keyframe_ = KeyFrameId{next_keyframe_.value + 1};
   frames_since_keyframe_ = 0;
+  if (trial_keyframes_ > 0) --trial_keyframes_;
   return {{newest_keyframe_, parent, frame}, reason, std::exchange(scores_, {})};
 }
 

@@ -34,6 +34,7 @@ struct TrackingOptions {
   double first_radius_px = 12;  // search around the predicted place, from the last frame
   double wide_factor = 3;       // the same when that finds too little
   int new_map_after = 10;       // lost frames after which a new map starts
+  int trial_keyframes = 5;      // until then a map of a single camera is given up at once
   ProjectionSearchOptions search;
   PoseOnlyOptions pose;
   KeyFramePolicyOptions keyframes;
@@ -69,6 +70,10 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         o.new_map_after,
         "lost frames after which a new map starts",
         Range{1, 100000});
+  visit("trial_keyframes",
+        o.trial_keyframes,
+        "keyframes after the start from a single camera until which one lost frame ends the map",
+        Range{0, 100});
   visit("search", o.search, "search of landmarks in the image");
   visit("pose", o.pose, "pose from matches");
   visit("keyframes", o.keyframes, "when a frame becomes a keyframe");
@@ -200,6 +205,7 @@ class Tracker {
   KeyFrameId newest_keyframe_;
   std::int64_t frames_since_keyframe_ = 0;
   int lost_frames_ = 0;
+  int trial_keyframes_ = 0;  // still to come until the map is trusted
 };
 
 }  // namespace plumbline

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/video.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/image/opencv_bridge.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/image_dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+cv::VideoCapture OpenCapture(const fs::path& path) {
+  cv::VideoCapture capture;
+  try {
+    capture.open(path.string());
+  } catch (const cv::Exception&) {
+    capture.release();
+  }
+  if (!capture.isOpened()) {
+    throw InputError(path.string() +
+                     ": expected a folder or a video, found a file that cannot be decoded");
+  }
+  capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
+  return capture;
+}
+
+// What is known after going through a video once.
+struct VideoContent {
+  int width = 0, height = 0;
+  double announced_frames = 0;  // by the container
+  double rate_hz = 0;           // 0: not told
+  std::vector<std::int64_t> stamps_ns;
+};
+
+bool Increasing(const std::vector<std::int64_t>& stamps) {
+  return std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()) == stamps.end();
+}
+
+VideoContent Scan(const fs::path& path) {
+  cv::VideoCapture capture = OpenCapture(path);
+  VideoContent content;
+  content.width = static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH));
+  content.height = static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT));
+  content.announced_frames = capture.get(cv::CAP_PROP_FRAME_COUNT);
+  const double rate = capture.get(cv::CAP_PROP_FPS);
+  if (std::isfinite(rate) && rate > 0) content.rate_hz = rate;
+  while (capture.grab()) {
+    const double milliseconds = capture.get(cv::CAP_PROP_POS_MSEC);
+    content.stamps_ns.push_back(std::isfinite(milliseconds) ? std::llround(1e6 * milliseconds) : 0);
+  }
+  if (content.stamps_ns.empty()) {
+    throw InputError(path.string() + ": expected a video, found one without frames");
+  }
+  if (!Increasing(content.stamps_ns)) {
+    if (content.rate_hz == 0) {
+      throw InputError(path.string() +
+                       ": expected times or a frame rate in the container, found neither");
+    }
+    for (std::size_t i = 0; i < content.stamps_ns.size(); ++i) {
+      content.stamps_ns[i] = std::llround(1e9 * static_cast<double>(i) / content.rate_hz);
+    }
+  }
+  return content;
+}
+
+class VideoDataset : public Dataset {
+ public:
+  explicit VideoDataset(DatasetInfo info)
+      : Dataset(std::move(info)), capture_(OpenCapture(this->info().path)) {}
+
+  Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
+    const std::lock_guard lock(mutex_);
+    SensorFrame frame;
+    frame.stamp_ns = stamp_ns(i);
+    if (i < next_) {
+      capture_ = OpenCapture(info().path);
+      next_ = 0;
+    }
+    while (next_ <= i) {
+      if (!capture_.grab()) return Failure(i, "the video ends early");
+      ++next_;
+    }
+    cv::Mat image;
+    if (!capture_.retrieve(image) || image.empty()) return Failure(i, "it cannot be decoded");
+    if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
+    if (image.type() != CV_8UC1) return Failure(i, "expected 8 bits a colour");
+    frame.left = ToImage<std::uint8_t>(image);
+    return frame;
+  }
+
+ private:
+  ImageFailure Failure(std::size_t i, const char* why) const {
+    return {info().path, fmt::format("frame {}: {}", i, why)};
+  }
+
+  mutable std::mutex mutex_;
+  mutable cv::VideoCapture capture_;
+  mutable std::size_t next_ = 0;  // frame that the capture gives next
+};
+
+void CheckSize(const DatasetInfo& info, const VideoContent& content) {
+  const Camera& camera = info.calibration.left;
+  if (content.width == camera.width() && content.height == camera.height()) return;
+  throw InputError(
+      fmt::format("{}: expected a video of {}x{} pixels as in the calibration, found {}x{}",
+                  info.path.string(),
+                  camera.width(),
+                  camera.height(),
+                  content.width,
+                  content.height));
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& options) {
+  DatasetInfo info = DescribeDataset(path, DatasetFormat::kVideo, {SensorKind::kMono}, options);
+  std::optional<CameraFile> camera = GivenCamera(path.parent_path(), options);
+  if (!camera && !options.allow_missing_camera) throw InputError(NoCalibration(path));
+  info.has_calibration = false;
+  if (camera) UseCamera(*std::move(camera), info);
+  VideoContent content = Scan(path);
+  if (info.has_calibration) CheckSize(info, content);
+  const auto frames = static_cast<double>(content.stamps_ns.size());
+  if (content.announced_frames > frames) {
+    info.notes.push_back(fmt::format(
+        "{:.0f} of {:.0f} frames cannot be decoded", content.announced_frames - frames,
+        content.announced_frames));
+  }
+  if (!info.calibration.rate_hz && content.rate_hz > 0) info.calibration.rate_hz = content.rate_hz;
+  info.stamps_ns = std::move(content.stamps_ns);
+  return std::make_unique<VideoDataset>(std::move(info));
+}
+
+}  // namespace plumbline

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/video.h"
+
+#include "plumbline/base/error.h"
+
+#include "tests/io/scratch_folder.h"
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr int kWidth = 160, kHeight = 120, kFrames = 12;
+constexpr double kRate = 25;
+constexpr char kCamera[] = "model: pinhole\nsize: [160, 120]\nintrinsics: [150, 150, 80, 60]\n";
+
+// Grey levels that tell the frames apart.
+int LevelOf(int frame) { return 20 + 15 * frame; }
+
+fs::path WriteVideo(const ScratchFolder& folder) {
+  const fs::path path = folder.path() / "clip.avi";
+  cv::VideoWriter writer(
+      path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), kRate, {kWidth, kHeight});
+  EXPECT_TRUE(writer.isOpened());
+  for (int i = 0; i < kFrames; ++i) {
+    writer.write(cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(LevelOf(i))));
+  }
+  return path;
+}
+
+// Mean grey level of a frame.
+double LevelOf(const Dataset& video, std::size_t i) {
+  const auto frame = video.Read(i);
+  if (!frame) return -1;
+  EXPECT_EQ(frame->stamp_ns, video.stamp_ns(i));
+  EXPECT_FALSE(frame->right || frame->depth);
+  double sum = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) sum += frame->left(x, y);
+  }
+  return sum / (kWidth * kHeight);
+}
+
+std::string MessageOf(const fs::path& path, const DatasetOptions& options) {
+  return MessageOf([&] { OpenDataset(path, options); });
+}
+
+TEST(Video, GivesItsFramesInAnyOrder) {
+  const ScratchFolder folder;
+  const fs::path path = WriteVideo(folder);
+  const std::string camera = folder.Write("mine.yaml", kCamera).string();
+  const auto video = OpenDataset(path, {.camera = camera});
+  EXPECT_EQ(video->info().format, DatasetFormat::kVideo);
+  EXPECT_EQ(video->sensor(), SensorKind::kMono);
+  EXPECT_TRUE(video->info().notes.empty());
+  ASSERT_EQ(video->size(), kFrames);
+  ASSERT_TRUE(video->calibration().rate_hz);
+  EXPECT_NEAR(*video->calibration().rate_hz, kRate, 1e-6);
+  for (std::size_t i = 1; i < video->size(); ++i) {
+    EXPECT_NEAR(static_cast<double>(video->stamp_ns(i) - video->stamp_ns(i - 1)), 1e9 / kRate, 1e3);
+  }
+  for (const std::size_t i : {0U, 1U, 5U, 11U, 3U, 3U}) {  // onwards, with gaps, and back
+    EXPECT_NEAR(LevelOf(*video, i), LevelOf(static_cast<int>(i)), 3) << i;
+  }
+}
+
+TEST(Video, TakesTheCameraFileBesideIt) {
+  const ScratchFolder folder;
+  const fs::path path = WriteVideo(folder);
+  EXPECT_THAT(MessageOf(path, {}), HasSubstr("--camera"));
+  EXPECT_FALSE(OpenDataset(path, {.allow_missing_camera = true})->info().has_calibration);
+  folder.Write("camera.yaml", kCamera);
+  EXPECT_EQ(OpenDataset(path, {})->size(), kFrames);
+}
+
+TEST(Video, RefusesWhatDoesNotFit) {
+  const ScratchFolder folder;
+  const fs::path path = WriteVideo(folder);
+  folder.Write("camera.yaml", "model: pinhole\nsize: [160, 100]\nintrinsics: [150, 150, 80, 50]\n");
+  EXPECT_THAT(MessageOf(path, {}), HasSubstr("160x100 pixels as in the calibration, found 160x120"));
+  EXPECT_THAT(MessageOf(path, {.sensor = SensorKind::kStereo}), HasSubstr("mono"));
+  EXPECT_THAT(MessageOf(path, {.format = DatasetFormat::kTum}), HasSubstr("expected a folder"));
+  EXPECT_THAT(MessageOf(folder.path(), {.format = DatasetFormat::kVideo}),
+              HasSubstr("expected a video file, found a folder"));
+  folder.Write("camera.yaml", kCamera);
+  EXPECT_THAT(MessageOf(folder.Write("text.avi", "no video"), {}), HasSubstr("cannot be decoded"));
+}
+
+TEST(Video, EndsWhereTheFileWasCutShort) {
+  const ScratchFolder folder;
+  const fs::path path = WriteVideo(folder);
+  folder.Write("camera.yaml", kCamera);
+  fs::resize_file(path, fs::file_size(path) / 2);
+  const auto video = OpenDataset(path, {});
+  EXPECT_GT(video->size(), 2U);
+  EXPECT_LT(video->size(), kFrames);
+  EXPECT_NEAR(LevelOf(*video, 1), LevelOf(1), 3);
+}
+
+}  // namespace
+}  // namespace plumbline
