@@ -104,8 +104,8 @@ std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
 
 // Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and
 // calib.txt), a folder of images or a video file, and reads its lists, calibration and ground
-// truth, not its images (a video is decoded once, see video.h). Throws InputError naming file and line for what is missing or malformed, and where the
-// data does not offer the sensor asked for.
+// truth, not its images (a video is decoded once, see video.h). Throws InputError naming file and
+// line for what is missing or malformed, and where the data does not offer the sensor asked for.
 std::unique_ptr<Dataset> OpenDataset(const std::filesystem::path& path,
                                      const DatasetOptions& options = {});
 

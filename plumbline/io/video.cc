@@ -139,9 +139,9 @@ std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& o
   if (info.has_calibration) CheckSize(info, content);
   const auto frames = static_cast<double>(content.stamps_ns.size());
   if (content.announced_frames > frames) {
-    info.notes.push_back(fmt::format(
-        "{:.0f} of {:.0f} frames cannot be decoded", content.announced_frames - frames,
-        content.announced_frames));
+    info.notes.push_back(fmt::format("{:.0f} of {:.0f} frames cannot be decoded",
+                                     content.announced_frames - frames,
+                                     content.announced_frames));
   }
   if (!info.calibration.rate_hz && content.rate_hz > 0) info.calibration.rate_hz = content.rate_hz;
   info.stamps_ns = std::move(content.stamps_ns);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <numbers>
 
@@ -93,9 +94,21 @@ class WindowBuilder {
       others.resize(static_cast<std::size_t>(options_.fixed_keyframes));
     }
     for (const auto& other : others) AddPose(other.id, true);
-    const auto& poses = window_.problem.poses;
-    if (std::none_of(poses.begin(), poses.end(), [](const auto& p) { return p.fixed; })) {
-      window_.problem.poses.front().fixed = true;  // the oldest: something must hold the gauge
+    HoldGauge();
+  }
+
+  // At least one pose is fixed; with a single camera at least two, since one leaves the scale of
+  // the window open against the rest of the map. Where the window is all of the map, its scale is
+  // arbitrary, and the damping holds it.
+  void HoldGauge() {
+    auto& poses = window_.problem.poses;
+    const bool depth = window_.problem.camera.baseline > 0;
+    const bool whole_map = members_.size() == map_.keyframes().size();
+    const std::ptrdiff_t needed = depth || whole_map ? 1 : 2;
+    auto fixed = std::count_if(poses.begin(), poses.end(), [](const auto& p) { return p.fixed; });
+    for (auto pose = poses.begin(); pose != poses.end() && fixed < needed; ++pose) {
+      fixed += !pose->fixed;
+      pose->fixed = true;  // the oldest
     }
   }
 

@@ -13,7 +13,7 @@ namespace plumbline {
 
 // A map that begins with several keyframes at once.
 struct MapStart {
-  MapEdit edit;                      // of an empty map: keyframes, points and lines
+  MapEdit edit;                       // of an empty map: keyframes, points and lines
   std::vector<KeyFrameId> keyframes;  // by time
   std::vector<FrameId> frames;        // that they were made from
 };

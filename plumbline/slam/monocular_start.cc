@@ -54,10 +54,8 @@ MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& o
 InitializationResult MonocularStart::Offer(FrameId id, const MeasuredFrame& frame) {
   waiting_.push_back({id, frame.stamp_ns, frame.indexed});
   if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
-  return initializer_->Add({id,
-                            frame.stamp_ns,
-                            frame.indexed,
-                            std::make_shared<const GrayImage>(frame.images.left)});
+  return initializer_->Add(
+      {id, frame.stamp_ns, frame.indexed, std::make_shared<const GrayImage>(frame.images.left)});
 }
 
 void MonocularStart::Restart() {
@@ -111,11 +109,8 @@ void MonocularStart::LocateFramesOf(const Start& start,
     }
     missed = 0;
     prediction.Add(frame->stamp_ns, pose->cam_from_world);
-    located.push_back({frame->id,
-                       start.map,
-                       first,
-                       pose->cam_from_world * world_from_first,
-                       pose->counts});
+    located.push_back(
+        {frame->id, start.map, first, pose->cam_from_world * world_from_first, pose->counts});
   }
 }
 

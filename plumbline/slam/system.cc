@@ -104,8 +104,8 @@ TrackingResult System::StartMap(const MeasuredFrame& measured, FrameRecord& reco
 
 // The newest view is the frame of today; the others are frames that got their pose later.
 TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record) {
-  const MapStart start = MakeMapStart(
-      initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
+  const MapStart start =
+      MakeMapStart(initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
   mapping_.Submit(record.id.value, start);
   const MapId map{maps_started_++};
   monocular_start_->MapStarted(map, start);

@@ -11,9 +11,9 @@ struct KeyFramePolicyOptions {
   int min_frames = 2;                // and never sooner than this, unless tracking is about to fail
   double min_landmark_ratio = 0.75;  // landmarks tracked of those the last keyframe shows
   double monocular_landmark_ratio = 0.9;  // the same where new landmarks need a second view
-  double critical_ratio = 0.35;      // below this at once
-  int min_close = 100;               // enough near landmarks to fix the translation
-  int min_new_close = 70;            // near points without landmark that a keyframe would add
+  double critical_ratio = 0.35;           // below this at once
+  int min_close = 100;                    // enough near landmarks to fix the translation
+  int min_new_close = 70;                 // near points without landmark that a keyframe would add
 };
 
 template <class Visitor>

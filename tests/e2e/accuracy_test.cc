@@ -24,6 +24,9 @@ void Check(const Gate& gate) {
 TEST(Accuracy, MachineHallStereo) { Check(kMachineHall); }
 TEST(Accuracy, FloorRgbd) { Check(kFloor); }
 TEST(Accuracy, RoadStereo) { Check(kRoad); }
+TEST(Accuracy, MachineHallMono) { Check(kMachineHallMono); }
+TEST(Accuracy, FloorMono) { Check(kFloorMono); }
+TEST(Accuracy, OfficeMono) { Check(kOfficeMono); }
 TEST(Accuracy, MachineHallWithLinesOnly) { Check(kMachineHallLines); }
 
 }  // namespace

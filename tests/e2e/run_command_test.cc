@@ -4,6 +4,7 @@
 #include "tests/support/data_folder.h"
 #include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -20,7 +21,9 @@ constexpr const char* kStereo = "euroc/MH_01_easy_first250";
 constexpr const char* kRgbd = "tum/rgbd_dataset_freiburg1_floor_first90";
 
 TEST(Run, WritesTheSameBytesEveryTime) {
-  for (const char* sequence : {kStereo, kRgbd}) {
+  const std::pair<const char*, const char*> runs[] = {
+      {kStereo, ""}, {kRgbd, ""}, {kRgbd, " --sensor mono"}};
+  for (const auto& [sequence, sensor] : runs) {
     const auto data = FindData(sequence);
     if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
     const ScratchFolder folder;
@@ -28,9 +31,9 @@ TEST(Run, WritesTheSameBytesEveryTime) {
       // The second time with other threads: all of it one after the other.
       const std::string threads =
           run == std::string("second") ? " --mode inline --set features.parallel=false" : "";
-      const Outcome outcome = RunProgram(
-          folder,
-          "run " + Quoted(*data) + " --to 40 --quiet" + threads + " --out " + Quoted(folder / run));
+      const Outcome outcome = RunProgram(folder,
+                                         "run " + Quoted(*data) + sensor + " --to 40 --quiet" +
+                                             threads + " --out " + Quoted(folder / run));
       ASSERT_EQ(outcome.code, 0) << outcome.err;
     }
     const auto names = FilesOf(folder / "first");

@@ -127,7 +127,8 @@ TEST(OpenDataset, NamesWrongPathsAndWishes) {
     return MessageOf([&] { OpenDataset(folder / path, options); });
   };
   EXPECT_THAT(message("none", {}), HasSubstr("none: no such file or folder"));
-  EXPECT_THAT(message("mav0/cam0/data.csv", {}), HasSubstr("expected a folder or a video, found a file"));
+  EXPECT_THAT(message("mav0/cam0/data.csv", {}),
+              HasSubstr("expected a folder or a video, found a file"));
   EXPECT_THAT(message("", {.sensor = SensorKind::kRgbd}),
               HasSubstr("expected data for rgbd, found data for stereo, mono only"));
   EXPECT_THAT(message("", {.format = DatasetFormat::kKitti}), HasSubstr("no such file"));

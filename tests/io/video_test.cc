@@ -87,7 +87,8 @@ TEST(Video, RefusesWhatDoesNotFit) {
   const ScratchFolder folder;
   const fs::path path = WriteVideo(folder);
   folder.Write("camera.yaml", "model: pinhole\nsize: [160, 100]\nintrinsics: [150, 150, 80, 50]\n");
-  EXPECT_THAT(MessageOf(path, {}), HasSubstr("160x100 pixels as in the calibration, found 160x120"));
+  EXPECT_THAT(MessageOf(path, {}),
+              HasSubstr("160x100 pixels as in the calibration, found 160x120"));
   EXPECT_THAT(MessageOf(path, {.sensor = SensorKind::kStereo}), HasSubstr("mono"));
   EXPECT_THAT(MessageOf(path, {.format = DatasetFormat::kTum}), HasSubstr("expected a folder"));
   EXPECT_THAT(MessageOf(folder.path(), {.format = DatasetFormat::kVideo}),

@@ -101,6 +101,20 @@ TEST(BaWindow, SomethingAlwaysHoldsTheGauge) {
   EXPECT_FALSE(Free(window).contains(window.keyframes.front()));  // the oldest
 }
 
+TEST(BaWindow, TwoPosesHoldTheScaleOfASingleCamera) {
+  SyntheticWorld world = MakeSyntheticWorld(300, 40);
+  world.camera.baseline = 0;
+  const TrueMap scene = MakeTrueMap(world, Path(9, 5), {.depth = false, .missed = 0});
+  BaWindowOptions options;
+  options.free_keyframes = 4;
+  options.fixed_keyframes = 0;
+  const BaWindow window = Window(scene, world, 8, options);
+  EXPECT_EQ(window.keyframes.size(), 4U);
+  EXPECT_EQ(Free(window).size(), 2U);
+  options.free_keyframes = 20;  // all of the map
+  EXPECT_EQ(Free(Window(scene, world, 8, options)).size(), 8U);
+}
+
 TEST(BaWindow, LeavesOutYoungLines) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 250);
   SensorModel mono = kSensor;
@@ -164,6 +178,30 @@ TEST(ToEdit, BringsBackDisturbedPosesAndLandmarks) {
   const BaWindow again = Window(scene, world, 4, {});
   const BaResult second = SolveLocalBa(again.problem, {});
   EXPECT_NEAR(second.initial_cost, result.final_cost, 0.05 * result.final_cost);
+}
+
+double MedianDistance(const Map& map) {
+  std::vector<double> distances;
+  for (const auto& [id, point] : map.points()) distances.push_back(point.position.norm());
+  std::nth_element(distances.begin(),
+                   distances.begin() + static_cast<int>(distances.size() / 2),
+                   distances.end());
+  return distances[distances.size() / 2];
+}
+
+TEST(ToEdit, KeepsTheScaleOfAMapWithoutDepth) {
+  SyntheticWorld world = MakeSyntheticWorld(300, 80);
+  world.camera.baseline = 0;
+  TrueMap scene = MakeTrueMap(world, Path(5, 6), {.depth = false, .missed = 0});
+  Disturb(scene.map, 0.3);
+  const double before = MedianDistance(scene.map);
+  for (int i = 0; i < 5; ++i) {
+    const BaWindow window = Window(scene, world, 4, {});
+    const BaResult result = SolveLocalBa(window.problem, {});
+    EXPECT_LT(result.final_cost, result.initial_cost + 1e-9);
+    scene.map.Apply(ToEdit(scene.map, world.Imaging(), window, result));
+  }
+  EXPECT_NEAR(MedianDistance(scene.map) / before, 1, 0.03);
 }
 
 TEST(ToEdit, RemovesObservationsThatDoNotFit) {

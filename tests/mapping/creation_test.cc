@@ -157,6 +157,38 @@ TEST(CreatePointsFromViews, TriangulatesWhatTwoKeyFramesShow) {
   }
 }
 
+// The same map in another unit.
+Map Rescaled(Map map, double factor) {
+  MapEdit edit;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    Rigid3 pose = keyframe.frame.cam_from_world;
+    pose.translation *= factor;
+    edit.push_back(edit::SetPose{id, pose});
+  }
+  for (const auto& [id, point] : map.points()) {
+    edit.push_back(edit::MovePoint{id, factor * point.position});
+  }
+  map.Apply(edit);
+  return map;
+}
+
+TEST(CreatePointsFromViews, WorksInAnyUnit) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 0);
+  const TrueMap scene = WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(25)}, kMono);
+  const auto metric =
+      Only<edit::AddPoint>(CreatePointsFromViews(scene.map, world.Imaging(), KeyFrameId{1}, {}));
+  ASSERT_GT(metric.size(), 80U);
+  for (const double factor : {0.01, 100.0}) {
+    const auto scaled = Only<edit::AddPoint>(
+        CreatePointsFromViews(Rescaled(scene.map, factor), world.Imaging(), KeyFrameId{1}, {}));
+    ASSERT_EQ(scaled.size(), metric.size()) << factor;
+    for (std::size_t i = 0; i < scaled.size(); ++i) {
+      const Eigen::Vector3d position = scaled[i].point.position / factor;
+      EXPECT_LT((position - metric[i].point.position).norm(), 1e-3) << factor;
+    }
+  }
+}
+
 TEST(CreatePointsFromViews, NeedsParallax) {
   const SyntheticWorld world = MakeSyntheticWorld(400, 0);
   // Turned, not moved.
@@ -201,6 +233,22 @@ TEST(CreateLinesFromViews, ReconstructsFromAllViews) {
   EXPECT_GT(exact, lines.size() * 8 / 10);
   scene.map.Apply(edit);
   scene.map.CheckInvariants();
+}
+
+TEST(CreateLinesFromViews, TakesPairsWhereTwoViewsAreAskedFor) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 300);
+  const TrueMap scene =
+      WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(15), PoseOnPath(30)}, kMono);
+  const auto most_views = [&](LineReconstruction reconstruction) {
+    std::size_t most = 0;
+    for (const auto& add : Only<edit::AddLine>(
+             CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, {}, reconstruction))) {
+      most = std::max(most, add.line.observations.size());
+    }
+    return most;
+  };
+  EXPECT_EQ(most_views(LineReconstruction::kNView), 3U);
+  EXPECT_EQ(most_views(LineReconstruction::kTwoView), 2U);
 }
 
 TEST(CreateLinesFromViews, DropsAViewThatContradictsTheOthers) {

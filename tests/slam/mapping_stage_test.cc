@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/mapping_stage.h"
 
+#include "tests/support/initial_map_of.h"
 #include "tests/support/synthetic_run.h"
 #include <chrono>
 #include <string>
@@ -41,6 +42,20 @@ TEST(MappingStage, TheFirstKeyFrameTakesEffectAtOnce) {
   EXPECT_GT(snapshot->points.size(), 50U);
   EXPECT_FALSE(stage.TakeTimes().empty());
   EXPECT_TRUE(stage.TakeTimes().empty());
+}
+
+TEST(MappingStage, AMapThatBeginsWithSeveralKeyFramesTakesEffectAtOnce) {
+  const SyntheticWorld world = MakeMonocularWorld(300, 60);
+  const InitialMap initial = InitialMapOf(world, {0, 8, 16});
+  MappingStage stage(world.Imaging(), WithLag(5));
+  stage.Submit(16, MakeMapStart(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  const auto snapshot = stage.SnapshotFor(16);
+  ASSERT_NE(snapshot, nullptr);
+  EXPECT_EQ(snapshot->centre, KeyFrameId{2});
+  EXPECT_EQ(snapshot->cam_from_world.size(), 3U);
+  EXPECT_EQ(snapshot->reference->frame.id, FrameId{16});
+  ASSERT_EQ(stage.maps().size(), 1U);
+  stage.maps()[0].CheckInvariants();
 }
 
 TEST(MappingStage, OthersTakeEffectAfterTheLag) {

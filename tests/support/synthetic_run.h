@@ -41,6 +41,14 @@ class SyntheticRun {
     Rng rng(1, "synthetic_run", static_cast<std::uint64_t>(next_));
     return Step(Sense(world_, cam_from_world, sensor, rng));
   }
+  // Starts a map from several frames, the last of which is the next frame.
+  TrackingResult Start(const InitialMap& initial, const Vector6d& velocity) {
+    next_ = initial.views.back().frame.id.value;
+    const MapStart start =
+        MakeMapStart(initial, world_.Imaging(), Rigid3{}, tracker_.next_keyframe());
+    mapping_.Submit(next_, start);
+    return tracker_.StartFrom(*mapping_.SnapshotFor(next_++), velocity);
+  }
   // A frame in which nothing is to be seen.
   TrackingResult StepBlind() { return Step({IndexFeatures(world_.camera, {}), {}, {}}); }
 

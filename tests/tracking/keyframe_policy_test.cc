@@ -9,6 +9,19 @@
 namespace plumbline {
 namespace {
 
+TEST(DecideKeyFrame, IsSoonerWithASingleCamera) {
+  KeyFramePolicyOptions options;
+  options.min_landmark_ratio = 0.75;
+  options.monocular_landmark_ratio = 0.9;
+  KeyFrameSituation situation{
+      .frames_since_keyframe = 5, .tracked_landmarks = 170, .reference_landmarks = 200};
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
+  situation.monocular = true;
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kFewLandmarks);
+  situation.tracked_landmarks = 180;
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
+}
+
 TEST(DecideKeyFrame, FollowsTheTable) {
   KeyFramePolicyOptions options;
   options.max_frames = 20;

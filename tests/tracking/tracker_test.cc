@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/mapping/local_mapper.h"
 
+#include "tests/support/initial_map_of.h"
 #include "tests/support/synthetic_run.h"
 #include <set>
 
@@ -72,6 +73,46 @@ TEST(Tracker, TheFirstFrameIsTheFirstKeyFrameAtTheGivenPose) {
   EXPECT_EQ(result.reference, KeyFrameId{0});
   EXPECT_EQ(tracker.state(), TrackerState::kTracking);
   EXPECT_THROW(tracker.Track(FrameId{8}, 124, sensed.indexed, nullptr), BugError);
+}
+
+// Starts a run of a single camera from frames 0, 8 and 16 of the path.
+void StartFromThree(const SyntheticWorld& world, SyntheticRun& run) {
+  const TrackingResult start = run.Start(InitialMapOf(world, {0, 8, 16}), Vector6d::Zero());
+  EXPECT_EQ(start.state, TrackerState::kTracking);
+  EXPECT_EQ(start.reference, KeyFrameId{2});
+  EXPECT_GT(start.counts.inlier_points, 100);
+  EXPECT_FALSE(start.keyframe);
+  EXPECT_LT(CentreDistance(*start.cam_from_world, InMapUnit(PoseOnPath(16))) * kMapUnit, 0.01);
+}
+
+TEST(Tracker, GoesOnFromAMapOfSeveralFramesWithoutDepth) {
+  const SyntheticWorld world = MakeMonocularWorld(500, 120);
+  SyntheticRun run(world);
+  StartFromThree(world, run);
+  for (int i = 17; i < 60; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), kOneCamera);
+    ASSERT_TRUE(result.cam_from_world) << i;
+    EXPECT_LT(CentreDistance(*result.cam_from_world, InMapUnit(PoseOnPath(i))) * kMapUnit, 0.03)
+        << i;
+  }
+  EXPECT_EQ(run.maps().size(), 1U);
+  EXPECT_GT(run.maps()[0].keyframes().size(), 4U);
+}
+
+TEST(Tracker, GivesUpAYoungMapOfASingleCameraAtOnce) {
+  const SyntheticWorld world = MakeMonocularWorld(500, 120);
+  SyntheticRun young(world);
+  StartFromThree(world, young);
+  young.Step(PoseOnPath(17), kOneCamera);
+  EXPECT_EQ(young.StepBlind().state, TrackerState::kInitializing);
+
+  SlamOptions trusting = SyntheticRun::InlineOptions();
+  trusting.tracking.trial_keyframes = 0;
+  SyntheticRun trusted(world, trusting);
+  StartFromThree(world, trusted);
+  trusted.Step(PoseOnPath(17), kOneCamera);
+  EXPECT_EQ(trusted.StepBlind().state, TrackerState::kLost);
+  EXPECT_EQ(trusted.Step(PoseOnPath(19), kOneCamera).state, TrackerState::kTracking);
 }
 
 TEST(Tracker, DoesNotStartAMapWithTooLittle) {
