@@ -20,8 +20,8 @@ Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 std::size_t i,
                                 const PluckerLine& line);
 
-// Standard deviation, in metres, of the line's place at parameter t (PluckerLine::PointAt), in the
-// worst direction across it. Infinite when the information leaves that direction open.
+// Standard deviation, in the map's unit, of the line's place at parameter t (PluckerLine::PointAt),
+// in the worst direction across it. Infinite when the information leaves that direction open.
 double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t);
 
 }  // namespace plumbline

@@ -18,7 +18,7 @@ struct Disparity {
 // the right camera is virtual: depth z is carried as the disparity fx * baseline / z.
 //
 // Camera frame: x right, y down, z forward. Pixel centres at integer coordinates. Lengths in
-// metres.
+// metres; of a single camera in the map's unit.
 struct RectifiedCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   double baseline = 0;  // 0: monocular

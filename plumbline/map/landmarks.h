@@ -16,7 +16,7 @@ namespace plumbline {
 struct PointModel {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();        // world
   Eigen::Vector3d view_direction = Eigen::Vector3d::Zero();  // mean unit vector from the cameras
-  double reference_distance = 0;  // metres from the camera at which the point shows in octave
+  double reference_distance = 0;  // from the camera, at which the point shows in octave
   int reference_octave = 0;       // reference_octave
   Descriptor descriptor{};        // the most typical of its observations
 };

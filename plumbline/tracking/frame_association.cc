@@ -42,7 +42,47 @@ void Record(const std::vector<LandmarkMatch>& matches, std::vector<int>& match_o
   }
 }
 
+template <class LandmarkId, class Candidate>
+void Associate(const std::vector<LandmarkId>& ids,
+               const MapSnapshot& snapshot,
+               std::vector<Candidate>& candidates,
+               std::vector<int>& match_of_feature) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto* landmark = ids[i].valid() ? snapshot.Find(ids[i]) : nullptr;
+    if (landmark == nullptr) continue;
+    match_of_feature[i] = static_cast<int>(candidates.size());
+    candidates.push_back({ids[i], *landmark});
+  }
+}
+
+template <class Candidate>
+void CopyKind(const std::vector<Candidate>& candidates,
+              const std::vector<int>& match_of_feature,
+              bool of_map,
+              std::vector<Candidate>& out,
+              std::vector<int>& out_match_of_feature) {
+  for (std::size_t i = 0; i < match_of_feature.size(); ++i) {
+    if (match_of_feature[i] < 0 || out_match_of_feature[i] >= 0) continue;
+    const Candidate& candidate = candidates[static_cast<std::size_t>(match_of_feature[i])];
+    if (candidate.id.valid() != of_map) continue;
+    out_match_of_feature[i] = static_cast<int>(out.size());
+    out.push_back(candidate);
+  }
+}
+
 }  // namespace
+
+FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot) {
+  FrameAssociation association(frame.points.size(), frame.lines.size());
+  Associate(frame.points, snapshot, association.points, association.point_of_feature);
+  Associate(frame.lines, snapshot, association.lines, association.line_of_feature);
+  return association;
+}
+
+void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to) {
+  CopyKind(from.points, from.point_of_feature, of_map, to.points, to.point_of_feature);
+  CopyKind(from.lines, from.line_of_feature, of_map, to.lines, to.line_of_feature);
+}
 
 int FrameAssociation::PointMatches() const { return CountMatches(point_of_feature); }
 int FrameAssociation::LineMatches() const { return CountMatches(line_of_feature); }

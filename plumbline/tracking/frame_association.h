@@ -4,7 +4,9 @@
 
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/ids.h"
+#include "plumbline/map/frame.h"
 #include "plumbline/map/landmarks.h"
+#include "plumbline/map/snapshot.h"
 
 #include <cstddef>
 #include <vector>
@@ -35,6 +37,13 @@ struct FrameAssociation {
   int PointMatches() const;
   int LineMatches() const;
 };
+
+// The matches of a frame of the map, with landmarks that are in the snapshot.
+FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot);
+
+// Copies the matches with landmarks of the map (or only the others) of features that have none in
+// `to` yet.
+void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to);
 
 // Indices of the candidates that were projected into the image (expected to be seen).
 struct ExpectedLandmarks {

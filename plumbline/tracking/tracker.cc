@@ -74,49 +74,6 @@ auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSn
   return id.valid() ? snapshot.Find(id) : nullptr;
 }
 
-// Copies the matches with landmarks of the map (or only the others) of features that have none in
-// `out` yet.
-template <class Candidate>
-void CopyMatches(const std::vector<Candidate>& candidates,
-                 const std::vector<int>& match_of_feature,
-                 bool of_map,
-                 std::vector<Candidate>& out,
-                 std::vector<int>& out_match_of_feature) {
-  for (std::size_t i = 0; i < match_of_feature.size(); ++i) {
-    if (match_of_feature[i] < 0 || out_match_of_feature[i] >= 0) continue;
-    const Candidate& candidate = candidates[static_cast<std::size_t>(match_of_feature[i])];
-    if (candidate.id.valid() != of_map) continue;
-    out_match_of_feature[i] = static_cast<int>(out.size());
-    out.push_back(candidate);
-  }
-}
-
-void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to) {
-  CopyMatches(from.points, from.point_of_feature, of_map, to.points, to.point_of_feature);
-  CopyMatches(from.lines, from.line_of_feature, of_map, to.lines, to.line_of_feature);
-}
-
-template <class LandmarkId, class Candidate>
-void Associate(const std::vector<LandmarkId>& ids,
-               const MapSnapshot& snapshot,
-               std::vector<Candidate>& candidates,
-               std::vector<int>& match_of_feature) {
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const auto* landmark = ids[i].valid() ? snapshot.Find(ids[i]) : nullptr;
-    if (landmark == nullptr) continue;
-    match_of_feature[i] = static_cast<int>(candidates.size());
-    candidates.push_back({ids[i], *landmark});
-  }
-}
-
-// The matches of a frame of the map.
-FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot) {
-  FrameAssociation association(frame.points.size(), frame.lines.size());
-  Associate(frame.points, snapshot, association.points, association.point_of_feature);
-  Associate(frame.lines, snapshot, association.lines, association.line_of_feature);
-  return association;
-}
-
 }  // namespace
 
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after) {
