@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 cv::VideoCapture OpenCapture(const fs::path& path) {
   cv::VideoCapture capture;
   try {
-    capture.open(path.string());
+    capture.open(path.string(), cv::CAP_FFMPEG);  // others talk to the terminal
   } catch (const cv::Exception&) {
     capture.release();
   }
@@ -130,6 +130,7 @@ void CheckSize(const DatasetInfo& info, const VideoContent& content) {
 }  // namespace
 
 std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& options) {
+  OpenCapture(path);  // what is no video is said before what is missing for one
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kVideo, {SensorKind::kMono}, options);
   std::optional<CameraFile> camera = GivenCamera(path.parent_path(), options);
   if (!camera && !options.allow_missing_camera) throw InputError(NoCalibration(path));
