@@ -49,7 +49,7 @@ TEST(ProjectPoint, LeavesOutWhatIsBehindOutsideOrTurnedAway) {
   PointModel point;
   point.position = {0, 0, -3};
   EXPECT_FALSE(ProjectPoint(Imaging(), {}, point, kOptions));
-  point.position = {0, 0, 0.01};
+  point.position = {0, 0, 0.0005};
   EXPECT_FALSE(ProjectPoint(Imaging(), {}, point, kOptions));
   point.position = {4, 0, 3};
   EXPECT_FALSE(ProjectPoint(Imaging(), {}, point, kOptions));
@@ -94,7 +94,7 @@ TEST(ProjectSegment, ClipsAtTheBordersAndAtTheNearPlane) {
 TEST(ProjectSegment, GivesNothingOutOfSight) {
   const RectifiedCamera camera = TestCamera();
   EXPECT_FALSE(ProjectSegment(camera, {{-1, 0, -5}, {1, 0, -5}}));
-  EXPECT_FALSE(ProjectSegment(camera, {{-1, 0, 0.02}, {1, 0, 0.02}}));
+  EXPECT_FALSE(ProjectSegment(camera, {{-1, 0, 0.0005}, {1, 0, 0.0005}}));
   EXPECT_FALSE(ProjectSegment(camera, {{9, -1, 5}, {9, 1, 5}}));
   EXPECT_FALSE(ProjectSegment(camera, {{-1, -9, 5}, {1, -9, 5}}));
   EXPECT_FALSE(ProjectSegment(camera, {{5.5, -2.5, 5}, {3, -4, 5}}));  // past a corner

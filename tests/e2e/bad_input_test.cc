@@ -99,7 +99,7 @@ TEST(BadInput, FilesThatAreMissing) {
         " --sensor stereo"},
        {"an unknown format",
         Remove("none"),
-        "--format: expected euroc, tum, kitti or images, found bag",
+        "--format: expected euroc, tum, kitti, images or video, found bag",
         " --format bag"}});
 }
 

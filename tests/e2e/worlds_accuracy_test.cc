@@ -54,7 +54,7 @@ void Check(const WorldGate& gate) {
 }
 
 TEST(WorldsAccuracy, Room) { Check({"room", "", 0.045, 0.1, 0.09}); }
-TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.008, 0.095, 0.09}); }
+TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.0095, 0.095, 0.09}); }
 TEST(WorldsAccuracy, Lateral) { Check({"lateral", "", 0.011, 0.125, 0.22}); }
 TEST(WorldsAccuracy, Planar) { Check({"planar", "", 0.007, 0, 0}); }
 TEST(WorldsAccuracy, PlanarWithPointsOnly) {
