@@ -5,6 +5,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/map/snapshot.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -42,6 +43,32 @@ class BackwardPrediction {
   Vector6d velocity_ = Vector6d::Zero();
 };
 
+// The keyframe that a frame goes with, of those that are left, and the landmarks around it.
+class NearestKeyFrame {
+ public:
+  explicit NearestKeyFrame(const Map& map) : map_(map), id_(map.keyframes().begin()->first) {}
+
+  // Stays where the map has that keyframe no more.
+  void MoveTo(KeyFrameId id) {
+    if (id == id_ || map_.Find(id) == nullptr) return;
+    id_ = id;
+    snapshot_.reset();
+  }
+
+  KeyFrameId id() const { return id_; }
+  bool IsMadeOf(FrameId frame) const { return map_.Find(id_)->frame.id == frame; }
+  Rigid3 cam_from_world() const { return map_.PoseOf(id_); }
+  const MapSnapshot& snapshot() {
+    if (!snapshot_) snapshot_ = TakeSnapshot(map_, id_, kSnapshotKeyFrames);
+    return *snapshot_;
+  }
+
+ private:
+  const Map& map_;
+  KeyFrameId id_;
+  std::shared_ptr<const MapSnapshot> snapshot_;
+};
+
 }  // namespace
 
 MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& options)
@@ -52,8 +79,8 @@ MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& o
           imaging, options.initialization, static_cast<std::uint64_t>(options.slam.seed))) {}
 
 InitializationResult MonocularStart::Offer(FrameId id, const MeasuredFrame& frame) {
-  waiting_.push_back({id, frame.stamp_ns, frame.indexed});
-  if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
+  waiting_.push_back({id, frame.stamp_ns, frame.indexed, {}, {}});
+  if (waiting_.size() > kMaxFrames) waiting_.pop_front();
   return initializer_->Add(
       {id, frame.stamp_ns, frame.indexed, std::make_shared<const GrayImage>(frame.images.left)});
 }
@@ -61,15 +88,28 @@ InitializationResult MonocularStart::Offer(FrameId id, const MeasuredFrame& fram
 void MonocularStart::Restart() {
   initializer_->Reset();
   waiting_.clear();
+  young_keyframes_ = 0;
 }
 
 void MonocularStart::MapStarted(MapId map, const MapStart& start) {
-  std::map<FrameId, KeyFrameId> keyframes;
-  for (std::size_t i = 0; i < start.frames.size(); ++i) {
-    keyframes[start.frames[i]] = start.keyframes[i];
+  for (KeptFrame& frame : waiting_) {
+    const auto at = std::find(start.frames.begin(), start.frames.end(), frame.id);
+    if (at == start.frames.end()) continue;
+    frame.reference = start.keyframes[static_cast<std::size_t>(at - start.frames.begin())];
   }
-  starts_.push_back({map, std::move(keyframes), std::exchange(waiting_, {})});
+  starts_.push_back({map, std::exchange(waiting_, {})});
+  young_keyframes_ = kYoungKeyFrames;
+  young_frames_ = kMaxFrames;
   initializer_->Reset();
+}
+
+void MonocularStart::Tracked(const TrackingResult& result) {
+  if (young_keyframes_ == 0 || young_frames_ == 0) return;
+  const Frame& frame = result.frame;
+  starts_.back().frames.push_back(
+      {frame.id, frame.stamp_ns, frame.indexed, result.reference, result.cam_from_reference});
+  --young_frames_;
+  if (result.keyframe) --young_keyframes_;
 }
 
 std::vector<EarlierFrame> MonocularStart::Locate(const std::vector<Map>& maps) {
@@ -78,39 +118,45 @@ std::vector<EarlierFrame> MonocularStart::Locate(const std::vector<Map>& maps) {
     LocateFramesOf(start, maps.at(static_cast<std::size_t>(start.map.value)), located);
   }
   starts_.clear();
+  young_keyframes_ = 0;
   return located;
 }
 
 void MonocularStart::LocateFramesOf(const Start& start,
                                     const Map& map,
                                     std::vector<EarlierFrame>& located) const {
-  const KeyFrameId first = start.keyframes.begin()->second;
-  const auto snapshot = TakeSnapshot(map, first, kSnapshotKeyFrames);
-  const Rigid3 world_from_first = Inverse(map.PoseOf(first));
+  NearestKeyFrame nearest(map);
   BackwardPrediction prediction;
   int missed = 0;
   for (auto frame = start.frames.rbegin(); frame != start.frames.rend(); ++frame) {
-    const auto keyframe = start.keyframes.find(frame->id);
-    if (keyframe != start.keyframes.end()) {
-      prediction.Add(frame->stamp_ns, map.PoseOf(keyframe->second));
+    const bool tracked = frame->reference.valid();
+    Rigid3 predicted;
+    if (tracked) {
+      nearest.MoveTo(frame->reference);
+      predicted = frame->cam_from_reference * map.PoseOf(frame->reference);
       missed = 0;
+    } else {
+      if (!prediction.Known() || missed >= kMaxMissed) continue;
+      predicted = prediction.At(frame->stamp_ns);
+    }
+    if (nearest.IsMadeOf(frame->id)) {
+      prediction.Add(frame->stamp_ns, predicted);
       continue;
     }
-    if (!prediction.Known() || missed >= kMaxMissed) continue;
-    const auto pose = LocateFrame(imaging_,
-                                  *frame->indexed,
-                                  prediction.At(frame->stamp_ns),
-                                  *snapshot,
-                                  weighting_,
-                                  tracking_);
+    const auto pose = LocateFrame(
+        imaging_, *frame->indexed, predicted, nearest.snapshot(), weighting_, tracking_);
     if (!pose) {
-      ++missed;
+      if (tracked) prediction.Add(frame->stamp_ns, predicted);
+      missed += !tracked;
       continue;
     }
     missed = 0;
     prediction.Add(frame->stamp_ns, pose->cam_from_world);
-    located.push_back(
-        {frame->id, start.map, first, pose->cam_from_world * world_from_first, pose->counts});
+    located.push_back({frame->id,
+                       start.map,
+                       nearest.id(),
+                       pose->cam_from_world * Inverse(nearest.cam_from_world()),
+                       pose->counts});
   }
 }
 

@@ -11,13 +11,12 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <vector>
 
 namespace plumbline {
 
-// A frame that came before its map, and its place in it.
+// A frame from before its map or from the map's beginning, and its place in the finished map.
 struct EarlierFrame {
   FrameId id;
   MapId map;
@@ -26,38 +25,47 @@ struct EarlierFrame {
   FrameCounts counts;
 };
 
-// What a single camera needs before it has a map: the initializer, and the frames that wait for
-// poses until there is one.
+// What a single camera needs before it has a map that can be trusted: the initializer, the frames
+// that wait for poses until there is a map, and those that were tracked while the map was young.
+// The baseline of a young map is short, and its landmarks move a good deal afterwards: poses
+// relative to its keyframes do not follow that.
 //
-// The newest kMaxWaiting frames are kept. They get their poses when all mapping is done (Locate):
-// then the landmarks are known best, and no frame takes longer for it.
+// Kept are the features (about 0.14 MB a frame) of the newest kMaxFrames frames that wait, and of
+// those tracked until a map has kYoungKeyFrames keyframes more than it began with, kMaxFrames at
+// most; of every map. All get their poses when all mapping is done (Locate): then the landmarks are
+// known best, and no frame takes longer for it.
 class MonocularStart {
  public:
-  static constexpr std::size_t kMaxWaiting = 300;
+  static constexpr std::size_t kMaxFrames = 300;
+  static constexpr int kYoungKeyFrames = 5;
 
   MonocularStart(const ImagingModel& imaging, const SlamOptions& options);
 
   InitializationResult Offer(FrameId id, const MeasuredFrame& frame);
   // Begins anew, after a loss.
   void Restart();
+  // Tells of a frame that was tracked; only those of a young map are kept.
+  void Tracked(const TrackingResult& result);
   // The frames that wait belong to this map, which began so.
   void MapStarted(MapId map, const MapStart& start);
 
-  // Poses of the frames that waited for the maps started since the last call, each map's newest
-  // frame first: every frame is searched near the place that its successors predict. Keyframes are
-  // left out.
+  // Poses in the maps started since the last call, each map's newest frame first. Frames that
+  // waited are searched near the place that their successors predict, those that were tracked near
+  // their place of then, among the landmarks around the next keyframe and their own. Left out are
+  // keyframes, and frames that are not found.
   std::vector<EarlierFrame> Locate(const std::vector<Map>& maps);
 
  private:
-  struct Waiting {
+  struct KeptFrame {
     FrameId id;
     std::int64_t stamp_ns = 0;
     std::shared_ptr<const IndexedFeatures> indexed;
+    KeyFrameId reference;  // none while the frame has no pose
+    Rigid3 cam_from_reference;
   };
   struct Start {
     MapId map;
-    std::map<FrameId, KeyFrameId> keyframes;
-    std::deque<Waiting> frames;
+    std::deque<KeptFrame> frames;  // by time
   };
 
   void LocateFramesOf(const Start& start, const Map& map, std::vector<EarlierFrame>& located) const;
@@ -66,8 +74,10 @@ class MonocularStart {
   TrackingOptions tracking_;
   LineWeighting weighting_;
   std::unique_ptr<Initializer> initializer_;
-  std::deque<Waiting> waiting_;
+  std::deque<KeptFrame> waiting_;
   std::vector<Start> starts_;
+  int young_keyframes_ = 0;       // still to come until the newest map is no longer young
+  std::size_t young_frames_ = 0;  // that may still be kept until then
 };
 
 }  // namespace plumbline

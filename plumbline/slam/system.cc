@@ -81,7 +81,10 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
     record.keyframe = true;
     maps_started_ += result.starts_map;
   }
-  if (monocular_start_ && result.state == TrackerState::kInitializing) monocular_start_->Restart();
+  if (monocular_start_) {
+    if (result.cam_from_world) monocular_start_->Tracked(result);
+    if (result.state == TrackerState::kInitializing) monocular_start_->Restart();
+  }
   RecordTracking(result, record);
   return result;
 }

@@ -40,7 +40,7 @@ struct FrameRecord {
   KeyFrameId reference;
   Rigid3 cam_from_reference;
   std::optional<Rigid3> causal_world_from_camera;  // as first reported, camera as delivered
-  FrameCounts counts;
+  FrameCounts counts;                              // of cam_from_reference
   bool keyframe = false;
   // In order, "total" last: from the frame's arrival to its end. map_* are steps of mapping that
   // ended since the last frame, inline within "map", otherwise beside.
@@ -76,8 +76,9 @@ class System {
   const FrameRecord& Track(MeasuredFrame frame);
   // A frame that could not be read, or was left out.
   const FrameRecord& Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Completes the mapping of all frames so far, and with it the records of frames that came before
-  // a monocular map: they get a pose, but no causal one.
+  // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
+  // it was young, are located in the finished map (see MonocularStart): those before it get a pose,
+  // but no causal one; of the others only the causal one stays.
   void Finish();
 
   const std::vector<FrameRecord>& frames() const { return frames_; }

@@ -20,6 +20,11 @@ MeasuredFrame MeasuredOf(const InitializationFrame& frame) {
   return measured;
 }
 
+double ErrorMetres(const Rigid3& cam_from_world, FrameId frame) {
+  const Rigid3 truth = InMapUnit(PoseOnPath(static_cast<int>(frame.value)));
+  return CentreDistance(cam_from_world, truth) * kMapUnit;
+}
+
 // Frames 2 to 22 wait; the map is that of frames 10, 14 and 22.
 struct WaitingRun {
   SyntheticWorld world = MakeMonocularWorld(500, 80);
@@ -44,16 +49,113 @@ TEST(MonocularStart, LocatesTheFramesThatWaited) {
   for (const EarlierFrame& frame : located) {
     found.insert(frame.id);
     EXPECT_EQ(frame.map, MapId{0});
-    EXPECT_EQ(frame.reference, KeyFrameId{0});
+    // The keyframe that came next; the first for those before it.
+    const auto number = frame.id.value;
+    EXPECT_EQ(frame.reference, KeyFrameId{number > 14 ? 2 : number > 10 ? 1 : 0});
     EXPECT_GT(frame.counts.inlier_points, 50);
     const Rigid3 pose = frame.cam_from_reference * run.maps[0].PoseOf(frame.reference);
-    const Rigid3 truth = InMapUnit(PoseOnPath(static_cast<int>(frame.id.value)));
-    EXPECT_LT(CentreDistance(pose, truth) * kMapUnit, 0.02) << frame.id.value;
+    EXPECT_LT(ErrorMetres(pose, frame.id), 0.02) << frame.id.value;
   }
   // All but the keyframes, those before the first one included.
   EXPECT_EQ(found.size(), 18U);
   for (const int keyframe : {10, 14, 22}) EXPECT_FALSE(found.contains(FrameId{keyframe}));
   EXPECT_TRUE(run.start.Locate(run.maps).empty());  // once
+}
+
+// What a tracker says of a frame of the path: off by half the way from the reference, as in a
+// map whose scale was corrected later.
+TrackingResult TrackedOf(const SyntheticWorld& world, int frame, KeyFrameId id, int of_frame) {
+  const InitializationFrame seen = MonocularFrame(world, frame);
+  TrackingResult result;
+  result.frame.id = seen.id;
+  result.frame.stamp_ns = seen.stamp_ns;
+  result.frame.indexed = seen.indexed;
+  result.reference = id;
+  if (frame == of_frame) {
+    result.keyframe = NewKeyFrame{};
+    return result;
+  }
+  result.cam_from_reference =
+      InMapUnit(PoseOnPath(frame)) * Inverse(InMapUnit(PoseOnPath(of_frame)));
+  result.cam_from_reference.translation *= 0.5;
+  return result;
+}
+
+// The map begins with frames 10 and 14; frames 15 to 40 are tracked against keyframe 14 up to 21,
+// then against 22, the map's third; a fourth, 30, has gone again.
+struct YoungRun {
+  SyntheticWorld world = MakeMonocularWorld(500, 80);
+  MonocularStart start{world.Imaging(), {}};
+  std::vector<Map> maps{Map(MapId{0})};
+
+  YoungRun() {
+    const auto begin = [&](const std::vector<int>& frames) {
+      return MakeMapStart(InitialMapOf(world, frames), world.Imaging(), Rigid3{}, KeyFrameId{0});
+    };
+    maps[0].Apply(begin({10, 14, 22, 30}).edit);
+    maps[0].Apply({edit::RemoveKeyFrame{KeyFrameId{3}}});
+    start.MapStarted(MapId{0}, begin({10, 14}));
+  }
+
+  void Track(int frame) {
+    start.Tracked(frame < 22   ? TrackedOf(world, frame, KeyFrameId{1}, 14)
+                  : frame < 30 ? TrackedOf(world, frame, KeyFrameId{2}, 22)
+                               : TrackedOf(world, frame, KeyFrameId{3}, 30));
+  }
+};
+
+TEST(MonocularStart, LocatesTheFramesTrackedInAYoungMap) {
+  YoungRun run;
+  for (int i = 15; i <= 40; ++i) run.Track(i);
+  std::set<FrameId> found;
+  for (const EarlierFrame& frame : run.start.Locate(run.maps)) {
+    found.insert(frame.id);
+    EXPECT_NE(run.maps[0].Find(frame.reference), nullptr);
+    const Rigid3 pose = frame.cam_from_reference * run.maps[0].PoseOf(frame.reference);
+    EXPECT_LT(ErrorMetres(pose, frame.id), 0.02) << frame.id.value;
+  }
+  // All but the keyframe that is left.
+  EXPECT_EQ(found.size(), 25U);
+  EXPECT_FALSE(found.contains(FrameId{22}));
+  EXPECT_TRUE(found.contains(FrameId{30}));
+  // It was needed.
+  const TrackingResult tracked = TrackedOf(run.world, 21, KeyFrameId{1}, 14);
+  EXPECT_GT(
+      ErrorMetres(tracked.cam_from_reference * run.maps[0].PoseOf(KeyFrameId{1}), FrameId{21}),
+      0.06);
+}
+
+TEST(MonocularStart, AMapIsYoungForSomeKeyFrames) {
+  YoungRun run;
+  for (int i = 1; i < MonocularStart::kYoungKeyFrames; ++i) run.Track(22);
+  run.Track(23);
+  run.Track(22);
+  run.Track(24);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.maps);
+  ASSERT_EQ(located.size(), 1U);
+  EXPECT_EQ(located[0].id, FrameId{23});
+}
+
+TEST(MonocularStart, AMapIsYoungUntilItIsLost) {
+  YoungRun run;
+  run.Track(15);
+  run.start.Restart();
+  run.Track(16);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.maps);
+  ASSERT_EQ(located.size(), 1U);
+  EXPECT_EQ(located[0].id, FrameId{15});
+}
+
+TEST(MonocularStart, KeepsABoundedNumberOfFrames) {
+  YoungRun run;
+  TrackingResult blind = TrackedOf(run.world, 15, KeyFrameId{1}, 14);
+  blind.frame.indexed = IndexFeatures(run.world.camera, {});
+  for (std::size_t i = 1; i < MonocularStart::kMaxFrames; ++i) run.start.Tracked(blind);
+  run.Track(16);
+  run.Track(17);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.maps);
+  ASSERT_EQ(located.size(), 1U);  // a blind frame is not found and keeps its place
+  EXPECT_EQ(located[0].id, FrameId{16});
 }
 
 TEST(MonocularStart, ForgetsWhatWaitedWhenItBeginsAnew) {

@@ -3,6 +3,8 @@
 #include "plumbline/slam/system.h"
 
 #include "tests/support/moving_poster.h"
+#include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -120,6 +122,47 @@ TEST(System, RejectsImagesOfAnotherSize) {
   SensorFrame small{0, GrayImage(40, 30), GrayImage(40, 30), {}};
   EXPECT_THROW(system.Process(small), InputError);
   EXPECT_TRUE(system.frames().empty());
+}
+
+// Seen by one camera: above, the poster; below, the same at half the distance.
+SensorFrame TwoPosters(const MovingPoster& poster, int i) {
+  SensorFrame frame{MovingPoster::StampNs(i), poster.Frame(i).left, {}, {}};
+  const SensorFrame near = poster.Frame(2 * i);
+  for (int y = MovingPoster::kHeight / 2; y < MovingPoster::kHeight; ++y) {
+    std::copy_n(near.left.row(y), MovingPoster::kWidth, frame.left.row(y));
+  }
+  return frame;
+}
+
+TEST(System, LocatesFramesOfAYoungMonocularMapAgain) {
+  constexpr int kFrames = 40;
+  Calibration calibration = MovingPoster::MakeCalibration();
+  calibration.right.reset();
+  calibration.right_from_left = {};
+  System system(calibration, SlamOptions{});
+  const MovingPoster poster;
+  std::vector<FrameRecord> tracked;
+  for (int i = 0; i < kFrames; ++i) {
+    const FrameRecord& record = system.Process(TwoPosters(poster, i));
+    if (record.causal_world_from_camera && !record.keyframe) tracked.push_back(record);
+  }
+  ASSERT_GT(tracked.size(), 5U);
+  const Trajectory causal = system.CausalTrajectory(MapId{0});
+  system.Finish();
+  const FrameRecord& first = tracked.front();
+  const FrameRecord& now = system.frames()[static_cast<std::size_t>(first.id.value)];
+  EXPECT_NE(now.cam_from_reference.translation, first.cam_from_reference.translation);
+  EXPECT_TRUE(SameBits(system.CausalTrajectory(MapId{0}), causal));
+  const Trajectory final = system.FinalTrajectory(MapId{0});
+  ASSERT_EQ(final.size(), static_cast<std::size_t>(kFrames));
+  const double length = final.back().world_from_camera.translation.x() -
+                        final.front().world_from_camera.translation.x();
+  for (int i = 0; i < kFrames; ++i) {
+    const Eigen::Vector3d moved = final[static_cast<std::size_t>(i)].world_from_camera.translation -
+                                  final.front().world_from_camera.translation;
+    const Eigen::Vector3d expected(length * i / (kFrames - 1), 0, 0);
+    EXPECT_LT((moved - expected).norm(), 0.01 * length) << i;
+  }
 }
 
 TEST(System, TimesEveryFrame) {
