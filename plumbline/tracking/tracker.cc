@@ -13,6 +13,9 @@ namespace {
 
 // Keyframes' landmarks count as well observed from this many views on (fewer in a young map).
 constexpr int kWellObserved = 3;
+// With one camera a landmark has two views from its first day on; where few grow older, waiting for
+// a third would let all go before a keyframe is made.
+constexpr int kWellObservedByOne = 2;
 
 template <class LandmarkId, class Candidate>
 std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
@@ -56,8 +59,10 @@ void ScoreKind(const std::vector<int>& expected,
 template <class LandmarkId, class Landmark>
 int CountWellObserved(const std::vector<LandmarkId>& ids,
                       const MapSnapshot& snapshot,
+                      bool monocular,
                       const Landmark*) {
-  const int needed = std::min(kWellObserved, static_cast<int>(snapshot.cam_from_world.size()));
+  const int needed = std::min(monocular ? kWellObservedByOne : kWellObserved,
+                              static_cast<int>(snapshot.cam_from_world.size()));
   return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](LandmarkId id) {
     const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
     return landmark != nullptr && landmark->observation_count >= needed;
@@ -348,9 +353,14 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
   for (const PointId id : frame.points) situation.tracked_landmarks += id.valid();
   for (const LineId id : frame.lines) situation.tracked_landmarks += id.valid();
   const Frame& reference = snapshot.reference->frame;
-  situation.reference_landmarks =
-      CountWellObserved(reference.points, snapshot, static_cast<const SnapshotPoint*>(nullptr)) +
-      CountWellObserved(reference.lines, snapshot, static_cast<const SnapshotLine*>(nullptr));
+  situation.reference_landmarks = CountWellObserved(reference.points,
+                                                    snapshot,
+                                                    situation.monocular,
+                                                    static_cast<const SnapshotPoint*>(nullptr)) +
+                                  CountWellObserved(reference.lines,
+                                                    snapshot,
+                                                    situation.monocular,
+                                                    static_cast<const SnapshotLine*>(nullptr));
   const auto& disparities = frame.features().point_disparity;
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     if (!disparities[i] ||
