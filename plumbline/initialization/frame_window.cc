@@ -3,6 +3,7 @@
 #include "plumbline/initialization/frame_window.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/initialization/match_refinement.h"
 
 #include <algorithm>
 #include <array>
@@ -75,6 +76,29 @@ std::vector<FeatureTrack> SpreadTracks(const RectifiedCamera& camera,
   return result;
 }
 
+// The places of a frame's points: those that are matched, refined. Matches that cannot be are left
+// out.
+void Refine(const InitializationFrame& reference,
+            const InitializationFrame& frame,
+            ReferenceMatches& matches,
+            std::vector<Eigen::Vector2d>& places) {
+  PLUMBLINE_CHECK(reference.image && frame.image, "refinement works on images");
+  const Features& features = frame.indexed->features;
+  const auto refined = RefineMatches(*reference.image,
+                                     reference.indexed->features,
+                                     *frame.image,
+                                     features,
+                                     matches.points,
+                                     matches.motion.linear());
+  std::vector<PointMatch> kept;
+  for (std::size_t i = 0; i < refined.size(); ++i) {
+    if (!refined[i]) continue;
+    kept.push_back(matches.points[i]);
+    places[Index(matches.points[i].b)] = *refined[i];
+  }
+  matches.points = std::move(kept);
+}
+
 }  // namespace
 
 void FrameWindow::Reset() {
@@ -90,13 +114,16 @@ int FrameWindow::Add(const InitializationFrame& frame) {
   const ImageMotion guess = frames_.empty() ? ImageMotion{} : frames_.back().matches.motion;
   ReferenceMatches matches =
       MatchToReference(reference_->indexed->features, frame.indexed->features, guess);
+  std::vector<Eigen::Vector2d> places;
+  for (const PointFeature& point : frame.indexed->features.points) places.push_back(point.px);
+  if (refine_) Refine(*reference_, frame, matches, places);
   const int count = static_cast<int>(matches.points.size());
   if (frames_.size() >= kMaxFrames) {
     std::vector<Matched> kept;
     for (std::size_t i = 1; i < frames_.size(); i += 2) kept.push_back(std::move(frames_[i]));
     frames_ = std::move(kept);
   }
-  frames_.push_back({frame, std::move(matches)});
+  frames_.push_back({frame, std::move(matches), std::move(places)});
   return count;
 }
 
@@ -120,20 +147,24 @@ WindowTracks FrameWindow::TracksOf(const std::vector<int>& frames, int max_point
   const std::vector<FeatureTrack> features = SpreadTracks(
       camera_, PointTracks(frames), reference, static_cast<int>(frames.size()), max_points);
   const double focal = 0.5 * (camera_.fx + camera_.fy);
-  const auto set = [&](const PointFeature& feature, TrackedPoints& points, std::size_t k) {
-    points.points[k] = camera_.Unproject(feature.px).hnormalized();
-    points.sigmas[k] = feature.sigma_px / focal;
-  };
+  const auto set =
+      [&](const Eigen::Vector2d& px, double sigma_px, TrackedPoints& points, std::size_t k) {
+        points.points[k] = camera_.Unproject(px).hnormalized();
+        points.sigmas[k] = sigma_px / focal;
+      };
   const TrackedPoints empty{std::vector<Eigen::Vector2d>(features.size(), Eigen::Vector2d::Zero()),
                             std::vector<double>(features.size(), 0)};
   WindowTracks tracks{empty, std::vector<TrackedPoints>(frames.size(), empty), {}};
   for (std::size_t k = 0; k < features.size(); ++k) {
     tracks.features.push_back(features[k].front().feature);
-    set(reference[Index(tracks.features.back())], tracks.reference, k);
+    const PointFeature& in_reference = reference[Index(tracks.features.back())];
+    set(in_reference.px, in_reference.sigma_px, tracks.reference, k);
     for (const InitialObservation& o : std::span(features[k]).subspan(1)) {
       const std::size_t view = Index(o.view - 1);
-      const Features& seen = frame(frames[view]).indexed->features;
-      set(seen.points[Index(o.feature)], tracks.views[view], k);
+      const Matched& seen = frames_[Index(frames[view])];
+      const std::size_t feature = Index(o.feature);
+      const double sigma = seen.frame.indexed->features.points[feature].sigma_px;
+      set(seen.places[feature], sigma, tracks.views[view], k);
     }
   }
   return tracks;

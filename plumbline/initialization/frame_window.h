@@ -18,14 +18,16 @@ namespace plumbline {
 // fails; beyond a limit every second one is left out.
 class FrameWindow {
  public:
-  explicit FrameWindow(const RectifiedCamera& camera) : camera_(camera) {}
+  explicit FrameWindow(const RectifiedCamera& camera, bool refine = false)
+      : camera_(camera), refine_(refine) {}
 
   void Reset();
   bool empty() const { return !reference_; }
   int size() const { return static_cast<int>(frames_.size()); }  // without the reference
   const InitializationFrame& reference() const { return *reference_; }
 
-  // The first frame becomes the reference; later ones are matched with it. Returns the matches.
+  // The first frame becomes the reference; later ones are matched with it and, where asked for, the
+  // matches refined on the images (match_refinement.h). Returns how many are left.
   int Add(const InitializationFrame& frame);
   // Makes the frame halfway to the newest the reference and matches those after it anew.
   void MoveReference();
@@ -52,9 +54,11 @@ class FrameWindow {
   struct Matched {
     InitializationFrame frame;
     ReferenceMatches matches;
+    std::vector<Eigen::Vector2d> places;  // by feature: of matched points, as refined, pixels
   };
 
   RectifiedCamera camera_;
+  bool refine_;
   std::optional<InitializationFrame> reference_;
   std::vector<Matched> frames_;
 };

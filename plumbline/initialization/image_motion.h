@@ -29,6 +29,9 @@ class ImageMotion {
   // Whether it was made from matches.
   bool known() const { return !places_.empty(); }
 
+  // The derivative of the affine map.
+  const Eigen::Matrix2d& linear() const { return linear_; }
+
   // Cost: O(n).
   Eigen::Vector2d operator()(const Eigen::Vector2d& px) const;
   Segment2 operator()(const Segment2& segment) const {

@@ -39,7 +39,8 @@ constexpr auto EnumNames(std::type_identity<InitializationWait>) {
                     std::pair{InitializationWait::kInaccurate, "inaccurate"}};
 }
 
-// A frame offered for the start of a map. The image is needed by rank1_klt alone.
+// A frame offered for the start of a map. The image is needed by rank1_klt and by
+// rank1 with refine_matches.
 struct InitializationFrame {
   FrameId id;
   std::int64_t stamp_ns = 0;

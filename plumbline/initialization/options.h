@@ -26,6 +26,7 @@ struct InitializationOptions {
   double max_interpolation_px = 2;
   double min_line_angle_deg = 0;
   int reweighting = 5;
+  bool refine_matches = false;
 };
 
 template <class Visitor>
@@ -55,6 +56,11 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         o.reweighting,
         "steps of robust reweighting of the factorization; 0: outliers count in full",
         Range{0, 100});
+  visit(
+      "refine_matches",
+      o.refine_matches,
+      "rank1: shift matches on the images until they fit and leave out those on edges; more starts "
+      "in poor scenes, some of them wrong");
 }
 
 }  // namespace plumbline

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/match_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace plumbline {
+namespace {
+
+constexpr double kOctave = 1.2;      // from one octave to the next
+constexpr double kConverged = 0.01;  // of a step, in pixels of the octave
+
+// Samples of an image around a pixel on a regular grid, row after row.
+using Samples = Eigen::ArrayXd;
+
+// nullopt where a sample lies outside. `axes` has a step along u and v in its columns.
+std::optional<Samples> Sample(const GrayImage& image,
+                              const Eigen::Vector2d& centre,
+                              const Eigen::Matrix2d& axes,
+                              int radius) {
+  const Eigen::Vector2d reach = radius * axes.cwiseAbs().rowwise().sum();
+  if (!((centre - reach).minCoeff() >= 0) || !(centre.x() + reach.x() < image.width() - 1) ||
+      !(centre.y() + reach.y() < image.height() - 1)) {
+    return std::nullopt;
+  }
+  const int side = 2 * radius + 1;
+  Samples samples(side * side);
+  Eigen::Index next = 0;
+  for (int v = -radius; v <= radius; ++v) {
+    for (int u = -radius; u <= radius; ++u) {
+      const Eigen::Vector2d px = centre + axes * Eigen::Vector2d(u, v);
+      const int x = static_cast<int>(px.x());
+      const int y = static_cast<int>(px.y());
+      const double fx = px.x() - x;
+      const double fy = px.y() - y;
+      const std::uint8_t* row = image.row(y) + x;
+      const std::uint8_t* below = image.row(y + 1) + x;
+      samples(next++) =
+          (1 - fy) * ((1 - fx) * row[0] + fx * row[1]) + fy * ((1 - fx) * below[0] + fx * below[1]);
+    }
+  }
+  return samples;
+}
+
+// Mean zero, length one; false where nothing is to be seen.
+bool Normalize(Samples& samples) {
+  samples -= samples.mean();
+  const double length = samples.matrix().norm();
+  if (!(length > std::sqrt(static_cast<double>(samples.size())))) return false;
+  samples /= length;
+  return true;
+}
+
+// A patch of the reference, normalized, with its derivatives along u and v.
+struct Patch {
+  Samples samples;
+  Eigen::Matrix<double, Eigen::Dynamic, 2> gradient;
+  Eigen::Matrix2d tensor;  // of the gradients
+
+  bool IsRound(double min_roundness) const {
+    const Eigen::Vector2d values =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(tensor, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    return values(0) > min_roundness * values(1);
+  }
+};
+
+std::optional<Patch> PatchAround(const GrayImage& image,
+                                 const Eigen::Vector2d& px,
+                                 double step,
+                                 int radius) {
+  const auto wide = Sample(image, px, step * Eigen::Matrix2d::Identity(), radius + 1);
+  if (!wide) return std::nullopt;
+  const int side = 2 * radius + 1;
+  Patch patch{Samples(side * side), {}, {}};
+  patch.gradient.resize(side * side, 2);
+  Eigen::Index next = 0;
+  for (int v = 0; v < side; ++v) {
+    for (int u = 0; u < side; ++u, ++next) {
+      const Eigen::Index at = static_cast<Eigen::Index>(v + 1) * (side + 2) + u + 1;
+      patch.samples(next) = (*wide)(at);
+      patch.gradient(next, 0) = ((*wide)(at + 1) - (*wide)(at - 1)) / 2;
+      patch.gradient(next, 1) = ((*wide)(at + side + 2) - (*wide)(at - side - 2)) / 2;
+    }
+  }
+  patch.samples -= patch.samples.mean();
+  const double length = patch.samples.matrix().norm();
+  Samples normalized = patch.samples;
+  if (!Normalize(normalized)) return std::nullopt;
+  patch.samples = normalized;
+  patch.gradient /= length;
+  patch.gradient.rowwise() -= patch.gradient.colwise().mean().eval();
+  patch.tensor = patch.gradient.transpose() * patch.gradient;
+  return patch;
+}
+
+// The place near `start` where the image looks like the patch.
+std::optional<Eigen::Vector2d> Align(const Patch& patch,
+                                     const GrayImage& image,
+                                     const Eigen::Vector2d& start,
+                                     const Eigen::Matrix2d& axes,
+                                     const MatchRefinementOptions& options) {
+  const Eigen::LDLT<Eigen::Matrix2d> tensor(patch.tensor);
+  const Eigen::Matrix2d inverse_axes = axes.inverse();
+  Eigen::Vector2d px = start;
+  for (int i = 0; i < options.max_iterations; ++i) {
+    auto seen = Sample(image, px, axes, options.radius);
+    if (!seen || !Normalize(*seen)) return std::nullopt;
+    const double correlation = (*seen * patch.samples).sum();
+    const Eigen::Vector2d step =
+        tensor.solve(patch.gradient.transpose() * (*seen - patch.samples).matrix());
+    px -= axes * step;
+    if ((inverse_axes * (px - start)).norm() > options.max_shift_px) return std::nullopt;
+    if (step.norm() > kConverged) continue;
+    if (correlation < options.min_correlation) return std::nullopt;
+    return px;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::optional<Eigen::Vector2d>> RefineMatches(const GrayImage& reference_image,
+                                                          const Features& reference,
+                                                          const GrayImage& image,
+                                                          const Features& frame,
+                                                          std::span<const PointMatch> matches,
+                                                          const Eigen::Matrix2d& linear,
+                                                          const MatchRefinementOptions& options) {
+  std::vector<std::optional<Eigen::Vector2d>> places(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const PointFeature& from = reference.points[static_cast<std::size_t>(matches[i].a)];
+    const PointFeature& to = frame.points[static_cast<std::size_t>(matches[i].b)];
+    const double step = std::pow(kOctave, from.octave);
+    const auto patch = PatchAround(reference_image, from.px, step, options.radius);
+    if (!patch || !patch->IsRound(options.min_roundness)) continue;
+    places[i] = Align(*patch, image, to.px, step * linear, options);
+  }
+  return places;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/features/match_points.h"
+#include "plumbline/features/types.h"
+#include "plumbline/image/image.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+struct MatchRefinementOptions {
+  int radius = 5;  // of the patch, in pixels of the feature's octave
+  int max_iterations = 15;
+  double max_shift_px = 1.5;     // from the feature, in pixels of its octave
+  double min_correlation = 0.8;  // of the patches, normalized, in the end
+  // Smaller over larger eigenvalue of the patch's structure tensor; below, it is an edge and the
+  // place along it is free.
+  double min_roundness = 0.15;
+};
+
+// Where the later image shows exactly what the reference shows around a feature: the corners that a
+// detector finds in two images are not quite the same point of the scene, and those at the border
+// of a thing before another, or on an edge, slide along it.
+//
+// The patch around the feature of the reference, warped by `linear`, is shifted until it fits that
+// of the later image, brightness and contrast apart (Lucas and Kanade 1981, in the inverse form of
+// Baker and Matthews 2004: gradients are those of the patch).
+//
+//   linear   derivative of the motion from reference to image pixels
+//   returns  by match, the pixel in `image`; nullopt where the patch is an edge, leaves an image,
+//            ends too far from the feature or does not look the same there
+//   cost     some microseconds a match
+std::vector<std::optional<Eigen::Vector2d>> RefineMatches(
+    const GrayImage& reference_image,
+    const Features& reference,
+    const GrayImage& image,
+    const Features& frame,
+    std::span<const PointMatch> matches,
+    const Eigen::Matrix2d& linear,
+    const MatchRefinementOptions& options = {});
+
+}  // namespace plumbline

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/match_refinement.h"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Scene = std::function<double(const Eigen::Vector2d&)>;
+
+constexpr int kSide = 100;
+const Eigen::Vector2d kCentre(50, 50);
+
+double Waves(const Eigen::Vector2d& p) {
+  return 120 + 40 * std::sin(0.45 * p.x() + 0.2 * p.y()) +
+         40 * std::cos(0.15 * p.x() - 0.5 * p.y());
+}
+double StraightEdge(const Eigen::Vector2d& p) {
+  return 120 + 80 * std::tanh(0.5 * (p.x() - 50 + 0.3 * (p.y() - 50)));
+}
+
+GrayImage Picture(const Scene& scene) {
+  GrayImage image(kSide, kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      image.at(x, y) = static_cast<std::uint8_t>(std::lround(scene(Eigen::Vector2d(x, y))));
+    }
+  }
+  return image;
+}
+
+Features FeatureAt(const Eigen::Vector2d& px, int octave = 0) {
+  Features features;
+  features.points.push_back({});
+  features.points.back().px = px;
+  features.points.back().octave = octave;
+  return features;
+}
+
+// Where the later image shows what the reference shows at `from`, the detector having said `to`.
+std::optional<Eigen::Vector2d> Refine(const Scene& reference,
+                                      const Eigen::Vector2d& from,
+                                      const Scene& later,
+                                      const Eigen::Vector2d& to,
+                                      const Eigen::Matrix2d& linear = Eigen::Matrix2d::Identity(),
+                                      int octave = 0) {
+  const std::vector<PointMatch> matches{{0, 0, 0}};
+  return RefineMatches(Picture(reference),
+                       FeatureAt(from, octave),
+                       Picture(later),
+                       FeatureAt(to, octave),
+                       matches,
+                       linear)
+      .front();
+}
+
+TEST(RefineMatches, FindsTheShiftToAFractionOfAPixel) {
+  const Eigen::Vector2d shift(2.3, -1.6);
+  const Scene moved = [&](const Eigen::Vector2d& p) { return Waves(p - shift); };
+  for (const Eigen::Vector2d& wrong : {Eigen::Vector2d(0.8, 0.5), Eigen::Vector2d(-0.6, 0.9)}) {
+    const auto place = Refine(Waves, kCentre, moved, kCentre + shift + wrong);
+    ASSERT_TRUE(place);
+    EXPECT_LT((*place - kCentre - shift).norm(), 0.05) << place->transpose();
+  }
+}
+
+TEST(RefineMatches, FollowsTurnScaleBrightnessAndContrast) {
+  const Eigen::Matrix2d linear = 1.15 * Eigen::Rotation2Dd(0.3).toRotationMatrix();
+  const Eigen::Matrix2d inverse = linear.inverse();
+  const Scene moved = [&](const Eigen::Vector2d& p) {
+    return 20 + 0.7 * Waves(kCentre + inverse * (p - kCentre));
+  };
+  for (const int octave : {0, 3}) {
+    const auto place =
+        Refine(Waves, kCentre, moved, kCentre + Eigen::Vector2d(0.7, -0.4), linear, octave);
+    ASSERT_TRUE(place) << octave;
+    EXPECT_LT((*place - kCentre).norm(), 0.05) << place->transpose();
+  }
+}
+
+TEST(RefineMatches, RejectsWhatSlidesAlongAnEdge) {
+  EXPECT_FALSE(Refine(StraightEdge, kCentre, StraightEdge, kCentre));
+  // A corner on the same edge holds it.
+  const Scene corner = [](const Eigen::Vector2d& p) { return p.y() > 50 ? StraightEdge(p) : 40.0; };
+  EXPECT_TRUE(Refine(corner, kCentre, corner, kCentre));
+}
+
+TEST(RefineMatches, RejectsWhatIsFarOffOrLooksDifferent) {
+  EXPECT_FALSE(Refine(Waves, kCentre, Waves, kCentre + Eigen::Vector2d(2.5, 0)));
+  const Scene negative = [](const Eigen::Vector2d& p) { return 240 - Waves(p); };
+  EXPECT_FALSE(Refine(Waves, kCentre, negative, kCentre));
+  const Scene blank = [](const Eigen::Vector2d&) { return 90.0; };
+  EXPECT_FALSE(Refine(Waves, kCentre, blank, kCentre));
+  EXPECT_FALSE(Refine(blank, kCentre, Waves, kCentre));
+}
+
+TEST(RefineMatches, RejectsPatchesThatLeaveAnImage) {
+  const Eigen::Vector2d border(4, 50);
+  EXPECT_FALSE(Refine(Waves, border, Waves, border));
+  const Scene moved = [](const Eigen::Vector2d& p) { return Waves(p + Eigen::Vector2d(46, 0)); };
+  EXPECT_FALSE(Refine(Waves, kCentre, moved, border));
+}
+
+}  // namespace
+}  // namespace plumbline
