@@ -27,6 +27,7 @@ TEST(Accuracy, RoadStereo) { Check(kRoad); }
 TEST(Accuracy, MachineHallMono) { Check(kMachineHallMono); }
 TEST(Accuracy, FloorMono) { Check(kFloorMono); }
 TEST(Accuracy, OfficeMono) { Check(kOfficeMono); }
+TEST(Accuracy, RoadMono) { Check(kRoadMono); }
 TEST(Accuracy, MachineHallWithLinesOnly) { Check(kMachineHallLines); }
 
 }  // namespace
