@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/image_motion.h"
 
+#include "plumbline/base/median.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -18,12 +22,6 @@ constexpr std::size_t kNearest = 7;
 // larger than the parallax that an affine map leaves, and smaller than the error of a wrong match.
 constexpr std::array<double, 8> kScalesPx{160, 80, 40, 20, 10, 10, 10, 10};
 
-double Median(std::span<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Eigen::Vector2d MedianShift(std::span<const PixelPair> matches) {
   std::vector<double> x;
   std::vector<double> y;
@@ -31,7 +29,7 @@ Eigen::Vector2d MedianShift(std::span<const PixelPair> matches) {
     x.push_back(m.to.x() - m.from.x());
     y.push_back(m.to.y() - m.from.y());
   }
-  return {Median(x), Median(y)};
+  return {UpperMedian(std::move(x)), UpperMedian(std::move(y))};
 }
 
 }  // namespace
@@ -84,7 +82,7 @@ Eigen::Vector2d ImageMotion::operator()(const Eigen::Vector2d& px) const {
     x[k] = leftovers_[nearest[k]].x();
     y[k] = leftovers_[nearest[k]].y();
   }
-  return Affine(px) + Eigen::Vector2d(Median(x), Median(y));
+  return Affine(px) + Eigen::Vector2d(UpperMedian(x), UpperMedian(y));
 }
 
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/multi_view.h"
 
+#include "plumbline/base/median.h"
 #include "plumbline/initialization/window_adjustment.h"
 #include "plumbline/initialization/window_covariance.h"
 #include "plumbline/solvers/pose_refinement.h"
@@ -32,13 +33,6 @@ struct Explanation {
   WindowFit fit;
 };
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::vector<RayMatch> MatchesOfNewest(const WindowTracks& tracks) {
   std::vector<RayMatch> matches;
   const TrackedPoints& newest = tracks.views.back();
@@ -63,7 +57,7 @@ double ParallaxDeg(const WindowTracks& tracks, const WindowSolution& solution) {
     angles.push_back(
         solution.is_known[k] ? std::atan2(point.cross(to_centre).norm(), point.dot(to_centre)) : 0);
   }
-  return Median(std::move(angles)) / kDegree;
+  return UpperMedian(std::move(angles)) / kDegree;
 }
 
 bool IsSame(const WindowSolution& a, const WindowSolution& b) {
@@ -138,7 +132,7 @@ double NoiseOf(const std::vector<RayMatch>& matches, const RelativePoseHypothesi
     const double distance = EvaluateSampson(hypothesis.b_from_a, basis, match).value;
     chi2.push_back(distance * distance);
   }
-  return std::sqrt(Median(std::move(chi2)) / kMedianOfChi2);
+  return std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
 }
 
 // The same matches with the noise that they turned out to have.
@@ -157,7 +151,7 @@ double MedianDepthSigma(const WindowCovariance& covariance) {
   for (double& sigma : sigmas) {
     if (sigma < 0) sigma = std::numeric_limits<double>::infinity();
   }
-  return Median(std::move(sigmas));
+  return UpperMedian(std::move(sigmas));
 }
 
 // Whether what is promised for a solution is good enough.

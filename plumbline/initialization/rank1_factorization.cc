@@ -3,6 +3,7 @@
 #include "plumbline/initialization/rank1_factorization.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +17,6 @@ namespace {
 constexpr double kMedianToSigma = 1 / 1.1774;
 // Of what the noise was said to be: where the residuals are smaller still, none is an outlier.
 constexpr double kMinSpread = 0.1;
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // |entry - centre * inverse distance| in standard deviations, by view and point; unknown ones -1.
 Eigen::MatrixXd Residuals(const Rank1Matrix& matrix, const RankOne& pair) {
@@ -44,7 +39,7 @@ double Spread(const Eigen::MatrixXd& residuals) {
   for (Eigen::Index j = 0; j < residuals.size(); ++j) {
     if (residuals.data()[j] >= 0) known.push_back(residuals.data()[j]);
   }
-  return known.empty() ? 0 : Median(known) * kMedianToSigma;
+  return known.empty() ? 0 : UpperMedian(known) * kMedianToSigma;
 }
 
 // Weights of the entries by their noise and by the Cauchy loss of their residuals.

@@ -3,6 +3,7 @@
 #include "plumbline/initialization/structure.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/base/median.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
@@ -182,13 +183,6 @@ void TakeOver(const RectifiedCamera& camera, const BaResult& result, InitialMap&
   });
 }
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 InitialMap BuildStructure(const RectifiedCamera& camera,
@@ -218,7 +212,7 @@ double MedianDepth(const InitialMap& map) {
   for (const InitialPoint& point : map.points) {
     depths.push_back((map.views.front().cam_from_world * point.position).z());
   }
-  return Median(std::move(depths));
+  return UpperMedian(std::move(depths));
 }
 
 void Scale(double factor, InitialMap& map) {
@@ -242,7 +236,7 @@ StructureFit AdjustStructure(const RectifiedCamera& camera, InitialMap& map) {
   fit.observations = static_cast<int>(result.point_inliers.size());
   fit.inliers =
       static_cast<int>(std::count(result.point_inliers.begin(), result.point_inliers.end(), true));
-  fit.median_chi2 = Median(result.point_chi2);
+  fit.median_chi2 = UpperMedian(result.point_chi2);
   TakeOver(camera, result, map);
   const double depth = MedianDepth(map);
   if (depth > 0) Scale(1 / depth, map);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/window_adjustment.h"
 
+#include "plumbline/base/median.h"
 #include "plumbline/optimization/local_ba.h"
 
 #include <algorithm>
@@ -29,13 +30,6 @@ double Chi2(const Rigid3& pose,
   const Eigen::Vector3d in_cam = pose * point;
   if (!(in_cam.z() > 0)) return std::numeric_limits<double>::infinity();
   return (in_cam.hnormalized() - seen).squaredNorm() / (s * s);
-}
-
-double MedianOf(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void AddObservation(const TrackedPoints& view, std::size_t k, int pose, int point, BaProblem& out) {
@@ -74,7 +68,7 @@ WindowFit Evaluate(const WindowTracks& tracks, const WindowSolution& solution, d
     }
   }
   const double free = std::max(1, 2 * fit.measurements - parameters);
-  fit.noise = std::sqrt(MedianOf(errors) / kMedianChi2 * 2 * fit.measurements / free);
+  fit.noise = std::sqrt(UpperMedian(errors) / kMedianChi2 * 2 * fit.measurements / free);
   return fit;
 }
 
@@ -114,7 +108,7 @@ void ScaleToMedianDepth(WindowSolution& solution) {
   for (std::size_t k = 0; k < solution.points.size(); ++k) {
     if (solution.is_known[k]) depths.push_back(solution.points[k].z());
   }
-  const double median = MedianOf(depths);
+  const double median = UpperMedian(depths);
   if (!(median > 0)) return;
   for (Rigid3& pose : solution.cam_from_reference) pose.translation /= median;
   for (Eigen::Vector3d& point : solution.points) point /= median;

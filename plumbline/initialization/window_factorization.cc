@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/window_factorization.h"
 
+#include "plumbline/base/median.h"
 #include "plumbline/initialization/geometric_interpolation.h"
 #include "plumbline/initialization/rank1_factorization.h"
 #include "plumbline/initialization/window_covariance.h"
@@ -21,13 +22,6 @@ constexpr double kFarthest = 0.02;
 // Of measurements that enter the covariance, in variances: 99.99 % of two degrees of freedom.
 constexpr double kMaxChi2 = 18.4;
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Rank1View ViewOf(const TrackedPoints& seen, const Rigid3& pose) {
   const Rigid3 reference_from_cam = Inverse(pose);
   const double length = reference_from_cam.translation.norm();
@@ -44,7 +38,7 @@ double MedianOfPositive(const std::vector<double>& inverse_distances) {
   for (const double d : inverse_distances) {
     if (d > 0) positive.push_back(d);
   }
-  return Median(std::move(positive));
+  return UpperMedian(std::move(positive));
 }
 
 // The points in space, those near infinity put at `kFarthest`.

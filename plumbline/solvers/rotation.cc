@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/rotation.h"
 
+#include "plumbline/base/median.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/ransac.h"
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -132,7 +134,6 @@ RotationFit FitRotation(std::span<const RayMatch> matches, Rng& rng) {
 }
 
 double MedianParallax(std::span<const RayMatch> matches, const Eigen::Quaterniond& b_from_a) {
-  if (matches.empty()) return 0;
   std::vector<double> angles;
   angles.reserve(matches.size());
   for (const RayMatch& match : matches) {
@@ -140,9 +141,7 @@ double MedianParallax(std::span<const RayMatch> matches, const Eigen::Quaternion
     const Eigen::Vector3d b = match.b.homogeneous();
     angles.push_back(std::atan2(q.cross(b).norm(), q.dot(b)));
   }
-  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
-  std::nth_element(angles.begin(), middle, angles.end());
-  return *middle;
+  return UpperMedian(std::move(angles));
 }
 
 }  // namespace plumbline

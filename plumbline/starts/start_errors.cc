@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/starts/start_errors.h"
 
+#include "plumbline/base/median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,12 +18,6 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kLeastPoints = 10;
 
 // The upper one of the middle two of an even number. `values` must not be empty.
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double AngleDeg(const Vector3d& a, const Vector3d& b) {
   return kDegrees * std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -52,7 +48,7 @@ void CompareDepths(const std::vector<double>& ratios, StartErrors& errors) {
   constexpr double kFar = 0.2;
   errors.compared = static_cast<int>(ratios.size());
   if (ratios.size() < kLeastPoints) return;
-  const double middle = Median(ratios);
+  const double middle = UpperMedian(ratios);
   std::vector<double> differences;
   std::size_t far = 0;
   for (const double ratio : ratios) {
@@ -60,7 +56,7 @@ void CompareDepths(const std::vector<double>& ratios, StartErrors& errors) {
     far += differences.back() > kFar;
   }
   const bool mirrored = middle <= 0;
-  errors.depth = mirrored ? std::numeric_limits<double>::infinity() : Median(differences);
+  errors.depth = mirrored ? std::numeric_limits<double>::infinity() : UpperMedian(differences);
   errors.depth_outliers =
       mirrored ? 1 : static_cast<double>(far) / static_cast<double>(ratios.size());
 }
@@ -79,7 +75,7 @@ double MedianParallaxDeg(const std::vector<Vector3d>& points,
     angles.push_back(AngleDeg(point, point - centre));
   }
   if (angles.size() < kLeastPoints || kLeastShare * angles.size() < points.size()) return 0;
-  return Median(std::move(angles));
+  return UpperMedian(std::move(angles));
 }
 
 StartErrors CompareInitialMap(const InitialMap& map,
