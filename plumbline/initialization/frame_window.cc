@@ -7,13 +7,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace plumbline {
 namespace {
 
 constexpr std::size_t kMaxFrames = 40;
+constexpr double kSeparationPx = 5;  // of the points that are used together
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
@@ -34,69 +38,39 @@ std::vector<FeatureTrack> CollectTracks(std::size_t features,
   return by_feature;
 }
 
-// At most `count` of the tracks: round after round the best that is left in each cell of the image,
-// those that the newest frame shows first, then by the number of frames, then by the noise.
-std::vector<FeatureTrack> SpreadTracks(const RectifiedCamera& camera,
-                                       std::vector<FeatureTrack> tracks,
-                                       const std::vector<PointFeature>& reference,
-                                       int newest,
-                                       int count) {
-  if (static_cast<int>(tracks.size()) <= count) return tracks;
-  constexpr int kColumns = 8;
-  constexpr int kRows = 6;
-  std::array<std::vector<std::size_t>, kColumns * kRows> cells;
-  const auto feature = [&](std::size_t k) -> const PointFeature& {
-    return reference[Index(tracks[k].front().feature)];
-  };
-  for (std::size_t k = 0; k < tracks.size(); ++k) {
-    const Eigen::Vector2d& px = feature(k).px;
-    const int column =
-        std::clamp(static_cast<int>(px.x() / camera.width * kColumns), 0, kColumns - 1);
-    const int row = std::clamp(static_cast<int>(px.y() / camera.height * kRows), 0, kRows - 1);
-    cells[Index(row * kColumns + column)].push_back(k);
-  }
-  for (auto& cell : cells) {
-    std::stable_sort(cell.begin(), cell.end(), [&](std::size_t a, std::size_t b) {
-      const bool a_newest = tracks[a].back().view == newest;
-      const bool b_newest = tracks[b].back().view == newest;
-      if (a_newest != b_newest) return a_newest;
-      if (tracks[a].size() != tracks[b].size()) return tracks[a].size() > tracks[b].size();
-      return feature(a).sigma_px < feature(b).sigma_px;
-    });
-  }
-  std::vector<std::size_t> chosen;
-  for (std::size_t round = 0; chosen.size() < Index(count); ++round) {
-    for (const auto& cell : cells) {
-      if (round < cell.size() && chosen.size() < Index(count)) chosen.push_back(cell[round]);
-    }
-  }
-  std::sort(chosen.begin(), chosen.end());
-  std::vector<FeatureTrack> result;
-  for (const std::size_t k : chosen) result.push_back(std::move(tracks[k]));
-  return result;
-}
+// Takes features in order, but none that is nearer than `distance_px` to one that was taken: a corner
+// is often found in several octaves, and its errors are the same in all of them.
+class Separated {
+ public:
+  Separated(std::span<const PointFeature> points, double distance_px)
+      : points_(points), squared_(distance_px * distance_px) {}
 
-// The places of a frame's points: those that are matched, refined. Matches that cannot be are left
-// out.
-void Refine(const InitializationFrame& reference,
-            const InitializationFrame& frame,
-            ReferenceMatches& matches,
-            std::vector<Eigen::Vector2d>& places) {
-  PLUMBLINE_CHECK(reference.image && frame.image, "refinement works on images");
-  const Features& features = frame.indexed->features;
-  const auto refined = RefineMatches(*reference.image,
-                                     reference.indexed->features,
-                                     *frame.image,
-                                     features,
-                                     matches.points,
-                                     matches.motion.linear());
-  std::vector<PointMatch> kept;
-  for (std::size_t i = 0; i < refined.size(); ++i) {
-    if (!refined[i]) continue;
-    kept.push_back(matches.points[i]);
-    places[Index(matches.points[i].b)] = *refined[i];
+  bool Take(std::size_t feature) {
+    const Eigen::Vector2d& px = points_[feature].px;
+    const bool free = std::none_of(taken_.begin(), taken_.end(), [&](const Eigen::Vector2d& other) {
+      return (other - px).squaredNorm() < squared_;
+    });
+    if (free) taken_.push_back(px);
+    return free;
   }
-  matches.points = std::move(kept);
+
+ private:
+  std::span<const PointFeature> points_;
+  double squared_;
+  std::vector<Eigen::Vector2d> taken_;
+};
+
+// Those to be followed from image to image, by feature: the best localized of each place.
+std::vector<bool> ChooseFollowed(std::span<const PointFeature> points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return points[a].sigma_px < points[b].sigma_px;
+  });
+  std::vector<bool> followed(points.size(), false);
+  Separated separated(points, kSeparationPx);
+  for (const std::size_t k : order) followed[k] = separated.Take(k);
+  return followed;
 }
 
 }  // namespace
@@ -106,32 +80,78 @@ void FrameWindow::Reset() {
   frames_.clear();
 }
 
+void FrameWindow::SetReference(const InitializationFrame& frame) {
+  reference_ = frame;
+  if (!refine_) return;
+  PLUMBLINE_CHECK(frame.image != nullptr, "refinement works on images");
+  const std::vector<PointFeature>& points = frame.indexed->features.points;
+  const std::vector<bool> followed = ChooseFollowed(points);
+  Places places(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (followed[k]) places[k] = points[k].px;
+  }
+  flow_ = KltTracks(frame.image, std::move(places));
+}
+
 int FrameWindow::Add(const InitializationFrame& frame) {
   if (!reference_) {
-    reference_ = frame;
+    SetReference(frame);
     return 0;
   }
   const ImageMotion guess = frames_.empty() ? ImageMotion{} : frames_.back().matches.motion;
   ReferenceMatches matches =
       MatchToReference(reference_->indexed->features, frame.indexed->features, guess);
-  std::vector<Eigen::Vector2d> places;
-  for (const PointFeature& point : frame.indexed->features.points) places.push_back(point.px);
-  if (refine_) Refine(*reference_, frame, matches, places);
-  const int count = static_cast<int>(matches.points.size());
+  std::vector<Place> places = refine_ ? PlacesOnImage(frame, matches)
+                                      : PlacesOfMatches(frame.indexed->features, matches);
+  const auto count = std::count_if(
+      places.begin(), places.end(), [](const Place& place) { return place.sigma_px > 0; });
   if (frames_.size() >= kMaxFrames) {
     std::vector<Matched> kept;
     for (std::size_t i = 1; i < frames_.size(); i += 2) kept.push_back(std::move(frames_[i]));
     frames_ = std::move(kept);
   }
   frames_.push_back({frame, std::move(matches), std::move(places)});
-  return count;
+  return static_cast<int>(count);
+}
+
+std::vector<FrameWindow::Place> FrameWindow::PlacesOfMatches(
+    const Features& features, const ReferenceMatches& matches) const {
+  std::vector<Place> places(reference_->indexed->features.points.size());
+  for (const PointMatch& match : matches.points) {
+    const PointFeature& seen = features.points[Index(match.b)];
+    places[Index(match.a)] = {seen.px, seen.sigma_px};
+  }
+  return places;
+}
+
+// Followed from the last image, or where it was lost matched by descriptor; then brought to where
+// the image shows what the reference shows, which is also where it is followed from next.
+std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationFrame& frame,
+                                                           const ReferenceMatches& matches) {
+  PLUMBLINE_CHECK(frame.image != nullptr, "refinement works on images");
+  const std::vector<PointFeature>& reference = reference_->indexed->features.points;
+  flow_.Follow(frame.image);
+  Places guesses = flow_.places();
+  for (const PointMatch& match : matches.points) {
+    auto& guess = guesses[Index(match.a)];
+    if (!guess) guess = frame.indexed->features.points[Index(match.b)].px;
+  }
+  const Places refined = RefinePlaces(
+      *reference_->image, reference, *frame.image, guesses, matches.motion.linear());
+  std::vector<Place> places(reference.size());
+  for (std::size_t k = 0; k < refined.size(); ++k) {
+    if (!refined[k]) continue;
+    flow_.Correct(k, *refined[k]);
+    places[k] = {*refined[k], reference[k].sigma_px};
+  }
+  return places;
 }
 
 void FrameWindow::MoveReference() {
   PLUMBLINE_CHECK(!frames_.empty(), "no frame to move to");
   std::vector<Matched> old = std::exchange(frames_, {});
   const std::size_t middle = (old.size() - 1) / 2;
-  reference_ = old[middle].frame;
+  SetReference(old[middle].frame);
   for (std::size_t i = middle + 1; i < old.size(); ++i) Add(old[i].frame);
 }
 
@@ -142,29 +162,66 @@ std::vector<int> FrameWindow::Spread(int count) const {
   return frames;
 }
 
+// At most `count` of the reference's features: round after round the best that is left in each cell
+// of the image, those that the newest frame shows first, then by the number of frames, then by the
+// noise.
+std::vector<std::size_t> FrameWindow::SpreadFeatures(const std::vector<int>& frames,
+                                                     int count) const {
+  constexpr int kColumns = 8;
+  constexpr int kRows = 6;
+  const std::vector<PointFeature>& points = reference_->indexed->features.points;
+  const auto seen = [&](std::size_t k, int frame) {
+    return frames_[Index(frame)].places[k].sigma_px > 0;
+  };
+  const auto rank = [&](std::size_t k) {
+    const auto views =
+        std::count_if(frames.begin(), frames.end(), [&](int frame) { return seen(k, frame); });
+    return std::tuple(!seen(k, frames.back()), -views, points[k].sigma_px);
+  };
+  std::array<std::vector<std::size_t>, kColumns * kRows> cells;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (std::get<1>(rank(k)) == 0) continue;
+    const Eigen::Vector2d& px = points[k].px;
+    const int column =
+        std::clamp(static_cast<int>(px.x() / camera_.width * kColumns), 0, kColumns - 1);
+    const int row = std::clamp(static_cast<int>(px.y() / camera_.height * kRows), 0, kRows - 1);
+    cells[Index(row * kColumns + column)].push_back(k);
+  }
+  std::size_t rounds = 0;
+  for (auto& cell : cells) {
+    std::stable_sort(cell.begin(), cell.end(), [&](std::size_t a, std::size_t b) {
+      return rank(a) < rank(b);
+    });
+    rounds = std::max(rounds, cell.size());
+  }
+  std::vector<std::size_t> chosen;
+  Separated separated(points, kSeparationPx);
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (const auto& cell : cells) {
+      if (round >= cell.size() || chosen.size() >= Index(count)) continue;
+      if (separated.Take(cell[round])) chosen.push_back(cell[round]);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
 WindowTracks FrameWindow::TracksOf(const std::vector<int>& frames, int max_points) const {
   const std::vector<PointFeature>& reference = reference_->indexed->features.points;
-  const std::vector<FeatureTrack> features = SpreadTracks(
-      camera_, PointTracks(frames), reference, static_cast<int>(frames.size()), max_points);
   const double focal = 0.5 * (camera_.fx + camera_.fy);
-  const auto set =
-      [&](const Eigen::Vector2d& px, double sigma_px, TrackedPoints& points, std::size_t k) {
-        points.points[k] = camera_.Unproject(px).hnormalized();
-        points.sigmas[k] = sigma_px / focal;
-      };
-  const TrackedPoints empty{std::vector<Eigen::Vector2d>(features.size(), Eigen::Vector2d::Zero()),
-                            std::vector<double>(features.size(), 0)};
-  WindowTracks tracks{empty, std::vector<TrackedPoints>(frames.size(), empty), {}};
-  for (std::size_t k = 0; k < features.size(); ++k) {
-    tracks.features.push_back(features[k].front().feature);
-    const PointFeature& in_reference = reference[Index(tracks.features.back())];
-    set(in_reference.px, in_reference.sigma_px, tracks.reference, k);
-    for (const InitialObservation& o : std::span(features[k]).subspan(1)) {
-      const std::size_t view = Index(o.view - 1);
-      const Matched& seen = frames_[Index(frames[view])];
-      const std::size_t feature = Index(o.feature);
-      const double sigma = seen.frame.indexed->features.points[feature].sigma_px;
-      set(seen.places[feature], sigma, tracks.views[view], k);
+  WindowTracks tracks;
+  tracks.views.resize(frames.size());
+  const auto add = [&](const Place& place, TrackedPoints& points) {
+    const bool seen = place.sigma_px > 0;
+    points.points.push_back(seen ? Eigen::Vector2d(camera_.Unproject(place.px).hnormalized())
+                                 : Eigen::Vector2d::Zero());
+    points.sigmas.push_back(place.sigma_px / focal);
+  };
+  for (const std::size_t k : SpreadFeatures(frames, max_points)) {
+    tracks.features.push_back(static_cast<int>(k));
+    add({reference[k].px, reference[k].sigma_px}, tracks.reference);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      add(frames_[Index(frames[i])].places[k], tracks.views[i]);
     }
   }
   return tracks;

@@ -4,6 +4,7 @@
 
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/initialization/initializer.h"
+#include "plumbline/initialization/klt_tracks.h"
 #include "plumbline/initialization/matching.h"
 #include "plumbline/initialization/structure.h"
 #include "plumbline/initialization/window_tracks.h"
@@ -51,15 +52,28 @@ class FrameWindow {
   }
 
  private:
+  // Where a frame shows a feature of the reference, pixels.
+  struct Place {
+    Eigen::Vector2d px = Eigen::Vector2d::Zero();
+    double sigma_px = 0;  // 0: not seen
+  };
   struct Matched {
     InitializationFrame frame;
     ReferenceMatches matches;
-    std::vector<Eigen::Vector2d> places;  // by feature: of matched points, as refined, pixels
+    std::vector<Place> places;  // by feature of the reference
   };
+
+  void SetReference(const InitializationFrame& frame);
+  std::vector<Place> PlacesOfMatches(const Features& features,
+                                     const ReferenceMatches& matches) const;
+  std::vector<Place> PlacesOnImage(const InitializationFrame& frame,
+                                   const ReferenceMatches& matches);
+  std::vector<std::size_t> SpreadFeatures(const std::vector<int>& frames, int count) const;
 
   RectifiedCamera camera_;
   bool refine_;
   std::optional<InitializationFrame> reference_;
+  KltTracks flow_;  // of features of the reference, by feature
   std::vector<Matched> frames_;
 };
 

@@ -88,9 +88,9 @@ void KltInitializer::Reset() {
 void KltInitializer::Start(const InitializationFrame& frame) {
   reference_ = frame;
   frames_.clear();
-  std::vector<Eigen::Vector2d> points;
-  for (const PointFeature& feature : frame.indexed->features.points) points.push_back(feature.px);
-  tracks_ = KltTracks(frame.image, points);
+  std::vector<std::optional<Eigen::Vector2d>> points;
+  for (const PointFeature& feature : frame.indexed->features.points) points.emplace_back(feature.px);
+  tracks_ = KltTracks(frame.image, std::move(points));
 }
 
 InitializationResult KltInitializer::Add(const InitializationFrame& frame) {

@@ -61,8 +61,8 @@ std::vector<std::optional<Eigen::Vector2d>> FollowThereAndBack(
 }  // namespace
 
 KltTracks::KltTracks(std::shared_ptr<const GrayImage> image,
-                     const std::vector<Eigen::Vector2d>& points)
-    : image_(std::move(image)), places_(points.begin(), points.end()) {}
+                     std::vector<std::optional<Eigen::Vector2d>> places)
+    : image_(std::move(image)), places_(std::move(places)) {}
 
 int KltTracks::alive() const {
   return static_cast<int>(std::count_if(

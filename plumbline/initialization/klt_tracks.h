@@ -6,6 +6,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/map/frame.h"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,11 +20,16 @@ namespace plumbline {
 class KltTracks {
  public:
   KltTracks() = default;
-  KltTracks(std::shared_ptr<const GrayImage> image, const std::vector<Eigen::Vector2d>& points);
+  // By point, where it is in the image; nullopt: not followed.
+  KltTracks(std::shared_ptr<const GrayImage> image,
+            std::vector<std::optional<Eigen::Vector2d>> places);
 
   // Follows the points that are left into the next image, of the same size. Those that leave it,
   // are not found or do not come back are lost for good. Cost: about 2 ms for 500 points in VGA.
   void Follow(std::shared_ptr<const GrayImage> image);
+
+  // Puts a point where it was found in the newest image by other means.
+  void Correct(std::size_t point, const Eigen::Vector2d& place) { places_[point] = place; }
 
   // By point, where it is in the newest image; nullopt: lost.
   const std::vector<std::optional<Eigen::Vector2d>>& places() const { return places_; }

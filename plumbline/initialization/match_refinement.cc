@@ -125,21 +125,19 @@ std::optional<Eigen::Vector2d> Align(const Patch& patch,
 
 }  // namespace
 
-std::vector<std::optional<Eigen::Vector2d>> RefineMatches(const GrayImage& reference_image,
-                                                          const Features& reference,
-                                                          const GrayImage& image,
-                                                          const Features& frame,
-                                                          std::span<const PointMatch> matches,
-                                                          const Eigen::Matrix2d& linear,
-                                                          const MatchRefinementOptions& options) {
-  std::vector<std::optional<Eigen::Vector2d>> places(matches.size());
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    const PointFeature& from = reference.points[static_cast<std::size_t>(matches[i].a)];
-    const PointFeature& to = frame.points[static_cast<std::size_t>(matches[i].b)];
-    const double step = std::pow(kOctave, from.octave);
-    const auto patch = PatchAround(reference_image, from.px, step, options.radius);
+Places RefinePlaces(const GrayImage& reference_image,
+                    std::span<const PointFeature> reference,
+                    const GrayImage& image,
+                    const Places& guesses,
+                    const Eigen::Matrix2d& linear,
+                    const MatchRefinementOptions& options) {
+  Places places(guesses.size());
+  for (std::size_t k = 0; k < guesses.size(); ++k) {
+    if (!guesses[k]) continue;
+    const double step = std::pow(kOctave, reference[k].octave);
+    const auto patch = PatchAround(reference_image, reference[k].px, step, options.radius);
     if (!patch || !patch->IsRound(options.min_roundness)) continue;
-    places[i] = Align(*patch, image, to.px, step * linear, options);
+    places[k] = Align(*patch, image, *guesses[k], step * linear, options);
   }
   return places;
 }

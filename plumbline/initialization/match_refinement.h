@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/features/match_points.h"
 #include "plumbline/features/types.h"
 #include "plumbline/image/image.h"
 
@@ -17,7 +16,7 @@ namespace plumbline {
 struct MatchRefinementOptions {
   int radius = 5;  // of the patch, in pixels of the feature's octave
   int max_iterations = 15;
-  double max_shift_px = 1.5;     // from the feature, in pixels of its octave
+  double max_shift_px = 1.5;     // from the guess, in pixels of the octave
   double min_correlation = 0.8;  // of the patches, normalized, in the end
   // Smaller over larger eigenvalue of the patch's structure tensor; below, it is an edge and the
   // place along it is free.
@@ -32,17 +31,17 @@ struct MatchRefinementOptions {
 // of the later image, brightness and contrast apart (Lucas and Kanade 1981, in the inverse form of
 // Baker and Matthews 2004: gradients are those of the patch).
 //
+//   guesses  by feature of the reference, where the image should show it; nullopt: not looked for
 //   linear   derivative of the motion from reference to image pixels
-//   returns  by match, the pixel in `image`; nullopt where the patch is an edge, leaves an image,
-//            ends too far from the feature or does not look the same there
-//   cost     some microseconds a match
-std::vector<std::optional<Eigen::Vector2d>> RefineMatches(
-    const GrayImage& reference_image,
-    const Features& reference,
-    const GrayImage& image,
-    const Features& frame,
-    std::span<const PointMatch> matches,
-    const Eigen::Matrix2d& linear,
-    const MatchRefinementOptions& options = {});
+//   returns  by feature, the pixel in `image`; nullopt where the patch is an edge, leaves an image,
+//            ends too far from the guess or does not look the same there
+//   cost     some microseconds a feature
+using Places = std::vector<std::optional<Eigen::Vector2d>>;
+Places RefinePlaces(const GrayImage& reference_image,
+                    std::span<const PointFeature> reference,
+                    const GrayImage& image,
+                    const Places& guesses,
+                    const Eigen::Matrix2d& linear,
+                    const MatchRefinementOptions& options = {});
 
 }  // namespace plumbline
