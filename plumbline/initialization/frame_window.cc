@@ -17,29 +17,13 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kMaxFrames = 40;
-constexpr double kSeparationPx = 5;  // of the points that are used together
+constexpr double kAttachRadiusPx = 1.5;  // of a feature from the place it is taken for
+constexpr double kSeparationPx = 5;      // of the points that are used together
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-// Tracks of all features of the reference that any of the frames matched.
-template <class MatchesOf>
-std::vector<FeatureTrack> CollectTracks(std::size_t features,
-                                        std::size_t frames,
-                                        const MatchesOf& matches_of) {
-  std::vector<FeatureTrack> by_feature(features);
-  for (std::size_t i = 0; i < frames; ++i) {
-    for (const auto& match : matches_of(i)) {
-      FeatureTrack& track = by_feature[Index(match.a)];
-      if (track.empty()) track.push_back({0, match.a});
-      track.push_back({static_cast<int>(i) + 1, match.b});
-    }
-  }
-  std::erase_if(by_feature, [](const FeatureTrack& track) { return track.empty(); });
-  return by_feature;
-}
-
-// Takes features in order, but none that is nearer than `distance_px` to one that was taken: a corner
-// is often found in several octaves, and its errors are the same in all of them.
+// Takes features in order, but none that is nearer than `distance_px` to one that was taken: a
+// corner is often found in several octaves, and its errors are the same in all of them.
 class Separated {
  public:
   Separated(std::span<const PointFeature> points, double distance_px)
@@ -75,6 +59,14 @@ std::vector<bool> ChooseFollowed(std::span<const PointFeature> points) {
 
 }  // namespace
 
+Places FrameWindow::PlacesOf(const Matched& matched) {
+  Places places(matched.places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (matched.places[k].sigma_px > 0) places[k] = matched.places[k].px;
+  }
+  return places;
+}
+
 void FrameWindow::Reset() {
   reference_.reset();
   frames_.clear();
@@ -82,8 +74,8 @@ void FrameWindow::Reset() {
 
 void FrameWindow::SetReference(const InitializationFrame& frame) {
   reference_ = frame;
-  if (!refine_) return;
-  PLUMBLINE_CHECK(frame.image != nullptr, "refinement works on images");
+  if (matching_ == InitialMatching::kDescriptors) return;
+  PLUMBLINE_CHECK(frame.image != nullptr, "points are followed on images");
   const std::vector<PointFeature>& points = frame.indexed->features.points;
   const std::vector<bool> followed = ChooseFollowed(points);
   Places places(points.size());
@@ -101,8 +93,9 @@ int FrameWindow::Add(const InitializationFrame& frame) {
   const ImageMotion guess = frames_.empty() ? ImageMotion{} : frames_.back().matches.motion;
   ReferenceMatches matches =
       MatchToReference(reference_->indexed->features, frame.indexed->features, guess);
-  std::vector<Place> places = refine_ ? PlacesOnImage(frame, matches)
-                                      : PlacesOfMatches(frame.indexed->features, matches);
+  std::vector<Place> places = matching_ == InitialMatching::kImages
+                                  ? PlacesOnImage(frame, matches)
+                                  : PlacesOfMatches(frame.indexed->features, matches);
   const auto count = std::count_if(
       places.begin(), places.end(), [](const Place& place) { return place.sigma_px > 0; });
   if (frames_.size() >= kMaxFrames) {
@@ -128,7 +121,7 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOfMatches(
 // the image shows what the reference shows, which is also where it is followed from next.
 std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationFrame& frame,
                                                            const ReferenceMatches& matches) {
-  PLUMBLINE_CHECK(frame.image != nullptr, "refinement works on images");
+  PLUMBLINE_CHECK(frame.image != nullptr, "points are followed on images");
   const std::vector<PointFeature>& reference = reference_->indexed->features.points;
   flow_.Follow(frame.image);
   Places guesses = flow_.places();
@@ -136,8 +129,8 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationF
     auto& guess = guesses[Index(match.a)];
     if (!guess) guess = frame.indexed->features.points[Index(match.b)].px;
   }
-  const Places refined = RefinePlaces(
-      *reference_->image, reference, *frame.image, guesses, matches.motion.linear());
+  const Places refined =
+      RefinePlaces(*reference_->image, reference, *frame.image, guesses, matches.motion.linear());
   std::vector<Place> places(reference.size());
   for (std::size_t k = 0; k < refined.size(); ++k) {
     if (!refined[k]) continue;
@@ -189,9 +182,8 @@ std::vector<std::size_t> FrameWindow::SpreadFeatures(const std::vector<int>& fra
   }
   std::size_t rounds = 0;
   for (auto& cell : cells) {
-    std::stable_sort(cell.begin(), cell.end(), [&](std::size_t a, std::size_t b) {
-      return rank(a) < rank(b);
-    });
+    std::stable_sort(
+        cell.begin(), cell.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
     rounds = std::max(rounds, cell.size());
   }
   std::vector<std::size_t> chosen;
@@ -228,17 +220,33 @@ WindowTracks FrameWindow::TracksOf(const std::vector<int>& frames, int max_point
 }
 
 std::vector<FeatureTrack> FrameWindow::PointTracks(const std::vector<int>& frames) const {
-  return CollectTracks(
-      reference_->indexed->features.points.size(),
-      frames.size(),
-      [&](std::size_t i) -> const auto& { return frames_[Index(frames[i])].matches.points; });
+  const std::size_t size = reference_->indexed->features.points.size();
+  std::vector<FeatureTrack> tracks(size);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Matched& seen = frames_[Index(frames[i])];
+    const std::vector<int> nearest =
+        NearestFeatures(*seen.frame.indexed, PlacesOf(seen), kAttachRadiusPx);
+    for (std::size_t k = 0; k < size; ++k) {
+      if (nearest[k] < 0) continue;
+      if (tracks[k].empty()) tracks[k].push_back({0, static_cast<int>(k)});
+      tracks[k].push_back({static_cast<int>(i) + 1, nearest[k], seen.places[k].px});
+    }
+  }
+  std::erase_if(tracks, [](const FeatureTrack& track) { return track.empty(); });
+  return tracks;
 }
 
 std::vector<FeatureTrack> FrameWindow::LineTracks(const std::vector<int>& frames) const {
-  return CollectTracks(
-      reference_->indexed->features.lines.size(), frames.size(), [&](std::size_t i) -> const auto& {
-        return frames_[Index(frames[i])].matches.lines;
-      });
+  std::vector<FeatureTrack> tracks(reference_->indexed->features.lines.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (const LineMatch& match : frames_[Index(frames[i])].matches.lines) {
+      FeatureTrack& track = tracks[Index(match.a)];
+      if (track.empty()) track.push_back({0, match.a});
+      track.push_back({static_cast<int>(i) + 1, match.b});
+    }
+  }
+  std::erase_if(tracks, [](const FeatureTrack& track) { return track.empty(); });
+  return tracks;
 }
 
 }  // namespace plumbline

@@ -19,16 +19,17 @@ namespace plumbline {
 // fails; beyond a limit every second one is left out.
 class FrameWindow {
  public:
-  explicit FrameWindow(const RectifiedCamera& camera, bool refine = false)
-      : camera_(camera), refine_(refine) {}
+  FrameWindow(const RectifiedCamera& camera, InitialMatching matching)
+      : camera_(camera), matching_(matching) {}
 
   void Reset();
   bool empty() const { return !reference_; }
   int size() const { return static_cast<int>(frames_.size()); }  // without the reference
   const InitializationFrame& reference() const { return *reference_; }
 
-  // The first frame becomes the reference; later ones are matched with it and, where asked for, the
-  // matches refined on the images (match_refinement.h). Returns how many are left.
+  // The first frame becomes the reference; later ones are matched with it by descriptor and, where
+  // asked for, its points followed from image to image and brought to where the image looks as in
+  // the reference (klt_tracks.h, match_refinement.h). Returns how many of them it shows.
   int Add(const InitializationFrame& frame);
   // Makes the frame halfway to the newest the reference and matches those after it anew.
   void MoveReference();
@@ -63,6 +64,7 @@ class FrameWindow {
     std::vector<Place> places;  // by feature of the reference
   };
 
+  static std::vector<std::optional<Eigen::Vector2d>> PlacesOf(const Matched& matched);
   void SetReference(const InitializationFrame& frame);
   std::vector<Place> PlacesOfMatches(const Features& features,
                                      const ReferenceMatches& matches) const;
@@ -71,7 +73,7 @@ class FrameWindow {
   std::vector<std::size_t> SpreadFeatures(const std::vector<int>& frames, int count) const;
 
   RectifiedCamera camera_;
-  bool refine_;
+  InitialMatching matching_;
   std::optional<InitializationFrame> reference_;
   KltTracks flow_;  // of features of the reference, by feature
   std::vector<Matched> frames_;

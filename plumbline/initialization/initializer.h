@@ -40,7 +40,7 @@ constexpr auto EnumNames(std::type_identity<InitializationWait>) {
 }
 
 // A frame offered for the start of a map. The image is needed by rank1_klt and by
-// rank1 with refine_matches.
+// rank1 unless it matches by descriptor.
 struct InitializationFrame {
   FrameId id;
   std::int64_t stamp_ns = 0;
@@ -52,6 +52,8 @@ struct InitializationFrame {
 struct InitialObservation {
   int view = 0;
   int feature = 0;
+  // Where the view shows a point when that is known better than its feature says, pixels.
+  std::optional<Eigen::Vector2d> px = std::nullopt;
 };
 struct InitialPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world

@@ -89,7 +89,8 @@ void KltInitializer::Start(const InitializationFrame& frame) {
   reference_ = frame;
   frames_.clear();
   std::vector<std::optional<Eigen::Vector2d>> points;
-  for (const PointFeature& feature : frame.indexed->features.points) points.emplace_back(feature.px);
+  for (const PointFeature& feature : frame.indexed->features.points)
+    points.emplace_back(feature.px);
   tracks_ = KltTracks(frame.image, std::move(points));
 }
 

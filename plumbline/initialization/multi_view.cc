@@ -27,6 +27,8 @@ constexpr double kSameDirection = 3 * kDegree;
 // A hypothesis this much worse than the best before adjustment is not worth one.
 constexpr double kHopeless = 2;
 constexpr int kIterations = 6;
+// Of a fit, of what the distances from the epipolar lines have: what these do not show is not less.
+constexpr double kLeastNoise = 0.4;
 
 struct Explanation {
   WindowSolution solution;
@@ -158,9 +160,7 @@ double MedianDepthSigma(const WindowCovariance& covariance) {
 InitializationWait Accuracy(const WindowTracks& tracks,
                             const Explanation& explanation,
                             const WindowDecisionOptions& options) {
-  // Where wrong matches raised the noise measured before, that of the rest is smaller; but then its
-  // errors hang together, and less than the whole is not to be promised.
-  const double noise = std::max(1.0, explanation.fit.noise);
+  const double noise = std::max(kLeastNoise, explanation.fit.noise);
   const auto covariance =
       ComputeWindowCovariance(tracks, explanation.solution, noise, kMaxChi2 / (noise * noise));
   if (!covariance) return InitializationWait::kTooLittleParallax;

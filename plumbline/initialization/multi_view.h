@@ -18,13 +18,13 @@ namespace plumbline {
 struct WindowDecisionOptions {
   WindowFactorizationOptions factorization;
   RelativePoseOptions relative_pose;
-  int min_matches = 40;            // of the newest frame with the reference
+  int min_matches = 24;            // of the newest frame with the reference
   double min_parallax_deg = 1.2;   // of the median point of the newest frame
   double min_inlier_share = 0.85;  // of all matches of all views
-  double min_margin = 0.15;        // of chi2 to the next best explanation, of its own
+  double min_margin = 0.5;         // of chi2 to the next best explanation, of its own
   double max_rotation_deg = 0.06;  // standard deviations promised for the newest pose ...
-  double max_direction_deg = 0.8;  // ... of the line of the centres ...
-  double max_depth = 0.045;        // ... and, relative, for the depth of the median point
+  double max_direction_deg = 0.7;  // ... of the line of the centres ...
+  double max_depth = 0.06;         // ... and, relative, for the depth of the median point
   double min_noise = 0.25;         // of what measurements are said to have, at least
 };
 

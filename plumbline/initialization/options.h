@@ -18,6 +18,13 @@ constexpr auto EnumNames(std::type_identity<InitializationMethod>) {
                     std::pair{InitializationMethod::kTwoView, "two_view"}};
 }
 
+// How points are found again in the frames after the reference.
+enum class InitialMatching { kImages, kDescriptors };
+constexpr auto EnumNames(std::type_identity<InitialMatching>) {
+  return std::array{std::pair{InitialMatching::kImages, "images"},
+                    std::pair{InitialMatching::kDescriptors, "descriptors"}};
+}
+
 struct InitializationOptions {
   InitializationMethod method = InitializationMethod::kRank1;
   int frames = 3;  // m of the first paper: frames after the reference that are solved together
@@ -26,7 +33,7 @@ struct InitializationOptions {
   double max_interpolation_px = 2;
   double min_line_angle_deg = 0;
   int reweighting = 5;
-  bool refine_matches = false;
+  InitialMatching matching = InitialMatching::kImages;
 };
 
 template <class Visitor>
@@ -56,11 +63,10 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         o.reweighting,
         "steps of robust reweighting of the factorization; 0: outliers count in full",
         Range{0, 100});
-  visit(
-      "refine_matches",
-      o.refine_matches,
-      "rank1: shift matches on the images until they fit and leave out those on edges; more starts "
-      "in poor scenes, some of them wrong");
+  visit("matching",
+        o.matching,
+        "rank1: of points with the reference: images (followed, and shifted until the image looks "
+        "as in the reference), descriptors (as the paper)");
 }
 
 }  // namespace plumbline

@@ -28,10 +28,7 @@ InitializationResult Wait(InitializationWait reason) {
 Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
                                    const InitializationOptions& options,
                                    std::uint64_t seed)
-    : imaging_(imaging),
-      options_(options),
-      seed_(seed),
-      window_(imaging.camera, options.refine_matches) {
+    : imaging_(imaging), options_(options), seed_(seed), window_(imaging.camera, options.matching) {
   const double focal = 0.5 * (imaging.camera.fx + imaging.camera.fy);
   WindowFactorizationOptions& factorization = decision_.factorization;
   factorization.interpolate = options.interpolate;

@@ -44,7 +44,8 @@ std::optional<InitialPoint> BuildPoint(const RectifiedCamera& camera,
   for (const InitialObservation& o : track) {
     const InitialView& view = views[Index(o.view)];
     const PointFeature& feature = FeaturesOf(view).points[Index(o.feature)];
-    measured.push_back({view.cam_from_world, feature.px, feature.sigma_px, std::nullopt});
+    measured.push_back(
+        {view.cam_from_world, o.px.value_or(feature.px), feature.sigma_px, std::nullopt});
   }
   const auto point =
       TriangulatePoint(camera, measured, {.min_parallax = options.min_parallax_deg * kDegree});

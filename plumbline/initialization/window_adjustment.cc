@@ -68,7 +68,7 @@ WindowFit Evaluate(const WindowTracks& tracks, const WindowSolution& solution, d
     }
   }
   const double free = std::max(1, 2 * fit.measurements - parameters);
-  fit.noise = std::sqrt(UpperMedian(errors) / kMedianChi2 * 2 * fit.measurements / free);
+  fit.noise = std::sqrt(fit.cost / free);
   return fit;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/frame_window.h"
 
+#include "tests/support/moving_poster.h"
 #include "tests/support/synthetic_world.h"
 #include <cmath>
 #include <set>
@@ -27,7 +28,7 @@ struct Sequence {
 
 TEST(FrameWindow, SpreadsFramesSinceTheReference) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera);
+  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
   EXPECT_TRUE(window.empty());
   for (int i = 0; i < 11; ++i) window.Add(sequence.Next());
   EXPECT_EQ(window.size(), 10);
@@ -40,7 +41,7 @@ TEST(FrameWindow, SpreadsFramesSinceTheReference) {
 
 TEST(FrameWindow, TracksShowTheSamePoints) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera);
+  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
   int matches = 0;
   for (int i = 0; i < 7; ++i) matches = window.Add(sequence.Next());
   EXPECT_GT(matches, 100);
@@ -65,9 +66,45 @@ TEST(FrameWindow, TracksShowTheSamePoints) {
   for (const FeatureTrack& track : window.LineTracks(frames)) EXPECT_GE(track.size(), 2U);
 }
 
+// The poster moves before the camera; the frames have no features of their own.
+TEST(FrameWindow, FollowsPointsOnTheImages) {
+  const MovingPoster poster;
+  const RectifiedCamera camera = TestCamera();
+  Features features;
+  for (int y = 40; y < 270; y += 15) {
+    for (int x = 60; x < 380; x += 15) {
+      features.points.push_back({});
+      features.points.back().px = Eigen::Vector2d(x, y);
+      features.points.push_back(features.points.back());  // found in two octaves
+      features.points.back().octave = 1;
+      features.points.back().sigma_px = 1.2;
+    }
+  }
+  const auto frame = [&](int i, Features seen) {
+    return InitializationFrame{FrameId{i},
+                               i,
+                               IndexFeatures(camera, std::move(seen)),
+                               std::make_shared<const GrayImage>(poster.Frame(i).left)};
+  };
+  FrameWindow window(camera, InitialMatching::kImages);
+  const auto number = static_cast<int>(features.points.size()) / 2;
+  window.Add(frame(0, std::move(features)));
+  int seen = 0;
+  for (int i = 1; i <= 3; ++i) seen = window.Add(frame(i, {}));
+  EXPECT_GT(seen, number / 4);
+  EXPECT_LE(seen, number) << "of two octaves one is followed";
+  const WindowTracks tracks = window.TracksOf({2}, 1000);
+  ASSERT_GT(tracks.size(), 0U);
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const Eigen::Vector2d moved = tracks.views[0].points[k] - tracks.reference.points[k];
+    EXPECT_NEAR(moved.x() * camera.fx, -3 * MovingPoster::kStepPx, 0.2);
+    EXPECT_NEAR(moved.y() * camera.fy, 0, 0.2);
+  }
+}
+
 TEST(FrameWindow, TakesPointsFromAllOverTheImage) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera);
+  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
   for (int i = 0; i < 4; ++i) window.Add(sequence.Next());
   // Cells of a quarter of the image's focal length: 40 points are in more of them than the
   // first 40.
@@ -87,7 +124,7 @@ TEST(FrameWindow, TakesPointsFromAllOverTheImage) {
 
 TEST(FrameWindow, MovesTheReferenceForward) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera);
+  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
   for (int i = 0; i < 9; ++i) window.Add(sequence.Next());
   window.MoveReference();
   EXPECT_EQ(window.reference().id.value, 4);
@@ -101,7 +138,7 @@ TEST(FrameWindow, MovesTheReferenceForward) {
 
 TEST(FrameWindow, KeepsEverySecondOfTooMany) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera);
+  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
   const InitializationFrame first = sequence.Next();
   window.Add(first);
   for (int i = 0; i < 41; ++i) {

@@ -25,7 +25,7 @@ std::vector<Eigen::Vector2d> Places() {
 TEST(KltTracks, FollowThePicture) {
   const MovingPoster poster;
   const std::vector<Eigen::Vector2d> start = Places();
-  KltTracks tracks(ImageOf(poster, 0), start);
+  KltTracks tracks(ImageOf(poster, 0), {start.begin(), start.end()});
   EXPECT_EQ(tracks.alive(), static_cast<int>(start.size()));
   for (int i = 1; i <= 4; ++i) tracks.Follow(ImageOf(poster, i));
   int right = 0;
@@ -38,9 +38,20 @@ TEST(KltTracks, FollowThePicture) {
   EXPECT_GT(right, 0.9 * tracks.alive());
 }
 
+TEST(KltTracks, GoOnFromWhereTheyArePut) {
+  const MovingPoster poster;
+  const Eigen::Vector2d start(150, 150), other(180, 120);
+  KltTracks tracks(ImageOf(poster, 0), {start, std::nullopt});
+  EXPECT_EQ(tracks.alive(), 1);
+  tracks.Correct(1, other);
+  tracks.Follow(ImageOf(poster, 1));
+  ASSERT_TRUE(tracks.places()[1]);
+  EXPECT_LT((*tracks.places()[1] - other + Eigen::Vector2d(MovingPoster::kStepPx, 0)).norm(), 0.5);
+}
+
 TEST(KltTracks, AreLostWhereThePictureLeaves) {
   const MovingPoster poster;
-  KltTracks tracks(ImageOf(poster, 0), {{4, 150}, {6, 100}});
+  KltTracks tracks(ImageOf(poster, 0), {Eigen::Vector2d(4, 150), Eigen::Vector2d(6, 100)});
   for (int i = 1; i <= 6; ++i) tracks.Follow(ImageOf(poster, i));
   EXPECT_EQ(tracks.alive(), 0);
 }

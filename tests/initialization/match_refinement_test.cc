@@ -35,14 +35,6 @@ GrayImage Picture(const Scene& scene) {
   return image;
 }
 
-Features FeatureAt(const Eigen::Vector2d& px, int octave = 0) {
-  Features features;
-  features.points.push_back({});
-  features.points.back().px = px;
-  features.points.back().octave = octave;
-  return features;
-}
-
 // Where the later image shows what the reference shows at `from`, the detector having said `to`.
 std::optional<Eigen::Vector2d> Refine(const Scene& reference,
                                       const Eigen::Vector2d& from,
@@ -50,17 +42,13 @@ std::optional<Eigen::Vector2d> Refine(const Scene& reference,
                                       const Eigen::Vector2d& to,
                                       const Eigen::Matrix2d& linear = Eigen::Matrix2d::Identity(),
                                       int octave = 0) {
-  const std::vector<PointMatch> matches{{0, 0, 0}};
-  return RefineMatches(Picture(reference),
-                       FeatureAt(from, octave),
-                       Picture(later),
-                       FeatureAt(to, octave),
-                       matches,
-                       linear)
-      .front();
+  PointFeature feature;
+  feature.px = from;
+  feature.octave = octave;
+  return RefinePlaces(Picture(reference), {{feature}}, Picture(later), {to}, linear).front();
 }
 
-TEST(RefineMatches, FindsTheShiftToAFractionOfAPixel) {
+TEST(RefinePlaces, FindsTheShiftToAFractionOfAPixel) {
   const Eigen::Vector2d shift(2.3, -1.6);
   const Scene moved = [&](const Eigen::Vector2d& p) { return Waves(p - shift); };
   for (const Eigen::Vector2d& wrong : {Eigen::Vector2d(0.8, 0.5), Eigen::Vector2d(-0.6, 0.9)}) {
@@ -70,7 +58,7 @@ TEST(RefineMatches, FindsTheShiftToAFractionOfAPixel) {
   }
 }
 
-TEST(RefineMatches, FollowsTurnScaleBrightnessAndContrast) {
+TEST(RefinePlaces, FollowsTurnScaleBrightnessAndContrast) {
   const Eigen::Matrix2d linear = 1.15 * Eigen::Rotation2Dd(0.3).toRotationMatrix();
   const Eigen::Matrix2d inverse = linear.inverse();
   const Scene moved = [&](const Eigen::Vector2d& p) {
@@ -84,14 +72,14 @@ TEST(RefineMatches, FollowsTurnScaleBrightnessAndContrast) {
   }
 }
 
-TEST(RefineMatches, RejectsWhatSlidesAlongAnEdge) {
+TEST(RefinePlaces, RejectsWhatSlidesAlongAnEdge) {
   EXPECT_FALSE(Refine(StraightEdge, kCentre, StraightEdge, kCentre));
   // A corner on the same edge holds it.
   const Scene corner = [](const Eigen::Vector2d& p) { return p.y() > 50 ? StraightEdge(p) : 40.0; };
   EXPECT_TRUE(Refine(corner, kCentre, corner, kCentre));
 }
 
-TEST(RefineMatches, RejectsWhatIsFarOffOrLooksDifferent) {
+TEST(RefinePlaces, RejectsWhatIsFarOffOrLooksDifferent) {
   EXPECT_FALSE(Refine(Waves, kCentre, Waves, kCentre + Eigen::Vector2d(2.5, 0)));
   const Scene negative = [](const Eigen::Vector2d& p) { return 240 - Waves(p); };
   EXPECT_FALSE(Refine(Waves, kCentre, negative, kCentre));
@@ -100,7 +88,7 @@ TEST(RefineMatches, RejectsWhatIsFarOffOrLooksDifferent) {
   EXPECT_FALSE(Refine(blank, kCentre, Waves, kCentre));
 }
 
-TEST(RefineMatches, RejectsPatchesThatLeaveAnImage) {
+TEST(RefinePlaces, RejectsPatchesThatLeaveAnImage) {
   const Eigen::Vector2d border(4, 50);
   EXPECT_FALSE(Refine(Waves, border, Waves, border));
   const Scene moved = [](const Eigen::Vector2d& p) { return Waves(p + Eigen::Vector2d(46, 0)); };
