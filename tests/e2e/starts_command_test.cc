@@ -115,13 +115,14 @@ TEST(StartsCommand, TheExperimentMakesTablesOfThem) {
                               Quoted(folder / "data") + " --out " + Quoted(folder / "out");
   const Outcome outcome = RunProgram(folder, command);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("4 runs; results in "));
+  EXPECT_THAT(outcome.out, HasSubstr("5 runs; results in "));
   const std::string table = Contents(folder / "out/table.md");
-  for (const char* method : {"rank1", "rank1_refined", "rank1_klt", "two_view"}) {
+  for (const char* method :
+       {"rank1", "rank1_descriptors", "rank1_unweighted", "rank1_klt", "two_view"}) {
     EXPECT_THAT(table, HasSubstr("| euroc/poster | " + std::string(method) + " | 1 | 3 | "));
     EXPECT_THAT(table, HasSubstr("| real | " + std::string(method) + " | 1 | 3 | "));
   }
-  EXPECT_EQ(Lines(Contents(folder / "out/starts.csv")), 13);
+  EXPECT_EQ(Lines(Contents(folder / "out/starts.csv")), 16);
   EXPECT_THAT(Contents(folder / "out/table.html"), HasSubstr("possible starts with a right map"));
   const auto results = nlohmann::json::parse(Contents(folder / "out/results.json"));
   EXPECT_EQ(results[0]["metric"], "starts");
