@@ -17,6 +17,7 @@ LAYERS = {
     "solvers": ["base", "geometry"],
     "image": ["base", "geometry"],
     "optimization": ["base", "geometry"],
+    "cutting": ["base", "geometry", "optimization"],
     "features": ["base", "geometry", "image"],
     "map": ["base", "geometry", "features"],
     "association": ["base", "geometry", "features", "optimization", "map"],
