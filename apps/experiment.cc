@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/experiments/catalog.h"
+#include "plumbline/experiments/computed.h"
 #include "plumbline/experiments/job_runner.h"
 #include "plumbline/experiments/plan.h"
 #include "plumbline/experiments/results.h"
@@ -37,7 +38,10 @@ CommandSyntax Syntax() {
             "test|full",
             "of rendered sequences: 376x240 and at most 150 frames, or as the world has it (the "
             "experiment's own)"},
-           {"--runs", "N", "runs of each variant on each sequence (the experiment's own)"},
+           {"--runs",
+            "N",
+            "runs of each variant on each sequence, or repeats of what is computed (the "
+            "experiment's own)"},
            {"--only",
             "PATTERN",
             "sequences and variants that have this in SEQUENCE/VARIANT, or "
@@ -53,6 +57,19 @@ CommandSyntax Syntax() {
 void ListExperiments() {
   for (const Experiment& experiment : Experiments()) {
     std::cout << fmt::format("{:<24}{}\n", experiment.name, experiment.help);
+  }
+  for (const ComputedExperiment& experiment : ComputedExperiments()) {
+    std::cout << fmt::format("{:<24}{}\n", experiment.name, experiment.help);
+  }
+}
+
+void ListParts(const ComputedExperiment& experiment) {
+  std::cout << fmt::format("{}: {}\n\nneeds no sequences; repeats: {}\nmetrics:\n",
+                           experiment.name,
+                           experiment.help,
+                           experiment.repeats);
+  for (const FigureMetric& metric : experiment.metrics) {
+    std::cout << fmt::format("  {:<34}{}\n", metric.name, metric.help);
   }
 }
 
@@ -147,6 +164,51 @@ int Run(const Plan& plan, RunnerOptions options, bool quiet) {
   return 0;
 }
 
+// Flags that are about sequences and runs have no meaning here.
+void RefuseFlagsOfRuns(const CommandLine& line, const std::string& name) {
+  for (const char* flag : {"--data",
+                           "--cache",
+                           "--size",
+                           "--only",
+                           "--set",
+                           "--jobs",
+                           "--time-limit",
+                           "--force",
+                           "--dry-run"}) {
+    if (line.Has(flag)) {
+      throw InputError(
+          fmt::format("experiment {}: computes by itself and takes no {}", name, flag));
+    }
+  }
+}
+
+int RunComputed(const ComputedExperiment& experiment, const CommandLine& line) {
+  if (line.Has("--list")) {
+    ListParts(experiment);
+    return 0;
+  }
+  RefuseFlagsOfRuns(line, experiment.name);
+  const auto out = line.Value("--out");
+  if (!out) throw InputError("experiment: expected --out DIR");
+  const int repeats = line.Has("--runs") ? line.Count("--runs", 1, 1) : experiment.repeats;
+  const bool quiet = line.Has("--quiet");
+  ProgressLine progress(quiet);
+  CatchStopSignals();
+  const bool done = experiment.run(experiment, repeats, *out, [&](std::size_t at, std::size_t all) {
+    progress.Show(at, all, fmt::format("{}/{} parts", at, all));
+    return !StopRequested();
+  });
+  if (!done) {
+    progress.Say("stopped; nothing is written");
+    return 1;
+  }
+  if (!quiet) {
+    std::cout << fmt::format("results in {}\n",
+                             (std::filesystem::path(*out) / "table.html").string());
+  }
+  return 0;
+}
+
 }  // namespace
 
 int ExperimentCommand(std::span<const std::string> arguments) {
@@ -163,6 +225,9 @@ int ExperimentCommand(std::span<const std::string> arguments) {
   if (name.empty()) {
     throw InputError(
         "experiment: expected the name of one; plumbline experiment --list shows them");
+  }
+  if (const ComputedExperiment* computed = FindComputedExperiment(name)) {
+    return RunComputed(*computed, line);
   }
   const Experiment& experiment = FindExperiment(name);
   if (line.Has("--list")) {

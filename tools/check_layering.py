@@ -33,8 +33,9 @@ LAYERS = {
     "synth": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
+    "cutting_testbed": ["base", "geometry", "optimization", "cutting"],
     "experiments": ["base", "geometry", "image", "features", "map", "association", "initialization",
-                    "io", "slam", "starts", "synth", "eval"],
+                    "io", "slam", "starts", "synth", "eval", "cutting", "cutting_testbed"],
 }
 # third-party prefix -> the files of plumbline/ that may include it (regular expression). Headers are
 # left out but for three, so that nobody needs more than Eigen and fmt to include the library.
@@ -42,10 +43,12 @@ THIRD_PARTY = {
     "CLI/": None,
     "benchmark/": None,
     "ceres/": r"optimization/ceres_\w+\.(h|cc)",
+    "coin/": r"cutting_testbed/ipopt_\w+\.cc",
     "embree3/": r"synth/\w+\.cc",
     "fmt/": r"base/log\.h|\w+/\w+\.cc",
     "gmock/": None,
     "gtest/": None,
+    "nlopt": r"cutting_testbed/nlopt_\w+\.cc",
     "nlohmann/": r"(io|eval|report|experiments)/\w+\.cc",
     "opencv2/": r"image/opencv_bridge\.h|(image|features|initialization|io|report)/\w+\.cc",
     "spdlog/": r"base/log\.cc",

@@ -81,7 +81,8 @@ class RatioAscender {
       const Vector step = at_.ratios - before.ratios;
       best.converged = Greatest(step) < options_.step_tolerance;
       const double curvature = step.dot(before.gradient - at_.gradient);
-      length = curvature > 0 ? std::clamp(step.squaredNorm() / curvature, 1e-8, kLongest) : kLongest;
+      length =
+          curvature > 0 ? std::clamp(step.squaredNorm() / curvature, 1e-8, kLongest) : kLongest;
     }
     return best;
   }

@@ -3,6 +3,7 @@
 #include "plumbline/experiments/catalog.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/experiments/computed.h"
 
 #include <array>
 #include <string>
@@ -145,6 +146,8 @@ const Experiment& FindExperiment(std::string_view name) {
     if (experiment.name == name) return experiment;
     names += (names.empty() ? "" : ", ") + experiment.name;
   }
+  for (const ComputedExperiment& experiment : ComputedExperiments())
+    names += ", " + experiment.name;
   throw InputError("there is no experiment '" + std::string(name) + "'; there are: " + names);
 }
 

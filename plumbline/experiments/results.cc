@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/experiments/dot_plot.h"
+#include "plumbline/experiments/figure_list.h"
 #include "plumbline/experiments/start_plots.h"
 #include "plumbline/experiments/start_pools.h"
 #include "plumbline/experiments/table.h"
@@ -12,8 +13,6 @@
 
 #include <algorithm>
 #include <system_error>
-
-#include <nlohmann/json.hpp>
 
 namespace plumbline {
 namespace {
@@ -112,24 +111,18 @@ std::vector<ResultRow> CollectResults(const Plan& plan,
 }
 
 std::string FormatResults(const std::string& experiment, const std::vector<ResultRow>& rows) {
-  std::string text = "[";
+  std::vector<FigureRow> figures;
+  figures.reserve(rows.size());
   for (const ResultRow& row : rows) {
-    nlohmann::ordered_json json = {{"experiment", experiment},
-                                   {"sequence", row.sequence},
-                                   {"variant", row.variant},
-                                   {"seed", row.seed},
-                                   {"metric", row.metric->name},
-                                   {"value", nullptr},
-                                   {"unit", row.metric->unit}};
-    if (row.value) {
-      json["value"] = *row.value;
-    } else {
-      json["reason"] = row.reason;
-    }
-    text += text.size() == 1 ? "\n" : ",\n";
-    text += json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    figures.push_back({row.sequence,
+                       row.variant,
+                       row.seed,
+                       std::string(row.metric->name),
+                       row.value,
+                       std::string(row.metric->unit),
+                       row.reason});
   }
-  return text + "\n]\n";
+  return FormatFigureList(experiment, figures);
 }
 
 void WriteResults(const Plan& plan, const std::vector<JobResult>& results) {

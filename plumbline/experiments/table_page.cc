@@ -116,6 +116,8 @@ std::string Legend(const std::vector<ResultTable>& tables) {
 
 }  // namespace
 
+std::string_view TablePageStyle() { return kStyle; }
+
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
                        const std::vector<PagePlot>& plots) {

@@ -5,6 +5,7 @@
 #include "plumbline/experiments/table.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plumbline {
@@ -13,6 +14,9 @@ struct PagePlot {
   std::string metric;
   std::string svg;
 };
+
+// The style sheet of all pages of experiments.
+std::string_view TablePageStyle();
 
 // One page that needs nothing else, not even scripts: the tables with the best of each sequence
 // marked, the plots, what the variants are, what failed and what is missing.

@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(All,
 
 // errata of the paper: what the errors of the two ends and of the measured line do to the
 // residuals.
-TEST(Weights, AreInverseCovariancesOfSimulatedResiduals) {
+TEST(CutWeights, AreInverseCovariancesOfSimulatedResiduals) {
   Rng rng(4);
   const RectifiedCamera camera = TestCamera();
   const CuttableLine line = RandomLine(rng);

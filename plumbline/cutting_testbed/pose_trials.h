@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/cutting_testbed/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <type_traits>
+#include <utility>
+
+namespace plumbline {
+
+// Which pieces of the lines a pose is solved from, and with which weights.
+enum class PoseVariant {
+  kFull,           // whole, all weights 1
+  kCut,            // greedy, independent
+  kCutSweeps,      // greedy_sweeps
+  kCutPrinted,     // greedy with the printed information
+  kDrop,           // the worst 30 % left out
+  kScalar,         // whole, each line by the inverse of its mean variance
+  kWeighted,       // whole, each residual by the inverse of its variance (2 x 2, diagonal there)
+  kCutWeighted,    // greedy, each residual by the inverse of its variance
+  kCutCorrelated,  // greedy, 2 x 2 with the covariance between the two residuals
+  kDropWeighted,   // drop, then as kWeighted
+};
+constexpr auto EnumNames(std::type_identity<PoseVariant>) {
+  return std::array{std::pair{PoseVariant::kFull, "full"},
+                    std::pair{PoseVariant::kCut, "cut"},
+                    std::pair{PoseVariant::kCutSweeps, "cut_sweeps"},
+                    std::pair{PoseVariant::kCutPrinted, "cut_printed"},
+                    std::pair{PoseVariant::kDrop, "drop"},
+                    std::pair{PoseVariant::kScalar, "full_scalar"},
+                    std::pair{PoseVariant::kWeighted, "full_weighted"},
+                    std::pair{PoseVariant::kCutWeighted, "cut_weighted"},
+                    std::pair{PoseVariant::kCutCorrelated, "cut_correlated"},
+                    std::pair{PoseVariant::kDropWeighted, "drop_weighted"}};
+}
+
+struct PoseError {
+  double translation_m = 0;
+  double rotation_deg = 0;
+};
+using PoseTrial = std::map<PoseVariant, PoseError>;
+
+// The errors of the pose that each variant finds in scene `index`. The prediction from which they
+// start, at which cuts and weights are computed, is wrong by 1 degree and 5 cm in each axis
+// (standard deviations); all variants have the same measurements.
+PoseTrial TryPoses(const SceneOptions& options, std::uint64_t index);
+
+}  // namespace plumbline
