@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr Figure::Color kInk{40, 40, 40}, kBox{0, 114, 178}, kMedian{255, 255, 255};
+constexpr Figure::Color kInk{40, 40, 40}, kBox{0, 114, 178}, kMedian{230, 159, 0};
 constexpr double kLeft = 130, kTop = 40, kWidth = 560, kRow = 34;
 
 double At(const std::vector<double>& sorted, double share) {
@@ -31,7 +31,7 @@ void DrawBox(const FigurePanel& panel, const Box& box, double y, Figure& figure)
     figure.lines.push_back({{{x(end), y - 5}, {x(end), y + 5}}, kInk, 1.5});
   }
   figure.lines.push_back({{{x(0.25), y}, {x(0.75), y}}, kBox, 16});
-  figure.lines.push_back({{{x(0.5), y - 8}, {x(0.5), y + 8}}, kMedian, 2});
+  figure.lines.push_back({{{x(0.5), y - 8}, {x(0.5), y + 8}}, kMedian, 3});
   figure.texts.push_back({{kLeft - 10, y + 0.35 * kFigureTextSize},
                           box.name,
                           kFigureTextSize,

@@ -26,16 +26,16 @@ constexpr std::array kDrawnPoses = {PoseVariant::kFull,
 std::string NameOfVariant(PoseVariant variant) { return NameOf(variant); }
 
 Figure CameraPathPlot(const TestbedTrials& trials) {
-  constexpr std::array kQuartiles = {"25 %", "median", "75 %"};
+  constexpr std::array kQuartiles = {"25 %", "50 %", "75 %"};
   std::vector<CurvePanel> panels;
   for (const TestbedTrials::Path& path : trials.paths) {
     CurvePanel panel{fmt::format("noise {}", path.options.noise),
                      "angle between optical axis and line [deg]",
-                     "best ratios",
+                     "best ratios a <= b",
                      {}};
     for (const bool second : {false, true}) {
       for (std::size_t q = 0; q < 3; ++q) {
-        Curve curve{fmt::format("{} {}", second ? "second" : "first", kQuartiles[q]), {}};
+        Curve curve{fmt::format("{} {}", second ? "b" : "a", kQuartiles[q]), {}};
         for (const CameraPathPoint& point : path.points) {
           curve.points.emplace_back(point.angle_deg, (second ? point.second : point.first)[q]);
         }
