@@ -23,4 +23,12 @@ struct WeightedCut {
 // Levenberg-Marquardt from no motion. No robust loss: the errors of the testbed are normal.
 Rigid3 SolvePoseFromLines(const RectifiedCamera& camera, std::span<const WeightedCut> lines);
 
+// The motion and the cut points that are together most likely: each point may move from where it
+// was measured, at the price of its covariance (InterpolatedCovariance; the two points of a line
+// taken as independent), and is eliminated inside each iteration. `weight` is not used: the
+// covariances and sigma_px say how much each residual counts. Without this freedom the derivatives
+// are those at wrong points, and motions come out too small: errors in the variables of a
+// regression.
+Rigid3 SolvePoseAndPoints(const RectifiedCamera& camera, std::span<const WeightedCut> lines);
+
 }  // namespace plumbline

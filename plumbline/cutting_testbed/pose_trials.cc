@@ -20,6 +20,7 @@ enum class Weights { kNone, kScalar, kIndependent, kCorrelated };
 struct Recipe {
   CuttingOptions cutting;
   Weights weights = Weights::kNone;
+  bool adjust_points = false;
 };
 
 Recipe RecipeOf(PoseVariant variant) {
@@ -46,6 +47,10 @@ Recipe RecipeOf(PoseVariant variant) {
       return {greedy, Weights::kCorrelated};
     case PoseVariant::kDropWeighted:
       return {drop, Weights::kIndependent};
+    case PoseVariant::kAdjusted:
+      return {{}, Weights::kNone, true};
+    case PoseVariant::kCutAdjusted:
+      return {greedy, Weights::kNone, true};
   }
   throw BugError("no such variant");
 }
@@ -115,8 +120,11 @@ PoseTrial TryPoses(const SceneOptions& options, std::uint64_t index) {
   }
   PoseTrial trial;
   for (const auto& [variant, name] : EnumNames(std::type_identity<PoseVariant>{})) {
-    const std::vector<WeightedCut> lines = Prepare(*problem, RecipeOf(variant));
-    const Rigid3 error = SolvePoseFromLines(problem->camera, lines) * predicted_from_true;
+    const Recipe recipe = RecipeOf(variant);
+    const std::vector<WeightedCut> lines = Prepare(*problem, recipe);
+    const Rigid3 found = recipe.adjust_points ? SolvePoseAndPoints(problem->camera, lines)
+                                              : SolvePoseFromLines(problem->camera, lines);
+    const Rigid3 error = found * predicted_from_true;
     trial[variant] = {error.translation.norm(),
                       kDegrees * AngularDistance(error.rotation, Eigen::Quaterniond::Identity())};
   }

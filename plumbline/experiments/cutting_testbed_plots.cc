@@ -21,7 +21,7 @@ constexpr std::array kDrawnPoses = {PoseVariant::kFull,
                                     PoseVariant::kWeighted,
                                     PoseVariant::kCutWeighted,
                                     PoseVariant::kDrop,
-                                    PoseVariant::kScalar};
+                                    PoseVariant::kAdjusted};
 
 std::string NameOfVariant(PoseVariant variant) { return NameOf(variant); }
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting_testbed/pose_from_lines.h"
 
+#include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/cutting_testbed/scene.h"
 
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -50,6 +52,53 @@ TEST(PoseFromLines, LeavesOutLinesThatAreNotUsedAndHeedsWeights) {
   lines[3].cut.used = false;
   lines[5].weight *= 1e-12;
   EXPECT_LT(error(), 1e-6);
+}
+
+TEST(PoseFromLines, OfPointsToBeAdjustedFindsTheMotionOfLinesWithoutErrors) {
+  const CuttingScene scene = MakeCuttingScene({SceneKind::kStereo, 0.05, 10}, 1);
+  const auto lines = ExactLines(scene, SmallMotion());
+  const Rigid3 error = SolvePoseAndPoints(scene.problem.camera, lines) * SmallMotion();
+  EXPECT_LT(LogSe3(error).norm(), 1e-6);
+}
+
+// The cost that it minimizes, by brute force over the point: at the solution no small motion is
+// better.
+TEST(PoseFromLines, OfPointsToBeAdjustedIsMostLikely) {
+  const CuttingScene scene = MakeCuttingScene({SceneKind::kStereo, 0.05, 8}, 3);
+  std::vector<WeightedCut> lines;
+  for (const CuttableLine& line : scene.problem.lines) lines.push_back({line, {0, 1}});
+  const RectifiedCamera& camera = scene.problem.camera;
+  // Squared residual and distance from the measured point, both in sigmas, at their least along the
+  // direction Sigma g in which the point moves.
+  const auto cost = [&](const Rigid3& motion) {
+    double sum = 0;
+    for (const WeightedCut& term : lines) {
+      for (const bool end : {false, true}) {
+        const Segment3& segment = term.line.segment_in_cam;
+        const Eigen::Matrix3d& sigma = end ? term.line.end_covariance : term.line.start_covariance;
+        Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+        for (int i = 0; i < 20; ++i) {
+          const Eigen::Vector3d x = motion * ((end ? segment.end : segment.start) + shift);
+          CuttableLine point = term.line;
+          point.segment_in_cam = {x, x};
+          const CutResidual r = EvaluateCutPoint(camera, point, 0);
+          const Eigen::Vector3d g = motion.rotation.conjugate() * r.gradient;
+          const double variance = g.dot(sigma * g) + 1;
+          shift = -sigma * g * ((r.r - g.dot(shift)) / variance);
+          if (i == 19) sum += r.r * r.r + shift.dot(sigma.ldlt().solve(shift));
+        }
+      }
+    }
+    return sum;
+  };
+  const Rigid3 found = SolvePoseAndPoints(camera, lines);
+  const double least = cost(found);
+  EXPECT_LT(least, cost(Rigid3{}));
+  for (int i = 0; i < 6; ++i) {
+    for (const double step : {-1e-3, 1e-3}) {
+      EXPECT_GT(cost(RetractLeft(found, step * Vector6d::Unit(i))), least - 1e-6) << i;
+    }
+  }
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ TEST(PoseTrials, WeightsHelpWhereErrorsDiffer) {
   const double full = MedianTranslation(trials, PoseVariant::kFull);
   EXPECT_LT(MedianTranslation(trials, PoseVariant::kWeighted), 0.97 * full);
   EXPECT_GT(MedianTranslation(trials, PoseVariant::kDrop), full);
+  EXPECT_LT(MedianTranslation(trials, PoseVariant::kAdjusted), 0.8 * full);
 }
 
 TEST(PoseTrials, AreTheSameForTheSameIndex) {
