@@ -18,6 +18,7 @@ bool RunCuttingTestbed(const ComputedExperiment& self,
                        int repeats,
                        const fs::path& out,
                        const ComputedExperiment::Progress& progress) {
+  MakeFolder(out / "plots");  // before minutes of work, so that a bad place is told at once
   bool stopped = false;
   const TestbedTrials trials = RunTestbed(repeats, [&](std::size_t done, std::size_t total) {
     stopped = !progress(done, total);
@@ -26,7 +27,6 @@ bool RunCuttingTestbed(const ComputedExperiment& self,
   if (stopped) return false;
   const auto figures = CuttingTestbedFigures(trials);
   const auto plots = CuttingTestbedPlots(trials);
-  MakeFolder(out / "plots");
   WriteFileAtomically(out / "results.json", FormatFigureList(self.name, figures));
   WriteFileAtomically(out / "timing.json",
                       FormatFigureList(self.name, CuttingTestbedTimes(trials)));

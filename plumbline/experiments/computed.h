@@ -21,7 +21,7 @@ struct ComputedExperiment {
   int repeats = 1;   // unless asked for otherwise
   std::span<const FigureMetric> metrics;
   // Computes and writes results.json, timing.json, table.md, table.html and plots/*.svg into `out`.
-  // `progress(done, total)` returns false to stop; nothing is then written and Run returns false.
+  // `progress(done, total)` returns false to stop; no file is then written and false returned.
   // Throws InputError when a file cannot be written.
   using Progress = std::function<bool(std::size_t, std::size_t)>;
   bool (*run)(const ComputedExperiment& self,

@@ -142,6 +142,21 @@ TEST(ExperimentCommand, ASignalEndsItAndTheNextCallGoesOn) {
   EXPECT_TRUE(fs::exists(folder / "out/results.json"));
 }
 
+TEST(ExperimentCommand, ComputesTheSameFiguresTwice) {
+  const ScratchFolder folder;
+  EXPECT_THAT(RunProgram(folder, "experiment --list").out, HasSubstr("cutting-testbed"));
+  EXPECT_THAT(RunProgram(folder, "experiment cutting-testbed --list").out,
+              HasSubstr("share_within_0.01_of_brute_force"));
+  for (const char* out : {"first", "second"}) {
+    const Outcome outcome = RunProgram(
+        folder, "experiment cutting-testbed --runs 1 --quiet --out " + Quoted(folder / out));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  for (const char* file : {"results.json", "table.md", "table.html", "plots/pose_error.svg"}) {
+    EXPECT_EQ(Contents(folder / "first" / file), Contents(folder / "second" / file)) << file;
+  }
+}
+
 TEST(ExperimentCommand, RefusesBadInputInOneLineBeforeAnyRun) {
   const ScratchFolder folder;
   WriteData(folder);
@@ -162,6 +177,9 @@ TEST(ExperimentCommand, RefusesBadInputInOneLineBeforeAnyRun) {
       {"sensors" + data + out + " --runs 0", "--runs: expected a whole number of at least 1"},
       {"sensors" + data + out + " --size huge", "--size: expected test or full, found huge"},
       {"sensors" + data + out + " --job 2", "unknown option --job; the nearest is --jobs"},
+      {"cutting-testbed" + out + data, "cutting-testbed: computes by itself and takes no --data"},
+      {"cutting-testbed", "expected --out DIR"},
+      {"cutting-testbed --out " + file, "cannot make the folder"},
   };
   for (const Case& c : cases) {
     const Outcome outcome = RunProgram(folder, "experiment " + c.arguments + " --quiet");
