@@ -126,7 +126,8 @@ PoseTrial TryPoses(const SceneOptions& options, std::uint64_t index) {
                                               : SolvePoseFromLines(problem->camera, lines);
     const Rigid3 error = found * predicted_from_true;
     trial[variant] = {error.translation.norm(),
-                      kDegrees * AngularDistance(error.rotation, Eigen::Quaterniond::Identity())};
+                      kDegrees * AngularDistance(error.rotation, Eigen::Quaterniond::Identity()),
+                      error.translation.dot(scene.motion)};
   }
   return trial;
 }

@@ -45,6 +45,7 @@ constexpr auto EnumNames(std::type_identity<PoseVariant>) {
 struct PoseError {
   double translation_m = 0;
   double rotation_deg = 0;
+  double along_motion_m = 0;  // below 0: less motion was found than there was; 0 without motion
 };
 using PoseTrial = std::map<PoseVariant, PoseError>;
 

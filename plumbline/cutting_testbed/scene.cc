@@ -178,7 +178,10 @@ CuttingScene MakeStereoScene(const SceneOptions& options, Rng& rng) {
     const Segment3 line = Move(cam_from_earlier, {start, end});
     if (std::min({end.z(), line.start.z(), line.end.z()}) > 0.8) lines.push_back(line);
   }
-  return MeasureLines(StereoCamera(), {cam_from_earlier, 1, 0, options.noise}, lines, rng);
+  CuttingScene scene =
+      MeasureLines(StereoCamera(), {cam_from_earlier, 1, 0, options.noise}, lines, rng);
+  scene.motion = cam_from_earlier.translation.normalized();
+  return scene;
 }
 
 }  // namespace

@@ -42,6 +42,8 @@ struct SceneOptions {
 struct CuttingScene {
   CuttingProblem problem;            // as a program knows it: ends with their errors
   std::vector<Segment3> true_lines;  // in the same camera
+  // Stereo: direction of the translation of present_from_earlier; otherwise zero.
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero();
 };
 
 // Scene `index` of these options. The measured lines have errors of 1 px at each end of the true

@@ -38,6 +38,10 @@ constexpr std::array kMetrics = {
     FigureMetric{"translation_error_median", "mm", "of the pose, median", 1},
     FigureMetric{"translation_error_p90", "mm", "of the pose, 90 % quantile", 1},
     FigureMetric{"rotation_error_median", "deg", "of the pose, median", 3},
+    FigureMetric{"motion_error",
+                 "mm",
+                 "stereo: error of the motion along itself, mean; below 0 where less is found",
+                 1},
     FigureMetric{"translation_ratio",
                  "",
                  "error over that of whole lines without weights in the same scene, geometric mean",
@@ -164,11 +168,12 @@ void AddJoint(const TestbedTrials& trials, std::vector<FigureRow>& rows) {
 void AddPoses(const TestbedTrials& trials, std::vector<FigureRow>& rows) {
   for (const auto& [name, list] : GroupTrials(trials.poses)) {
     for (const auto& [variant, text] : EnumNames(std::type_identity<PoseVariant>{})) {
-      std::vector<double> translations, rotations, logs, squares;
+      std::vector<double> translations, rotations, motions, logs, squares;
       for (const PoseTrial& trial : list) {
         const PoseError& error = trial.at(variant);
         translations.push_back(1000 * error.translation_m);
         rotations.push_back(error.rotation_deg);
+        motions.push_back(1000 * error.along_motion_m);
         logs.push_back(std::log(error.translation_m / trial.at(PoseVariant::kFull).translation_m));
         squares.push_back(logs.back() * logs.back());
       }
@@ -182,6 +187,7 @@ void AddPoses(const TestbedTrials& trials, std::vector<FigureRow>& rows) {
       add("translation_error_median", Quantile(translations, 0.5));
       add("translation_error_p90", Quantile(translations, 0.9));
       add("rotation_error_median", Quantile(rotations, 0.5));
+      if (name.starts_with(NameOf(SceneKind::kStereo))) add("motion_error", Mean(motions));
       add("translation_ratio", std::exp(mean));
       add("translation_ratio_low", std::exp(mean - half));
       add("translation_ratio_high", std::exp(mean + half));

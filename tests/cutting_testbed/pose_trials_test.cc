@@ -38,6 +38,18 @@ TEST(PoseTrials, WeightsHelpWhereErrorsDiffer) {
   EXPECT_LT(MedianTranslation(trials, PoseVariant::kAdjusted), 0.8 * full);
 }
 
+TEST(PoseTrials, LessMotionIsFoundThanThereWasUnlessPointsAreAdjusted) {
+  const auto trials = Trials({SceneKind::kStereo, 0.15, 20}, 200);
+  const auto mean = [&](PoseVariant variant) {
+    double sum = 0;
+    for (const PoseTrial& trial : trials) sum += trial.at(variant).along_motion_m;
+    return sum / static_cast<double>(trials.size());
+  };
+  EXPECT_LT(mean(PoseVariant::kFull), -0.02);
+  EXPECT_LT(mean(PoseVariant::kWeighted), -0.02);
+  EXPECT_NEAR(mean(PoseVariant::kAdjusted), 0, 0.01);
+}
+
 TEST(PoseTrials, AreTheSameForTheSameIndex) {
   const SceneOptions options{SceneKind::kStereo, 0.05, 6};
   const PoseTrial a = TryPoses(options, 5), b = TryPoses(options, 5);

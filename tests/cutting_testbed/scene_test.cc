@@ -66,6 +66,11 @@ INSTANTIATE_TEST_SUITE_P(All,
                                            SceneOptions{SceneKind::kStereo, 0.02, 10}),
                          [](const auto& options) { return NameOf(options.param.kind); });
 
+TEST(CuttingScene, KnowTheirMotion) {
+  EXPECT_NEAR(MakeCuttingScene({SceneKind::kStereo, 0.05, 6}, 1).motion.norm(), 1, 1e-12);
+  EXPECT_EQ(MakeCuttingScene({SceneKind::kInverseDepthPoints, 0.005, 6}, 1).motion.norm(), 0);
+}
+
 TEST(EdgeScene, SeesTheEdgeAtTheAngle) {
   for (const double angle : {0.1, 0.7, 1.5}) {
     const CuttingScene scene = MakeEdgeScene({SceneKind::kHomogeneousPoints, 0.005, 10}, angle, 1);

@@ -75,6 +75,13 @@ TEST(CuttingTestbedFigures, CompareErrorsOfPosesWithWholeLines) {
   EXPECT_NEAR(ValueOf(rows, "pose/all", "cut", "translation_ratio_low"), 0.5, 1e-6);
   EXPECT_NEAR(ValueOf(rows, "pose/all", "full", "translation_error_median"), 20, 1e-9);
   EXPECT_NEAR(ValueOf(rows, "pose/hp/0.005/6", "cut", "rotation_error_median"), 0.5, 1e-9);
+  EXPECT_TRUE(std::isnan(ValueOf(rows, "pose/hp/0.005/6", "cut", "motion_error")));
+  TestbedTrials stereo = Trials();
+  stereo.poses[0].options.kind = SceneKind::kStereo;
+  stereo.poses[0].trials[0][PoseVariant::kCut].along_motion_m = -0.03;
+  EXPECT_NEAR(ValueOf(CuttingTestbedFigures(stereo), "pose/stereo/0.005/6", "cut", "motion_error"),
+              -10,
+              1e-9);
 }
 
 TEST(CuttingTestbedFigures, UseDescribedMetricsOnly) {
