@@ -6,6 +6,7 @@
 #include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/cutting_testbed/pose_from_lines.h"
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -21,6 +22,7 @@ struct Recipe {
   CuttingOptions cutting;
   Weights weights = Weights::kNone;
   bool adjust_points = false;
+  bool lengthen = false;
 };
 
 Recipe RecipeOf(PoseVariant variant) {
@@ -45,6 +47,8 @@ Recipe RecipeOf(PoseVariant variant) {
       return {greedy, Weights::kIndependent};
     case PoseVariant::kCutCorrelated:
       return {greedy, Weights::kCorrelated};
+    case PoseVariant::kLongCutCorrelated:
+      return {greedy, Weights::kCorrelated, false, true};
     case PoseVariant::kDropWeighted:
       return {drop, Weights::kIndependent};
     case PoseVariant::kAdjusted:
@@ -77,12 +81,20 @@ Eigen::Matrix2d WeightOf(const RectifiedCamera& camera,
   throw BugError("no such weights");
 }
 
+// A cut about as long as a point, made longer.
+LineCut Lengthened(const LineCut& cut) {
+  constexpr double kShort = 0.05;
+  if (cut.second - cut.first >= kShort) return cut;
+  return {std::max(0.0, cut.first - kShort), std::min(1.0, cut.second + kShort), cut.used};
+}
+
 std::vector<WeightedCut> Prepare(const CuttingProblem& problem, const Recipe& recipe) {
   const std::vector<LineCut> cuts = CutLines(problem, recipe.cutting);
   std::vector<WeightedCut> out;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const CuttableLine& line = problem.lines[i];
-    out.push_back({line, cuts[i], WeightOf(problem.camera, line, cuts[i], recipe.weights)});
+    const LineCut cut = recipe.lengthen ? Lengthened(cuts[i]) : cuts[i];
+    out.push_back({line, cut, WeightOf(problem.camera, line, cut, recipe.weights)});
   }
   return out;
 }

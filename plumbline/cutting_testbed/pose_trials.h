@@ -23,9 +23,10 @@ enum class PoseVariant {
   kWeighted,       // whole, each residual by the inverse of its variance (2 x 2, diagonal there)
   kCutWeighted,    // greedy, each residual by the inverse of its variance
   kCutCorrelated,  // greedy, 2 x 2 with the covariance between the two residuals
-  kDropWeighted,   // drop, then as kWeighted
-  kAdjusted,       // whole, the ends estimated with the pose (SolvePoseAndPoints)
-  kCutAdjusted,    // greedy, the cut points estimated with the pose
+  kLongCutCorrelated,  // the same with points cut to pieces of a tenth of the line
+  kDropWeighted,       // drop, then as kWeighted
+  kAdjusted,           // whole, the ends estimated with the pose (SolvePoseAndPoints)
+  kCutAdjusted,        // greedy, the cut points estimated with the pose
 };
 constexpr auto EnumNames(std::type_identity<PoseVariant>) {
   return std::array{std::pair{PoseVariant::kFull, "full"},
@@ -37,6 +38,7 @@ constexpr auto EnumNames(std::type_identity<PoseVariant>) {
                     std::pair{PoseVariant::kWeighted, "full_weighted"},
                     std::pair{PoseVariant::kCutWeighted, "cut_weighted"},
                     std::pair{PoseVariant::kCutCorrelated, "cut_correlated"},
+                    std::pair{PoseVariant::kLongCutCorrelated, "long_cut_correlated"},
                     std::pair{PoseVariant::kDropWeighted, "drop_weighted"},
                     std::pair{PoseVariant::kAdjusted, "full_adjusted"},
                     std::pair{PoseVariant::kCutAdjusted, "cut_adjusted"}};

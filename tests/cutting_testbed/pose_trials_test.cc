@@ -3,6 +3,7 @@
 #include "plumbline/cutting_testbed/pose_trials.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,6 +37,20 @@ TEST(PoseTrials, WeightsHelpWhereErrorsDiffer) {
   EXPECT_LT(MedianTranslation(trials, PoseVariant::kWeighted), 0.97 * full);
   EXPECT_GT(MedianTranslation(trials, PoseVariant::kDrop), full);
   EXPECT_LT(MedianTranslation(trials, PoseVariant::kAdjusted), 0.8 * full);
+}
+
+TEST(PoseTrials, CuttingLosesNothingUnlessToAPointWithCovariances) {
+  const auto trials = Trials({SceneKind::kHomogeneousPoints, 0.005, 15}, 200);
+  const auto ratio = [&](PoseVariant variant) {
+    double sum = 0;
+    for (const PoseTrial& trial : trials) {
+      sum += std::log(trial.at(variant).translation_m /
+                      trial.at(PoseVariant::kWeighted).translation_m);
+    }
+    return std::exp(sum / static_cast<double>(trials.size()));
+  };
+  EXPECT_NEAR(ratio(PoseVariant::kLongCutCorrelated), 1, 0.01);
+  EXPECT_GT(ratio(PoseVariant::kCutCorrelated), 1.03);
 }
 
 TEST(PoseTrials, LessMotionIsFoundThanThereWasUnlessPointsAreAdjusted) {
