@@ -46,39 +46,50 @@ SingleLineCell TrySingle(const SceneOptions& options,
   return cell;
 }
 
+using Steps = std::vector<std::function<void()>>;
+
+TrialCell<JointTrial> TryJoint(const SceneOptions& options, int repeats) {
+  TrialCell<JointTrial> cell{options, {}};
+  for (int i = 0; i < repeats; ++i) {
+    const auto index = static_cast<std::uint64_t>(i);
+    cell.trials.push_back(
+        TryJointly(MakeCuttingScene(options, index), CuttingInformation::kIndependent, index));
+  }
+  return cell;
+}
+
+TrialCell<PoseTrial> TryPoseCell(const SceneOptions& options, int repeats) {
+  TrialCell<PoseTrial> cell{options, {}};
+  for (int i = 0; i < kPoseTrialsPerRepeat * repeats; ++i) {
+    cell.trials.push_back(TryPoses(options, static_cast<std::uint64_t>(i)));
+  }
+  return cell;
+}
+
+void AddLogDeterminants(const SceneOptions& options,
+                        int repeats,
+                        TestbedTrials& out,
+                        Steps& steps) {
+  const auto single = [=, &out, &steps](CuttingInformation information, AscentStarts starts) {
+    steps.emplace_back(
+        [=, &out] { out.single.push_back(TrySingle(options, information, starts, repeats)); });
+  };
+  for (const auto& [starts, name] : EnumNames(std::type_identity<AscentStarts>{})) {
+    single(CuttingInformation::kIndependent, starts);
+  }
+  single(CuttingInformation::kPrinted, AscentStarts::kThree);
+  steps.emplace_back([=, &out] { out.joint.push_back(TryJoint(options, repeats)); });
+}
+
 // The work as a list of steps, each of about a cell.
-std::vector<std::function<void()>> Steps(int repeats, TestbedTrials& out) {
+Steps MakeSteps(int repeats, TestbedTrials& out) {
   using enum SceneKind;
-  std::vector<std::function<void()>> steps;
-  const auto cuboid = Cells({kHomogeneousPoints, kInverseDepthPoints});
-  for (const SceneOptions& options : cuboid) {
-    for (const auto& [starts, name] : EnumNames(std::type_identity<AscentStarts>{})) {
-      steps.emplace_back([=, &out, kind = starts] {
-        out.single.push_back(TrySingle(options, CuttingInformation::kIndependent, kind, repeats));
-      });
-    }
-    steps.emplace_back([=, &out] {
-      out.single.push_back(
-          TrySingle(options, CuttingInformation::kPrinted, AscentStarts::kThree, repeats));
-    });
-    steps.emplace_back([=, &out] {
-      TrialCell<JointTrial> cell{options, {}};
-      for (int i = 0; i < repeats; ++i) {
-        const auto index = static_cast<std::uint64_t>(i);
-        cell.trials.push_back(
-            TryJointly(MakeCuttingScene(options, index), CuttingInformation::kIndependent, index));
-      }
-      out.joint.push_back(std::move(cell));
-    });
+  Steps steps;
+  for (const SceneOptions& options : Cells({kHomogeneousPoints, kInverseDepthPoints})) {
+    AddLogDeterminants(options, repeats, out, steps);
   }
   for (const SceneOptions& options : Cells({kHomogeneousPoints, kInverseDepthPoints, kStereo})) {
-    steps.emplace_back([=, &out] {
-      TrialCell<PoseTrial> cell{options, {}};
-      for (int i = 0; i < kPoseTrialsPerRepeat * repeats; ++i) {
-        cell.trials.push_back(TryPoses(options, static_cast<std::uint64_t>(i)));
-      }
-      out.poses.push_back(std::move(cell));
-    });
+    steps.emplace_back([=, &out] { out.poses.push_back(TryPoseCell(options, repeats)); });
   }
   for (const double noise : {0.005, 0.015}) {
     steps.emplace_back([=, &out] {
@@ -103,7 +114,7 @@ std::string NameOf(const SceneOptions& options) {
 TestbedTrials RunTestbed(int repeats,
                          const std::function<bool(std::size_t, std::size_t)>& progress) {
   TestbedTrials out;
-  const auto steps = Steps(repeats, out);
+  const Steps steps = MakeSteps(repeats, out);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     steps[i]();
     if (!progress(i + 1, steps.size())) break;

@@ -165,32 +165,53 @@ void AddJoint(const TestbedTrials& trials, std::vector<FigureRow>& rows) {
   }
 }
 
+// Of the errors of one variant over those of whole lines without weights, each in the same scene.
+struct GeometricMean {
+  double mean = 1, low = 1, high = 1;
+};
+GeometricMean RatioToFull(const std::vector<PoseTrial>& list, PoseVariant variant) {
+  std::vector<double> logs, squares;
+  for (const PoseTrial& trial : list) {
+    logs.push_back(
+        std::log(trial.at(variant).translation_m / trial.at(PoseVariant::kFull).translation_m));
+    squares.push_back(logs.back() * logs.back());
+  }
+  const double mean = Mean(logs);
+  const double variance = std::max(0.0, Mean(squares) - mean * mean);
+  const double half = 1.96 * std::sqrt(variance / static_cast<double>(logs.size()));
+  return {std::exp(mean), std::exp(mean - half), std::exp(mean + half)};
+}
+
+template <class Value>
+std::vector<double> PoseValues(const std::vector<PoseTrial>& list,
+                               PoseVariant variant,
+                               const Value& value) {
+  std::vector<double> values;
+  for (const PoseTrial& trial : list) values.push_back(value(trial.at(variant)));
+  return values;
+}
+
 void AddPoses(const TestbedTrials& trials, std::vector<FigureRow>& rows) {
   for (const auto& [name, list] : GroupTrials(trials.poses)) {
     for (const auto& [variant, text] : EnumNames(std::type_identity<PoseVariant>{})) {
-      std::vector<double> translations, rotations, motions, logs, squares;
-      for (const PoseTrial& trial : list) {
-        const PoseError& error = trial.at(variant);
-        translations.push_back(1000 * error.translation_m);
-        rotations.push_back(error.rotation_deg);
-        motions.push_back(1000 * error.along_motion_m);
-        logs.push_back(std::log(error.translation_m / trial.at(PoseVariant::kFull).translation_m));
-        squares.push_back(logs.back() * logs.back());
-      }
-      const double mean = Mean(logs);
-      const double variance = std::max(0.0, Mean(squares) - mean * mean);
-      const double half = 1.96 * std::sqrt(variance / static_cast<double>(logs.size()));
       const auto add = [&, &group = name, &by = text](std::string_view metric, double value) {
         rows.push_back(Row("pose/" + group, by, metric, value));
       };
+      const auto translations =
+          PoseValues(list, variant, [](const PoseError& e) { return 1000 * e.translation_m; });
+      const auto rotations =
+          PoseValues(list, variant, [](const PoseError& e) { return e.rotation_deg; });
+      const auto motions =
+          PoseValues(list, variant, [](const PoseError& e) { return 1000 * e.along_motion_m; });
+      const GeometricMean ratio = RatioToFull(list, variant);
       add("cases", static_cast<double>(list.size()));
       add("translation_error_median", Quantile(translations, 0.5));
       add("translation_error_p90", Quantile(translations, 0.9));
       add("rotation_error_median", Quantile(rotations, 0.5));
       if (name.starts_with(NameOf(SceneKind::kStereo))) add("motion_error", Mean(motions));
-      add("translation_ratio", std::exp(mean));
-      add("translation_ratio_low", std::exp(mean - half));
-      add("translation_ratio_high", std::exp(mean + half));
+      add("translation_ratio", ratio.mean);
+      add("translation_ratio_low", ratio.low);
+      add("translation_ratio_high", ratio.high);
     }
   }
 }

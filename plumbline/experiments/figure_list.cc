@@ -63,6 +63,26 @@ std::string TitleOf(const FigureMetric& metric) {
                              : fmt::format("{} [{}]", metric.name, metric.unit);
 }
 
+std::string HtmlTable(const Section& section, std::span<const FigureMetric> metrics) {
+  std::string html =
+      fmt::format("<h2>{}</h2>\n<table>\n<thead><tr><th>sequence</th><th>variant</th>",
+                  EscapeHtml(section.name));
+  for (const std::string& metric : section.metrics) {
+    html += fmt::format("<th>{}</th>", EscapeHtml(TitleOf(Find(metrics, metric))));
+  }
+  html += "</tr></thead>\n<tbody>\n";
+  for (const auto& key : section.rows) {
+    html +=
+        fmt::format("<tr><th>{}</th><td>{}</td>", EscapeHtml(key.first), EscapeHtml(key.second));
+    for (const std::string& metric : section.metrics) {
+      html += fmt::format("<td>{}</td>", CellOf(section, key, metric));
+    }
+    html += "</tr>\n";
+  }
+  html += "</tbody></table>\n";
+  return html;
+}
+
 }  // namespace
 
 std::string FormatFigureList(const std::string& experiment, std::span<const FigureRow> rows) {
@@ -129,23 +149,7 @@ std::string FormatFigurePage(const std::string& title,
   for (const PagePlot& plot : plots) {
     html += fmt::format("<h3>{}</h3>\n<figure>{}</figure>\n", EscapeHtml(plot.metric), plot.svg);
   }
-  for (const Section& section : Sections(rows, metrics)) {
-    html += fmt::format("<h2>{}</h2>\n<table>\n<thead><tr><th>sequence</th><th>variant</th>",
-                        EscapeHtml(section.name));
-    for (const std::string& metric : section.metrics) {
-      html += fmt::format("<th>{}</th>", EscapeHtml(TitleOf(Find(metrics, metric))));
-    }
-    html += "</tr></thead>\n<tbody>\n";
-    for (const auto& key : section.rows) {
-      html +=
-          fmt::format("<tr><th>{}</th><td>{}</td>", EscapeHtml(key.first), EscapeHtml(key.second));
-      for (const std::string& metric : section.metrics) {
-        html += fmt::format("<td>{}</td>", CellOf(section, key, metric));
-      }
-      html += "</tr>\n";
-    }
-    html += "</tbody></table>\n";
-  }
+  for (const Section& section : Sections(rows, metrics)) html += HtmlTable(section, metrics);
   html += "<h2>Metrics</h2>\n<ul>\n";
   for (const FigureMetric& metric : metrics) {
     html += fmt::format("<li><b>{}</b>: {}</li>\n",
