@@ -115,7 +115,7 @@ struct LineCut {
 //
 // In the chosen information a cut is never worse than full length. Deterministic; greedy depends on
 // the order of the lines. Throws BugError where the input breaks the conditions above.
-//   cost: 60 lines 0.1 ms with greedy and independent; correlated twice, printed 30 times that
+//   cost: 60 lines 0.1 ms with greedy and independent; correlated twice, printed 25 times that
 std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOptions& options);
 
 // The pose is held by so much in every direction, in rad^-2 and map units^-2: information matrices
