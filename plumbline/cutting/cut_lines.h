@@ -95,16 +95,17 @@ struct LineCut {
 //
 // What the caller does:
 //   1. At the predicted pose, put lines with a match into the camera's frame; leave out those with
-//   an
-//      end at z <= kMinDepth or a projection shorter than a few pixels.
+//      an end at z <= kMinDepth or a projection shorter than a few pixels.
 //   2. Give each end a covariance (endpoint_covariance.h), each line its measured image line and
-//   the
-//      noise of that line, and the information of the points (PoseOnlyResult::information of a
+//      the noise of that line, and the information of the points (PoseOnlyResult::information of a
 //      solution with points alone, or zero).
 //   3. Use the pieces: residuals are the distances of the two cut points CutSegment(...) from the
 //      measured image line (eq. 1, projected_ends). For residuals that measure the distance of
 //      observed ends from the projected line (observed_ends, Plücker lines), move the observed ends
 //      to ImageRatio(...) of the measured segment, oriented as the 3D one.
+//      Without weights (lines.weighting none), or with EvaluateCut(...).weight of cut_residuals.h:
+//      1 / v for independent, 2 x 2 for correlated information. The measurement's own weights of
+//      whole lines do not belong to cut points.
 //   4. Cut again only where the pose has moved much: the cuts depend on it weakly.
 //
 // How: gradient ascent on log det of the pose information (eq. 7) with its analytic gradient; each

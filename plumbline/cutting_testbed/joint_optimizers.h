@@ -18,9 +18,9 @@ namespace plumbline {
 // below 1e-4 (of these the one that the method knows), after kMaxJointEvaluations at the latest.
 enum class JointOptimizer {
   kFull,      // no cutting
-  kGreedy,    // cutting.method=greedy
-  kSweeps,    // cutting.method=greedy_sweeps
-  kSpectral,  // cutting.method=joint
+  kGreedy,    // CuttingMethod::kGreedy
+  kSweeps,    // CuttingMethod::kGreedySweeps
+  kSpectral,  // CuttingMethod::kJoint
   kIpopt,     // interior point, limited-memory Hessian
   kSlsqp,     // NLopt: sequential quadratic programming (active sets)
   kMma,       // NLopt: method of moving asymptotes
