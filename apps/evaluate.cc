@@ -134,6 +134,7 @@ void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
   if (evaluation.line_alignment == LineAlignment::kPoses) {
     reference_from_estimate = AlignPoses(evaluation.error.poses) * reference_from_estimate;
   }
+  evaluation.line_options.viewers = LoadLineViewers(FilesOfLines(line), evaluation.error.poses);
   input->estimate = Transformed(reference_from_estimate, std::move(input->estimate));
   evaluation.lines =
       CompareLineMaps(input->truth, input->estimate, input->surfaces, evaluation.line_options);

@@ -115,6 +115,19 @@ void AddLineRows(std::ostringstream& table, const std::vector<LineMapErrorAt>& r
       table, "  multiplicity", 2, rows, [](const LineMapErrorAt& at) { return at.multiplicity; });
 }
 
+// What makes a true line one that is asked for.
+std::string AskedFor(const LineMapErrorOptions& options) {
+  std::ostringstream text;
+  if (options.viewers) {
+    text << "seen from within " << options.viewers->max_distance << " m in "
+         << options.viewers->min_frames << " or more of " << options.viewers->frames.size()
+         << " keyframes";
+  } else {
+    text << "seen in " << options.min_visible_frames << " frames or more, where recorded";
+  }
+  return text.str();
+}
+
 std::string LineMapTable(const Evaluation& evaluation) {
   const LineMapError& error = *evaluation.lines;
   const LineMapErrorOptions& options = evaluation.line_options;
@@ -124,8 +137,7 @@ std::string LineMapTable(const Evaluation& evaluation) {
   table << "\nlines       " << error.estimated_segments << " segments, " << error.estimated_length
         << " m, aligned by " << NameOf(evaluation.line_alignment) << "\ntrue lines  "
         << error.true_lines << ", " << error.true_length << " m; asked for " << error.asked_lines
-        << ", " << error.asked_length << " m (seen in " << options.min_visible_frames
-        << " frames or more, where recorded)\n\n";
+        << ", " << error.asked_length << " m (" << AskedFor(options) << ")\n\n";
   table << std::left << std::setw(20) << "within [cm]" << std::right << std::setprecision(0);
   for (const LineMapErrorAt& at : error.at) table << std::setw(10) << kCentimetres * at.tolerance;
   table << '\n';
@@ -151,7 +163,7 @@ nlohmann::ordered_json LineMapJson(const Evaluation& evaluation) {
   const LineMapErrorOptions& options = evaluation.line_options;
   nlohmann::ordered_json json = {{"alignment", NameOf(evaluation.line_alignment)},
                                  {"max_angle_deg", kDegrees * options.max_angle},
-                                 {"min_visible_frames", options.min_visible_frames},
+                                 {"asked_for", AskedFor(options)},
                                  {"segments", error.estimated_segments},
                                  {"segments_length_m", error.estimated_length},
                                  {"true_lines", error.true_lines},

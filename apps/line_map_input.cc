@@ -3,10 +3,13 @@
 #include "apps/line_map_input.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/obj_lines.h"
+#include "plumbline/io/trajectory_io.h"
 #include "plumbline/io/true_world.h"
 
+#include <cstdint>
 #include <string>
 #include <system_error>
 
@@ -59,6 +62,20 @@ std::optional<LineMapInput> LoadLineMaps(const LineMapFiles& files) {
   if (surfaces) input.surfaces = ReadSurfaces(*surfaces);
   input.estimate = ReadLineMap(*lines);
   return input;
+}
+
+std::optional<LineViewers> LoadLineViewers(const LineMapFiles& files,
+                                           std::span<const EvaluatedPose> poses) {
+  std::error_code error;
+  const fs::path keyframes = files.estimate / "keyframes.txt";
+  if (!fs::is_regular_file(keyframes, error) || !fs::is_directory(files.reference, error) ||
+      !FindFormat(files.reference)) {
+    return std::nullopt;
+  }
+  const auto dataset = OpenDataset(files.reference);
+  std::vector<std::int64_t> stamps;
+  for (const StampedPose& pose : ReadTrajectory(keyframes).poses) stamps.push_back(pose.stamp_ns);
+  return ViewersOf(dataset->calibration().left, dataset->info().stamps_ns, stamps, poses);
 }
 
 void MirrorWorldY(LineMapInput& input) {

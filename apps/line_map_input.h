@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/eval/line_visibility.h"
 #include "plumbline/geometry/parallelogram.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/geometry/sim3.h"
@@ -9,6 +10,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace plumbline {
@@ -31,6 +33,12 @@ struct LineMapInput {
 // no true lines or no map of lines and no file was named; InputError where one was and another is
 // missing, and for malformed files.
 std::optional<LineMapInput> LoadLineMaps(const LineMapFiles& files);
+
+// The keyframes of the run `estimate` (keyframes.txt beside its trajectory) as viewers of the true
+// lines of the data set `reference`; nullopt where one of the two is a mere file. `poses` are the
+// run's, compared.
+std::optional<LineViewers> LoadLineViewers(const LineMapFiles& files,
+                                           std::span<const EvaluatedPose> poses);
 
 // The true world mirrored in y, to go with MirroredY of its trajectory.
 void MirrorWorldY(LineMapInput& input);

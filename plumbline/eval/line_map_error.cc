@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"
+#include "plumbline/geometry/stretches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,28 +53,6 @@ class SegmentSet {
   std::vector<Entry> entries_;
 };
 
-// The union of stretches as disjoint ones, ascending.
-std::vector<Stretch> Union(std::vector<Stretch> stretches) {
-  std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) {
-    return std::pair(a.from, a.to) < std::pair(b.from, b.to);
-  });
-  std::vector<Stretch> merged;
-  for (const Stretch& stretch : stretches) {
-    if (merged.empty() || stretch.from > merged.back().to) {
-      merged.push_back(stretch);
-    } else {
-      merged.back().to = std::max(merged.back().to, stretch.to);
-    }
-  }
-  return merged;
-}
-
-double TotalLength(const std::vector<Stretch>& stretches) {
-  double sum = 0;
-  for (const Stretch& stretch : stretches) sum += stretch.Length();
-  return sum;
-}
-
 std::vector<Stretch> Covered(const Segment3& segment,
                              const SegmentSet& others,
                              const std::vector<std::size_t>& near,
@@ -84,12 +63,25 @@ std::vector<Stretch> Covered(const Segment3& segment,
       stretches.push_back(*stretch);
     }
   }
-  return Union(std::move(stretches));
+  return CoveredAtLeast(stretches, 1);
 }
 
 std::optional<double> Share(double part, double whole) {
   if (!(whole > 0)) return std::nullopt;
   return std::min(1.0, part / whole);
+}
+
+// The stretches of a true line that are asked for.
+std::vector<Stretch> AskedStretches(const TrueLine& line, const LineMapErrorOptions& options) {
+  if (options.viewers) return SeenStretches(line, *options.viewers);
+  const std::optional<std::int64_t> frames = line.VisibleFrames();
+  if (frames && *frames < options.min_visible_frames) return {};
+  return {{0, line.segment.Length()}};
+}
+
+Segment3 PartOf(const Segment3& segment, const Stretch& stretch) {
+  const Eigen::Vector3d d = segment.Direction();
+  return {segment.start + stretch.from * d, segment.start + stretch.to * d};
 }
 
 void MeasureRecall(std::span<const TrueLine> truth,
@@ -99,17 +91,19 @@ void MeasureRecall(std::span<const TrueLine> truth,
   std::vector<std::array<double, kTrueLineKinds>> covered(result.at.size());
   std::array<double, kTrueLineKinds> asked = {};
   for (const TrueLine& line : truth) {
-    const double length = line.segment.Length();
-    result.true_length += length;
-    const std::optional<std::int64_t> frames = line.VisibleFrames();
-    result.asked.push_back(!frames || *frames >= options.min_visible_frames);
-    if (!result.asked.back()) continue;
+    result.true_length += line.segment.Length();
+    const std::vector<Stretch> stretches = AskedStretches(line, options);
+    result.asked.push_back(!stretches.empty());
+    if (stretches.empty()) continue;
     const auto kind = static_cast<std::size_t>(line.kind);
     ++result.asked_lines;
-    asked[kind] += length;
-    const auto near = estimate.Near(line.segment, options.tolerances.back(), options.max_angle);
-    for (std::size_t t = 0; t < result.at.size(); ++t) {
-      covered[t][kind] += TotalLength(Covered(line.segment, estimate, near, options.tolerances[t]));
+    asked[kind] += TotalLength(stretches);
+    for (const Stretch& stretch : stretches) {
+      const Segment3 part = PartOf(line.segment, stretch);
+      const auto near = estimate.Near(part, options.tolerances.back(), options.max_angle);
+      for (std::size_t t = 0; t < result.at.size(); ++t) {
+        covered[t][kind] += TotalLength(Covered(part, estimate, near, options.tolerances[t]));
+      }
     }
   }
   for (const double length : asked) result.asked_length += length;
@@ -132,11 +126,6 @@ double DistanceFromLine(const Segment3& segment, const Segment3& line) {
   };
   const Eigen::Vector3d a = across(segment.start), b = across(segment.end);
   return std::sqrt((a.squaredNorm() + a.dot(b) + b.squaredNorm()) / 3);
-}
-
-Segment3 PartOf(const Segment3& segment, const Stretch& stretch) {
-  const Eigen::Vector3d d = segment.Direction();
-  return {segment.start + stretch.from * d, segment.start + stretch.to * d};
 }
 
 LineCounterpart FindCounterpart(const Segment3& segment,
@@ -243,7 +232,7 @@ void MeasureCounterparts(const SegmentSet& truth,
     if (stretches.empty()) continue;
     ++lines;
     all += TotalLength(stretches);
-    once += TotalLength(Union(stretches));
+    once += TotalLength(CoveredAtLeast(stretches, 1));
   }
   at.segments_per_line = static_cast<double>(at.with_counterpart) / static_cast<double>(lines);
   if (once > 0) at.multiplicity = all / once;

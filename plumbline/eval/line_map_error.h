@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/eval/line_visibility.h"
 #include "plumbline/eval/surface_distance.h"
 #include "plumbline/geometry/parallelogram.h"
 #include "plumbline/geometry/segment.h"
@@ -24,8 +25,11 @@ struct LineMapErrorOptions {
   // noise, while much more would let a line that merely crosses another one cover it. Long segments
   // are bound by the tolerance, which then allows less.
   double max_angle = 5 * std::numbers::pi / 180;
-  // A true line seen in fewer frames is not asked for; it still counts as true.
-  int min_visible_frames = 3;
+  // What is asked for: the stretches that enough of these see from near enough (SeenStretches).
+  // nullopt: all of each line that enough frames of the sequence see. The rest still counts as
+  // true.
+  std::optional<LineViewers> viewers;
+  int min_visible_frames = 3;  // without viewers
   // Further from all surfaces than this, metres, is in the air.
   double surface_limit = 0.05;
 };

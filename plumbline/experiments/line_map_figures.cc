@@ -10,6 +10,7 @@
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/io/true_world.h"
 
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -23,17 +24,29 @@ namespace fs = std::filesystem;
 
 constexpr double kTolerance = 0.05;  // metres
 
-std::optional<TrajectoryError> CompareWithTruth(const fs::path& sequence, const fs::path& run) {
-  const auto dataset = OpenDataset(sequence);
-  if (!dataset->info().ground_truth) return std::nullopt;
-  return CompareTrajectories(dataset->info().ground_truth->OfCamera(dataset->calibration()),
+std::optional<TrajectoryError> CompareWithTruth(const Dataset& dataset, const fs::path& run) {
+  if (!dataset.info().ground_truth) return std::nullopt;
+  return CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
                              ReadTrajectory(run / "trajectory.txt").poses,
                              {});
 }
 
-LineMapErrorAt Compare(const fs::path& sequence,
+LineViewers KeyFrameViewers(const Dataset& dataset,
+                            const fs::path& run,
+                            const TrajectoryError& trajectory) {
+  std::vector<std::int64_t> stamps;
+  for (const StampedPose& pose : ReadTrajectory(run / "keyframes.txt").poses) {
+    stamps.push_back(pose.stamp_ns);
+  }
+  return ViewersOf(dataset.calibration().left, dataset.info().stamps_ns, stamps, trajectory.poses);
+}
+
+LineMapErrorAt Compare(const Dataset& dataset,
                        const fs::path& run,
-                       const Similarity3& reference_from_estimate) {
+                       const TrajectoryError& trajectory) {
+  const fs::path& sequence = dataset.info().path;
+  const Similarity3 reference_from_estimate =
+      AlignPoses(trajectory.poses) * trajectory.reference_from_estimate;
   std::vector<Segment3> segments = ReadObjLines(run / "lines.obj");
   for (Segment3& segment : segments) {
     segment.start = reference_from_estimate * segment.start;
@@ -43,6 +56,7 @@ LineMapErrorAt Compare(const fs::path& sequence,
   if (fs::exists(sequence / "surfaces.csv")) surfaces = ReadSurfaces(sequence / "surfaces.csv");
   LineMapErrorOptions options;
   options.tolerances = {kTolerance};
+  options.viewers = KeyFrameViewers(dataset, run, trajectory);
   return CompareLineMaps(ReadTrueLines(sequence / "lines.csv"), segments, surfaces, options).at[0];
 }
 
@@ -64,9 +78,10 @@ void AddLineMapFigures(const fs::path& sequence, const fs::path& run, RunFigures
   const auto coverage = figures.values.find("coverage");
   if (coverage == figures.values.end() || coverage->second == 0) return;
   try {
-    const auto trajectory = CompareWithTruth(sequence, run);
+    const auto dataset = OpenDataset(sequence);
+    const auto trajectory = CompareWithTruth(*dataset, run);
     if (!trajectory) return;
-    const LineMapErrorAt at = Compare(sequence, run, trajectory->reference_from_estimate);
+    const LineMapErrorAt at = Compare(*dataset, run, *trajectory);
     add("line_recall", kPercent, at.recall);
     add("line_precision", kPercent, at.precision);
     add("line_angle", kDegrees, at.median_angle);
