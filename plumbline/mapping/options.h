@@ -4,6 +4,7 @@
 
 #include "plumbline/association/fusion.h"
 #include "plumbline/base/options.h"
+#include "plumbline/mapping/line_map_options.h"
 #include "plumbline/optimization/local_ba.h"
 
 namespace plumbline {
@@ -101,6 +102,7 @@ struct MappingOptions {
   CleanupOptions cleanup;
   BaWindowOptions window;
   LocalBaOptions ba;
+  LineMapOptions line_map;
 };
 
 template <class Visitor>
@@ -112,6 +114,7 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
   visit("cleanup", o.cleanup, "removal of weak landmarks and redundant keyframes");
   visit("window", o.window, "what local bundle adjustment adjusts");
   visit("ba", o.ba, "local bundle adjustment");
+  visit("line_map", o.line_map, "which lines of the finished map are given out");
 }
 
 }  // namespace plumbline

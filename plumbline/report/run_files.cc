@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/dxf.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
@@ -42,9 +43,12 @@ void WriteMap(const System& system, const std::filesystem::path& folder) {
   std::vector<Eigen::Vector3d> points;
   for (const auto& [id, point] : map.points()) points.push_back(point.position);
   std::vector<Segment3> lines;
-  for (const auto& [id, line] : map.lines()) lines.push_back(line.Interval());
+  if (main) {
+    for (const MappedLine& line : system.LineMap(*main)) lines.push_back(line.segment);
+  }
   WritePly(folder / "map.ply", points, lines);
   WriteObjLines(folder / "lines.obj", lines);
+  WriteDxfLines(folder / "lines.dxf", lines);
   SaveMap(folder / "map.plb", system.camera(), system.rectifier().rectified_left_from_left(), map);
 }
 
@@ -53,7 +57,7 @@ bool IsRunFile(const std::string& name) {
   static const std::regex temporary(R"(\.(.+)\.[0-9]+\.tmp(\.[a-z]+))");
   static const std::regex written(
       R"((trajectory|trajectory_causal|keyframes)(_map[0-9]+)?\.txt|overlay_[0-9]+\.png|)"
-      R"(options\.yaml|(frames|timing)\.csv|(timing|summary)\.json|map\.(plb|ply)|lines\.obj|)"
+      R"(options\.yaml|(frames|timing)\.csv|(timing|summary)\.json|map\.(plb|ply)|lines\.(obj|dxf)|)"
       R"(report\.html)");
   std::smatch parts;
   return std::regex_match(

@@ -19,9 +19,9 @@ std::string FormatFrames(const std::vector<FrameRecord>& frames);
 void RemoveEarlierRun(const std::filesystem::path& folder);
 
 // Writes trajectory.txt, trajectory_causal.txt, keyframes.txt (of the map with most frames; others
-// as
-// *_map<k>.txt), frames.csv, timing.csv, timing.json, map.plb, map.ply and lines.obj. Each file is
-// written whole or not at all. Throws InputError when a file cannot be written.
+// as *_map<k>.txt), frames.csv, timing.csv, timing.json, map.plb (all landmarks), map.ply,
+// lines.obj and lines.dxf (the line map, System::LineMap). Each file is written whole or not at
+// all. Throws InputError when a file cannot be written.
 void WriteRunFiles(const System& system, const std::filesystem::path& folder);
 
 }  // namespace plumbline

@@ -173,6 +173,11 @@ Trajectory System::FinalTrajectory(MapId map) const {
   return trajectory;
 }
 
+std::vector<MappedLine> System::LineMap(MapId map) const {
+  const Map& owner = maps().at(static_cast<std::size_t>(map.value));
+  return MakeLineMap(owner, imaging_, options_.mapping.line_map);
+}
+
 Trajectory System::KeyFrameTrajectory(MapId map) const {
   Trajectory trajectory;
   const Map& owner = maps().at(static_cast<std::size_t>(map.value));

@@ -7,6 +7,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/map/map.h"
+#include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/mapping_stage.h"
 #include "plumbline/slam/monocular_start.h"
@@ -94,6 +95,8 @@ class System {
   Trajectory FinalTrajectory(MapId map) const;
   Trajectory KeyFrameTrajectory(MapId map) const;
   Trajectory CausalTrajectory(MapId map) const;
+  // The lines of a map fit to be given out, in its world, after Finish (MakeLineMap).
+  std::vector<MappedLine> LineMap(MapId map) const;
   // The map in which most frames have a pose (the earlier of two); nullopt when none has.
   std::optional<MapId> MainMap() const;
 

@@ -73,7 +73,7 @@ inline std::set<std::string> FilesOf(const std::filesystem::path& folder) {
 // Those of the files of a run that must have the same bytes in every run.
 inline bool IsRepeatable(const std::string& name) {
   return name.starts_with("trajectory") || name.starts_with("keyframes") || name == "frames.csv" ||
-         name.starts_with("map.") || name == "lines.obj";
+         name.starts_with("map.") || name == "lines.obj" || name == "lines.dxf";
 }
 
 }  // namespace plumbline

@@ -53,9 +53,9 @@ void Check(const WorldGate& gate) {
   EXPECT_GE(at_5_cm["precision"], gate.min_precision);
 }
 
-TEST(WorldsAccuracy, Room) { Check({"room", "", 0.045, 0.1, 0.09}); }
-TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.0095, 0.095, 0.09}); }
-TEST(WorldsAccuracy, Lateral) { Check({"lateral", "", 0.011, 0.125, 0.22}); }
+TEST(WorldsAccuracy, Room) { Check({"room", "", 0.045, 0.18, 0.42}); }
+TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.0095, 0.11, 0.28}); }
+TEST(WorldsAccuracy, Lateral) { Check({"lateral", "", 0.011, 0.33, 0.6}); }
 TEST(WorldsAccuracy, Planar) { Check({"planar", "", 0.007, 0, 0}); }
 TEST(WorldsAccuracy, PlanarWithPointsOnly) {
   Check({"planar", "--set features.lines=false", 0.007, 0, 0});

@@ -188,7 +188,8 @@ TEST(RunFiles, AreAllThereAndComplete) {
                            "timing.csv",
                            "timing.json",
                            "map.ply",
-                           "lines.obj"}) {
+                           "lines.obj",
+                           "lines.dxf"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   EXPECT_EQ(Rows(Contents(folder / "trajectory.txt")), 4U);

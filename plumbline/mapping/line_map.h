@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/projection_search.h"
+#include "plumbline/geometry/segment.h"
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/line_map_options.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// A straight piece of the world's lines, as given to users.
+struct MappedLine {
+  Segment3 segment;   // world; directed with the brighter side as LineFeature says
+  double sigma = 0;   // of the worse end, across the line, in the map's unit, poses taken as known
+  int keyframes = 0;  // that show some of it
+};
+
+// The clean line map of a finished map: what is well seen of its lines, each once.
+//
+// The landmarks serve tracking, which gains from weak ones; here they are hypotheses only. One
+// after the other, the one with most observations first: all segments of all keyframes that show
+// the line are found, whatever they were matched with (LineSupportSearch), the line goes through
+// them anew, and again, three times in all; its parts are those that enough keyframes show
+// (ShownParts) and that are known well enough. A line that is kept claims its segments, so that
+// what else was made of them finds no support: this merges duplicates, and the collinear pieces of
+// one line. docs/methods/line-map.md has the figures.
+//
+//   map     in one frame with its keyframes' poses; not changed
+//   result  in the order in which the lines were made
+//   cost    O(landmarks x keyframes); 1 to 2 s for 150 keyframes and 2000 landmarks
+std::vector<MappedLine> MakeLineMap(const Map& map,
+                                    const ImagingModel& imaging,
+                                    const LineMapOptions& options);
+
+}  // namespace plumbline

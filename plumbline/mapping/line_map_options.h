@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+
+namespace plumbline {
+
+struct LineMapOptions {
+  int min_keyframes = 4;             // that show each point of a line
+  double max_relative_sigma = 0.02;  // of each point of a line, over its distance
+  double min_found_ratio = 0.25;     // of the keyframes that have a line in their image
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LineMapOptions& o) {
+  visit("min_keyframes",
+        o.min_keyframes,
+        "keyframes that must show each point of a line",
+        Range{2, 100});
+  visit("max_relative_sigma",
+        o.max_relative_sigma,
+        "largest deviation of each point of a line, relative to its distance from the nearest "
+        "keyframe that shows the line",
+        Range{0.0001, 1});
+  visit(
+      "min_found_ratio",
+      o.min_found_ratio,
+      "of the keyframes that have a line in their image, before it or behind something, the share "
+      "that must show it",
+      Range{0, 1});
+}
+
+}  // namespace plumbline

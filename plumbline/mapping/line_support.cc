@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/line_support.h"
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/geometry/line_triangulation.h"
+#include "plumbline/geometry/stretches.h"
+#include "plumbline/optimization/residuals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+namespace plumbline {
+namespace {
+
+// What the error of a keyframe's pose adds to the deviation of a segment.
+constexpr double kPoseSigmaPx = 0.3;
+constexpr double kMinOverlap = 0.25;
+
+// Ends of a measured segment near the projected line, chi2 99 % of two residuals.
+bool Agrees(const RectifiedCamera& camera,
+            const Rigid3& cam_from_world,
+            const LineHypothesis& hypothesis,
+            LineMeasurement measurement) {
+  constexpr double kMaxChi2 = 9.21;
+  measurement.covariance += kPoseSigmaPx * kPoseSigmaPx * Eigen::Matrix2d::Identity();
+  AddLandmarkUncertainty(camera,
+                         cam_from_world,
+                         hypothesis.line,
+                         hypothesis.information,
+                         LineWeighting::kCovariance,
+                         measurement);
+  const auto residual =
+      EvaluateLine(camera, cam_from_world, ToOrthonormal(hypothesis.line), measurement);
+  return residual && residual->r.squaredNorm() <= kMaxChi2;
+}
+
+// Where a segment lies along a line; nullopt where it runs against it.
+std::optional<LineInterval> Trimmed(const RectifiedCamera& camera,
+                                    const PluckerLine& line,
+                                    const Frame& frame,
+                                    std::size_t feature) {
+  const auto interval =
+      TrimToSegment(camera, frame.cam_from_world, line, frame.features().lines[feature].segment);
+  if (!interval || !(interval->end > interval->start)) return std::nullopt;
+  return interval;
+}
+
+// Before the exact test: near the projected line and nearly parallel to it.
+bool MayShow(const Segment2& projected, const Segment2& segment) {
+  constexpr double kLoosePx = 10, kMinCosine = 0.95;
+  const Eigen::Vector3d line = LineThrough(projected);
+  return std::abs(LineDistance(line, segment.start)) <= kLoosePx &&
+         std::abs(LineDistance(line, segment.end)) <= kLoosePx &&
+         segment.Direction().dot(projected.Direction()) >= kMinCosine;
+}
+
+}  // namespace
+
+LineSupportSearch::LineSupportSearch(const Map& map, const ImagingModel& imaging)
+    : map_(map), imaging_(imaging) {
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    claimed_[id].resize(keyframe.frame.lines.size());
+  }
+}
+
+std::vector<LineSupport> LineSupportSearch::Find(const LineHypothesis& hypothesis) const {
+  constexpr double kMinLengthPx = 5;
+  const Segment3 segment = SegmentOf(hypothesis.line, hypothesis.interval);
+  std::vector<LineSupport> supports;
+  for (const auto& [id, keyframe] : map_.keyframes()) {
+    const Frame& frame = keyframe.frame;
+    const auto projected =
+        ProjectSegment(imaging_.camera,
+                       {frame.cam_from_world * segment.start, frame.cam_from_world * segment.end});
+    if (!projected || !(projected->Length() > kMinLengthPx)) continue;
+    for (std::size_t i = 0; i < frame.lines.size(); ++i) {
+      if (IsClaimed(keyframe, i) || !MayShow(*projected, frame.features().lines[i].segment)) {
+        continue;
+      }
+      if (const auto support = Test(hypothesis, keyframe, i)) supports.push_back(*support);
+    }
+  }
+  return supports;
+}
+
+void LineSupportSearch::Claim(std::span<const LineSupport> supports) {
+  for (const LineSupport& support : supports) {
+    claimed_.at(support.keyframe->id)[support.feature] = true;
+  }
+}
+
+bool LineSupportSearch::IsClaimed(const KeyFrame& keyframe, std::size_t feature) const {
+  return claimed_.at(keyframe.id)[feature];
+}
+
+std::optional<LineSupport> LineSupportSearch::Test(const LineHypothesis& hypothesis,
+                                                   const KeyFrame& keyframe,
+                                                   std::size_t feature) const {
+  const Frame& frame = keyframe.frame;
+  const auto agrees = [&](const LineMeasurement& measurement) {
+    return Agrees(imaging_.camera, frame.cam_from_world, hypothesis, measurement);
+  };
+  if (!agrees(MeasureLeftLine(frame.features(), feature, LineWeighting::kCovariance))) {
+    return std::nullopt;
+  }
+  const auto interval = Trimmed(imaging_.camera, hypothesis.line, frame, feature);
+  if (!interval || OverlapRatio(*interval, hypothesis.interval) < kMinOverlap) return std::nullopt;
+  const auto right = MeasureRightLine(frame.features(), feature, LineWeighting::kCovariance);
+  return LineSupport{&keyframe, feature, right && agrees(*right)};
+}
+
+int CountKeyFrames(std::span<const LineSupport> supports) {
+  int count = 0;
+  const KeyFrame* last = nullptr;
+  for (const LineSupport& support : supports) {
+    count += support.keyframe != last;
+    last = support.keyframe;
+  }
+  return count;
+}
+
+std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
+                                                  std::span<const LineSupport> supports) {
+  // Every support was tested against the line before: none is refused by its reprojection here.
+  constexpr double kMinPlaneAngle = 0.002;
+  const LineTriangulationOptions options{
+      .min_plane_angle = kMinPlaneAngle,
+      .max_residual_sigma = std::numeric_limits<double>::infinity()};
+  std::vector<LineView> views;
+  for (const LineSupport& support : supports) {
+    const Frame& frame = support.keyframe->frame;
+    const LineFeature& left = frame.features().lines[support.feature];
+    views.push_back({frame.cam_from_world, left.segment, std::hypot(left.sigma_px, kPoseSigmaPx)});
+    if (!support.right) continue;
+    const RightLine& right = *frame.features().line_right[support.feature];
+    views.push_back({RightCamera(camera, frame.cam_from_world),
+                     right.segment,
+                     std::hypot(right.sigma_px, kPoseSigmaPx)});
+  }
+  const auto found = TriangulateLine(camera, views, options);
+  if (!found) return std::nullopt;
+  return LineHypothesis{found->estimate.line, {}, found->estimate.covariance.inverse()};
+}
+
+std::vector<LineInterval> ShownParts(const RectifiedCamera& camera,
+                                     const PluckerLine& line,
+                                     std::span<const LineSupport> supports,
+                                     int min_keyframes,
+                                     double min_share) {
+  constexpr double kMaxGapShare = 0.1;
+  std::vector<Stretch> shown, expected;
+  for (std::size_t k = 0; k < supports.size();) {
+    const KeyFrame& keyframe = *supports[k].keyframe;
+    std::vector<Stretch> own;  // its segments count once where they overlap
+    for (; k < supports.size() && supports[k].keyframe == &keyframe; ++k) {
+      const auto interval = Trimmed(camera, line, keyframe.frame, supports[k].feature);
+      if (interval) own.push_back({interval->start, interval->end});
+    }
+    for (const Stretch& stretch : CoveredAtLeast(own, 1)) shown.push_back(stretch);
+    const auto part = PartInImage(camera, keyframe.frame.cam_from_world, line);
+    if (part) expected.push_back(*part);
+  }
+  const std::vector<Stretch> parts = WellCovered(shown, expected, min_keyframes, min_share);
+  if (parts.empty()) return {};
+  const double whole = parts.back().to - parts.front().from;
+  std::vector<LineInterval> intervals;
+  for (const Stretch& part : WithGapsClosed(parts, kMaxGapShare * whole)) {
+    if (part.Length() > 0) intervals.push_back({part.from, part.to});
+  }
+  return intervals;
+}
+
+std::optional<Stretch> PartInImage(const RectifiedCamera& camera,
+                                   const Rigid3& cam_from_world,
+                                   const PluckerLine& line) {
+  // Points with n . X >= 0 are on the inner side of a border, and in front of the camera.
+  const std::array<Eigen::Vector3d, 5> borders = {
+      Eigen::Vector3d(camera.fx, 0, camera.cx),
+      Eigen::Vector3d(-camera.fx, 0, camera.width - 1 - camera.cx),
+      Eigen::Vector3d(0, camera.fy, camera.cy),
+      Eigen::Vector3d(0, -camera.fy, camera.height - 1 - camera.cy),
+      Eigen::Vector3d(0, 0, 1)};
+  const Eigen::Vector3d foot = cam_from_world * line.Foot();
+  const Eigen::Vector3d direction = cam_from_world.rotation * line.direction;
+  Stretch part{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (const Eigen::Vector3d& normal : borders) {
+    const double at_foot = normal.dot(foot), slope = normal.dot(direction);
+    if (slope > 0) {
+      part.from = std::max(part.from, -at_foot / slope);
+    } else if (slope < 0) {
+      part.to = std::min(part.to, -at_foot / slope);
+    } else if (at_foot < 0) {
+      return std::nullopt;
+    }
+  }
+  if (!(part.to > part.from)) return std::nullopt;
+  return part;
+}
+
+double OverlapRatio(const LineInterval& a, const LineInterval& b) {
+  const double common = std::min(a.end, b.end) - std::max(a.start, b.start);
+  return std::max(0.0, common) / std::min(a.end - a.start, b.end - b.start);
+}
+
+}  // namespace plumbline

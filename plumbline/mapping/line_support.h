@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/projection_search.h"
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/segment.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/map/map.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A line of the world as far as it is known.
+struct LineHypothesis {
+  PluckerLine line;
+  LineInterval interval;                                  // start < end
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of the orthonormal tangent
+};
+
+// A line feature of a keyframe that lies where a line of the world should appear.
+struct LineSupport {
+  const KeyFrame* keyframe = nullptr;
+  std::size_t feature = 0;
+  bool right = false;  // its segment in the right image does so, too
+};
+
+// Finds the segments of all keyframes that show a line, whatever landmark they were matched with.
+// Each segment shows one line: those that were claimed for another are not found again.
+class LineSupportSearch {
+ public:
+  // Both must outlive the search.
+  LineSupportSearch(const Map& map, const ImagingModel& imaging);
+
+  // Segments that run as the line does (bright side on the same side), both ends within chi2 99 %
+  // of the projected line, by their own deviation, that of the poses and that of the line, and that
+  // overlap the interval by a quarter of the shorter of the two. Ordered by keyframe.
+  // O(features of the keyframes that have the line in their image).
+  std::vector<LineSupport> Find(const LineHypothesis& hypothesis) const;
+
+  void Claim(std::span<const LineSupport> supports);
+
+ private:
+  bool IsClaimed(const KeyFrame& keyframe, std::size_t feature) const;
+  std::optional<LineSupport> Test(const LineHypothesis& hypothesis,
+                                  const KeyFrame& keyframe,
+                                  std::size_t feature) const;
+
+  const Map& map_;
+  const ImagingModel& imaging_;
+  std::map<KeyFrameId, std::vector<bool>> claimed_;
+};
+
+// Keyframes among supports as Find returns them.
+int CountKeyFrames(std::span<const LineSupport> supports);
+
+// The line through all its supports, left and right segments alike, from scratch (TriangulateLine).
+// nullopt where that fails. The interval is left at zero.
+std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
+                                                  std::span<const LineSupport> supports);
+
+// The parts of a line, parameters along it, that are shown by at least `min_keyframes` of the
+// keyframes and by at least `min_share` of those supporting keyframes in whose image they are. Each
+// segment is trimmed to the line (eq. 30). Gaps of up to a tenth of the whole are closed.
+std::vector<LineInterval> ShownParts(const RectifiedCamera& camera,
+                                     const PluckerLine& line,
+                                     std::span<const LineSupport> supports,
+                                     int min_keyframes,
+                                     double min_share);
+
+// The part of a line inside an image, parameters along it; nullopt where it misses the image.
+std::optional<Stretch> PartInImage(const RectifiedCamera& camera,
+                                   const Rigid3& cam_from_world,
+                                   const PluckerLine& line);
+
+// Common length of two intervals over that of the shorter one.
+double OverlapRatio(const LineInterval& a, const LineInterval& b);
+
+}  // namespace plumbline

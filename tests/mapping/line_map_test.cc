@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/line_map.h"
+
+#include "tests/support/true_map.h"
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+const SensorModel kNoisy{.points = false, .noise = 0.5};
+
+TrueMap Scene(const SyntheticWorld& world, int keyframes = 8) {
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < keyframes; ++k) poses.push_back(PoseOnPath(8 * k));
+  return MakeTrueMap(world, poses, kNoisy);
+}
+
+// Of the two ends from the nearest true line, metres; ends may lie 10 cm beyond the true ones.
+double DistanceFromTruth(const MappedLine& line, const SyntheticWorld& world) {
+  double nearest = 1e9;
+  for (const SyntheticWorld::Line& truth : world.lines) {
+    const Eigen::Vector3d d = truth.segment.Direction();
+    const Segment3 longer{truth.segment.start - 0.1 * d, truth.segment.end + 0.1 * d};
+    nearest = std::min(
+        nearest,
+        std::max(Distance(longer, line.segment.start), Distance(longer, line.segment.end)));
+  }
+  return nearest;
+}
+
+double Length(const std::vector<MappedLine>& lines) {
+  double sum = 0;
+  for (const MappedLine& line : lines) sum += line.segment.Length();
+  return sum;
+}
+
+TEST(LineMap, HasTheLinesOfTheWorld) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const TrueMap scene = Scene(world);
+  const LineMapOptions options;
+  const auto lines = MakeLineMap(scene.map, world.Imaging(), options);
+  EXPECT_GT(lines.size(), 15U);
+  std::size_t good = 0;
+  for (const MappedLine& line : lines) {
+    good += DistanceFromTruth(line, world) < std::max(0.1, 3 * line.sigma);
+    EXPECT_GE(line.keyframes, options.min_keyframes);
+    EXPECT_GT(line.sigma, 0);
+    EXPECT_LT(line.sigma, 0.3);
+    EXPECT_GT(line.segment.Length(), 0);
+  }
+  EXPECT_GE(static_cast<double>(good), 0.95 * static_cast<double>(lines.size()));
+}
+
+TEST(LineMap, HasALineOnceHoweverOftenItIsInTheMap) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  TrueMap scene = Scene(world);
+  const auto once = MakeLineMap(scene.map, world.Imaging(), {});
+  MapEdit edit;
+  LineId next = scene.map.NextLineId();
+  for (const auto& [id, line] : scene.map.lines()) {
+    // Takes over half of the observations, at the other half of the line.
+    MapLine twin = line;
+    twin.id = next;
+    ++next.value;
+    twin.start = 0.5 * (line.start + line.end);
+    twin.observations.clear();
+    for (const auto& [keyframe, feature] : line.observations) {
+      if (keyframe.value % 2 == 0) continue;
+      edit.push_back(edit::RemoveLineObservation{id, keyframe});
+      twin.observations[keyframe] = feature;
+    }
+    if (!twin.observations.empty()) edit.push_back(edit::AddLine{twin});
+  }
+  scene.map.Apply(edit);
+  ASSERT_GT(2 * scene.map.lines().size(), 3 * scene.line_of.size());
+  const auto twice = MakeLineMap(scene.map, world.Imaging(), {});
+  EXPECT_NEAR(static_cast<double>(twice.size()), static_cast<double>(once.size()), 2);
+  EXPECT_NEAR(Length(twice), Length(once), 0.05 * Length(once));
+}
+
+TEST(LineMap, LeavesOutLandmarksThatAreInTheWrongPlace) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  TrueMap scene = Scene(world);
+  const auto before = MakeLineMap(scene.map, world.Imaging(), {});
+  MapEdit edit;
+  LineId next = scene.map.NextLineId();
+  const std::map<LineId, MapLine> landmarks = scene.map.lines();
+  for (const auto& [id, line] : landmarks) {
+    MapLine ghost = line;
+    const Eigen::Vector3d shift(0.3, -0.4, 1);
+    ghost.id = next;
+    ++next.value;
+    ghost.line = LineThroughPoints(line.line.PointAt(line.start) + shift,
+                                   line.line.PointAt(line.end) + shift);
+    ghost.start = ghost.line.ParameterOf(line.line.PointAt(line.start) + shift);
+    ghost.end = ghost.line.ParameterOf(line.line.PointAt(line.end) + shift);
+    edit.push_back(edit::RemoveLine{id});
+    edit.push_back(edit::AddLine{ghost});
+  }
+  scene.map.Apply(edit);
+  EXPECT_LT(Length(MakeLineMap(scene.map, world.Imaging(), {})), 0.1 * Length(before));
+}
+
+TEST(LineMap, NeedsEnoughKeyFrames) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const TrueMap scene = Scene(world, 3);
+  EXPECT_TRUE(MakeLineMap(scene.map, world.Imaging(), {}).empty());
+  LineMapOptions options;
+  options.min_keyframes = 2;
+  EXPECT_FALSE(MakeLineMap(scene.map, world.Imaging(), options).empty());
+  EXPECT_TRUE(MakeLineMap(Map(), world.Imaging(), options).empty());
+}
+
+TEST(LineMap, NeedsWellKnownLines) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const TrueMap scene = Scene(world);
+  LineMapOptions strict, lax;
+  strict.max_relative_sigma = 0.004;
+  lax.max_relative_sigma = 0.5;
+  const double length = Length(MakeLineMap(scene.map, world.Imaging(), {}));
+  EXPECT_LT(Length(MakeLineMap(scene.map, world.Imaging(), strict)), 0.9 * length);
+  EXPECT_GT(Length(MakeLineMap(scene.map, world.Imaging(), lax)), 1.05 * length);
+}
+
+TEST(LineMap, NeedsLinesThatAreFoundOftenEnough) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const TrueMap scene = Scene(world);
+  LineMapOptions never;
+  never.min_found_ratio = 1;
+  EXPECT_LT(Length(MakeLineMap(scene.map, world.Imaging(), never)),
+            Length(MakeLineMap(scene.map, world.Imaging(), {})));
+}
+
+// At any scale: a map of one camera has its own unit.
+TEST(LineMap, DoesNotDependOnTheUnit) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const SensorModel mono{.points = false, .depth = false, .noise = 0.5};
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < 8; ++k) poses.push_back(PoseOnPath(8 * k));
+  TrueMap scene = MakeTrueMap(world, poses, mono);
+  const auto lines = MakeLineMap(scene.map, world.Imaging(), {});
+  constexpr double kScale = 0.1;
+  MapEdit edit;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    Rigid3 pose = keyframe.frame.cam_from_world;
+    pose.translation *= kScale;
+    edit.push_back(edit::SetPose{id, pose});
+  }
+  scene.map.Apply(edit);
+  edit.clear();
+  for (const auto& [id, line] : scene.map.lines()) {
+    edit::MoveLine move{id, line.line, kScale * line.start, kScale * line.end, {}};
+    move.line.moment *= kScale;
+    move.information = Eigen::Matrix4d::Zero();
+    for (const auto& [keyframe, feature] : line.observations) {
+      move.information += LineInformation(world.camera,
+                                          scene.map.Find(keyframe)->frame,
+                                          static_cast<std::size_t>(feature),
+                                          move.line);
+    }
+    edit.push_back(move);
+  }
+  scene.map.Apply(edit);
+  const auto small = MakeLineMap(scene.map, world.Imaging(), {});
+  ASSERT_GT(lines.size(), 5U);
+  EXPECT_NEAR(static_cast<double>(small.size()), static_cast<double>(lines.size()), 2);
+  EXPECT_NEAR(Length(small), kScale * Length(lines), 0.1 * kScale * Length(lines));
+}
+
+}  // namespace
+}  // namespace plumbline
