@@ -31,9 +31,12 @@ std::optional<TrajectoryError> CompareWithTruth(const Dataset& dataset, const fs
                              {});
 }
 
-LineViewers KeyFrameViewers(const Dataset& dataset,
-                            const fs::path& run,
-                            const TrajectoryError& trajectory) {
+// nullopt where the run left no list of its keyframes.
+std::optional<LineViewers> KeyFrameViewers(const Dataset& dataset,
+                                           const fs::path& run,
+                                           const TrajectoryError& trajectory) {
+  std::error_code error;
+  if (!fs::exists(run / "keyframes.txt", error)) return std::nullopt;
   std::vector<std::int64_t> stamps;
   for (const StampedPose& pose : ReadTrajectory(run / "keyframes.txt").poses) {
     stamps.push_back(pose.stamp_ns);

@@ -37,6 +37,15 @@ TEST(LineMapFigures, CompareTheMapInTheWorldOfTheTruth) {
   EXPECT_FALSE(figures.reasons.contains("line_recall"));
 }
 
+TEST(LineMapFigures, AskForWhatTheKeyFramesSee) {
+  const ScratchFolder folder;
+  RunFigures figures = FiguresOf(folder);
+  folder.Write("run/keyframes.txt", "1.0 5 0 0 0 0 0 1\n1.05 6 0 0 0 0 0 1\n1.1 5 1 0 0 0 0 1\n");
+  AddLineMapFigures(folder / "s", folder / "run", figures);
+  EXPECT_FALSE(figures.values.contains("line_recall"));  // three keyframes are too few
+  EXPECT_NEAR(figures.values.at("line_precision"), 100, 1e-6);
+}
+
 TEST(LineMapFigures, SayWhyThereAreNone) {
   const ScratchFolder folder;
   const RunFigures before = FiguresOf(folder);
