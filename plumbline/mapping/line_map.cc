@@ -78,7 +78,8 @@ std::optional<LineInterval> KnownPart(const SupportedLine& line,
   return best;
 }
 
-// How many keyframes show a part of a line, and how many have it in their image.
+// How many keyframes show a part of a line, and how many more have it in their image from no
+// further than the furthest of them: those beyond are likely to stand behind a wall.
 struct Sightings {
   int shown = 0, expected = 0;
 };
@@ -88,18 +89,24 @@ Sightings CountSightings(const Map& map,
                          const SupportedLine& line,
                          const LineInterval& part) {
   constexpr double kMinOverlap = 0.25, kMinLengthPx = 30;
+  const Eigen::Vector3d middle = line.hypothesis.line.PointAt(0.5 * (part.start + part.end));
+  const auto distance = [&](const Frame& frame) { return (frame.cam_from_world * middle).norm(); };
   std::set<KeyFrameId> shown;
+  double furthest = 0;
   for (const LineSupport& support : line.supports) {
     const Frame& frame = support.keyframe->frame;
     const auto interval = TrimToSegment(camera,
                                         frame.cam_from_world,
                                         line.hypothesis.line,
                                         frame.features().lines[support.feature].segment);
-    if (interval && OverlapRatio(*interval, part) > kMinOverlap) shown.insert(support.keyframe->id);
+    if (!interval || OverlapRatio(*interval, part) <= kMinOverlap) continue;
+    shown.insert(support.keyframe->id);
+    furthest = std::max(furthest, distance(frame));
   }
   const Segment3 segment = SegmentOf(line.hypothesis.line, part);
   Sightings count{static_cast<int>(shown.size()), 0};
   for (const auto& [id, keyframe] : map.keyframes()) {
+    if (distance(keyframe.frame) > furthest) continue;
     const Rigid3& pose = keyframe.frame.cam_from_world;
     const auto projected = ProjectSegment(camera, {pose * segment.start, pose * segment.end});
     count.expected += shown.contains(id) || (projected && projected->Length() >= kMinLengthPx);

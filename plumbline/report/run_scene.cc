@@ -49,9 +49,8 @@ MapScene MakeMapScene(const System& system, const Dataset& dataset, const Map& m
   for (const auto& [id, point] : map.points()) {
     scene.points.push_back(world_from_map * point.position);
   }
-  for (const auto& [id, line] : map.lines()) {
-    const Segment3 segment = line.Interval();
-    scene.lines.push_back({world_from_map * segment.start, world_from_map * segment.end});
+  for (const MappedLine& line : system.LineMap(map.id())) {
+    scene.lines.push_back({world_from_map * line.segment.start, world_from_map * line.segment.end});
   }
   scene.point_count = scene.points.size();
   scene.line_count = scene.lines.size();
