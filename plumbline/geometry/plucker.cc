@@ -60,6 +60,13 @@ OrthonormalLine Retract(const OrthonormalLine& line, const Eigen::Vector4d& delt
           {c * line.w.x() - s * line.w.y(), s * line.w.x() + c * line.w.y()}};
 }
 
+OrthonormalLine RetractLeft(const OrthonormalLine& line, const Eigen::Vector4d& delta) {
+  const double c = std::cos(delta(3));
+  const double s = std::sin(delta(3));
+  return {(ExpSo3(delta.head<3>()) * line.U).normalized(),
+          {c * line.w.x() - s * line.w.y(), s * line.w.x() + c * line.w.y()}};
+}
+
 OrthonormalLine RetractStraight(const OrthonormalLine& line, const Eigen::Vector4d& delta) {
   constexpr double kTiny = 1e-12;  // of |(m, d)|, which is 1 at the start
   const Eigen::Matrix<double, 6, 1> h = line.Homogeneous() + HomogeneousJacobian(line) * delta;
@@ -85,6 +92,16 @@ Eigen::Matrix<double, 6, 4> HomogeneousJacobian(const OrthonormalLine& line) {
   J.block<3, 1>(3, 0) = w2 * U.col(2);
   J.block<3, 1>(3, 2) = -w2 * U.col(0);
   J.block<3, 1>(3, 3) = w1 * U.col(1);
+  return J;
+}
+
+Eigen::Matrix<double, 6, 4> LeftHomogeneousJacobian(const OrthonormalLine& line) {
+  const Eigen::Vector3d u1 = line.U * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d u2 = line.U * Eigen::Vector3d::UnitY();
+  const double w1 = line.w.x();
+  const double w2 = line.w.y();
+  Eigen::Matrix<double, 6, 4> J;
+  J << -w1 * Skew(u1), -w2 * u1, -w2 * Skew(u2), w1 * u2;
   return J;
 }
 

@@ -57,7 +57,11 @@ PluckerLine ToPlucker(const OrthonormalLine& line);
 // U <- U Exp(delta.head<3>()), w turned by delta(3) (section 3.1).
 OrthonormalLine Retract(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
-// The same to first order in delta, for optimization: (m, d) moves straight along its derivative,
+// U <- Exp(delta.head<3>()) U, w turned by delta(3): a turn about the axes of the frame instead of
+// the line's own, as PPL-SLAM has it (reference [20] of the first paper).
+OrthonormalLine RetractLeft(const OrthonormalLine& line, const Eigen::Vector4d& delta);
+
+// Retract() to first order in delta, for optimization: (m, d) moves straight along its derivative,
 // then to the nearest pair with m . d = 0. The moment of the line in any camera, and with it the
 // projected line, is linear in (m, d), so that a Gauss-Newton step ends where it meant to, also a
 // long one; turning U and w leads away from there along an arc (docs/methods/plucker-lines.md).
@@ -65,5 +69,8 @@ OrthonormalLine RetractStraight(const OrthonormalLine& line, const Eigen::Vector
 
 // d(m, d)/d(delta) at delta = 0 of the homogeneous 6-vector (eq. 19 with w21 in place of w12).
 Eigen::Matrix<double, 6, 4> HomogeneousJacobian(const OrthonormalLine& line);
+
+// The same for RetractLeft(): [ -[w1 u1]x , -w2 u1 ; -[w2 u2]x , w1 u2 ].
+Eigen::Matrix<double, 6, 4> LeftHomogeneousJacobian(const OrthonormalLine& line);
 
 }  // namespace plumbline

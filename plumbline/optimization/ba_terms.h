@@ -84,6 +84,9 @@ struct BaLineTerms {
     Eigen::Matrix<double, 6, kDof> J;  // of moment and direction with respect to the update
   };
 
+  static Term MakeTerm(const RectifiedCamera& camera, const LineMeasurement& measurement) {
+    return MakeLineTerm(camera, measurement);
+  }
   static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
   static int Dof(const Term&) { return 2; }
 
@@ -123,6 +126,22 @@ struct BaLine : BaLineTerms<4> {
   static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
 };
 
+// The same four parameters turned about the axes of the frame (PPL-SLAM). Undamped steps are those
+// of BaLine to first order; the damping looks at other diagonal entries, and the step is taken
+// along the arc.
+struct BaLineLeft : BaLineTerms<4> {
+  using State = OrthonormalLine;
+
+  static Place MakePlace(const State& state) { return BaLine::MakePlace(state); }
+  static View MakeView(const State& state) {
+    return {MakePlace(state), LeftHomogeneousJacobian(state)};
+  }
+  static State Retract(const State& state, const Eigen::Vector4d& step) {
+    return RetractLeft(state, step);
+  }
+  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
+};
+
 // A line as two of its points, each with its three coordinates in the world.
 struct BaLineEnds : BaLineTerms<6> {
   using State = Segment3;
@@ -143,8 +162,10 @@ struct BaLineEnds : BaLineTerms<6> {
   // across the line is added along it: a slide then is no longer free, and the rest of the step is
   // what it was, since the equations ask for no slide (their g has no part along it).
   static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
-    const Eigen::Matrix3d along =
-        view.direction * view.direction.transpose() / (2 * view.direction.squaredNorm());
+    HoldAlong(view.direction, equations);
+  }
+  static void HoldAlong(const Eigen::Vector3d& direction, LandmarkEquations<kDof>& equations) {
+    const Eigen::Matrix3d along = direction * direction.transpose() / (2 * direction.squaredNorm());
     auto& V = equations.V;
     const double start = V.diagonal().head<3>().sum();
     const double end = V.diagonal().tail<3>().sum();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_solve.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/optimization/ceres_terms.h"
 #include "plumbline/optimization/line_ends.h"
 
@@ -93,6 +94,8 @@ class CeresBa {
  public:
   CeresBa(const BaProblem& problem, const CeresBaOptions& options)
       : problem_(problem), options_(options), losses_(options.huber) {
+    PLUMBLINE_CHECK(!HasProjectedEnds() || options.derivatives == CeresDerivatives::kAutomatic,
+                    "projected ends need automatic derivatives");
     MakeManifolds();
     AddBlocks();
     AddTerms();
@@ -102,6 +105,10 @@ class CeresBa {
 
  private:
   bool HasEnds() const { return options_.lines == LineParametrization::kEndpoints; }
+  bool HasProjectedEnds() const {
+    return problem_.line_residual == LineResidualKind::kProjectedEnds;
+  }
+  std::unique_ptr<ceres::CostFunction> LineCost(const BaProblem::LineObservation& o) const;
   void MakeManifolds();
   void AddBlocks();
   void AddTerms();
@@ -123,9 +130,15 @@ void CeresBa::MakeManifolds() {
   if (options_.derivatives == CeresDerivatives::kAnalytic) {
     pose_manifold_ = std::make_unique<TangentManifold<LeftRigid3Manifold>>();
     line_manifold_ = std::make_unique<StraightLineManifold>();
+    if (options_.lines == LineParametrization::kPluckerLeft) {
+      line_manifold_ = std::make_unique<TangentManifold<LeftOrthonormalLineManifold>>();
+    }
   } else {
     pose_manifold_ = std::make_unique<LeftRigid3Manifold>();
     line_manifold_ = std::make_unique<OrthonormalLineManifold>();
+    if (options_.lines == LineParametrization::kPluckerLeft) {
+      line_manifold_ = std::make_unique<LeftOrthonormalLineManifold>();
+    }
   }
   if (HasEnds()) line_manifold_.reset();
 }
@@ -145,7 +158,7 @@ void CeresBa::AddBlocks() {
     terms_.AddParameterBlock(point.data(), 3);
     order_->AddElementToGroup(point.data(), kLandmarks);
   }
-  if (HasEnds()) ends_ = TrimmedEnds(problem_);
+  if (HasEnds() || HasProjectedEnds()) ends_ = TrimmedEnds(problem_);
   lines_.resize(problem_.lines.size());
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (HasEnds()) {
@@ -167,13 +180,23 @@ void CeresBa::AddTerms() {
         points_[static_cast<std::size_t>(o.point)].data());
   }
   for (const auto& o : problem_.line_observations) {
-    terms_.AddResidualBlock(
-        MakeLineCost(problem_.camera, o.measurement, options_.derivatives, options_.lines)
-            .release(),
-        losses_.line.get(),
-        poses_[static_cast<std::size_t>(o.pose)].data(),
-        lines_[static_cast<std::size_t>(o.line)].data());
+    terms_.AddResidualBlock(LineCost(o).release(),
+                            losses_.line.get(),
+                            poses_[static_cast<std::size_t>(o.pose)].data(),
+                            lines_[static_cast<std::size_t>(o.line)].data());
   }
+}
+
+std::unique_ptr<ceres::CostFunction> CeresBa::LineCost(const BaProblem::LineObservation& o) const {
+  if (!HasProjectedEnds()) {
+    return MakeLineCost(problem_.camera, o.measurement, options_.derivatives, options_.lines);
+  }
+  const auto i = static_cast<std::size_t>(o.line);
+  const PluckerLine line = ToPlucker(problem_.lines[i]);
+  return MakeProjectedEndsCost(problem_.camera,
+                               o.measurement,
+                               options_.lines,
+                               {line.ParameterOf(ends_[i].start), line.ParameterOf(ends_[i].end)});
 }
 
 CeresBaResult CeresBa::Solve() {

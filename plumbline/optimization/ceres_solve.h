@@ -31,7 +31,8 @@ struct CeresBaResult {
 // All observations of a problem in one solve. As fast as we know how to make it: DENSE_SCHUR on one
 // thread with landmarks eliminated first by an explicit ordering, measurements prepared once,
 // analytic derivatives in fixed sizes straight in the tangent (TangentManifold), one loss function
-// and one manifold shared by all blocks, Ceres' safety checks off.
+// and one manifold shared by all blocks, Ceres' safety checks off. Projected ends of lines come
+// with automatic derivatives only: BugError with analytic ones.
 CeresBaResult SolveWithCeres(const BaProblem& problem, const CeresBaOptions& options);
 
 struct CeresPoseOptions {

@@ -146,6 +146,41 @@ bool OrthonormalLineManifold::MinusJacobian(const double* x, double* jacobian) c
   return true;
 }
 
+bool LeftOrthonormalLineManifold::Plus(const double* x,
+                                       const double* delta,
+                                       double* x_plus_delta) const {
+  WriteLine(RetractLeft(ReadLine(x), Eigen::Map<const Eigen::Vector4d>(delta)), x_plus_delta);
+  return true;
+}
+
+bool LeftOrthonormalLineManifold::PlusJacobian(const double* x, double* jacobian) const {
+  Eigen::Map<RowMajor<6, 4>> J(jacobian);
+  J.setZero();
+  J.topLeftCorner<4, 3>() = 0.5 * RightProduct(Eigen::Map<const Eigen::Vector4d>(x)).leftCols<3>();
+  J(4, 3) = -x[5];
+  J(5, 3) = x[4];
+  return true;
+}
+
+bool LeftOrthonormalLineManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
+  const OrthonormalLine a = ReadLine(x);
+  const OrthonormalLine b = ReadLine(y);
+  Eigen::Map<Eigen::Vector4d> out(y_minus_x);
+  out.head<3>() = LogSo3(b.U * a.U.conjugate());
+  out(3) = std::atan2(a.w.x() * b.w.y() - a.w.y() * b.w.x(), a.w.dot(b.w));
+  return true;
+}
+
+bool LeftOrthonormalLineManifold::MinusJacobian(const double* x, double* jacobian) const {
+  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);
+  Eigen::Map<RowMajor<4, 6>> J(jacobian);
+  J.setZero();
+  J.topLeftCorner<3, 4>() = 2 * RightProduct(Conjugate(q)).topRows<3>();
+  J(3, 4) = -x[5];
+  J(3, 5) = x[4];
+  return true;
+}
+
 namespace {
 
 Eigen::Matrix3d Rotation(const double* pose) {
@@ -265,7 +300,7 @@ Segment3 ReadState(const double* x, std::type_identity<Segment3>) {
   return {Eigen::Map<const Eigen::Vector3d>(x), Eigen::Map<const Eigen::Vector3d>(x + 3)};
 }
 
-// Kind: BaLine or BaLineEnds.
+// Kind: BaLine, BaLineLeft or BaLineEnds.
 template <class Kind>
 class AnalyticLineCost final : public ceres::SizedCostFunction<2, 7, 6> {
  public:
@@ -387,6 +422,50 @@ struct LineFunctor {
   }
 };
 
+// Ends of a line and their distances from the measured line, in pixels.
+struct ProjectedEndsFunctor {
+  RectifiedCamera camera;
+  LineMeasurement m;
+  Eigen::Matrix2d whitening;
+  LineParametrization parametrization;
+  LineInterval interval;
+
+  template <class T>
+  bool operator()(const T* pose, const T* line, T* r) const {
+    auto [start, end] = PointsOf(line, parametrization);
+    if (parametrization != LineParametrization::kEndpoints) {
+      const Vector3<T> along = (end - start).normalized();
+      end = start + along * T(interval.end);
+      start += along * T(interval.start);
+    }
+    T distance[2];
+    if (!Distance(pose, start, distance[0]) || !Distance(pose, end, distance[1])) return false;
+    r[0] = whitening(0, 0) * distance[0];
+    r[1] = whitening(1, 0) * distance[0] + whitening(1, 1) * distance[1];
+    return true;
+  }
+
+  template <class T>
+  bool Distance(const T* pose, const Vector3<T>& point, T& distance) const {
+    const Vector3<T> p =
+        ReadQuaternion(pose) * point +
+        Vector3<T>(pose[4] - (m.in_right_camera ? camera.baseline : 0.0), pose[5], pose[6]);
+    if (p.z() < T(kMinDepth)) return false;
+    const Eigen::Vector2d along = m.segment.Direction();
+    const T dx = camera.fx * p.x() / p.z() + camera.cx - m.segment.start.x();
+    const T dy = camera.fy * p.y() / p.z() + camera.cy - m.segment.start.y();
+    distance = along.x() * dy - along.y() * dx;
+    return true;
+  }
+};
+
+Eigen::Matrix2d Whitening(const RectifiedCamera& camera, const LineMeasurement& measurement) {
+  const LineTerm term = MakeLineTerm(camera, measurement);
+  Eigen::Matrix2d whitening;
+  whitening << term.w00, 0, term.w10, term.w11;
+  return whitening;
+}
+
 template <int kRows>
 std::unique_ptr<ceres::CostFunction> MakePointCostOf(const RectifiedCamera& camera,
                                                      const PointMeasurement& measurement,
@@ -412,16 +491,26 @@ std::unique_ptr<ceres::CostFunction> MakeLineCost(const RectifiedCamera& camera,
                                                   CeresDerivatives derivatives,
                                                   LineParametrization line) {
   if (derivatives == CeresDerivatives::kAutomatic) {
-    const LineTerm term = MakeLineTerm(camera, measurement);
-    Eigen::Matrix2d whitening;
-    whitening << term.w00, 0, term.w10, term.w11;
     using Cost = ceres::AutoDiffCostFunction<LineFunctor, 2, 7, 6>;
-    return std::make_unique<Cost>(new LineFunctor{camera, measurement, whitening, line});
+    return std::make_unique<Cost>(
+        new LineFunctor{camera, measurement, Whitening(camera, measurement), line});
   }
   if (line == LineParametrization::kEndpoints) {
     return std::make_unique<AnalyticLineCost<BaLineEnds>>(camera, measurement);
   }
+  if (line == LineParametrization::kPluckerLeft) {
+    return std::make_unique<AnalyticLineCost<BaLineLeft>>(camera, measurement);
+  }
   return std::make_unique<AnalyticLineCost<BaLine>>(camera, measurement);
+}
+
+std::unique_ptr<ceres::CostFunction> MakeProjectedEndsCost(const RectifiedCamera& camera,
+                                                           const LineMeasurement& measurement,
+                                                           LineParametrization line,
+                                                           const LineInterval& interval) {
+  using Cost = ceres::AutoDiffCostFunction<ProjectedEndsFunctor, 2, 7, 6>;
+  return std::make_unique<Cost>(new ProjectedEndsFunctor{
+      camera, measurement, Whitening(camera, measurement), line, interval});
 }
 
 std::unique_ptr<ceres::CostFunction> MakePosePointCost(const RectifiedCamera& camera,

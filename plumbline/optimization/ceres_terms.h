@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/ceres_derivatives.h"
 #include "plumbline/optimization/line_parametrization.h"
 #include "plumbline/optimization/problem.h"
@@ -32,6 +33,17 @@ class LeftRigid3Manifold : public ceres::Manifold {
 
 // OrthonormalLine as six numbers [qx qy qz qw w1 w2]; Plus is Retract().
 class OrthonormalLineManifold : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return 6; }
+  int TangentSize() const override { return 4; }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
+  bool PlusJacobian(const double* x, double* jacobian) const override;
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
+  bool MinusJacobian(const double* x, double* jacobian) const override;
+};
+
+// The same numbers; Plus is RetractLeft().
+class LeftOrthonormalLineManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 6; }
   int TangentSize() const override { return 4; }
@@ -89,12 +101,19 @@ std::unique_ptr<ceres::CostFunction> MakePointCost(const RectifiedCamera& camera
                                                    const PointMeasurement& measurement,
                                                    CeresDerivatives derivatives);
 
-// Parameter blocks: pose (7) and line (6): OrthonormalLineManifold, or the coordinates of two
-// points, which need no manifold.
+// Parameter blocks: pose (7) and line (6): OrthonormalLineManifold or its left form, or the
+// coordinates of two points, which need no manifold.
 std::unique_ptr<ceres::CostFunction> MakeLineCost(const RectifiedCamera& camera,
                                                   const LineMeasurement& measurement,
                                                   CeresDerivatives derivatives,
                                                   LineParametrization line);
+
+// The same for LineResidualKind::kProjectedEnds, by automatic derivatives. `interval`: the ends'
+// parameters along the line; not used with end points.
+std::unique_ptr<ceres::CostFunction> MakeProjectedEndsCost(const RectifiedCamera& camera,
+                                                           const LineMeasurement& measurement,
+                                                           LineParametrization line,
+                                                           const LineInterval& interval);
 
 // Costs of one match with a landmark that stays fixed, analytic. Parameter block: pose (7).
 std::unique_ptr<ceres::CostFunction> MakePosePointCost(const RectifiedCamera& camera,

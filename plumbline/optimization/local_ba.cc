@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/ba_landmarks.h"
+#include "plumbline/optimization/ba_projected_ends.h"
 #include "plumbline/optimization/line_ends.h"
 
 #include <algorithm>
@@ -78,16 +79,30 @@ std::vector<BaObservation<PointTerm>> PointObservations(const BaProblem& problem
   return out;
 }
 
-std::vector<BaObservation<LineTerm>> LineObservations(const BaProblem& problem) {
-  std::vector<BaObservation<LineTerm>> out;
+template <class LineKind>
+std::vector<BaObservation<typename LineKind::Term>> LineObservations(const BaProblem& problem) {
+  std::vector<BaObservation<typename LineKind::Term>> out;
   out.reserve(problem.line_observations.size());
   for (const auto& o : problem.line_observations) {
-    out.push_back({o.pose, o.line, MakeLineTerm(problem.camera, o.measurement)});
+    out.push_back({o.pose, o.line, LineKind::MakeTerm(problem.camera, o.measurement)});
   }
   return out;
 }
 
-// LineKind: BaLine or BaLineEnds.
+// Two landmarks for each line: start and end.
+template <>
+std::vector<BaObservation<BaLineEnd::Term>> LineObservations<BaLineEnd>(const BaProblem& problem) {
+  std::vector<BaObservation<BaLineEnd::Term>> out;
+  out.reserve(2 * problem.line_observations.size());
+  for (const auto& o : problem.line_observations) {
+    const auto [start, end] = BaLineEnd::MakeTerms(problem.camera, o.measurement);
+    out.push_back({o.pose, 2 * o.line, start});
+    out.push_back({o.pose, 2 * o.line + 1, end});
+  }
+  return out;
+}
+
+// LineKind: BaLine, BaLineLeft, BaLineEnds, BaProjectedLine, BaProjectedEnds or BaLineEnd.
 template <class LineKind>
 class BundleAdjuster {
  public:
@@ -98,7 +113,7 @@ class BundleAdjuster {
         poses_(MakePoses(problem)),
         trial_poses_(poses_),
         points_(problem.camera, problem.points, PointObservations(problem), poses_),
-        lines_(problem.camera, std::move(lines), LineObservations(problem), poses_),
+        lines_(problem.camera, std::move(lines), LineObservations<LineKind>(problem), poses_),
         solver_(static_cast<int>(std::count_if(
             poses_.begin(), poses_.end(), [](const BaPose& p) { return p.free_index >= 0; }))) {}
 
@@ -231,6 +246,72 @@ BaResult Unchanged(const BaProblem& problem) {
   return result;
 }
 
+// Line: BaLine or BaLineLeft.
+template <class Line>
+BaResult SolveWithLines(const BaProblem& problem, const LocalBaOptions& options) {
+  BundleAdjuster<Line> adjuster(problem, problem.lines, options);
+  BaResult result = adjuster.Solve();
+  result.lines = adjuster.lines();
+  return result;
+}
+
+// Lines with ends at fixed parameters along them.
+template <class Line>
+BaResult SolveWithProjectedLines(const BaProblem& problem, const LocalBaOptions& options) {
+  const std::vector<Segment3> ends = TrimmedEnds(problem);
+  std::vector<LineWithEnds> states;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const PluckerLine line = ToPlucker(problem.lines[i]);
+    states.push_back(
+        {problem.lines[i], {line.ParameterOf(ends[i].start), line.ParameterOf(ends[i].end)}});
+  }
+  BundleAdjuster<BaProjectedLine<Line>> adjuster(problem, std::move(states), options);
+  BaResult result = adjuster.Solve();
+  for (const LineWithEnds& state : adjuster.lines()) result.lines.push_back(state.line);
+  return result;
+}
+
+// Ends: BaLineEnds or BaProjectedEnds.
+template <class Ends>
+BaResult SolveWithEnds(const BaProblem& problem, const LocalBaOptions& options) {
+  const std::vector<Segment3> ends = TrimmedEnds(problem);
+  BundleAdjuster<Ends> adjuster(problem, ends, options);
+  BaResult result = adjuster.Solve();
+  result.lines = LinesThroughEnds(problem.lines, ends, adjuster.lines());
+  return result;
+}
+
+bool AllDiagonal(const BaProblem& problem) {
+  const auto& observations = problem.line_observations;
+  return std::all_of(observations.begin(), observations.end(), [](const auto& o) {
+    return o.measurement.covariance(0, 1) == 0 && o.measurement.covariance(1, 0) == 0;
+  });
+}
+
+// Starts and ends as landmarks of their own. An observation of a line counts when both count.
+BaResult SolveWithSeparateEnds(const BaProblem& problem, const LocalBaOptions& options) {
+  const std::vector<Segment3> ends = TrimmedEnds(problem);
+  std::vector<BaLineEnd::State> states;
+  for (const Segment3& s : ends) {
+    states.push_back({s.start, s.end - s.start});
+    states.push_back({s.end, s.end - s.start});
+  }
+  BundleAdjuster<BaLineEnd> adjuster(problem, std::move(states), options);
+  BaResult result = adjuster.Solve();
+  std::vector<Segment3> moved;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    moved.push_back({adjuster.lines()[2 * i].point, adjuster.lines()[2 * i + 1].point});
+  }
+  result.lines = LinesThroughEnds(problem.lines, ends, moved);
+  for (std::size_t k = 0; k < problem.line_observations.size(); ++k) {
+    result.line_chi2[k] = result.line_chi2[2 * k] + result.line_chi2[2 * k + 1];
+    result.line_inliers[k] = result.line_inliers[2 * k] && result.line_inliers[2 * k + 1];
+  }
+  result.line_chi2.resize(problem.line_observations.size());
+  result.line_inliers.resize(problem.line_observations.size());
+  return result;
+}
+
 }  // namespace
 
 BaResult SolveLocalBa(const BaProblem& problem,
@@ -238,17 +319,20 @@ BaResult SolveLocalBa(const BaProblem& problem,
                       LineParametrization lines) {
   CheckIndices(problem);
   if (!IsFinite(problem)) return Unchanged(problem);
-  if (lines == LineParametrization::kPlucker) {
-    BundleAdjuster<BaLine> adjuster(problem, problem.lines, options);
-    BaResult result = adjuster.Solve();
-    result.lines = adjuster.lines();
-    return result;
+  const bool projected = problem.line_residual == LineResidualKind::kProjectedEnds;
+  switch (lines) {
+    case LineParametrization::kPluckerLeft:
+      return projected ? SolveWithProjectedLines<BaLineLeft>(problem, options)
+                       : SolveWithLines<BaLineLeft>(problem, options);
+    case LineParametrization::kEndpoints:
+      if (!projected) return SolveWithEnds<BaLineEnds>(problem, options);
+      return AllDiagonal(problem) ? SolveWithSeparateEnds(problem, options)
+                                  : SolveWithEnds<BaProjectedEnds>(problem, options);
+    case LineParametrization::kPlucker:
+      break;
   }
-  const std::vector<Segment3> ends = TrimmedEnds(problem);
-  BundleAdjuster<BaLineEnds> adjuster(problem, ends, options);
-  BaResult result = adjuster.Solve();
-  result.lines = LinesThroughEnds(problem.lines, ends, adjuster.lines());
-  return result;
+  return projected ? SolveWithProjectedLines<BaLine>(problem, options)
+                   : SolveWithLines<BaLine>(problem, options);
 }
 
 }  // namespace plumbline

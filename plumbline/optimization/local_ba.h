@@ -90,11 +90,14 @@ struct BaResult {
 // Between rounds, observations are kept or rejected by chi2 at 95 % (a rejected one may come back).
 // Each landmark has its own damping on top of the global one: where a landmark's step raises its
 // cost, that landmark alone stands still, so that degenerate lines do not hold up the others.
+// End points under projected ends with diagonal covariances are two landmarks a line, each with its
+// own loss: their blocks share nothing then.
 // Poses marked fixed and landmarks without observations do not move. The gauge is up to the caller;
 // what no observation fixes is held by the damping.
 //
 //   problem   indices must be in range (BugError otherwise)
-//   lines     the parameters that lines have meanwhile; the result is the same form of line
+//   lines     the parameters that lines have meanwhile; the result is the same form of line. Where
+//             ends are needed (end points, projected ends), they are those of TrimmedEnds().
 //   returns   finite numbers whenever the input is finite
 //   cost      per iteration O(sum over landmarks of their poses squared + free poses cubed)
 BaResult SolveLocalBa(const BaProblem& problem,

@@ -3,7 +3,7 @@
 #include "plumbline/optimization/pose_only.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/optimization/residuals.h"
+#include "plumbline/optimization/pose_terms.h"
 #include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
@@ -23,58 +23,12 @@ constexpr double kInvalidChi2 = 1e8;
 constexpr double kMinLambda = 1e-8;
 constexpr double kMaxLambda = 1e8;
 
-struct Point {
-  Eigen::Vector3d in_world;
-  PointTerm term;
-};
-
-struct Line {
-  Eigen::Vector3d moment, direction;  // in the world
-  LineTerm term;
-  std::size_t group = 0;  // dense index
-};
-
-// Normal equations at one pose. Of H only the lower triangle is set.
-struct Equations {
-  Matrix6d H = Matrix6d::Zero();
-  Vector6d g = Vector6d::Zero();
-  double cost = 0;
-};
-
-// Adds w J^T J and w J^T r of a point whose rows are J = G [-[p]x, I], so that with M = w G^T G the
-// blocks are [p]x M [p]x^T, [p]x M and M.
-void AddPoint(const PointLinearization& a, const Eigen::Vector3d& p, double w, Equations& eq) {
-  const double wux = w * a.ux;
-  const double wvy = w * a.vy;
-  const double m00 = wux * a.ux;
-  const double m02 = wux * a.uz;
-  const double m11 = wvy * a.vy;
-  const double m12 = wvy * a.vz;
-  const double m22 = w * (a.uz * a.uz + a.vz * a.vz + a.dz * a.dz);
-  const Eigen::Vector3d q(
-      wux * a.r.x(), wvy * a.r.y(), w * (a.uz * a.r.x() + a.vz * a.r.y() + a.dz * a.r.z()));
-  const Eigen::Vector3d c0(m00, 0, m02);
-  const Eigen::Vector3d c1(0, m11, m12);
-  const Eigen::Vector3d c2(m02, m12, m22);
-  Eigen::Matrix3d PM;
-  PM << p.cross(c0), p.cross(c1), p.cross(c2);
-  for (int i = 0; i < 3; ++i) {
-    eq.H.block<3, 1>(0, i) += p.cross(PM.row(i).transpose());
-    eq.H.block<3, 1>(3, i) += PM.row(i).transpose();
-  }
-  eq.H(3, 3) += m00;
-  eq.H(4, 4) += m11;
-  eq.H(5, 3) += m02;
-  eq.H(5, 4) += m12;
-  eq.H(5, 5) += m22;
-  eq.g.head<3>() += p.cross(q);
-  eq.g.tail<3>() += q;
-}
-
 class PoseSolver {
  public:
   PoseSolver(const PoseProblem& problem, const PoseOnlyOptions& options)
-      : camera_(problem.camera), options_(options) {
+      : camera_(problem.camera),
+        options_(options),
+        projected_ends_(problem.line_residual == LineResidualKind::kProjectedEnds) {
     Pack(problem);
   }
 
@@ -83,11 +37,13 @@ class PoseSolver {
  private:
   void Pack(const PoseProblem& problem);
   // Cost and normal equations of the matches in use; chi2_ of all matches.
-  Equations Evaluate(const Rigid3& pose, const HuberThresholds& huber);
-  void EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, Equations& eq);
-  void EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, Equations& eq);
+  PoseSums Evaluate(const Rigid3& pose, const HuberThresholds& huber);
+  void EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
+  void EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   // Levenberg-Marquardt from pose_; true when it met a tolerance.
   bool Optimize(const HuberThresholds& huber, int max_iterations);
+  // At pose_, whose rotation R is.
+  double LineChi2(const PoseLine& line, const Eigen::Matrix3d& R) const;
   // Makes chi2_ that of pose_ where it is not (after a rejected step).
   void UpdateChi2();
   // Brings a far-off pose near with a Huber threshold that follows the median residual.
@@ -103,8 +59,9 @@ class PoseSolver {
 
   const RectifiedCamera camera_;
   const PoseOnlyOptions& options_;
-  std::vector<Point> points_;
-  std::vector<Line> lines_;
+  const bool projected_ends_;
+  std::vector<PosePoint> points_;
+  std::vector<PoseLine> lines_;
   std::vector<double> point_chi2_, line_chi2_, group_chi2_, group_limit_, scratch_;
   std::vector<char> point_used_, group_used_;
   Rigid3 pose_;
@@ -131,7 +88,9 @@ void PoseSolver::Pack(const PoseProblem& problem) {
     lines_.push_back({match.line_in_world.moment,
                       match.line_in_world.direction,
                       MakeLineTerm(camera_, match.measurement),
-                      group});
+                      group,
+                      match.ends,
+                      MakeProjectedEndsTerm(camera_, match.measurement)});
   }
   point_chi2_.assign(points_.size(), 0);
   point_used_.assign(points_.size(), 1);
@@ -145,11 +104,11 @@ void PoseSolver::Pack(const PoseProblem& problem) {
   scratch_.reserve(points_.size() + lines_.size());
 }
 
-void PoseSolver::EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, Equations& eq) {
+void PoseSolver::EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq) {
   const Eigen::Matrix3d R = pose.rotation.toRotationMatrix();
   PointLinearization lin;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Point& point = points_[i];
+    const PosePoint& point = points_[i];
     const Eigen::Vector3d p = R * point.in_world + pose.translation;
     const double k = point.term.disparity_weight > 0 ? huber.disparity : huber.point;
     if (!LinearizePoint(camera_, point.term, p, lin)) {
@@ -165,40 +124,46 @@ void PoseSolver::EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber
   }
 }
 
-void PoseSolver::EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, Equations& eq) {
+void PoseSolver::EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq) {
   const Eigen::Matrix3d R = pose.rotation.toRotationMatrix();
-  LineLinearization lin;
+  PoseLineRows rows;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const Line& line = lines_[i];
+    const PoseLine& line = lines_[i];
     const bool used = group_used_[line.group] != 0;
-    const Eigen::Vector3d direction = R * line.direction;
-    const Eigen::Vector3d t(
-        pose.translation.x() + line.term.shift, pose.translation.y(), pose.translation.z());
-    const Eigen::Vector3d moment = R * line.moment + t.cross(direction);
-    if (!LinearizeLine(camera_, line.term, moment, lin)) {
+    const bool valid = projected_ends_ ? ProjectedEndsRows(line, R, pose.translation, rows)
+                                       : ObservedEndsRows(camera_, line, R, pose.translation, rows);
+    if (!valid) {
       line_chi2_[i] = kInfinity;
       if (used) eq.cost += 0.5 * HuberLoss(kInvalidChi2, huber.line);
       continue;
     }
-    const double chi2 = lin.r.squaredNorm();
+    const double chi2 = rows.r.squaredNorm();
     line_chi2_[i] = chi2;
     if (!used) continue;
     const double w = HuberWeight(chi2, huber.line);
     eq.cost += 0.5 * HuberLoss(chi2, huber.line);
-    const Vector6d a = LinePoseRow(lin.h0, moment, direction, line.term.shift);
-    const Vector6d b = LinePoseRow(lin.h1, moment, direction, line.term.shift);
-    const Vector6d wa = w * a;
-    const Vector6d wb = w * b;
-    eq.H.noalias() += wa * a.transpose() + wb * b.transpose();
-    eq.g += lin.r(0) * wa + lin.r(1) * wb;
+    const Vector6d wa = w * rows.a;
+    const Vector6d wb = w * rows.b;
+    eq.H.noalias() += wa * rows.a.transpose() + wb * rows.b.transpose();
+    eq.g += rows.r(0) * wa + rows.r(1) * wb;
   }
 }
 
-Equations PoseSolver::Evaluate(const Rigid3& pose, const HuberThresholds& huber) {
-  Equations eq;
+PoseSums PoseSolver::Evaluate(const Rigid3& pose, const HuberThresholds& huber) {
+  PoseSums eq;
   EvaluatePoints(pose, huber, eq);
   EvaluateLines(pose, huber, eq);
   return eq;
+}
+
+double PoseSolver::LineChi2(const PoseLine& line, const Eigen::Matrix3d& R) const {
+  const Eigen::Vector3d& t = pose_.translation;
+  Eigen::Vector2d r;
+  const bool valid = projected_ends_
+                         ? WhitenedEndDistances(
+                               line.ends_term, {R * line.ends.start + t, R * line.ends.end + t}, r)
+                         : WhitenedLineDistances(camera_, line.term, MomentInCamera(line, R, t), r);
+  return valid ? r.squaredNorm() : kInfinity;
 }
 
 void PoseSolver::UpdateChi2() {
@@ -210,16 +175,12 @@ void PoseSolver::UpdateChi2() {
     point_chi2_[i] = PointChi2(camera_, points_[i].term, p).value_or(kInfinity);
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const Eigen::Vector3d t = pose_.translation + Eigen::Vector3d(lines_[i].term.shift, 0, 0);
-    const Eigen::Vector3d moment = R * lines_[i].moment + t.cross(R * lines_[i].direction);
-    Eigen::Vector2d r;
-    const bool valid = WhitenedLineDistances(camera_, lines_[i].term, moment, r);
-    line_chi2_[i] = valid ? r.squaredNorm() : kInfinity;
+    line_chi2_[i] = LineChi2(lines_[i], R);
   }
 }
 
 bool PoseSolver::Optimize(const HuberThresholds& huber, int max_iterations) {
-  Equations eq = Evaluate(pose_, huber);
+  PoseSums eq = Evaluate(pose_, huber);
   chi2_is_current_ = true;
   double lambda = 1e-5;
   for (int i = 0; i < max_iterations && lambda <= kMaxLambda; ++i) {
@@ -232,7 +193,7 @@ bool PoseSolver::Optimize(const HuberThresholds& huber, int max_iterations) {
     const double expected = -0.5 * eq.g.dot(step);
     const bool is_small = expected <= options_.decrement_tolerance;
     const Rigid3 trial = RetractLeft(pose_, step);
-    const Equations next = Evaluate(trial, huber);
+    const PoseSums next = Evaluate(trial, huber);
     chi2_is_current_ = next.cost <= eq.cost;
     if (chi2_is_current_) {
       const double gain = eq.cost - next.cost;
@@ -311,12 +272,12 @@ PoseOnlyResult PoseSolver::Solve(const Rigid3& initial) {
     UpdateChi2();
     if (!Classify() && converged && same_loss && !robust) break;
   }
-  const Equations eq = Evaluate(pose_, {});
+  const PoseSums eq = Evaluate(pose_, {});
   result.cam_from_world = pose_;
   result.information = eq.H.selfadjointView<Eigen::Lower>();
   result.point_inliers.assign(point_used_.begin(), point_used_.end());
   result.line_inliers.reserve(lines_.size());
-  for (const Line& line : lines_) result.line_inliers.push_back(group_used_[line.group] != 0);
+  for (const PoseLine& line : lines_) result.line_inliers.push_back(group_used_[line.group] != 0);
   result.inlier_points =
       static_cast<int>(std::count(point_used_.begin(), point_used_.end(), char{1}));
   result.inlier_line_groups =

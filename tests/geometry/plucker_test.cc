@@ -148,6 +148,29 @@ TEST(OrthonormalLine, HomogeneousJacobianIsTheDerivativeOfRetract) {
   }
 }
 
+TEST(OrthonormalLine, LeftHomogeneousJacobianIsTheDerivativeOfRetractLeft) {
+  for (const PluckerLine& line : RandomLines(17, 30)) {
+    const OrthonormalLine at = ToOrthonormal(line);
+    const Eigen::Matrix<double, 6, 4> numeric = NumericJacobian(
+        [&](const Eigen::Vector4d& delta) { return RetractLeft(at, delta).Homogeneous(); },
+        Eigen::Vector4d(Eigen::Vector4d::Zero()));
+    EXPECT_LT((LeftHomogeneousJacobian(at) - numeric).norm(), 1e-10);
+  }
+}
+
+// The two updates turn about the same axes, given in the line's frame or outside.
+TEST(OrthonormalLine, RetractLeftIsRetractWithTheTurnSeenFromOutside) {
+  Rng rng(18);
+  for (const PluckerLine& line : RandomLines(19, 30)) {
+    const OrthonormalLine at = ToOrthonormal(line);
+    const Eigen::Vector4d delta = RandomVector<4>(rng);
+    Eigen::Vector4d outside = delta;
+    outside.head<3>() = at.U * delta.head<3>();
+    EXPECT_LT((RetractLeft(at, outside).Homogeneous() - Retract(at, delta).Homogeneous()).norm(),
+              1e-13);
+  }
+}
+
 TEST(OrthonormalLine, RetractAlwaysGivesALine) {
   Rng rng(10);
   for (const PluckerLine& line : RandomLines(11, 30)) {

@@ -97,6 +97,39 @@ TEST(BaLine, AddsTheProductsOfTheJacobians) {
   }
 }
 
+// The derivative with respect to the left turn, by central differences.
+TEST(BaLineLeft, AddsTheProductsOfTheJacobiansByCentralDifferences) {
+  Random random(5);
+  const RectifiedCamera camera = StereoCamera();
+  for (int i = 0; i < 20; ++i) {
+    const BaPose pose = RandomPose(random);
+    const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
+    const Segment3 segment{world_from_cam * random.PointInView(camera),
+                           world_from_cam * random.PointInView(camera)};
+    const auto line = ToOrthonormal(LineThroughPoints(segment.start, segment.end));
+    auto m = MeasureLine(camera, pose.cam_from_world, segment, i % 2 == 0, 1);
+    AddNoise(random, 4, m);
+    m.covariance << 2, 0.6, 0.6, 1;
+    const auto full = EvaluateLine(camera, pose.cam_from_world, line, m);
+    ASSERT_TRUE(full);
+    Eigen::Matrix<double, 2, 4> J_left;
+    constexpr double kStep = 1e-6;
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Vector4d step = kStep * Eigen::Vector4d::Unit(k);
+      const auto above = EvaluateLine(camera, pose.cam_from_world, RetractLeft(line, step), m);
+      const auto below = EvaluateLine(camera, pose.cam_from_world, RetractLeft(line, -step), m);
+      J_left.col(k) = (above->r - below->r) / (2 * kStep);
+    }
+    const LineTerm term = MakeLineTerm(camera, m);
+    const double huber = 2;
+    Blocks<4> blocks;
+    const BaLineLeft::Target target{blocks.landmark, &blocks.pose, &blocks.W};
+    ASSERT_TRUE(BaLineLeft::Add(camera, pose, BaLineLeft::MakeView(line), term, huber, target));
+    ExpectBlocks(
+        blocks, full->J_pose, J_left, full->r, HuberWeight(full->r.squaredNorm(), huber), 1e-6);
+  }
+}
+
 Segment3 RandomSegment(Random& random, const RectifiedCamera& camera, const BaPose& pose) {
   const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
   return {world_from_cam * random.PointInView(camera), world_from_cam * random.PointInView(camera)};

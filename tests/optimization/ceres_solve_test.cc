@@ -20,6 +20,7 @@ struct Case {
   LineParametrization lines;
   CeresDerivatives derivatives;
   bool robust;
+  LineResidualKind residual = LineResidualKind::kObservedEnds;
 };
 
 class SolveWithCeresTest : public ::testing::TestWithParam<Case> {};
@@ -29,18 +30,29 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{LineParametrization::kPlucker, CeresDerivatives::kAnalytic, false},
                       Case{LineParametrization::kPlucker, CeresDerivatives::kAnalytic, true},
                       Case{LineParametrization::kPlucker, CeresDerivatives::kAutomatic, true},
+                      Case{LineParametrization::kPlucker,
+                           CeresDerivatives::kAutomatic,
+                           false,
+                           LineResidualKind::kProjectedEnds},
+                      Case{LineParametrization::kPluckerLeft, CeresDerivatives::kAnalytic, true},
+                      Case{LineParametrization::kPluckerLeft, CeresDerivatives::kAutomatic, true},
+                      Case{LineParametrization::kPluckerLeft,
+                           CeresDerivatives::kAutomatic,
+                           false,
+                           LineResidualKind::kProjectedEnds},
                       Case{LineParametrization::kEndpoints, CeresDerivatives::kAnalytic, false},
                       Case{LineParametrization::kEndpoints, CeresDerivatives::kAnalytic, true},
                       Case{LineParametrization::kEndpoints, CeresDerivatives::kAutomatic, true}));
 
 TEST_P(SolveWithCeresTest, AndOurSolverReachTheSameCost) {
-  const auto [lines, derivatives, robust] = GetParam();
+  const auto [lines, derivatives, robust, residual] = GetParam();
   const LocalBaOptions options{
       .rounds = 1, .max_iterations = 300, .function_tolerance = 1e-13, .robust = robust};
   const HuberThresholds huber{options.huber_point, options.huber_disparity, options.huber_line};
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const auto scene = MakeBaScene(
+    auto scene = MakeBaScene(
         seed, {.points = 150, .lines = 40, .sigma = 1, .outliers = robust ? 0.05 : 0.0});
+    scene.problem.line_residual = residual;
     const BaResult ours = SolveLocalBa(scene.problem, options, lines);
     const CeresBaResult reference = SolveWithCeres(scene.problem,
                                                    {.huber = robust ? huber : HuberThresholds{},

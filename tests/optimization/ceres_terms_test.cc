@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_terms.h"
 
+#include "plumbline/optimization/projected_ends.h"
+
 #include "tests/optimization/random_scene.h"
 #include <array>
 
@@ -73,6 +75,18 @@ TEST(OrthonormalLineManifold, ObeysTheInvariantsOfManifolds) {
 }
 
 // Residuals and derivatives in the tangent space of a cost of pose and landmark.
+TEST(LeftOrthonormalLineManifold, ObeysTheInvariantsOfManifolds) {
+  Random random(7);
+  const LeftOrthonormalLineManifold manifold;
+  for (int i = 0; i < 20; ++i) {
+    const Vector x = LineNumbers(RandomLine(random));
+    const Vector y = OnTheSideOf(x, LineNumbers(RandomLine(random)));
+    Vector delta(4);
+    delta << random.NormalVector(0.3), random.Normal(0.3);
+    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-6);
+  }
+}
+
 struct Evaluation {
   Vector r;
   Matrix J_pose, J_landmark;
@@ -153,6 +167,41 @@ TEST(CeresTerms, AnalyticDerivativesOfPluckerLinesAgreeWithAutomaticOnes) {
     const OrthonormalLineManifold manifold;
     ExpectEqual(Evaluate(*analytic, PoseNumbers(s.pose), line, kTangentPose, tangent),
                 Evaluate(*automatic, PoseNumbers(s.pose), line, kPose, manifold));
+  }
+}
+
+TEST(CeresTerms, AnalyticDerivativesOfLeftPluckerLinesAgreeWithAutomaticOnes) {
+  Random random(8);
+  const auto lines = LineParametrization::kPluckerLeft;
+  for (int i = 0; i < 20; ++i) {
+    const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
+    const Vector line =
+        LineNumbers(ToOrthonormal(LineThroughPoints(s.segment.start, s.segment.end)));
+    const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
+    const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
+    const TangentManifold<LeftOrthonormalLineManifold> tangent;
+    const LeftOrthonormalLineManifold manifold;
+    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.pose), line, kTangentPose, tangent),
+                Evaluate(*automatic, PoseNumbers(s.pose), line, kPose, manifold));
+  }
+}
+
+// The terms of projected ends have automatic derivatives alone; our own are held against them.
+TEST(CeresTerms, ProjectedEndsAreThoseOfEvaluateProjectedEnds) {
+  Random random(9);
+  for (int i = 0; i < 20; ++i) {
+    const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
+    const PluckerLine plucker = LineThroughPoints(s.segment.start, s.segment.end);
+    const OrthonormalLine line = ToOrthonormal(plucker);
+    const LineInterval interval{plucker.ParameterOf(s.segment.start),
+                                plucker.ParameterOf(s.segment.end)};
+    const auto cost =
+        MakeProjectedEndsCost(StereoCamera(), s.m, LineParametrization::kPlucker, interval);
+    const auto ours = EvaluateProjectedEnds(StereoCamera(), s.pose, line, interval, s.m);
+    ASSERT_TRUE(ours);
+    const OrthonormalLineManifold manifold;
+    ExpectEqual({ours->r, ours->J_pose, ours->J_line},
+                Evaluate(*cost, PoseNumbers(s.pose), LineNumbers(line), kPose, manifold));
   }
 }
 

@@ -3,10 +3,13 @@
 #include "plumbline/optimization/local_ba.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/optimization/line_ends.h"
+#include "plumbline/optimization/projected_ends.h"
 
 #include "tests/optimization/ba_scene.h"
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -38,16 +41,25 @@ void ExpectSame(const Rigid3& a, const Rigid3& b) {
   EXPECT_EQ(a.translation, b.translation);
 }
 
-class SolveLocalBaWithLines : public ::testing::TestWithParam<LineParametrization> {};
+class SolveLocalBaWithLines
+    : public ::testing::TestWithParam<std::tuple<LineParametrization, LineResidualKind>> {
+ protected:
+  static LineParametrization Lines() { return std::get<0>(GetParam()); }
+  static LineResidualKind Residual() { return std::get<1>(GetParam()); }
+};
 INSTANTIATE_TEST_SUITE_P(Parametrizations,
                          SolveLocalBaWithLines,
-                         ::testing::Values(LineParametrization::kPlucker,
-                                           LineParametrization::kEndpoints));
+                         ::testing::Combine(::testing::Values(LineParametrization::kPlucker,
+                                                              LineParametrization::kPluckerLeft,
+                                                              LineParametrization::kEndpoints),
+                                            ::testing::Values(LineResidualKind::kObservedEnds,
+                                                              LineResidualKind::kProjectedEnds)));
 
 TEST_P(SolveLocalBaWithLines, RecoversTheExactSceneWithoutNoise) {
-  const BaScene scene = MakeBaScene(1, {});
+  BaScene scene = MakeBaScene(1, {});
+  scene.problem.line_residual = Residual();
   const BaResult result =
-      SolveLocalBa(scene.problem, {.max_iterations = 50, .function_tolerance = 1e-12}, GetParam());
+      SolveLocalBa(scene.problem, {.max_iterations = 50, .function_tolerance = 1e-12}, Lines());
   EXPECT_LT(LargestPoseError(result, scene.truth), 1e-9);
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     EXPECT_LT((result.points[i] - scene.truth.points[i]).norm(), 1e-8) << i;
@@ -63,9 +75,10 @@ TEST_P(SolveLocalBaWithLines, RecoversTheExactSceneWithoutNoise) {
 }
 
 TEST_P(SolveLocalBaWithLines, GivesTheSameBytesEveryTime) {
-  const BaScene scene = MakeBaScene(15, {.weak_lines = 20, .sigma = 1, .outliers = 0.05});
-  const BaResult a = SolveLocalBa(scene.problem, {}, GetParam());
-  const BaResult b = SolveLocalBa(scene.problem, {}, GetParam());
+  BaScene scene = MakeBaScene(15, {.weak_lines = 20, .sigma = 1, .outliers = 0.05});
+  scene.problem.line_residual = Residual();
+  const BaResult a = SolveLocalBa(scene.problem, {}, Lines());
+  const BaResult b = SolveLocalBa(scene.problem, {}, Lines());
   for (std::size_t i = 0; i < a.poses.size(); ++i) ExpectSame(a.poses[i], b.poses[i]);
   for (std::size_t i = 0; i < a.lines.size(); ++i) {
     EXPECT_EQ(a.lines[i].U.coeffs(), b.lines[i].U.coeffs());
@@ -77,9 +90,49 @@ TEST_P(SolveLocalBaWithLines, GivesTheSameBytesEveryTime) {
 TEST_P(SolveLocalBaWithLines, LinesWithoutObservationsStayBitByBit) {
   BaScene scene = MakeBaScene(16, {.points = 100, .lines = 20, .sigma = 1});
   scene.problem.lines.push_back(ToOrthonormal(LineThroughPoints({1, 1, 1}, {2, 1.5, 1})));
-  const BaResult result = SolveLocalBa(scene.problem, {}, GetParam());
+  scene.problem.line_residual = Residual();
+  const BaResult result = SolveLocalBa(scene.problem, {}, Lines());
   EXPECT_EQ(result.lines.back().U.coeffs(), scene.problem.lines.back().U.coeffs());
   EXPECT_EQ(result.lines.back().w, scene.problem.lines.back().w);
+}
+
+TEST(SolveLocalBa, BothTurnsOfPluckerLinesReachTheSameMinimum) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const BaScene scene = MakeBaScene(seed, {.sigma = 1, .outliers = 0.05});
+    const LocalBaOptions options{.rounds = 1, .max_iterations = 200, .function_tolerance = 1e-13};
+    const BaResult own = SolveLocalBa(scene.problem, options, LineParametrization::kPlucker);
+    const BaResult left = SolveLocalBa(scene.problem, options, LineParametrization::kPluckerLeft);
+    EXPECT_NEAR(left.final_cost, own.final_cost, 1e-6 * own.final_cost) << seed;
+    for (std::size_t i = 0; i < left.poses.size(); ++i) {
+      EXPECT_LT(Error(left.poses[i], own.poses[i]), 1e-4) << seed;
+    }
+  }
+}
+
+// With the covariance that follows for them, the residuals of the projected ends are those of the
+// observed ends under an invertible linear map, to first order: the same answer.
+TEST(SolveLocalBa, ProjectedEndsWithTheirCovarianceFindTheSamePoses) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    // The ends are placed once, at the start: near the answer they are where they should be.
+    const BaScene scene = MakeBaScene(seed, {.sigma = 0.05, .perturbation = 0.02});
+    const LocalBaOptions options{.rounds = 1, .max_iterations = 100, .function_tolerance = 1e-10};
+    BaProblem projected = scene.problem;
+    projected.line_residual = LineResidualKind::kProjectedEnds;
+    const std::vector<Segment3> ends = TrimmedEnds(scene.problem);
+    for (auto& o : projected.line_observations) {
+      o.measurement.covariance = ProjectedEndsCovariance(
+          projected.camera,
+          scene.truth.poses[static_cast<std::size_t>(o.pose)].cam_from_world,
+          ends[static_cast<std::size_t>(o.line)],
+          o.measurement);
+    }
+    const BaResult a = SolveLocalBa(scene.problem, options);
+    const BaResult b = SolveLocalBa(projected, options);
+    const double far = LargestPoseError(a, scene.truth);
+    for (std::size_t i = 0; i < a.poses.size(); ++i) {
+      EXPECT_LT(Error(a.poses[i], b.poses[i]), 0.15 * far) << seed;
+    }
+  }
 }
 
 TEST(SolveLocalBa, EndPointsReachTheMinimumOfPluckerLines) {

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/optimization/ba_terms.h"
+#include "plumbline/optimization/projected_ends.h"
+
+#include <array>
+
+namespace plumbline {
+
+// Lines in bundle adjustment under LineResidualKind::kProjectedEnds, for each parametrization.
+// Internal to local_ba.cc; declared here to be tested.
+
+// Ends of a line and how they move with two points' coordinates.
+struct PointEndsView {
+  static constexpr int kDof = 6;
+  Segment3 ends;
+  Eigen::Vector3d direction;
+
+  // Derivative by the parameters of what changes by `by_start` and `by_end` with the ends.
+  Vector6d Row(const Eigen::Vector3d& by_start, const Eigen::Vector3d& by_end) const {
+    Vector6d row;
+    row << by_start, by_end;
+    return row;
+  }
+};
+
+// The same with the four parameters of a line, the ends at fixed parameters along it.
+struct LineEndsView {
+  static constexpr int kDof = 4;
+  Segment3 ends;
+  Eigen::Matrix<double, 6, 4> J;  // of start and end with respect to the update
+
+  Eigen::Vector4d Row(const Eigen::Vector3d& by_start, const Eigen::Vector3d& by_end) const {
+    return J.topRows<3>().transpose() * by_start + J.bottomRows<3>().transpose() * by_end;
+  }
+};
+
+template <class ViewOfEnds>
+struct BaProjectedTerms {
+  static constexpr int kDof = ViewOfEnds::kDof;
+  using Term = ProjectedEndsTerm;
+  using Place = Segment3;
+  using View = ViewOfEnds;
+
+  static Term MakeTerm(const RectifiedCamera& camera, const LineMeasurement& measurement) {
+    return MakeProjectedEndsTerm(camera, measurement);
+  }
+  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
+  static int Dof(const Term&) { return 2; }
+  static double Chi2(const RectifiedCamera& camera,
+                     const BaPose& pose,
+                     const Place& place,
+                     const Term& term);
+
+  struct Target {
+    LandmarkEquations<kDof>& landmark;
+    PoseEquations* pose;
+    Eigen::Matrix<double, 6, kDof>* W;
+  };
+  static bool Add(const RectifiedCamera& camera,
+                  const BaPose& pose,
+                  const View& view,
+                  const Term& term,
+                  double huber,
+                  const Target& target);
+};
+extern template struct BaProjectedTerms<PointEndsView>;
+extern template struct BaProjectedTerms<LineEndsView>;
+
+// A line and where its ends lie along it.
+struct LineWithEnds {
+  OrthonormalLine line;
+  LineInterval interval;
+};
+
+// Line: BaLine or BaLineLeft, whose parameters these are.
+template <class Line>
+struct BaProjectedLine : BaProjectedTerms<LineEndsView> {
+  using State = LineWithEnds;
+
+  static Place MakePlace(const State& state) {
+    return SegmentOf(ToPlucker(state.line), state.interval);
+  }
+  static View MakeView(const State& state) {
+    const BaLine::View line = Line::MakeView(state.line);
+    Vector6d homogeneous;
+    homogeneous << line.moment, line.direction;
+    return {MakePlace(state), EndsJacobian(homogeneous, state.interval) * line.J};
+  }
+  static State Retract(const State& state, const Eigen::Vector4d& step) {
+    return {Line::Retract(state.line, step), state.interval};
+  }
+  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
+};
+
+struct BaProjectedEnds : BaProjectedTerms<PointEndsView> {
+  using State = Segment3;
+
+  static Place MakePlace(const State& state) { return state; }
+  static View MakeView(const State& state) { return {state, state.end - state.start}; }
+  static State Retract(const State& state, const Vector6d& step) {
+    return BaLineEnds::Retract(state, step);
+  }
+  // An end that slides along the line changes its residuals by their noise alone; held as in
+  // BaLineEnds.
+  static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
+    BaLineEnds::HoldAlong(view.direction, equations);
+  }
+};
+
+// One end of a line as a landmark of its own: with projected ends and a diagonal covariance, the
+// two ends of a segment share no residual, and its 6 x 6 block splits into two of 3 x 3. The loss
+// then is that of each end.
+struct BaLineEnd {
+  static constexpr int kDof = 3;
+  struct State {
+    Eigen::Vector3d point;
+    Eigen::Vector3d direction;  // of the line at the start, along which no image fixes the end
+  };
+  struct Term {
+    Eigen::Vector3d line = Eigen::Vector3d::Zero();  // as in ProjectedEndsTerm, whitened
+    double shift = 0;
+  };
+  using Place = Eigen::Vector3d;
+  using View = State;
+
+  // The terms of the start and of the end. The covariance must be diagonal.
+  static std::array<Term, 2> MakeTerms(const RectifiedCamera& camera,
+                                       const LineMeasurement& measurement);
+  static Place MakePlace(const State& state) { return state.point; }
+  static View MakeView(const State& state) { return state; }
+  static State Retract(const State& state, const Eigen::Vector3d& step) {
+    return {state.point + step, state.direction};
+  }
+  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
+  static int Dof(const Term&) { return 1; }
+  static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
+    const Eigen::Vector3d& d = view.direction;
+    const double size = equations.V.diagonal().sum();
+    equations.V += size / (2 * d.squaredNorm()) * d * d.transpose();
+  }
+  static double Chi2(const RectifiedCamera& camera,
+                     const BaPose& pose,
+                     const Place& place,
+                     const Term& term);
+
+  struct Target {
+    LandmarkEquations<kDof>& landmark;
+    PoseEquations* pose;
+    Eigen::Matrix<double, 6, kDof>* W;
+  };
+  static bool Add(const RectifiedCamera& camera,
+                  const BaPose& pose,
+                  const View& view,
+                  const Term& term,
+                  double huber,
+                  const Target& target);
+};
+
+}  // namespace plumbline
