@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/association/measurements.h"
 
+#include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <Eigen/Cholesky>
@@ -14,6 +15,19 @@ constexpr double kUnknownLineSigma = 0.5;  // radians
 LineMeasurement Measure(const Segment2& segment, double sigma_px, LineWeighting weighting) {
   const double sigma = weighting == LineWeighting::kNone ? 1.0 : sigma_px;
   return {segment, sigma * sigma * Eigen::Matrix2d::Identity(), false};
+}
+
+// J Lambda^-1 J^T.
+Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J, const Eigen::Matrix4d& information) {
+  const Eigen::Matrix4d regularized =
+      information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
+  const Eigen::Matrix<double, 4, 2> spread = regularized.llt().solve(J.transpose());
+  return J * spread;
+}
+
+void MakeScalar(LineWeighting weighting, Eigen::Matrix2d& covariance) {
+  if (weighting != LineWeighting::kScalar) return;
+  covariance = 0.5 * covariance.trace() * Eigen::Matrix2d::Identity();
 }
 
 }  // namespace
@@ -47,13 +61,28 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
   unit.covariance = Eigen::Matrix2d::Identity();
   const auto residual = EvaluateLine(camera, cam_from_world, ToOrthonormal(line), unit);
   if (!residual) return;
-  const Eigen::Matrix4d regularized =
-      information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
-  const Eigen::Matrix<double, 4, 2> spread = regularized.llt().solve(residual->J_line.transpose());
-  measurement.covariance += residual->J_line * spread;
-  if (weighting == LineWeighting::kScalar) {
-    measurement.covariance = 0.5 * measurement.covariance.trace() * Eigen::Matrix2d::Identity();
+  measurement.covariance += SpreadOf(residual->J_line, information);
+  MakeScalar(weighting, measurement.covariance);
+}
+
+void UseProjectedEnds(const RectifiedCamera& camera,
+                      const Rigid3& cam_from_world,
+                      const PluckerLine& line,
+                      const Segment3& ends,
+                      const std::optional<Eigen::Matrix4d>& information,
+                      LineWeighting weighting,
+                      LineMeasurement& measurement) {
+  if (weighting == LineWeighting::kNone) return;
+  LineMeasurement unit = measurement;
+  unit.covariance = Eigen::Matrix2d::Identity();
+  measurement.covariance = ProjectedEndsCovariance(camera, cam_from_world, ends, measurement);
+  const LineInterval interval{line.ParameterOf(ends.start), line.ParameterOf(ends.end)};
+  const auto residual =
+      EvaluateProjectedEnds(camera, cam_from_world, ToOrthonormal(line), interval, unit);
+  if (residual && information) {
+    measurement.covariance += SpreadOf(residual->J_line, *information);
   }
+  MakeScalar(weighting, measurement.covariance);
 }
 
 }  // namespace plumbline

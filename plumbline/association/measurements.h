@@ -20,16 +20,12 @@
 namespace plumbline {
 
 enum class LineWeighting { kNone, kScalar, kCovariance };
-enum class LineResidualKind { kObservedEnds };
 enum class LineReconstruction { kNView, kTwoView };
 
 constexpr auto EnumNames(std::type_identity<LineWeighting>) {
   return std::array{std::pair{LineWeighting::kNone, "none"},
                     std::pair{LineWeighting::kScalar, "scalar"},
                     std::pair{LineWeighting::kCovariance, "covariance"}};
-}
-constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
-  return std::array{std::pair{LineResidualKind::kObservedEnds, "observed_ends"}};
 }
 constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
   return std::array{std::pair{LineReconstruction::kNView, "n_view"},
@@ -48,11 +44,12 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, LineOptions& o) {
   visit("parametrization",
         o.parametrization,
-        "of a line in bundle adjustment: plucker (orthonormal form, 4 parameters), endpoints (two "
-        "points, 6)");
+        "of a line in bundle adjustment: plucker (orthonormal form, 4 parameters), plucker_left "
+        "(the same, turned about the axes of the frame), endpoints (two points, 6)");
   visit("residual",
         o.residual,
-        "observed_ends: distance of the measured end points from the projected line");
+        "observed_ends: distances of the measured end points from the projected line; "
+        "projected_ends: of the projected end points from the measured line");
   visit("reconstruction",
         o.reconstruction,
         "of a line from several keyframes: n_view (all closest ones together, pairs where they "
@@ -85,5 +82,17 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Eigen::Matrix4d& information,
                             LineWeighting weighting,
                             LineMeasurement& measurement);
+
+// The same where the residuals are the distances of the projected ends (in the world, on the line)
+// from the measured line: first the covariance that the measured line gives them
+// (ProjectedEndsCovariance), then, with information, what the uncertainty of the 3D line adds. For
+// scalar weighting the mean of the two variances; for none nothing changes.
+void UseProjectedEnds(const RectifiedCamera& camera,
+                      const Rigid3& cam_from_world,
+                      const PluckerLine& line,
+                      const Segment3& ends,
+                      const std::optional<Eigen::Matrix4d>& information,
+                      LineWeighting weighting,
+                      LineMeasurement& measurement);
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "plumbline/association/line_information.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/line_interval.h"
+#include "plumbline/optimization/line_ends.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,11 @@ class WindowBuilder {
  public:
   WindowBuilder(const Map& map,
                 const ImagingModel& imaging,
-                LineWeighting weighting,
+                const LineOptions& lines,
                 const BaWindowOptions& options)
-      : map_(map), weighting_(weighting), options_(options) {
+      : map_(map), line_options_(lines), options_(options) {
     window_.problem.camera = imaging.camera;
+    window_.problem.line_residual = lines.residual;
   }
 
   BaWindow Build(KeyFrameId centre) {
@@ -34,6 +36,7 @@ class WindowBuilder {
     ChooseFixed();
     AddPoints();
     AddLines();
+    if (line_options_.residual == LineResidualKind::kProjectedEnds) WeighProjectedEnds();
     return std::move(window_);
   }
 
@@ -160,9 +163,25 @@ class WindowBuilder {
   void AddLineObservations(int pose, int line, const Features& features, int feature) {
     const auto i = static_cast<std::size_t>(feature);
     auto& observations = window_.problem.line_observations;
-    observations.push_back({pose, line, MeasureLeftLine(features, i, weighting_)});
-    if (const auto right = MeasureRightLine(features, i, weighting_)) {
+    observations.push_back({pose, line, MeasureLeftLine(features, i, line_options_.weighting)});
+    if (const auto right = MeasureRightLine(features, i, line_options_.weighting)) {
       observations.push_back({pose, line, *right});
+    }
+  }
+
+  // The covariances of the measured ends become those of the ends that the solver will project.
+  void WeighProjectedEnds() {
+    BaProblem& problem = window_.problem;
+    const std::vector<Segment3> ends = TrimmedEnds(problem);
+    for (auto& o : problem.line_observations) {
+      const auto line = static_cast<std::size_t>(o.line);
+      UseProjectedEnds(problem.camera,
+                       problem.poses[static_cast<std::size_t>(o.pose)].cam_from_world,
+                       ToPlucker(problem.lines[line]),
+                       ends[line],
+                       std::nullopt,  // the lines are free to move
+                       line_options_.weighting,
+                       o.measurement);
     }
   }
 
@@ -187,7 +206,7 @@ class WindowBuilder {
   }
 
   const Map& map_;
-  LineWeighting weighting_;
+  LineOptions line_options_;
   const BaWindowOptions& options_;
   BaWindow window_;
   Rigid3 world_from_window_;
@@ -201,9 +220,9 @@ class WindowBuilder {
 BaWindow MakeBaWindow(const Map& map,
                       const ImagingModel& imaging,
                       KeyFrameId centre,
-                      LineWeighting weighting,
+                      const LineOptions& lines,
                       const BaWindowOptions& options) {
-  return WindowBuilder(map, imaging, weighting, options).Build(centre);
+  return WindowBuilder(map, imaging, lines, options).Build(centre);
 }
 
 namespace {

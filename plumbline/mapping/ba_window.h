@@ -33,7 +33,7 @@ struct BaWindow {
 BaWindow MakeBaWindow(const Map& map,
                       const ImagingModel& imaging,
                       KeyFrameId centre,
-                      LineWeighting weighting,
+                      const LineOptions& lines,
                       const BaWindowOptions& options);
 
 // The result as changes of the map: poses, landmarks (lines with new intervals and information),

@@ -118,7 +118,7 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
 }
 
 void LocalMapper::Adjust(Map& map, KeyFrameId id) const {
-  const BaWindow window = MakeBaWindow(map, imaging_, id, lines_.weighting, options_.window);
+  const BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
   const BaResult result = SolveLocalBa(window.problem, options_.ba, lines_.parametrization);
   if (result.termination == BaTermination::kNotFinite) return;
   map.Apply(ToEdit(map, imaging_, window, result));

@@ -74,7 +74,7 @@ class NearestKeyFrame {
 MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& options)
     : imaging_(imaging),
       tracking_(options.tracking),
-      weighting_(options.lines.weighting),
+      lines_(options.lines),
       initializer_(MakeInitializer(
           imaging, options.initialization, static_cast<std::uint64_t>(options.slam.seed))) {}
 
@@ -143,8 +143,8 @@ void MonocularStart::LocateFramesOf(const Start& start,
       prediction.Add(frame->stamp_ns, predicted);
       continue;
     }
-    const auto pose = LocateFrame(
-        imaging_, *frame->indexed, predicted, nearest.snapshot(), weighting_, tracking_);
+    const auto pose =
+        LocateFrame(imaging_, *frame->indexed, predicted, nearest.snapshot(), lines_, tracking_);
     if (!pose) {
       if (tracked) prediction.Add(frame->stamp_ns, predicted);
       missed += !tracked;

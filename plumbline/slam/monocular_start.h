@@ -72,7 +72,7 @@ class MonocularStart {
 
   ImagingModel imaging_;
   TrackingOptions tracking_;
-  LineWeighting weighting_;
+  LineOptions lines_;
   std::unique_ptr<Initializer> initializer_;
   std::deque<KeptFrame> waiting_;
   std::vector<Start> starts_;

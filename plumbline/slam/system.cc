@@ -31,7 +31,7 @@ System::System(const Calibration& calibration, const SlamOptions& options)
       mapping_(imaging_, options_),
       tracker_(imaging_,
                options_.tracking,
-               options_.lines.weighting,
+               options_.lines,
                WorldFromFirstCamera(front_end_.rectifier())) {
   if (imaging_.camera.baseline == 0) {
     monocular_start_ = std::make_unique<MonocularStart>(imaging_, options_);

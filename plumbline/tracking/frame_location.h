@@ -24,7 +24,7 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const IndexedFeatures& image,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
-                                        LineWeighting weighting,
+                                        const LineOptions& lines,
                                         const TrackingOptions& options);
 
 }  // namespace plumbline

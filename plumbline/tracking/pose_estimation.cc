@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/pose_estimation.h"
 
+#include "plumbline/geometry/trimming.h"
+
 #include <cstddef>
 #include <vector>
 
@@ -25,26 +27,57 @@ void AddPoints(const Features& features, const FrameAssociation& association, Ma
   }
 }
 
+// The part of a line's interval that the camera can see from the initial pose, in the world: an end
+// behind the camera has no projection. All of it where no part is visible.
+Segment3 VisibleEnds(const PoseProblem& problem, const LineModel& line) {
+  const Segment3 world = line.Interval();
+  const Segment3 in_cam{problem.cam_from_world * world.start, problem.cam_from_world * world.end};
+  const auto segment = ProjectSegment(problem.camera, in_cam);
+  if (!segment) return world;
+  const auto interval = TrimToSegment(problem.camera, problem.cam_from_world, line.line, *segment);
+  return interval ? SegmentOf(line.line, *interval) : world;
+}
+
+void AddLine(const LineModel& line,
+             LineMeasurement measurement,
+             std::size_t feature,
+             const LineOptions& options,
+             MatchedProblem& out) {
+  PoseProblem& problem = out.problem;
+  Segment3 ends;
+  if (options.residual == LineResidualKind::kProjectedEnds) {
+    ends = VisibleEnds(problem, line);
+    UseProjectedEnds(problem.camera,
+                     problem.cam_from_world,
+                     line.line,
+                     ends,
+                     line.information,
+                     options.weighting,
+                     measurement);
+  } else {
+    AddLandmarkUncertainty(problem.camera,
+                           problem.cam_from_world,
+                           line.line,
+                           line.information,
+                           options.weighting,
+                           measurement);
+  }
+  problem.lines.push_back({line.line, measurement, static_cast<int>(feature), ends});
+  out.line_feature.push_back(feature);
+}
+
 void AddLines(const Features& features,
-              LineWeighting weighting,
+              const LineOptions& lines,
               const FrameAssociation& association,
               MatchedProblem& out) {
   for (std::size_t i = 0; i < association.line_of_feature.size(); ++i) {
     const int match = association.line_of_feature[i];
     if (match < 0) continue;
     const LineModel& line = association.lines[static_cast<std::size_t>(match)].model;
-    const auto add = [&](LineMeasurement measurement) {
-      AddLandmarkUncertainty(out.problem.camera,
-                             out.problem.cam_from_world,
-                             line.line,
-                             line.information,
-                             weighting,
-                             measurement);
-      out.problem.lines.push_back({line.line, measurement, static_cast<int>(i)});
-      out.line_feature.push_back(i);
-    };
-    add(MeasureLeftLine(features, i, weighting));
-    if (const auto right = MeasureRightLine(features, i, weighting)) add(*right);
+    AddLine(line, MeasureLeftLine(features, i, lines.weighting), i, lines, out);
+    if (const auto right = MeasureRightLine(features, i, lines.weighting)) {
+      AddLine(line, *right, i, lines, out);
+    }
   }
 }
 
@@ -53,14 +86,15 @@ void AddLines(const Features& features,
 PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const Features& features,
                           const Rigid3& initial,
-                          LineWeighting weighting,
+                          const LineOptions& lines,
                           const PoseOnlyOptions& options,
                           FrameAssociation& association) {
   MatchedProblem matched;
   matched.problem.camera = camera;
   matched.problem.cam_from_world = initial;
+  matched.problem.line_residual = lines.residual;
   AddPoints(features, association, matched);
-  AddLines(features, weighting, association, matched);
+  AddLines(features, lines, association, matched);
   const PoseOnlyResult result = SolvePose(matched.problem, options);
   for (std::size_t k = 0; k < matched.point_feature.size(); ++k) {
     if (!result.point_inliers[k]) association.point_of_feature[matched.point_feature[k]] = -1;

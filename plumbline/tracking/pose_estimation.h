@@ -24,7 +24,7 @@ struct PoseEstimate {
 PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const Features& features,
                           const Rigid3& initial,
-                          LineWeighting weighting,
+                          const LineOptions& lines,
                           const PoseOnlyOptions& options,
                           FrameAssociation& association);
 

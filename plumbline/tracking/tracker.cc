@@ -89,11 +89,11 @@ TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int n
 
 Tracker::Tracker(const ImagingModel& imaging,
                  const TrackingOptions& options,
-                 LineWeighting weighting,
+                 const LineOptions& lines,
                  const Rigid3& world_from_first_cam)
     : imaging_(imaging),
       options_(options),
-      weighting_(weighting),
+      lines_(lines),
       first_cam_from_world_(Inverse(world_from_first_cam)) {}
 
 TrackingResult Tracker::Track(FrameId id,
@@ -257,7 +257,7 @@ PoseEstimate Tracker::Estimate(const Frame& frame,
                                const Rigid3& initial,
                                FrameAssociation& association) const {
   return EstimatePose(
-      imaging_.camera, frame.features(), initial, weighting_, options_.pose, association);
+      imaging_.camera, frame.features(), initial, lines_, options_.pose, association);
 }
 
 std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,

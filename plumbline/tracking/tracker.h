@@ -139,7 +139,7 @@ class Tracker {
   // world_from_first_cam: pose given to the first frame of each map.
   Tracker(const ImagingModel& imaging,
           const TrackingOptions& options,
-          LineWeighting weighting,
+          const LineOptions& lines,
           const Rigid3& world_from_first_cam);
 
   // snapshot: null exactly while the tracker has no map. mapping_behind: make no keyframe that
@@ -195,7 +195,7 @@ class Tracker {
 
   ImagingModel imaging_;
   TrackingOptions options_;
-  LineWeighting weighting_;
+  LineOptions lines_;
   Rigid3 first_cam_from_world_;
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<LastFrame> last_;

@@ -200,6 +200,31 @@ TEST(AddLandmarkUncertainty, FollowsTheWeighting) {
   EXPECT_TRUE(scalar.isApprox(0.5 * full.trace() * Eigen::Matrix2d::Identity(), 1e-12));
 }
 
+TEST(UseProjectedEnds, FollowsTheWeighting) {
+  const LineScene scene(kSlanted, kExact);
+  const Eigen::Matrix4d information =
+      LineInformation(scene.world.camera, scene.frame, 0, scene.line);
+  const auto with = [&](LineWeighting weighting, const std::optional<Eigen::Matrix4d>& known) {
+    LineMeasurement m = MeasureLeftLine(scene.frame.features(), 0, weighting);
+    UseProjectedEnds(scene.world.camera,
+                     scene.cam_from_world,
+                     scene.line,
+                     {scene.line.PointAt(-0.3), scene.line.PointAt(1.5)},
+                     known,
+                     weighting,
+                     m);
+    return m.covariance;
+  };
+  EXPECT_TRUE(with(LineWeighting::kNone, information).isIdentity());
+  const Eigen::Matrix2d full = with(LineWeighting::kCovariance, information);
+  const Eigen::Matrix2d scalar = with(LineWeighting::kScalar, information);
+  const Eigen::Matrix2d exact = with(LineWeighting::kCovariance, std::nullopt);
+  EXPECT_NE(full(0, 1), 0);
+  EXPECT_TRUE(scalar.isApprox(0.5 * full.trace() * Eigen::Matrix2d::Identity(), 1e-12));
+  EXPECT_GT((full - exact).trace(), 0);
+  EXPECT_GT((full - exact).determinant(), -1e-9 * full.determinant());
+}
+
 TEST(AddLandmarkUncertainty, StaysFiniteWithoutInformation) {
   const LineScene scene(kSlanted, kExact, SomePose());
   LineMeasurement m = MeasureLeftLine(scene.frame.features(), 0, LineWeighting::kCovariance);

@@ -25,8 +25,7 @@ BaWindow Window(const TrueMap& scene,
                 const SyntheticWorld& world,
                 std::int64_t centre,
                 const BaWindowOptions& options) {
-  return MakeBaWindow(
-      scene.map, world.Imaging(), KeyFrameId{centre}, LineWeighting::kCovariance, options);
+  return MakeBaWindow(scene.map, world.Imaging(), KeyFrameId{centre}, LineOptions{}, options);
 }
 
 std::set<KeyFrameId> Free(const BaWindow& window) {

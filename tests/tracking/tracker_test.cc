@@ -58,7 +58,7 @@ TEST(Tracker, ExactMeasurementsGiveExactPoses) {
 TEST(Tracker, TheFirstFrameIsTheFirstKeyFrameAtTheGivenPose) {
   const SyntheticWorld world = World();
   const Rigid3 world_from_cam{ExpSo3({0.1, 0.2, -0.3}), {1, 2, 3}};
-  Tracker tracker(world.Imaging(), {}, LineWeighting::kCovariance, world_from_cam);
+  Tracker tracker(world.Imaging(), {}, LineOptions{}, world_from_cam);
   EXPECT_EQ(tracker.state(), TrackerState::kInitializing);
   Rng rng(1);
   const SyntheticFrame sensed = Sense(world, {}, {}, rng);
@@ -214,7 +214,7 @@ TEST(Tracker, ReportsWhenTooFewMatchesAgree) {
 // A tracker with one keyframe in a map whose contents the test may change.
 struct OneKeyFrame {
   SyntheticWorld world = World();
-  Tracker tracker{world.Imaging(), {}, LineWeighting::kCovariance, Rigid3{}};
+  Tracker tracker{world.Imaging(), {}, LineOptions{}, Rigid3{}};
   Map map;
   Rng rng{2};
 
