@@ -21,6 +21,40 @@ bool Collinear(const Segment2& a, const Segment2& b) {
   return std::abs(LineDistance(LineThrough(a), b.Midpoint())) < kMaxOffsetPx;
 }
 
+// What the comparison of places needs of a segment, computed once for all its pairs.
+struct Place {
+  double length;
+  Eigen::Vector2d direction, midpoint;
+  Eigen::Vector3d line;
+
+  explicit Place(const Segment2& s)
+      : length(s.Length()),
+        direction(s.Direction()),
+        midpoint(s.Midpoint()),
+        line(LineThrough(s)) {}
+};
+
+bool PlacesCompatible(const Place& a,
+                      const Place& b,
+                      double min_cosine,
+                      const LineMatchOptions& options) {
+  if (!(a.length > 0) || !(b.length > 0)) return false;
+  if (a.direction.dot(b.direction) < min_cosine) return false;
+  if (std::min(a.length, b.length) < options.min_length_ratio * std::max(a.length, b.length)) {
+    return false;
+  }
+  if (std::abs(LineDistance(a.line, b.midpoint)) > options.max_offset_px ||
+      std::abs(LineDistance(b.line, a.midpoint)) > options.max_offset_px) {
+    return false;
+  }
+  if (options.max_shift_px <= 0) return true;
+  return (a.midpoint - b.midpoint).norm() - 0.5 * (a.length + b.length) <= options.max_shift_px;
+}
+
+double MinCosine(const LineMatchOptions& options) {
+  return std::cos(options.max_angle_deg * kDegree);
+}
+
 struct Pairing {
   int max_distance = 256;
   double ratio = 1;
@@ -31,10 +65,15 @@ struct Pairing {
 class DistanceTable {
  public:
   DistanceTable(std::size_t rows, std::size_t columns)
-      : rows_(rows), columns_(columns), distance_(rows * columns, kNone) {}
+      : rows_(rows), columns_(columns), distance_(rows * columns, kNone), best_row_(columns, -1) {}
 
+  // Row by row, each in the order of the columns.
   void Set(std::size_t row, std::size_t column, int distance) {
     distance_[row * columns_ + column] = distance;
+    int& best = best_row_[column];
+    if (best < 0 || distance < At(static_cast<std::size_t>(best), column)) {
+      best = static_cast<int>(row);
+    }
   }
 
   std::vector<LineMatch> Match(const std::vector<LineFeature>& b, const Pairing& pairing) const {
@@ -46,7 +85,7 @@ class DistanceTable {
       const auto c = static_cast<std::size_t>(column);
       const int distance = At(row, c);
       if (distance > pairing.max_distance || Ambiguous(row, c, b, pairing.ratio)) continue;
-      if (pairing.mutual && BestRow(c) != static_cast<int>(row)) continue;
+      if (pairing.mutual && best_row_[c] != static_cast<int>(row)) continue;
       if (owner[c] >= 0) {  // only without the mutual test
         LineMatch& earlier = matches[static_cast<std::size_t>(owner[c])];
         if (distance >= earlier.distance) continue;
@@ -75,17 +114,6 @@ class DistanceTable {
     return best;
   }
 
-  int BestRow(std::size_t column) const {
-    int best = -1;
-    int distance = kNone;
-    for (std::size_t row = 0; row < rows_; ++row) {
-      if (At(row, column) >= distance) continue;
-      distance = At(row, column);
-      best = static_cast<int>(row);
-    }
-    return best;
-  }
-
   bool Ambiguous(std::size_t row,
                  std::size_t best,
                  const std::vector<LineFeature>& b,
@@ -102,6 +130,7 @@ class DistanceTable {
   std::size_t rows_;
   std::size_t columns_;
   std::vector<int> distance_;
+  std::vector<int> best_row_;  // of each column; the first of equals
 };
 
 double FlatSine(double flat_angle_deg) { return std::sin(flat_angle_deg * kDegree); }
@@ -164,29 +193,20 @@ bool FlatCompatible(const Segment2& left,
 }  // namespace
 
 bool LinesCompatible(const Segment2& a, const Segment2& b, const LineMatchOptions& options) {
-  const double a_length = a.Length();
-  const double b_length = b.Length();
-  if (!(a_length > 0) || !(b_length > 0)) return false;
-  if (std::min(a_length, b_length) < options.min_length_ratio * std::max(a_length, b_length)) {
-    return false;
-  }
-  const double cosine = a.Direction().dot(b.Direction());
-  if (cosine < std::cos(options.max_angle_deg * kDegree)) return false;
-  if (std::abs(LineDistance(LineThrough(a), b.Midpoint())) > options.max_offset_px ||
-      std::abs(LineDistance(LineThrough(b), a.Midpoint())) > options.max_offset_px) {
-    return false;
-  }
-  if (options.max_shift_px <= 0) return true;
-  return (a.Midpoint() - b.Midpoint()).norm() - 0.5 * (a_length + b_length) <= options.max_shift_px;
+  return PlacesCompatible(Place(a), Place(b), MinCosine(options), options);
 }
 
 std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const std::vector<LineFeature>& b,
                                   const LineMatchOptions& options) {
+  const double min_cosine = MinCosine(options);
+  std::vector<Place> places;
+  for (const LineFeature& line : b) places.emplace_back(line.segment);
   DistanceTable table(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
+    const Place place(a[i].segment);
     for (std::size_t j = 0; j < b.size(); ++j) {
-      if (!LinesCompatible(a[i].segment, b[j].segment, options)) continue;
+      if (!PlacesCompatible(place, places[j], min_cosine, options)) continue;
       table.Set(i, j, HammingDistance(a[i].descriptor, b[j].descriptor));
     }
   }
