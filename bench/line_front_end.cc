@@ -5,12 +5,14 @@
 //
 //   line_front_end detectors DATA [NAME]   time, lines, repeatability, accuracy of every detector
 //   line_front_end descriptors DATA        time and matching precision of our LBD and OpenCV's
-//   line_front_end draw DATA OUT           pictures of the lines
+//   line_front_end speed DATA              time of each step with up to 300 lines, matching
+//   included line_front_end draw DATA OUT           pictures of the lines
 //
 // DATA holds the sequences of kSequences; those that are missing are left out.
 #include "plumbline/base/error.h"
 #include "plumbline/features/lbd.h"
 #include "plumbline/features/line_detection.h"
+#include "plumbline/features/match_lines.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include "bench/descriptor_precision.h"
@@ -148,6 +150,67 @@ void Detectors(const std::string& data, const std::string& only) {
   }
 }
 
+// Steps of the front end of one image, the last one with the lines of the image before it.
+enum Step { kGradient, kDetection, kDescription, kMatching, kSteps };
+
+struct StepTimes {
+  std::array<std::vector<double>, kSteps + 1> milliseconds;  // the last: all together
+  double lines = 0, matches = 0;
+};
+
+StepTimes TimeSteps(const SequenceImages& images, double min_length) {
+  constexpr int kMostLines = 300;
+  constexpr int kRepetitions = 5;
+  const ValidRegion valid(images.mask);
+  LineDetectionOptions options;
+  options.min_length = min_length;
+  StepTimes times;
+  std::vector<LineFeature> before;
+  for (const GrayImage& image : images.left) {
+    std::array<double, kSteps + 1> best;
+    best.fill(1e9);
+    std::vector<LineFeature> lines;
+    std::size_t matches = 0;
+    for (int k = 0; k < kRepetitions; ++k) {
+      std::array<double, kSteps + 1> at{CpuMilliseconds()};
+      const GradientImage gradient = ComputeGradient(image, kLineBlurPx);
+      at[1] = CpuMilliseconds();
+      lines = DetectLines(image, gradient, valid, LineDetector::kDrawing, kMostLines, options);
+      at[2] = CpuMilliseconds();
+      DescribeLines(gradient, &lines);
+      at[3] = CpuMilliseconds();
+      matches = MatchLines(before, lines, LineMatchOptions{}).size();
+      at[4] = CpuMilliseconds();
+      for (std::size_t i = 0; i < kSteps; ++i) best[i] = std::min(best[i], at[i + 1] - at[i]);
+      best[kSteps] = std::min(best[kSteps], at[kSteps] - at[0]);
+    }
+    for (std::size_t i = 0; i <= kSteps; ++i) times.milliseconds[i].push_back(best[i]);
+    times.lines += static_cast<double>(lines.size()) / static_cast<double>(images.left.size());
+    times.matches += static_cast<double>(matches) / static_cast<double>(images.left.size());
+    before = std::move(lines);
+  }
+  return times;
+}
+
+// The best of five of each image, median over the images: what a quiet machine would take.
+void Speed(const std::string& data) {
+  fmt::print(
+      "| sequence | shortest line, of the width | lines | matches | gradient | detection | "
+      "description | matching | all, ms |\n|---|---|---|---|---|---|---|---|---|\n");
+  for (const Sequence& sequence : kSequences) {
+    const auto images = ReadImages(data, sequence, kImages);
+    if (!images) continue;
+    for (const double min_length : {LineDetectionOptions{}.min_length, 0.02}) {
+      const StepTimes times = TimeSteps(*images, min_length);
+      fmt::print(
+          "| {} | {} | {:.0f} | {:.0f} |", sequence.name, min_length, times.lines, times.matches);
+      for (const auto& step : times.milliseconds) fmt::print(" {:.2f} |", Median(step));
+      fmt::print("\n");
+      std::fflush(stdout);
+    }
+  }
+}
+
 void Draw(const std::string& data, const std::string& out) {
   for (const Sequence& sequence : kSequences) {
     const auto images = ReadImages(data, sequence, 3);
@@ -183,11 +246,14 @@ int Main(const std::vector<std::string>& arguments) {
     Detectors(arguments[1], arguments.size() == 3 ? arguments[2] : "");
   } else if (arguments.size() == 2 && arguments[0] == "descriptors") {
     PrintDescriptorPrecision(arguments[1]);
+  } else if (arguments.size() == 2 && arguments[0] == "speed") {
+    Speed(arguments[1]);
   } else if (arguments.size() == 3 && arguments[0] == "draw") {
     Draw(arguments[1], arguments[2]);
   } else {
     fmt::print(stderr,
-               "usage: line_front_end detectors DATA [NAME] | descriptors DATA | draw DATA OUT\n");
+               "usage: line_front_end detectors DATA [NAME] | descriptors DATA | speed DATA | "
+               "draw DATA OUT\n");
     return 2;
   }
   return 0;

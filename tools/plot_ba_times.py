@@ -88,7 +88,7 @@ class Chart:
         self.parts.append(f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" '
                           f'fill="{color}" {extra}>{text}</text>')
 
-    def axes(self, x_values):
+    def axes(self, x_values, label="free keyframes (with 200 points and 30 lines each)"):
         bottom, right = HEIGHT - BOTTOM, WIDTH - RIGHT
         for value in x_values:
             self.line([(self.x(value), TOP), (self.x(value), bottom)], "#ddd")
@@ -97,8 +97,7 @@ class Chart:
             self.line([(LEFT, self.y(value)), (right, self.y(value))], "#ddd")
             self.text(LEFT - 8, self.y(value) + 4, f"{value:g}", "end")
         self.line([(LEFT, TOP), (LEFT, bottom), (right, bottom)], "#333")
-        self.text((LEFT + right) / 2, HEIGHT - 18,
-                  "free keyframes (with 200 points and 30 lines each)")
+        self.text((LEFT + right) / 2, HEIGHT - 18, label)
         middle = (TOP + bottom) / 2
         self.text(20, middle, "CPU time to convergence [ms]",
                   extra=f'transform="rotate(-90 20 {middle:.1f})"')

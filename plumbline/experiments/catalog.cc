@@ -102,6 +102,61 @@ std::vector<Variant> PointVariants() {
   return variants;
 }
 
+// Lines by every way to have them, with several cameras or depth where there is.
+Experiment LineExperiment() {
+  Experiment experiment;
+  experiment.name = "lines";
+  experiment.help = "points alone and with lines by each way to parametrize, weigh and make them";
+  experiment.sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}};
+  experiment.variants = {
+      {"points", {"features.lines=false"}},
+      {"plucker", {}},
+      {"plucker_left", {"lines.parametrization=plucker_left"}},
+      {"endpoints", {"lines.parametrization=endpoints"}},
+      {"projected", {"lines.residual=projected_ends"}},
+      {"projected_endpoints", {"lines.residual=projected_ends", "lines.parametrization=endpoints"}},
+      {"two_view", {"lines.reconstruction=two_view"}},
+      {"scalar", {"lines.weighting=scalar"}},
+      {"unweighted", {"lines.weighting=none"}}};
+  experiment.metrics = {"ate",
+                        "rpe_mean",
+                        "rpe_rmse",
+                        "roe_rmse",
+                        "lost",
+                        "keyframes",
+                        "lines",
+                        "line_recall",
+                        "line_precision",
+                        "line_angle",
+                        "line_distance",
+                        "line_multiplicity",
+                        "adjust_ms",
+                        "adjust_p95_ms",
+                        "cpu_ms",
+                        "memory_mb"};
+  experiment.plots = {"ate", "rpe_rmse", "line_recall", "line_precision", "adjust_ms"};
+  experiment.runs = 10;
+  experiment.size = WorldSize::kFull;
+  experiment.reference = "plucker";
+  return experiment;
+}
+
+// The same with the left camera alone: points and lines after each way to begin.
+Experiment MonocularLineExperiment() {
+  const std::vector<std::string> mono = {"--sensor", "mono"};
+  Experiment experiment = LineExperiment();
+  experiment.name = "lines_mono";
+  experiment.help = "points alone and with lines from one camera, by each way to begin the map";
+  experiment.variants = {{"points", {"features.lines=false"}, mono},
+                         {"plucker", {}, mono},
+                         {"plucker_left", {"lines.parametrization=plucker_left"}, mono},
+                         {"endpoints", {"lines.parametrization=endpoints"}, mono},
+                         {"two_view_lines", {"lines.reconstruction=two_view"}, mono},
+                         {"klt_start", {"initialization.method=rank1_klt"}, mono},
+                         {"two_view_start", {"initialization.method=two_view"}, mono}};
+  return experiment;
+}
+
 }  // namespace
 
 std::span<const Experiment> Experiments() {
@@ -118,6 +173,8 @@ std::span<const Experiment> Experiments() {
                       "lines",        "line_recall", "line_precision", "fps",       "frame_ms",
                       "frame_p95_ms", "cpu_ms",      "first_pose_s",   "memory_mb", "dropped"},
           .plots = {"ate", "rpe_rmse", "roe_rmse", "coverage", "frame_ms"}},
+      LineExperiment(),
+      MonocularLineExperiment(),
       StartExperiment(
           "initialization",
           "how often, how soon and how well a monocular map begins, by several methods",

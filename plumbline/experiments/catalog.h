@@ -66,6 +66,8 @@ struct Experiment {
   WorldSize size = WorldSize::kTest;     // unless asked for otherwise
   std::vector<SequencePool> pools = {};  // kStarts: additional rows
   std::string abscissa = {};             // what Variant::abscissa is; empty: no plots over it
+  // The variant whose errors the others' are divided by, run by run (paired_ratios.h); empty: none.
+  std::string reference = {};
 };
 
 // The experiments there are. A new one is an entry here and nothing else.

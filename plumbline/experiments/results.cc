@@ -48,21 +48,23 @@ void WriteTables(const Plan& plan,
                  const std::vector<PagePlot>& more_plots) {
   MakeFolder(plan.out / "plots");
   RemovePlots(plan.out / "plots");
+  const std::vector<PairedRatio> ratios = PairedRatios(plan, results);
   std::vector<ResultTable> tables;
   for (const MetricKind kind : {MetricKind::kRepeatable, MetricKind::kTiming}) {
     const bool timing = kind == MetricKind::kTiming;
     tables.push_back(MakeTable(plan, results, kind));
     WriteFileAtomically(plan.out / (timing ? "timing.json" : "results.json"),
                         FormatResults(plan.experiment.name, CollectResults(plan, results, kind)));
-    WriteFileAtomically(plan.out / (timing ? "timing.md" : "table.md"),
-                        FormatMarkdown(plan, tables.back()));
+    WriteFileAtomically(
+        plan.out / (timing ? "timing.md" : "table.md"),
+        FormatMarkdown(plan, tables.back()) + (timing ? "" : FormatRatios(plan, ratios)));
   }
   std::vector<PagePlot> plots = MakePlots(plan, tables);
   plots.insert(plots.end(), more_plots.begin(), more_plots.end());
   for (const PagePlot& plot : plots) {
     WriteFileAtomically(plan.out / "plots" / (plot.metric + ".svg"), plot.svg);
   }
-  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots));
+  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots, ratios));
 }
 
 }  // namespace

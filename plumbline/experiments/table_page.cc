@@ -71,6 +71,33 @@ std::string Table(const Plan& plan, const ResultTable& table) {
   return html + "</tbody></table></div>\n";
 }
 
+// Nothing without ratios.
+std::string Ratios(const Plan& plan, const std::vector<PairedRatio>& ratios) {
+  if (ratios.empty()) return "";
+  std::string html = fmt::format(
+      "<h2>ATE against {}</h2>\n<p class=\"note\">Geometric mean over the runs, with 95 % "
+      "bootstrap "
+      "intervals; over all sequences each counts the same. Lost alone: runs with lost frames where "
+      "another variant lost none.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>variant</th>"
+      "<th>sequence</th><th>pairs</th><th>ratio</th><th>left out</th><th>lost alone</th></tr>"
+      "</thead>\n<tbody>\n",
+      EscapeHtml(plan.experiment.reference));
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    const PairedRatio& r = ratios[i];
+    const bool first = i == 0 || ratios[i - 1].variant != r.variant;
+    html += fmt::format(
+        "<tr{}><th>{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        first ? " class=\"first\"" : "",
+        first ? EscapeHtml(plan.experiment.variants[r.variant].name) : "",
+        r.sequence ? EscapeHtml(plan.sequences[*r.sequence].name) : "<b>all</b>",
+        r.pairs,
+        RatioText(r),
+        r.left_out,
+        r.lost_alone);
+  }
+  return html + "</tbody></table></div>\n";
+}
+
 std::string Variants(const Plan& plan) {
   std::string html = "<h2>Variants</h2>\n<ul>\n";
   for (const Variant& variant : plan.experiment.variants) {
@@ -120,7 +147,8 @@ std::string_view TablePageStyle() { return kStyle; }
 
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
-                       const std::vector<PagePlot>& plots) {
+                       const std::vector<PagePlot>& plots,
+                       const std::vector<PairedRatio>& ratios) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{0}</title>\n"
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>{2}.</p>\n"
@@ -136,7 +164,7 @@ std::string FormatPage(const Plan& plan,
     html += Table(plan, table);
     if (table.kind == MetricKind::kRepeatable) html += Gaps(plan, table);
   }
-  html += "<h2>Plots</h2>\n";
+  html += Ratios(plan, ratios) + "<h2>Plots</h2>\n";
   for (const PagePlot& plot : plots) html += "<figure>" + plot.svg + "</figure>\n";
   return html + Variants(plan) + Legend(tables) + "</body>\n</html>\n";
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/experiments/paired_ratios.h"
 #include "plumbline/experiments/table.h"
 
 #include <string>
@@ -19,9 +20,11 @@ struct PagePlot {
 std::string_view TablePageStyle();
 
 // One page that needs nothing else, not even scripts: the tables with the best of each sequence
-// marked, the plots, what the variants are, what failed and what is missing.
+// marked, the errors against a reference where there is one, the plots, what the variants are, what
+// failed and what is missing.
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
-                       const std::vector<PagePlot>& plots);
+                       const std::vector<PagePlot>& plots,
+                       const std::vector<PairedRatio>& ratios = {});
 
 }  // namespace plumbline
