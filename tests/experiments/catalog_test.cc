@@ -44,6 +44,8 @@ TEST(Catalog, EveryEntryNamesOnlyWhatThereIs) {
       }
       EXPECT_EQ(variant.curve.empty(), experiment.abscissa.empty()) << variant.name;
     }
+    EXPECT_TRUE(experiment.reference.empty() || variants.contains(experiment.reference))
+        << experiment.name;
     for (const SequenceChoice& choice : experiment.sequences) {
       EXPECT_NE(choice.pattern.find('/'), std::string::npos) << choice.pattern;
       SynthOptions options;
