@@ -23,6 +23,36 @@ constexpr double kInvalidChi2 = 1e8;
 constexpr double kMinLambda = 1e-8;
 constexpr double kMaxLambda = 1e8;
 
+// Adds w J^T J and w J^T r of a point whose rows are J = G [-[p]x, I], so that with M = w G^T G the
+// blocks are [p]x M [p]x^T, [p]x M and M.
+void AddPoint(const PointLinearization& a, const Eigen::Vector3d& p, double w, PoseSums& eq) {
+  const double wux = w * a.ux;
+  const double wvy = w * a.vy;
+  const double m00 = wux * a.ux;
+  const double m02 = wux * a.uz;
+  const double m11 = wvy * a.vy;
+  const double m12 = wvy * a.vz;
+  const double m22 = w * (a.uz * a.uz + a.vz * a.vz + a.dz * a.dz);
+  const Eigen::Vector3d q(
+      wux * a.r.x(), wvy * a.r.y(), w * (a.uz * a.r.x() + a.vz * a.r.y() + a.dz * a.r.z()));
+  const Eigen::Vector3d c0(m00, 0, m02);
+  const Eigen::Vector3d c1(0, m11, m12);
+  const Eigen::Vector3d c2(m02, m12, m22);
+  Eigen::Matrix3d PM;
+  PM << p.cross(c0), p.cross(c1), p.cross(c2);
+  for (int i = 0; i < 3; ++i) {
+    eq.H.block<3, 1>(0, i) += p.cross(PM.row(i).transpose());
+    eq.H.block<3, 1>(3, i) += PM.row(i).transpose();
+  }
+  eq.H(3, 3) += m00;
+  eq.H(4, 4) += m11;
+  eq.H(5, 3) += m02;
+  eq.H(5, 4) += m12;
+  eq.H(5, 5) += m22;
+  eq.g.head<3>() += p.cross(q);
+  eq.g.tail<3>() += q;
+}
+
 class PoseSolver {
  public:
   PoseSolver(const PoseProblem& problem, const PoseOnlyOptions& options)
@@ -40,10 +70,11 @@ class PoseSolver {
   PoseSums Evaluate(const Rigid3& pose, const HuberThresholds& huber);
   void EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   void EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
+  void EvaluateProjectedLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   // Levenberg-Marquardt from pose_; true when it met a tolerance.
   bool Optimize(const HuberThresholds& huber, int max_iterations);
   // At pose_, whose rotation R is.
-  double LineChi2(const PoseLine& line, const Eigen::Matrix3d& R) const;
+  double LineChi2(std::size_t i, const Eigen::Matrix3d& R) const;
   // Makes chi2_ that of pose_ where it is not (after a rejected step).
   void UpdateChi2();
   // Brings a far-off pose near with a Huber threshold that follows the median residual.
@@ -62,6 +93,7 @@ class PoseSolver {
   const bool projected_ends_;
   std::vector<PosePoint> points_;
   std::vector<PoseLine> lines_;
+  std::vector<PoseLineEnds> line_ends_;  // with projected ends
   std::vector<double> point_chi2_, line_chi2_, group_chi2_, group_limit_, scratch_;
   std::vector<char> point_used_, group_used_;
   Rigid3 pose_;
@@ -88,9 +120,10 @@ void PoseSolver::Pack(const PoseProblem& problem) {
     lines_.push_back({match.line_in_world.moment,
                       match.line_in_world.direction,
                       MakeLineTerm(camera_, match.measurement),
-                      group,
-                      match.ends,
-                      MakeProjectedEndsTerm(camera_, match.measurement)});
+                      group});
+    if (projected_ends_) {
+      line_ends_.push_back({match.ends, MakeProjectedEndsTerm(camera_, match.measurement)});
+    }
   }
   point_chi2_.assign(points_.size(), 0);
   point_used_.assign(points_.size(), 1);
@@ -124,45 +157,82 @@ void PoseSolver::EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber
   }
 }
 
+// Adds to the cost and, with w J^T J and w J^T r of the two rows, to the equations.
+void AddLine(
+    const Eigen::Vector2d& r, double huber, const Vector6d& a, const Vector6d& b, PoseSums& eq) {
+  const double chi2 = r.squaredNorm();
+  const double w = HuberWeight(chi2, huber);
+  eq.cost += 0.5 * HuberLoss(chi2, huber);
+  const Vector6d wa = w * a;
+  const Vector6d wb = w * b;
+  eq.H.noalias() += wa * a.transpose() + wb * b.transpose();
+  eq.g += r(0) * wa + r(1) * wb;
+}
+
 void PoseSolver::EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq) {
   const Eigen::Matrix3d R = pose.rotation.toRotationMatrix();
-  PoseLineRows rows;
+  LineLinearization lin;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const PoseLine& line = lines_[i];
     const bool used = group_used_[line.group] != 0;
-    const bool valid = projected_ends_ ? ProjectedEndsRows(line, R, pose.translation, rows)
-                                       : ObservedEndsRows(camera_, line, R, pose.translation, rows);
-    if (!valid) {
+    const PoseLineInCamera seen(line, R, pose.translation);
+    if (!LinearizeLine(camera_, line.term, seen.moment, lin)) {
       line_chi2_[i] = kInfinity;
       if (used) eq.cost += 0.5 * HuberLoss(kInvalidChi2, huber.line);
       continue;
     }
-    const double chi2 = rows.r.squaredNorm();
-    line_chi2_[i] = chi2;
+    line_chi2_[i] = lin.r.squaredNorm();
     if (!used) continue;
-    const double w = HuberWeight(chi2, huber.line);
-    eq.cost += 0.5 * HuberLoss(chi2, huber.line);
-    const Vector6d wa = w * rows.a;
-    const Vector6d wb = w * rows.b;
-    eq.H.noalias() += wa * rows.a.transpose() + wb * rows.b.transpose();
-    eq.g += rows.r(0) * wa + rows.r(1) * wb;
+    AddLine(lin.r,
+            huber.line,
+            LinePoseRow(lin.h0, seen.moment, seen.direction, line.term.shift),
+            LinePoseRow(lin.h1, seen.moment, seen.direction, line.term.shift),
+            eq);
+  }
+}
+
+void PoseSolver::EvaluateProjectedLines(const Rigid3& pose,
+                                        const HuberThresholds& huber,
+                                        PoseSums& eq) {
+  ProjectedEndsLinearization lin;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const bool used = group_used_[lines_[i].group] != 0;
+    const auto& [ends, term] = line_ends_[i];
+    const Segment3 seen{pose * ends.start, pose * ends.end};
+    if (!LinearizeProjectedEnds(term, seen, lin)) {
+      line_chi2_[i] = kInfinity;
+      if (used) eq.cost += 0.5 * HuberLoss(kInvalidChi2, huber.line);
+      continue;
+    }
+    line_chi2_[i] = lin.r.squaredNorm();
+    if (!used) continue;
+    const auto [a, b] = PoseRows(lin, seen);
+    AddLine(lin.r, huber.line, a, b, eq);
   }
 }
 
 PoseSums PoseSolver::Evaluate(const Rigid3& pose, const HuberThresholds& huber) {
   PoseSums eq;
   EvaluatePoints(pose, huber, eq);
-  EvaluateLines(pose, huber, eq);
+  if (projected_ends_) {
+    EvaluateProjectedLines(pose, huber, eq);
+  } else {
+    EvaluateLines(pose, huber, eq);
+  }
   return eq;
 }
 
-double PoseSolver::LineChi2(const PoseLine& line, const Eigen::Matrix3d& R) const {
+double PoseSolver::LineChi2(std::size_t i, const Eigen::Matrix3d& R) const {
   const Eigen::Vector3d& t = pose_.translation;
   Eigen::Vector2d r;
-  const bool valid = projected_ends_
-                         ? WhitenedEndDistances(
-                               line.ends_term, {R * line.ends.start + t, R * line.ends.end + t}, r)
-                         : WhitenedLineDistances(camera_, line.term, MomentInCamera(line, R, t), r);
+  bool valid = false;
+  if (projected_ends_) {
+    const auto& [ends, term] = line_ends_[i];
+    valid = WhitenedEndDistances(term, {R * ends.start + t, R * ends.end + t}, r);
+  } else {
+    valid =
+        WhitenedLineDistances(camera_, lines_[i].term, PoseLineInCamera(lines_[i], R, t).moment, r);
+  }
   return valid ? r.squaredNorm() : kInfinity;
 }
 
@@ -175,7 +245,7 @@ void PoseSolver::UpdateChi2() {
     point_chi2_[i] = PointChi2(camera_, points_[i].term, p).value_or(kInfinity);
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    line_chi2_[i] = LineChi2(lines_[i], R);
+    line_chi2_[i] = LineChi2(i, R);
   }
 }
 
