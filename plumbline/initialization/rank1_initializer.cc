@@ -11,7 +11,7 @@ namespace plumbline {
 namespace {
 
 constexpr int kMinFeatures = 60;
-constexpr int kDecisionPoints = 300;
+constexpr int kDecisionPoints = 200;
 // Share of the most matches with the reference below which they have died out: those that are left
 // are more and more often wrong.
 constexpr double kDiedOut = 0.3;
