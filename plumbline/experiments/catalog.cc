@@ -157,6 +157,68 @@ Experiment MonocularLineExperiment() {
   return experiment;
 }
 
+// Table 1 to 3 of the second paper: what is tracked, how lines are weighted and whether they are
+// cut, against the last frame (the paper's setting, with its residuals) and against the map (ours),
+// on sharp and on blurred images. Weights do not matter to points alone.
+std::vector<Variant> CuttingVariants() {
+  struct Setting {
+    std::string name;
+    std::vector<std::string> settings;
+  };
+  const std::vector<Setting> references = {
+      {"last", {"tracking.reference=last_frame", "lines.residual=projected_ends"}}, {"map", {}}};
+  const std::vector<Setting> kinds = {{"P", {"features.lines=false"}},
+                                      {"L", {"features.points=false"}},
+                                      {"L+Cut", {"features.points=false", "cutting.method=greedy"}},
+                                      {"PL", {}},
+                                      {"PL+Cut", {"cutting.method=greedy"}}};
+  std::vector<Variant> variants;
+  for (const bool blurred : {false, true}) {
+    for (const Setting& reference : references) {
+      for (const Setting& kind : kinds) {
+        for (const std::string weighting : {"none", "scalar"}) {
+          const bool points_alone = kind.name == "P";
+          if (points_alone && weighting != "none") continue;
+          Variant variant{reference.name + "_" + kind.name, reference.settings};
+          variant.settings.insert(
+              variant.settings.end(), kind.settings.begin(), kind.settings.end());
+          if (!points_alone) {
+            variant.name += "_" + weighting;
+            variant.settings.push_back("lines.weighting=" + weighting);
+          }
+          if (blurred) {
+            variant.name += "_blur";
+            variant.arguments = {"--blur", "5"};
+          }
+          variants.push_back(std::move(variant));
+        }
+      }
+    }
+  }
+  return variants;
+}
+
+Experiment CuttingExperiment() {
+  Experiment experiment;
+  experiment.name = "cutting";
+  experiment.help =
+      "line cutting and line weights against the last frame and against the map, sharp and blurred";
+  experiment.sequences = {{"worlds/lowtexture"}, {"worlds/vicon_*"}, {"euroc/*"}};
+  experiment.variants = CuttingVariants();
+  experiment.metrics = {"rpe_causal_mean",
+                        "rpe_causal_rmse",
+                        "roe_causal_mean",
+                        "roe_causal_rmse",
+                        "coverage",
+                        "lost",
+                        "cpu_ms"};
+  experiment.plots = {"rpe_causal_mean", "roe_causal_mean"};
+  experiment.runs = 10;
+  experiment.size = WorldSize::kFull;
+  experiment.tolerated_failures = 2;
+  return experiment;
+}
+
 }  // namespace
 
 std::span<const Experiment> Experiments() {
@@ -175,6 +237,7 @@ std::span<const Experiment> Experiments() {
           .plots = {"ate", "rpe_rmse", "roe_rmse", "coverage", "frame_ms"}},
       LineExperiment(),
       MonocularLineExperiment(),
+      CuttingExperiment(),
       StartExperiment(
           "initialization",
           "how often, how soon and how well a monocular map begins, by several methods",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -68,6 +69,10 @@ struct Experiment {
   std::string abscissa = {};             // what Variant::abscissa is; empty: no plots over it
   // The variant whose errors the others' are divided by, run by run (paired_ratios.h); empty: none.
   std::string reference = {};
+  // Set: tables have means instead of medians, runs that lost the camera (a pose for less than 99 %
+  // of the frames) count as failed, and a variant with more failed runs than this on a sequence has
+  // no figures there but "-", as the second paper's tables have it.
+  std::optional<int> tolerated_failures = {};
 };
 
 // The experiments there are. A new one is an entry here and nothing else.

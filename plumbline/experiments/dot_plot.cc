@@ -124,12 +124,12 @@ void DrawRow(const TableRow& row,
     return;
   }
   const double y = begin.y(), min = axis.ToPixel(cell.spread->min),
-               max = axis.ToPixel(cell.spread->max), median = axis.ToPixel(cell.spread->median);
+               max = axis.ToPixel(cell.spread->max), centre = axis.ToPixel(cell.spread->centre);
   figure.lines.push_back({{{min, y}, {max, y}}, color, 2});
   Figure::Polyline dot{{}, color, 2 * kRadius};  // as wide as its radius: full
   for (int i = 0; i <= kCorners; ++i) {
     const double angle = 2 * std::numbers::pi * i / kCorners;
-    dot.points.emplace_back(median + kRadius * std::cos(angle), y + kRadius * std::sin(angle));
+    dot.points.emplace_back(centre + kRadius * std::cos(angle), y + kRadius * std::sin(angle));
   }
   figure.lines.push_back(std::move(dot));
   if (!with_coverage || row.coverage >= kAllCovered) return;

@@ -3,6 +3,7 @@
 #include "plumbline/experiments/table.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@ namespace plumbline {
 namespace {
 
 constexpr std::string_view kCoverage = "coverage";
+constexpr double kCoverageGap = 1;  // percent of the frames that do not count
 
 // The results of one variant on one sequence.
 struct Group {
@@ -33,27 +35,41 @@ std::vector<Group> GroupsOf(const Plan& plan, const std::vector<JobResult>& resu
   return groups;
 }
 
-// Runs that count: those with a result, and of those with the same trajectory the first.
-std::vector<const RunFigures*> Distinct(const Group& group) {
-  std::vector<const RunFigures*> distinct;
-  std::set<std::string> trajectories;
-  for (const JobResult* result : group.runs) {
-    if (result->figures && trajectories.insert(result->figures->trajectory).second) {
-      distinct.push_back(&*result->figures);
-    }
-  }
-  return distinct;
+bool LostTheCamera(const RunFigures& run) {
+  const auto coverage = run.values.find(kCoverage);
+  return coverage == run.values.end() || coverage->second < 100 - kCoverageGap;
 }
 
-std::vector<const RunFigures*> WithResult(const Group& group) {
+// Runs with a result; where failures are tolerated only so far, those that lost the camera are
+// failures too.
+std::vector<const RunFigures*> WithResult(const Group& group, const Experiment& experiment) {
   std::vector<const RunFigures*> good;
   for (const JobResult* result : group.runs) {
-    if (result->figures) good.push_back(&*result->figures);
+    if (!result->figures) continue;
+    if (experiment.tolerated_failures && LostTheCamera(*result->figures)) continue;
+    good.push_back(&*result->figures);
   }
   return good;
 }
 
-TableCell MakeCell(const std::vector<const RunFigures*>& runs, int failed, std::string_view name) {
+// Of runs with the same trajectory the first.
+std::vector<const RunFigures*> Distinct(const std::vector<const RunFigures*>& runs) {
+  std::vector<const RunFigures*> distinct;
+  std::set<std::string> trajectories;
+  for (const RunFigures* run : runs) {
+    if (trajectories.insert(run->trajectory).second) distinct.push_back(run);
+  }
+  return distinct;
+}
+
+Centre CentreOf(const Experiment& experiment) {
+  return experiment.tolerated_failures ? Centre::kMean : Centre::kMedian;
+}
+
+TableCell MakeCell(const std::vector<const RunFigures*>& runs,
+                   int failed,
+                   std::string_view name,
+                   Centre centre) {
   std::vector<double> values;
   for (const RunFigures* run : runs) {
     const auto value = run->values.find(name);
@@ -61,22 +77,27 @@ TableCell MakeCell(const std::vector<const RunFigures*>& runs, int failed, std::
   }
   TableCell cell;
   cell.missing = failed + static_cast<int>(runs.size() - values.size());
-  cell.spread = SpreadOf(std::move(values));
+  cell.spread = SpreadOf(std::move(values), centre);
   return cell;
 }
 
-TableRow MakeRow(const Group& group, const ResultTable& table) {
+TableRow MakeRow(const Group& group, const ResultTable& table, const Experiment& experiment) {
   TableRow row;
   row.sequence = group.sequence;
   row.variant = group.variant;
-  const auto good = WithResult(group), distinct = Distinct(group);
+  const auto good = WithResult(group, experiment), distinct = Distinct(good);
   row.runs = static_cast<int>(group.runs.size());
   row.failed = row.runs - static_cast<int>(good.size());
   row.same = static_cast<int>(good.size() - distinct.size());
+  const auto& counted = table.kind == MetricKind::kTiming ? good : distinct;
+  const bool reliable =
+      !experiment.tolerated_failures || row.failed <= *experiment.tolerated_failures;
   for (const Metric* metric : table.columns) {
-    row.cells.push_back(
-        MakeCell(table.kind == MetricKind::kTiming ? good : distinct, row.failed, metric->name));
+    row.cells.push_back(reliable ? MakeCell(counted, row.failed, metric->name, CentreOf(experiment))
+                                 : TableCell{std::nullopt, row.runs, false});
   }
+  const auto covered = MakeCell(distinct, 0, kCoverage, Centre::kMedian).spread;
+  row.coverage = covered ? covered->centre : 0;
   return row;
 }
 
@@ -86,7 +107,6 @@ std::string Number(double value, const Metric& metric) {
 
 // Marks the best of the rows [begin, end), all of one sequence, in a column.
 void MarkBest(ResultTable& table, std::size_t column, std::pair<std::size_t, std::size_t> rows) {
-  constexpr double kCoverageGap = 1;  // percent
   const Metric& metric = *table.columns[column];
   if (metric.better == Better::kNeither) return;
   const double sign = metric.better == Better::kLower ? 1 : -1;
@@ -101,7 +121,7 @@ void MarkBest(ResultTable& table, std::size_t column, std::pair<std::size_t, std
   for (std::size_t r = rows.first; r < rows.second; ++r) {
     TableCell& cell = table.rows[r].cells[column];
     if (!cell.spread) continue;
-    printed.insert(Number(cell.spread->median, metric));
+    printed.insert(Number(cell.spread->centre, metric));
     if (cell.missing == least_missing && table.rows[r].coverage >= most_covered - kCoverageGap) {
       competing.push_back(&cell);
     }
@@ -109,10 +129,10 @@ void MarkBest(ResultTable& table, std::size_t column, std::pair<std::size_t, std
   if (competing.empty() || printed.size() < 2) return;
   const TableCell* best = *std::min_element(
       competing.begin(), competing.end(), [sign](const TableCell* a, const TableCell* b) {
-        return sign * a->spread->median < sign * b->spread->median;
+        return sign * a->spread->centre < sign * b->spread->centre;
       });
   for (TableCell* cell : competing) {
-    cell->best = Number(cell->spread->median, metric) == Number(best->spread->median, metric);
+    cell->best = Number(cell->spread->centre, metric) == Number(best->spread->centre, metric);
   }
 }
 
@@ -144,9 +164,13 @@ std::string Escaped(const std::string& text) {
 
 }  // namespace
 
-std::optional<Spread> SpreadOf(std::vector<double> values) {
+std::optional<Spread> SpreadOf(std::vector<double> values, Centre centre) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());
+  if (centre == Centre::kMean) {
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+    return Spread{sum / static_cast<double>(values.size()), values.front(), values.back()};
+  }
   const std::size_t half = values.size() / 2;
   const double median =
       values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
@@ -159,9 +183,7 @@ ResultTable MakeTable(const Plan& plan, const std::vector<JobResult>& results, M
   table.columns = MetricsOf(plan.experiment, kind);
   const std::vector<Group> groups = GroupsOf(plan, results);
   for (const Group& group : groups) {
-    table.rows.push_back(MakeRow(group, table));
-    const auto covered = MakeCell(Distinct(group), 0, kCoverage).spread;
-    table.rows.back().coverage = covered ? covered->median : 0;
+    table.rows.push_back(MakeRow(group, table, plan.experiment));
   }
   for (std::size_t begin = 0, end = 0; begin < table.rows.size(); begin = end) {
     while (end < table.rows.size() && table.rows[end].sequence == table.rows[begin].sequence) ++end;
@@ -175,7 +197,7 @@ ResultTable MakeTable(const Plan& plan, const std::vector<JobResult>& results, M
 
 std::string CellText(const TableRow& row, const TableCell& cell, const Metric& metric) {
   if (!cell.spread) return "-";
-  std::string text = Number(cell.spread->median, metric);
+  std::string text = Number(cell.spread->centre, metric);
   const std::string min = Number(cell.spread->min, metric), max = Number(cell.spread->max, metric);
   if (min != max) text += fmt::format(" ({}-{})", min, max);
   if (cell.missing > row.failed) text += fmt::format(", {} without", cell.missing - row.failed);
@@ -198,10 +220,11 @@ std::string ColumnTitle(const Metric& metric) {
 
 std::string FormatMarkdown(const Plan& plan, const ResultTable& table) {
   const bool timing = table.kind == MetricKind::kTiming;
-  std::string text = fmt::format("# {}{}\n\n{}. Median (range) over the runs{}.\n\n",
+  std::string text = fmt::format("# {}{}\n\n{}. {} (range) over the runs{}.\n\n",
                                  plan.experiment.name,
                                  timing ? ": speed" : "",
                                  plan.experiment.help,
+                                 plan.experiment.tolerated_failures ? "Mean" : "Median",
                                  timing ? "" : "; runs with the same trajectory count once");
   text += "| sequence | variant | runs |";
   for (const Metric* metric : table.columns) text += " " + ColumnTitle(*metric) + " |";

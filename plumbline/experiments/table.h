@@ -11,11 +11,12 @@
 
 namespace plumbline {
 
+enum class Centre { kMedian, kMean };
 struct Spread {
-  double median = 0, min = 0, max = 0;
+  double centre = 0, min = 0, max = 0;
 };
 // nullopt for no values. The median of an even number is the mean of the middle two.
-std::optional<Spread> SpreadOf(std::vector<double> values);
+std::optional<Spread> SpreadOf(std::vector<double> values, Centre centre = Centre::kMedian);
 
 // A metric of one variant on one sequence, over the runs.
 struct TableCell {
@@ -27,7 +28,7 @@ struct TableCell {
 struct TableRow {
   std::size_t sequence = 0, variant = 0;  // in the plan
   int runs = 0;                           // all
-  int failed = 0;                         // of these, without a result
+  int failed = 0;                         // of these, without a result, or lost (see MakeTable)
   int same = 0;                           // of these, with the trajectory of an earlier run
   double coverage = 0;                    // median over the runs that count, percent; 0 without any
   std::vector<TableCell> cells;           // one for each column
@@ -52,7 +53,8 @@ struct ResultTable {
 // Runs with the same trajectory count once, but in times, which differ. Best is the least (or
 // greatest) median as printed. Only those compete that have as many values as any other variant on
 // this sequence and cover at most one percent of the frames less: an error is not small because the
-// difficult part was left out. Where all are equal, none is best.
+// difficult part was left out. Where all are equal, none is best. With
+// Experiment::tolerated_failures means, and nothing of variants that fail more often.
 ResultTable MakeTable(const Plan& plan, const std::vector<JobResult>& results, MetricKind kind);
 
 // "4.21 (4.05-4.33)"; "4.21 (4.05-4.33), 2 without" where runs have a result, but not this figure;

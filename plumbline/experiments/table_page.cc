@@ -152,12 +152,13 @@ std::string FormatPage(const Plan& plan,
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{0}</title>\n"
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>{2}.</p>\n"
-      "<p class=\"note\">Median, below it the range over the runs; runs with the same trajectory "
+      "<p class=\"note\">{3}, below it the range over the runs; runs with the same trajectory "
       "count once. Green: the best on a sequence among the variants that cover as much of "
       "it.</p>\n",
       EscapeHtml(plan.experiment.name),
       kStyle,
-      EscapeHtml(plan.experiment.help));
+      EscapeHtml(plan.experiment.help),
+      plan.experiment.tolerated_failures ? "Mean" : "Median");
   for (const ResultTable& table : tables) {
     if (table.columns.empty()) continue;
     html += table.kind == MetricKind::kTiming ? "<h2>Speed</h2>\n" : "<h2>Results</h2>\n";

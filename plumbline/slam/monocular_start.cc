@@ -75,6 +75,7 @@ MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& o
     : imaging_(imaging),
       tracking_(options.tracking),
       lines_(options.lines),
+      cutting_(options.cutting),
       initializer_(MakeInitializer(
           imaging, options.initialization, static_cast<std::uint64_t>(options.slam.seed))) {}
 
@@ -143,8 +144,8 @@ void MonocularStart::LocateFramesOf(const Start& start,
       prediction.Add(frame->stamp_ns, predicted);
       continue;
     }
-    const auto pose =
-        LocateFrame(imaging_, *frame->indexed, predicted, nearest.snapshot(), lines_, tracking_);
+    const auto pose = LocateFrame(
+        imaging_, *frame->indexed, predicted, nearest.snapshot(), lines_, cutting_, tracking_);
     if (!pose) {
       if (tracked) prediction.Add(frame->stamp_ns, predicted);
       missed += !tracked;

@@ -73,6 +73,7 @@ class MonocularStart {
   ImagingModel imaging_;
   TrackingOptions tracking_;
   LineOptions lines_;
+  CuttingOptions cutting_;
   std::unique_ptr<Initializer> initializer_;
   std::deque<KeptFrame> waiting_;
   std::vector<Start> starts_;

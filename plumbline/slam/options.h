@@ -4,6 +4,7 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/base/options.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/initialization/options.h"
@@ -48,6 +49,7 @@ struct SlamOptions {
   RectifierOptions rectification;
   FeatureOptions features;
   LineOptions lines;
+  CuttingOptions cutting;
   InitializationOptions initialization;
   TrackingOptions tracking;
   MappingOptions mapping;
@@ -60,6 +62,7 @@ void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("rectification", o.rectification, "from raw to ideal images");
   visit("features", o.features, "what is measured in the images");
   visit("lines", o.lines, "how lines enter optimization");
+  visit("cutting", o.cutting, "which piece of each line decides about the pose of a frame");
   visit("initialization", o.initialization, "start of a map from one camera");
   visit("tracking", o.tracking, "pose of each frame");
   visit("mapping", o.mapping, "keyframes, landmarks, local bundle adjustment");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/system.h"
 
+#include "plumbline/base/error.h"
+
 #include <map>
 #include <utility>
 
@@ -32,8 +34,14 @@ System::System(const Calibration& calibration, const SlamOptions& options)
       tracker_(imaging_,
                options_.tracking,
                options_.lines,
+               options_.cutting,
                WorldFromFirstCamera(front_end_.rectifier())) {
   if (imaging_.camera.baseline == 0) {
+    if (options_.tracking.reference == TrackingReference::kLastFrame) {
+      throw InputError(
+          "tracking.reference: last_frame needs a camera that measures depth (stereo or RGB-D); "
+          "with one camera only local_map works");
+    }
     monocular_start_ = std::make_unique<MonocularStart>(imaging_, options_);
   }
 }

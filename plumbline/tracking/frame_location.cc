@@ -24,6 +24,7 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
                                         const LineOptions& lines,
+                                        const CuttingOptions& cutting,
                                         const TrackingOptions& options) {
   for (const double factor : {1.0, options.wide_factor}) {
     FrameAssociation association = WithLandmarksOf(snapshot, image.features);
@@ -34,8 +35,8 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
     const auto accepted = [&](const Rigid3& initial) {
       located.counts.matched_points = association.PointMatches();
       located.counts.matched_lines = association.LineMatches();
-      const PoseEstimate pose =
-          EstimatePose(imaging.camera, image.features, initial, lines, options.pose, association);
+      const PoseEstimate pose = EstimatePose(
+          imaging.camera, image.features, initial, lines, cutting, options.pose, association);
       located.cam_from_world = pose.cam_from_world;
       located.counts.inlier_points = pose.inlier_points;
       located.counts.inlier_lines = pose.inlier_lines;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/tracker.h"
@@ -25,6 +26,7 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
                                         const LineOptions& lines,
+                                        const CuttingOptions& cutting,
                                         const TrackingOptions& options);
 
 }  // namespace plumbline

@@ -3,8 +3,10 @@
 #include "plumbline/tracking/pose_estimation.h"
 
 #include "plumbline/geometry/trimming.h"
+#include "plumbline/tracking/line_cutting.h"
 
 #include <cstddef>
+#include <set>
 #include <vector>
 
 namespace plumbline {
@@ -15,6 +17,7 @@ struct MatchedProblem {
   PoseProblem problem;
   std::vector<std::size_t> point_feature;
   std::vector<std::size_t> line_feature;
+  std::vector<CutCandidate> cut_candidates;  // one for each line
 };
 
 void AddPoints(const Features& features, const FrameAssociation& association, MatchedProblem& out) {
@@ -40,6 +43,7 @@ Segment3 VisibleEnds(const PoseProblem& problem, const LineModel& line) {
 
 void AddLine(const LineModel& line,
              LineMeasurement measurement,
+             double sigma_px,
              std::size_t feature,
              const LineOptions& options,
              MatchedProblem& out) {
@@ -64,6 +68,7 @@ void AddLine(const LineModel& line,
   }
   problem.lines.push_back({line.line, measurement, static_cast<int>(feature), ends});
   out.line_feature.push_back(feature);
+  out.cut_candidates.push_back({&line, sigma_px});
 }
 
 void AddLines(const Features& features,
@@ -74,11 +79,28 @@ void AddLines(const Features& features,
     const int match = association.line_of_feature[i];
     if (match < 0) continue;
     const LineModel& line = association.lines[static_cast<std::size_t>(match)].model;
-    AddLine(line, MeasureLeftLine(features, i, lines.weighting), i, lines, out);
+    const double sigma_px = features.lines[i].sigma_px;
+    AddLine(line, MeasureLeftLine(features, i, lines.weighting), sigma_px, i, lines, out);
     if (const auto right = MeasureRightLine(features, i, lines.weighting)) {
-      AddLine(line, *right, i, lines, out);
+      AddLine(line, *right, features.line_right[i]->sigma_px, i, lines, out);
     }
   }
+}
+
+// The solution with cut lines; inliers among the lines are those that fit it whole.
+PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
+                                 const LineOptions& lines,
+                                 const CuttingOptions& cutting,
+                                 const PoseOnlyOptions& options) {
+  PoseOnlyResult result =
+      SolvePose(WithCutLines(matched.problem, matched.cut_candidates, lines, cutting), options);
+  result.line_inliers = LinesThatFit(matched.problem, result.cam_from_world, options.gate_scale);
+  std::set<std::size_t> features;
+  for (std::size_t k = 0; k < matched.line_feature.size(); ++k) {
+    if (result.line_inliers[k]) features.insert(matched.line_feature[k]);
+  }
+  result.inlier_line_groups = static_cast<int>(features.size());
+  return result;
 }
 
 }  // namespace
@@ -87,6 +109,7 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const Features& features,
                           const Rigid3& initial,
                           const LineOptions& lines,
+                          const CuttingOptions& cutting,
                           const PoseOnlyOptions& options,
                           FrameAssociation& association) {
   MatchedProblem matched;
@@ -95,7 +118,9 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
   matched.problem.line_residual = lines.residual;
   AddPoints(features, association, matched);
   AddLines(features, lines, association, matched);
-  const PoseOnlyResult result = SolvePose(matched.problem, options);
+  const PoseOnlyResult result = cutting.method == CuttingMethod::kNone
+                                    ? SolvePose(matched.problem, options)
+                                    : SolveWithCutLines(matched, lines, cutting, options);
   for (std::size_t k = 0; k < matched.point_feature.size(); ++k) {
     if (!result.point_inliers[k]) association.point_of_feature[matched.point_feature[k]] = -1;
   }

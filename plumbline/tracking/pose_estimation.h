@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/optimization/pose_only.h"
 #include "plumbline/tracking/frame_association.h"
@@ -21,10 +22,13 @@ struct PoseEstimate {
 
 // The pose that best fits the matches, from `initial`; matches that turn out to be outliers are
 // taken out of the association. Each line counts once, however many images of the rig show it.
+// With a method in `cutting` pieces of the lines decide about the pose (line_cutting.h), but whole
+// lines about their matches.
 PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const Features& features,
                           const Rigid3& initial,
                           const LineOptions& lines,
+                          const CuttingOptions& cutting,
                           const PoseOnlyOptions& options,
                           FrameAssociation& association);
 

@@ -90,10 +90,12 @@ TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int n
 Tracker::Tracker(const ImagingModel& imaging,
                  const TrackingOptions& options,
                  const LineOptions& lines,
+                 const CuttingOptions& cutting,
                  const Rigid3& world_from_first_cam)
     : imaging_(imaging),
       options_(options),
       lines_(lines),
+      cutting_(cutting),
       first_cam_from_world_(Inverse(world_from_first_cam)) {}
 
 TrackingResult Tracker::Track(FrameId id,
@@ -180,7 +182,10 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
                                                : TrackingFailure::kTooFewInliers,
                 result.counts);
   }
-  const PoseEstimate pose = WithLocalMap(frame, *first, snapshot, association, result.counts);
+  const bool odometry = options_.reference == TrackingReference::kLastFrame;
+  const PoseEstimate pose = odometry
+                                ? WithLastFrame(frame, *first, association, result.counts)
+                                : WithLocalMap(frame, *first, snapshot, association, result.counts);
   result.counts.inlier_points = pose.inlier_points;
   result.counts.inlier_lines = pose.inlier_lines;
   if (pose.Inliers() < options_.min_inliers) {
@@ -201,9 +206,12 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   result.reference = snapshot.centre;
   result.cam_from_reference =
       frame.cam_from_world * Inverse(snapshot.cam_from_world.at(snapshot.centre));
-  KeyFrameSituation situation = Situation(frame, association, snapshot);
-  situation.mapping_behind = mapping_behind;
-  const KeyFrameReason reason = DecideKeyFrame(situation, options_.keyframes);
+  KeyFrameReason reason = KeyFrameReason::kNone;
+  if (!odometry) {
+    KeyFrameSituation situation = Situation(frame, association, snapshot);
+    situation.mapping_behind = mapping_behind;
+    reason = DecideKeyFrame(situation, options_.keyframes);
+  }
   if (reason != KeyFrameReason::kNone) {
     result.keyframe = MakeKeyFrame(frame, snapshot.centre, reason);
     result.reference = newest_keyframe_;
@@ -257,7 +265,7 @@ PoseEstimate Tracker::Estimate(const Frame& frame,
                                const Rigid3& initial,
                                FrameAssociation& association) const {
   return EstimatePose(
-      imaging_.camera, frame.features(), initial, lines_, options_.pose, association);
+      imaging_.camera, frame.features(), initial, lines_, cutting_, options_.pose, association);
 }
 
 std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
@@ -282,32 +290,57 @@ std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
   return std::nullopt;
 }
 
+std::optional<CandidatePoint> Tracker::PointOf(const Frame& frame,
+                                               std::size_t feature,
+                                               const MapSnapshot& snapshot) const {
+  if (options_.reference == TrackingReference::kLastFrame) {
+    const double sigma = options_.worst_relative_depth_sigma;
+    const auto point = PointFromFrame(imaging_.camera, frame, feature, sigma);
+    return point ? std::optional(CandidatePoint{PointId{}, *point}) : std::nullopt;
+  }
+  const PointId id = frame.points[feature];
+  const SnapshotPoint* point = id.valid() ? snapshot.Find(id) : nullptr;
+  return point != nullptr ? std::optional(CandidatePoint{id, *point}) : std::nullopt;
+}
+
+std::optional<CandidateLine> Tracker::LineOf(const Frame& frame,
+                                             std::size_t feature,
+                                             const MapSnapshot& snapshot) const {
+  if (options_.reference == TrackingReference::kLastFrame) {
+    const double sigma = options_.worst_relative_depth_sigma;
+    const auto line = LineFromFrame(imaging_.camera, frame, feature, sigma);
+    return line ? std::optional(CandidateLine{LineId{}, *line}) : std::nullopt;
+  }
+  const LineId id = frame.lines[feature];
+  const SnapshotLine* line = id.valid() ? snapshot.Find(id) : nullptr;
+  return line != nullptr ? std::optional(CandidateLine{id, *line}) : std::nullopt;
+}
+
 std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
                                                     const Rigid3& initial,
                                                     const MapSnapshot& snapshot,
                                                     FrameAssociation& association,
                                                     FrameCounts& counts) const {
   association = FrameAssociation(frame.points.size(), frame.lines.size());
-  const Frame& reference = snapshot.reference->frame;
+  const bool odometry = options_.reference == TrackingReference::kLastFrame;
+  const Frame& reference = odometry ? last_->frame : snapshot.reference->frame;
   const auto point_matches = MatchPoints(
       reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
   for (const PointMatch& match : point_matches) {
-    const PointId id = reference.points[static_cast<std::size_t>(match.a)];
-    const SnapshotPoint* point = id.valid() ? snapshot.Find(id) : nullptr;
-    if (point == nullptr) continue;
+    const auto point = PointOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    if (!point) continue;
     association.point_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(association.points.size());
-    association.points.push_back({id, *point});
+    association.points.push_back(*point);
   }
   const auto line_matches =
       MatchLines(reference.features().lines, frame.features().lines, LineMatchOptions{});
   for (const LineMatch& match : line_matches) {
-    const LineId id = reference.lines[static_cast<std::size_t>(match.a)];
-    const SnapshotLine* line = id.valid() ? snapshot.Find(id) : nullptr;
-    if (line == nullptr) continue;
+    const auto line = LineOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    if (!line) continue;
     association.line_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(association.lines.size());
-    association.lines.push_back({id, *line});
+    association.lines.push_back(*line);
   }
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
@@ -315,6 +348,16 @@ std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
   const PoseEstimate estimate = Estimate(frame, initial, association);
   if (!estimate.converged || estimate.Inliers() < options_.min_inliers) return std::nullopt;
   return estimate;
+}
+
+PoseEstimate Tracker::WithLastFrame(const Frame& frame,
+                                    const PoseEstimate& first,
+                                    FrameAssociation& association,
+                                    FrameCounts& counts) const {
+  MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+  counts.matched_points = association.PointMatches();
+  counts.matched_lines = association.LineMatches();
+  return Estimate(frame, first.cam_from_world, association);
 }
 
 PoseEstimate Tracker::WithLocalMap(const Frame& frame,

@@ -5,6 +5,7 @@
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/options.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
 #include "plumbline/map/frame.h"
@@ -24,7 +25,15 @@
 
 namespace plumbline {
 
+// What a frame is tracked against.
+enum class TrackingReference { kLocalMap, kLastFrame };
+constexpr auto EnumNames(std::type_identity<TrackingReference>) {
+  return std::array{std::pair{TrackingReference::kLocalMap, "local_map"},
+                    std::pair{TrackingReference::kLastFrame, "last_frame"}};
+}
+
 struct TrackingOptions {
+  TrackingReference reference = TrackingReference::kLocalMap;
   int min_inliers = 10;  // points + lines a pose needs to be accepted
   int min_initial = 60;  // points with depth + lines with depth that can start a map
   double max_relative_depth_sigma = 0.05;       // of points made from one frame
@@ -42,6 +51,11 @@ struct TrackingOptions {
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, TrackingOptions& o) {
+  visit(
+      "reference",
+      o.reference,
+      "what a frame is tracked against: local_map, or last_frame (odometry: points and lines with "
+      "depth of the frame before alone, only the first frame becomes a keyframe; needs depth)");
   visit("min_inliers", o.min_inliers, "points + lines a pose needs to be accepted", Range{4, 1000});
   visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
   visit("max_relative_depth_sigma",
@@ -134,12 +148,18 @@ struct TrackingResult {
 // that are not in the map yet) are searched near their predicted places, then the rest of the
 // snapshot; pose from points and lines together after each. When the prediction fails, by
 // appearance against the snapshot's keyframe.
+//
+// With TrackingReference::kLastFrame the last frame stands for the map: points and lines made from
+// its depths alone, as stereo odometry does (PL-SLAM of Gomez-Ojeda et al., the second paper's
+// setting). Nothing is kept: the only keyframe is the first frame, which poses refer to. Needs a
+// camera that measures depth.
 class Tracker {
  public:
   // world_from_first_cam: pose given to the first frame of each map.
   Tracker(const ImagingModel& imaging,
           const TrackingOptions& options,
           const LineOptions& lines,
+          const CuttingOptions& cutting,
           const Rigid3& world_from_first_cam);
 
   // snapshot: null exactly while the tracker has no map. mapping_behind: make no keyframe that
@@ -175,11 +195,24 @@ class Tracker {
                                              const Rigid3& predicted,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association) const;
+  // What a feature of the frame to match by appearance shows: of the map, or, with odometry, made
+  // from its depth.
+  std::optional<CandidatePoint> PointOf(const Frame& frame,
+                                        std::size_t feature,
+                                        const MapSnapshot& snapshot) const;
+  std::optional<CandidateLine> LineOf(const Frame& frame,
+                                      std::size_t feature,
+                                      const MapSnapshot& snapshot) const;
   std::optional<PoseEstimate> FromAppearance(const Frame& frame,
                                              const Rigid3& initial,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association,
                                              FrameCounts& counts) const;
+  // Searches more of the last frame's landmarks from the first estimate.
+  PoseEstimate WithLastFrame(const Frame& frame,
+                             const PoseEstimate& first,
+                             FrameAssociation& association,
+                             FrameCounts& counts) const;
   PoseEstimate WithLocalMap(const Frame& frame,
                             const PoseEstimate& first,
                             const MapSnapshot& snapshot,
@@ -196,6 +229,7 @@ class Tracker {
   ImagingModel imaging_;
   TrackingOptions options_;
   LineOptions lines_;
+  CuttingOptions cutting_;
   Rigid3 first_cam_from_world_;
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<LastFrame> last_;

@@ -9,6 +9,7 @@
 #include "plumbline/synth/synth_options.h"
 
 #include "tests/io/scratch_folder.h"
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -61,6 +62,33 @@ TEST(Catalog, FindsByNameAndTellsWhatThereIs) {
   EXPECT_EQ(FindExperiment("sensors").variants.size(), 3U);
   EXPECT_THAT(MessageOf([] { FindExperiment("sensor"); }),
               HasSubstr("no experiment 'sensor'; there are: sensors"));
+}
+
+TEST(Catalog, CuttingHasEverySettingOfThePaperTwiceSharpAndBlurred) {
+  std::map<std::string, const Variant*> variants;
+  for (const Variant& variant : FindExperiment("cutting").variants)
+    variants[variant.name] = &variant;
+  EXPECT_EQ(variants.size(), 36U);
+  for (const std::string reference : {"last", "map"}) {
+    for (const std::string end : {"", "_blur"}) {
+      EXPECT_TRUE(variants.contains(reference + "_P" + end));
+      for (const std::string kind : {"L", "L+Cut", "PL", "PL+Cut"}) {
+        for (const std::string weighting : {"none", "scalar"}) {
+          const std::string name = reference + "_" + kind + "_" + weighting + end;
+          ASSERT_TRUE(variants.contains(name)) << name;
+          SlamOptions options;
+          OptionTable table(options);
+          for (const std::string& setting : variants[name]->settings) table.Set(setting);
+          EXPECT_EQ(options.tracking.reference == TrackingReference::kLastFrame,
+                    reference == "last");
+          EXPECT_EQ(options.cutting.method != CuttingMethod::kNone, kind.ends_with("Cut"));
+          EXPECT_EQ(options.features.points, kind.starts_with("P"));
+          EXPECT_EQ(NameOf(options.lines.weighting), weighting);
+          EXPECT_EQ(variants[name]->arguments.empty(), end.empty());
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

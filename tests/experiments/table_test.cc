@@ -39,15 +39,36 @@ const std::vector<JobResult>& GoodRuns() {
 TEST(ResultTable, HasMedianAndRangeOfTheRuns) {
   EXPECT_FALSE(SpreadOf({}).has_value());
   const auto spread = SpreadOf({5, 1, 9, 2});
-  EXPECT_DOUBLE_EQ(spread->median, 3.5);
+  EXPECT_DOUBLE_EQ(spread->centre, 3.5);
   EXPECT_DOUBLE_EQ(spread->min, 1);
   EXPECT_DOUBLE_EQ(spread->max, 9);
-  EXPECT_DOUBLE_EQ(SpreadOf({3, 1, 2})->median, 2);
+  EXPECT_DOUBLE_EQ(SpreadOf({3, 1, 2})->centre, 2);
   const ScratchFolder folder;
   const ResultTable table = TableOf(PlanOfTwo(folder), GoodRuns());
   ASSERT_EQ(table.rows.size(), 4U);
   EXPECT_EQ(Ate(table, 0), "4.50 (4.00-5.00)");
   EXPECT_EQ(Ate(table, 2), "7.00");
+}
+
+TEST(ResultTable, HasMeansAndNothingOfVariantsThatFailOften) {
+  EXPECT_DOUBLE_EQ(SpreadOf({5, 1, 9, 2}, Centre::kMean)->centre, 4.25);
+  const ScratchFolder folder;
+  Plan plan = PlanOfTwo(folder);
+  plan.experiment.tolerated_failures = 1;
+  std::vector<JobResult> results = GoodRuns();
+  results[0] = Success(4, "a", 98.9);  // a/one: one run lost the camera
+  results[2] = Success(3, "c", 98.9);  // a/two: one lost, one without a result
+  results[3] = NoResult("hangs");
+  results[5] = Success(8, "g");  // b/one: 7 and 8
+  const ResultTable table = TableOf(plan, results);
+  EXPECT_EQ(Ate(table, 0), "5.00");
+  EXPECT_EQ(RunsText(table.rows[0]), "1, 1 failed");
+  EXPECT_EQ(Ate(table, 1), "-");
+  EXPECT_EQ(RunsText(table.rows[1]), "2 failed");
+  EXPECT_EQ(Ate(table, 2), "7.50 (7.00-8.00)");
+  EXPECT_THAT(FormatMarkdown(plan, table), HasSubstr("Mean (range) over the runs"));
+  plan.experiment.tolerated_failures.reset();
+  EXPECT_EQ(Ate(TableOf(plan, results), 1), "3.00");
 }
 
 TEST(ResultTable, RunsWithTheSameTrajectoryCountOnce) {

@@ -117,6 +117,16 @@ TEST(System, WithoutATrackedFrameThereIsNoMap) {
   EXPECT_TRUE(system.maps().empty());
 }
 
+TEST(System, RejectsTheLastFrameAsReferenceOfOneCamera) {
+  Calibration one_camera = MovingPoster::MakeCalibration();
+  one_camera.right.reset();
+  SlamOptions options;
+  System local_map(one_camera, options);
+  options.tracking.reference = TrackingReference::kLastFrame;
+  EXPECT_THROW(System(one_camera, options), InputError);
+  System stereo(MovingPoster::MakeCalibration(), options);
+}
+
 TEST(System, RejectsImagesOfAnotherSize) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   SensorFrame small{0, GrayImage(40, 30), GrayImage(40, 30), {}};

@@ -50,6 +50,43 @@ TEST(Tracker, FollowsASmoothPathWithLinesOnly) {
   EXPECT_LT(FollowPath(run, 0, 50, kLinesOnly), 0.05);
 }
 
+TEST(Tracker, FollowsASmoothPathWithCutLines) {
+  for (const auto residual : {LineResidualKind::kObservedEnds, LineResidualKind::kProjectedEnds}) {
+    SlamOptions options = SyntheticRun::InlineOptions();
+    options.lines.residual = residual;
+    options.cutting.method = CuttingMethod::kGreedy;
+    SyntheticRun run(World(), options);
+    EXPECT_LT(FollowPath(run, 0, 30, {}), 0.03);
+  }
+}
+
+TEST(Tracker, FollowsTheLastFrameAlone) {
+  SlamOptions options = SyntheticRun::InlineOptions();
+  options.tracking.reference = TrackingReference::kLastFrame;
+  SyntheticRun run(World(), options);
+  for (int i = 0; i <= 30; ++i) {
+    const TrackingResult result = run.Step(PoseOnPath(i), {});
+    ASSERT_TRUE(result.cam_from_world) << i;
+    // Errors add up, as nothing is kept.
+    EXPECT_LT(CentreDistance(*result.cam_from_world, PoseOnPath(i)), 0.1) << i;
+    EXPECT_EQ(result.keyframe.has_value(), i == 0);
+    EXPECT_EQ(result.reference, KeyFrameId{0});
+    const auto of_map = [](auto id) { return id.valid(); };
+    EXPECT_TRUE(std::none_of(result.frame.points.begin(), result.frame.points.end(), of_map));
+    EXPECT_TRUE(std::none_of(result.frame.lines.begin(), result.frame.lines.end(), of_map));
+    if (i > 0) {
+      EXPECT_GT(result.counts.inlier_points, 50);
+      EXPECT_GT(result.counts.inlier_lines, 10);
+    }
+  }
+  EXPECT_EQ(run.maps()[0].keyframes().size(), 1U);
+  // What looks like the last frame is found again, where the prediction does not lead.
+  for (int i = 31; i <= 33; ++i) EXPECT_FALSE(run.StepBlind().cam_from_world);
+  const TrackingResult back = run.Step(PoseOnPath(32), {});
+  ASSERT_TRUE(back.cam_from_world);
+  EXPECT_LT(CentreDistance(*back.cam_from_world, PoseOnPath(32)), 0.1);
+}
+
 TEST(Tracker, ExactMeasurementsGiveExactPoses) {
   SyntheticRun run(World());
   EXPECT_LT(FollowPath(run, 0, 20, {.noise = 0}), 1e-4);
@@ -58,7 +95,7 @@ TEST(Tracker, ExactMeasurementsGiveExactPoses) {
 TEST(Tracker, TheFirstFrameIsTheFirstKeyFrameAtTheGivenPose) {
   const SyntheticWorld world = World();
   const Rigid3 world_from_cam{ExpSo3({0.1, 0.2, -0.3}), {1, 2, 3}};
-  Tracker tracker(world.Imaging(), {}, LineOptions{}, world_from_cam);
+  Tracker tracker(world.Imaging(), {}, LineOptions{}, {}, world_from_cam);
   EXPECT_EQ(tracker.state(), TrackerState::kInitializing);
   Rng rng(1);
   const SyntheticFrame sensed = Sense(world, {}, {}, rng);
@@ -214,7 +251,7 @@ TEST(Tracker, ReportsWhenTooFewMatchesAgree) {
 // A tracker with one keyframe in a map whose contents the test may change.
 struct OneKeyFrame {
   SyntheticWorld world = World();
-  Tracker tracker{world.Imaging(), {}, LineOptions{}, Rigid3{}};
+  Tracker tracker{world.Imaging(), {}, LineOptions{}, {}, Rigid3{}};
   Map map;
   Rng rng{2};
 

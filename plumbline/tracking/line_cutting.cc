@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/line_cutting.h"
+
+#include "plumbline/cutting/cut_residuals.h"
+#include "plumbline/optimization/projected_ends.h"
+#include "plumbline/optimization/residuals.h"
+#include "plumbline/optimization/robust_loss.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include <Eigen/Cholesky>
+
+namespace plumbline {
+namespace {
+
+constexpr double kUnknownLineSigma = 0.5;  // radians
+constexpr double kShortestPx = 5;
+
+// A line of the problem that can be cut. Ratios run from the measured start to the measured end.
+struct Cuttable {
+  int group = 0;
+  Segment3 in_world;
+  CuttableLine line;
+};
+
+Eigen::Matrix3d CovarianceAt(const Rigid3& cam_from_world,
+                             const LineModel& model,
+                             const OrthonormalLine& orthonormal,
+                             const Eigen::Matrix4d& tangent_covariance,
+                             double t) {
+  // The moment about a point P of the line is m - P x d = 0; a shift x of the line across itself
+  // makes it x X d, so x = d X (dm - P X dd), per unit of direction.
+  const Eigen::Vector3d& d = model.line.direction;
+  const Eigen::Matrix<double, 6, 4> J = HomogeneousJacobian(orthonormal);
+  const Eigen::Matrix<double, 3, 4> moment =
+      (J.topRows<3>() - Skew(model.line.PointAt(t)) * J.bottomRows<3>()) / orthonormal.w.y();
+  const Eigen::Matrix<double, 3, 4> shift = Skew(d) * moment;
+  Eigen::Matrix3d covariance = shift * tangent_covariance * shift.transpose();
+  covariance += covariance.trace() * d * d.transpose();
+  const Eigen::Matrix3d R = cam_from_world.rotation.toRotationMatrix();
+  return R * covariance * R.transpose();
+}
+
+std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
+                                     const PoseProblem::LineMatch& match,
+                                     const LineModel& model,
+                                     double sigma_px) {
+  const Segment2& seen = match.measurement.segment;
+  if (match.measurement.in_right_camera || seen.Length() < kShortestPx) return std::nullopt;
+  const auto interval = TrimToSegment(problem.camera, problem.cam_from_world, model.line, seen);
+  if (!interval) return std::nullopt;
+  Cuttable out;
+  out.group = match.group;
+  out.in_world = SegmentOf(model.line, *interval);
+  out.line.segment_in_cam = {problem.cam_from_world * out.in_world.start,
+                             problem.cam_from_world * out.in_world.end};
+  const Segment3& in_cam = out.line.segment_in_cam;
+  if (!(in_cam.start.z() > kMinDepth && in_cam.end.z() > kMinDepth)) return std::nullopt;
+  const EndCovariances ends = CovariancesOfEnds(problem.cam_from_world, model, *interval);
+  if (!ends.start.allFinite() || !ends.end.allFinite()) return std::nullopt;
+  out.line.start_covariance = ends.start;
+  out.line.end_covariance = ends.end;
+  out.line.image_line = LineThrough(seen);
+  out.line.sigma_px = sigma_px;
+  return out;
+}
+
+// J^T W J of the points at the problem's pose.
+Matrix6d PointInformation(const PoseProblem& problem) {
+  Matrix6d information = Matrix6d::Zero();
+  for (const auto& match : problem.points) {
+    const auto residual = EvaluatePoint(
+        problem.camera, problem.cam_from_world, match.point_in_world, match.measurement);
+    if (!residual) continue;
+    const auto J = residual->J_pose.topRows(residual->rows);
+    information.noalias() += J.transpose() * J;
+  }
+  return information;
+}
+
+// The line as the camera that measured it sees it.
+CuttableLine SeenBy(const RectifiedCamera& camera,
+                    const CuttableLine& line,
+                    const LineMeasurement& measurement,
+                    double sigma_px) {
+  CuttableLine seen = line;
+  if (measurement.in_right_camera) {
+    const Eigen::Vector3d shift(-camera.baseline, 0, 0);
+    seen.segment_in_cam = {line.segment_in_cam.start + shift, line.segment_in_cam.end + shift};
+  }
+  seen.image_line = LineThrough(measurement.segment);
+  seen.sigma_px = sigma_px;
+  return seen;
+}
+
+// The part of a measured segment that shows a piece of the line.
+Segment2 MeasuredPiece(const RectifiedCamera& camera,
+                       const Segment2& measured,
+                       const Segment3& piece_in_cam) {
+  const Eigen::Vector2d along = measured.end - measured.start;
+  const auto place = [&](const Eigen::Vector3d& point) -> Eigen::Vector2d {
+    const double ratio = (camera.Project(point) - measured.start).dot(along) / along.squaredNorm();
+    return measured.start + std::clamp(ratio, 0.0, 1.0) * along;
+  };
+  return {place(piece_in_cam.start), place(piece_in_cam.end)};
+}
+
+Eigen::Matrix2d PieceCovariance(const RectifiedCamera& camera,
+                                const CuttableLine& line,
+                                const LineCut& cut,
+                                LineWeighting weighting,
+                                CuttingInformation information) {
+  if (weighting == LineWeighting::kNone) return Eigen::Matrix2d::Identity();
+  // The printed information is none that a solver could weight with.
+  const CuttingInformation weights = information == CuttingInformation::kCorrelated
+                                         ? CuttingInformation::kCorrelated
+                                         : CuttingInformation::kIndependent;
+  const Eigen::Matrix2d covariance = EvaluateCut(camera, line, cut, weights).weight.inverse();
+  if (weighting == LineWeighting::kCovariance) return covariance;
+  return 0.5 * covariance.trace() * Eigen::Matrix2d::Identity();
+}
+
+void UsePiece(const RectifiedCamera& camera,
+              const Cuttable& cuttable,
+              const LineCut& cut,
+              const LineOptions& lines,
+              const CuttingOptions& cutting,
+              double sigma_px,
+              PoseProblem::LineMatch& match) {
+  LineMeasurement& measurement = match.measurement;
+  const CuttableLine seen = SeenBy(camera, cuttable.line, measurement, sigma_px);
+  measurement.covariance = PieceCovariance(camera, seen, cut, lines.weighting, cutting.information);
+  match.ends = CutSegment(cuttable.in_world, cut);
+  if (lines.residual == LineResidualKind::kObservedEnds) {
+    measurement.segment =
+        MeasuredPiece(camera, measurement.segment, CutSegment(seen.segment_in_cam, cut));
+  }
+}
+
+double Chi2(const PoseProblem& problem, const Rigid3& pose, const PoseProblem::LineMatch& match) {
+  Eigen::Vector2d r;
+  bool valid = false;
+  if (problem.line_residual == LineResidualKind::kProjectedEnds) {
+    valid = WhitenedEndDistances(MakeProjectedEndsTerm(problem.camera, match.measurement),
+                                 {pose * match.ends.start, pose * match.ends.end},
+                                 r);
+  } else if (const auto residual = EvaluateLine(
+                 problem.camera, pose, ToOrthonormal(match.line_in_world), match.measurement)) {
+    valid = true;
+    r = residual->r;
+  }
+  return valid ? r.squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
+                                 const LineModel& line,
+                                 const LineInterval& interval) {
+  const OrthonormalLine orthonormal = ToOrthonormal(line.line);
+  const Eigen::Matrix4d regularized =
+      line.information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
+  const Eigen::Matrix4d covariance = regularized.llt().solve(Eigen::Matrix4d::Identity());
+  return {CovarianceAt(cam_from_world, line, orthonormal, covariance, interval.start),
+          CovarianceAt(cam_from_world, line, orthonormal, covariance, interval.end)};
+}
+
+PoseProblem WithCutLines(const PoseProblem& problem,
+                         const std::vector<CutCandidate>& candidates,
+                         const LineOptions& lines,
+                         const CuttingOptions& cutting) {
+  CuttingProblem to_cut{problem.camera, {}, PointInformation(problem)};
+  std::vector<Cuttable> cuttable;
+  std::map<int, std::size_t> place;  // in cuttable, by group
+  for (std::size_t i = 0; i < problem.lines.size(); ++i) {
+    const auto made =
+        MakeCuttable(problem, problem.lines[i], *candidates[i].model, candidates[i].sigma_px);
+    if (!made) continue;
+    place[made->group] = cuttable.size();
+    cuttable.push_back(*made);
+    to_cut.lines.push_back(made->line);
+  }
+  const std::vector<LineCut> cuts = CutLines(to_cut, cutting);
+  PoseProblem out = problem;
+  out.lines.clear();
+  for (std::size_t i = 0; i < problem.lines.size(); ++i) {
+    PoseProblem::LineMatch match = problem.lines[i];
+    const auto at = place.find(match.group);
+    if (at != place.end()) {
+      const LineCut& cut = cuts[at->second];
+      if (!cut.used) continue;
+      if (cut != LineCut{}) {
+        UsePiece(problem.camera,
+                 cuttable[at->second],
+                 cut,
+                 lines,
+                 cutting,
+                 candidates[i].sigma_px,
+                 match);
+      }
+    }
+    out.lines.push_back(match);
+  }
+  return out;
+}
+
+std::vector<bool> LinesThatFit(const PoseProblem& problem,
+                               const Rigid3& cam_from_world,
+                               double gate_scale) {
+  struct Group {
+    double chi2 = 0;
+    int dof = 0;
+  };
+  std::map<int, Group> groups;
+  for (const auto& match : problem.lines) {
+    Group& group = groups[match.group];
+    group.chi2 += Chi2(problem, cam_from_world, match);
+    group.dof += 2;
+  }
+  std::vector<bool> fits;
+  for (const auto& match : problem.lines) {
+    const Group& group = groups[match.group];
+    fits.push_back(group.chi2 <= gate_scale * Chi2Limit95(group.dof));
+  }
+  return fits;
+}
+
+}  // namespace plumbline

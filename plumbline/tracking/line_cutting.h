@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/map/landmarks.h"
+#include "plumbline/optimization/problem.h"
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Covariances (3 x 3, camera frame, map unit^2) of the points of a line at the two ends of an
+// interval: across the line J Lambda^-1 J^T with Lambda the information of the line's orthonormal
+// tangent, whose open directions have a standard deviation of 0.5 rad. Along the line, where no
+// image tells and no residual asks, the sum of the variances across it: regular, as the printed
+// information wants it.
+struct EndCovariances {
+  Eigen::Matrix3d start, end;
+};
+EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
+                                 const LineModel& line,
+                                 const LineInterval& interval);
+
+// What cutting asks of a line match beside the problem: its landmark, and the noise of the measured
+// segment by itself (sigma_px of the feature), greater than 0.
+struct CutCandidate {
+  const LineModel* model = nullptr;
+  double sigma_px = 1;
+};
+
+// A pose problem whose lines are cut (second paper, section 4; cut_lines.h), ready for SolvePose.
+//
+// What is cut of each line is the part of the landmark that the measured segment of the left image
+// shows at the problem's pose (first paper, eq. 26-30), with end covariances from the landmark's
+// information: of a line made from one stereo or RGB-D frame that of its measured disparities, of a
+// line of the map that of all its observations. The errors of the two ends count as independent, as
+// the paper has them. The points of the problem are the constant part of the objective (eq. 7),
+// wrong matches included. The right image has no part in the choice.
+//
+// The pieces are used in both images: projected_ends gets them for ends, observed_ends has the ends
+// of the measured segment moved to where they show, not beyond its ends. Weights of the pieces are
+// those of the cut points by lines.weighting: none 1 px, scalar the mean variance, covariance one
+// each (2 x 2 for correlated information). Lines left whole keep their measurement: those shorter
+// than 5 px, without a visible part, or whose best piece is all of them. Lines that drop leaves out
+// are not in the result.
+//
+//   problem     initial pose, points, lines
+//   candidates  one for each entry of problem.lines
+//   cost        CutLines, and some microseconds a line
+PoseProblem WithCutLines(const PoseProblem& problem,
+                         const std::vector<CutCandidate>& candidates,
+                         const LineOptions& lines,
+                         const CuttingOptions& cutting);
+
+// Which lines of a problem fit a pose, whole: chi2 of all measurements of a group together at 95 %
+// times gate_scale. A piece of a wrong line may fit where the line does not.
+std::vector<bool> LinesThatFit(const PoseProblem& problem,
+                               const Rigid3& cam_from_world,
+                               double gate_scale);
+
+}  // namespace plumbline
