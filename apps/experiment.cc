@@ -80,7 +80,7 @@ void ListParts(const Experiment& experiment) {
   }
   std::cout << "\nruns: " << experiment.runs << "\nvariants:\n";
   for (const Variant& variant : experiment.variants) {
-    std::cout << fmt::format("  {:<14}{}{}{}\n",
+    std::cout << fmt::format("  {:<23} {}{}{}\n",
                              variant.name,
                              fmt::join(variant.settings, " "),
                              variant.arguments.empty() ? "" : " ",

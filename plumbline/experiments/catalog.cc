@@ -159,7 +159,8 @@ Experiment MonocularLineExperiment() {
 
 // Table 1 to 3 of the second paper: what is tracked, how lines are weighted and whether they are
 // cut, against the last frame (the paper's setting, with its residuals) and against the map (ours),
-// on sharp and on blurred images. Weights do not matter to points alone.
+// on sharp and on blurred images. Weights do not matter to points alone; PL has those of the
+// defaults as well.
 std::vector<Variant> CuttingVariants() {
   struct Setting {
     std::string name;
@@ -176,9 +177,10 @@ std::vector<Variant> CuttingVariants() {
   for (const bool blurred : {false, true}) {
     for (const Setting& reference : references) {
       for (const Setting& kind : kinds) {
-        for (const std::string weighting : {"none", "scalar"}) {
+        for (const std::string weighting : {"none", "scalar", "covariance"}) {
           const bool points_alone = kind.name == "P";
           if (points_alone && weighting != "none") continue;
+          if (kind.name != "PL" && weighting == "covariance") continue;
           Variant variant{reference.name + "_" + kind.name, reference.settings};
           variant.settings.insert(
               variant.settings.end(), kind.settings.begin(), kind.settings.end());

@@ -68,10 +68,11 @@ TEST(Catalog, CuttingHasEverySettingOfThePaperTwiceSharpAndBlurred) {
   std::map<std::string, const Variant*> variants;
   for (const Variant& variant : FindExperiment("cutting").variants)
     variants[variant.name] = &variant;
-  EXPECT_EQ(variants.size(), 36U);
+  EXPECT_EQ(variants.size(), 40U);
   for (const std::string reference : {"last", "map"}) {
     for (const std::string end : {"", "_blur"}) {
       EXPECT_TRUE(variants.contains(reference + "_P" + end));
+      EXPECT_TRUE(variants.contains(reference + "_PL_covariance" + end));
       for (const std::string kind : {"L", "L+Cut", "PL", "PL+Cut"}) {
         for (const std::string weighting : {"none", "scalar"}) {
           const std::string name = reference + "_" + kind + "_" + weighting + end;

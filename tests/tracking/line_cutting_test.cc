@@ -18,7 +18,7 @@ namespace {
 constexpr double kSigmaPx = 0.7;
 
 RectifiedCamera Camera() {
-  return {.width = 752, .height = 480, .fx = 450, .fy = 440, .cx = 370, .cy = 240, .baseline = 0.1};
+  return {.fx = 450, .fy = 440, .cx = 370, .cy = 240, .baseline = 0.1, .width = 752, .height = 480};
 }
 
 // Lines in front of a camera at the origin of the world, seen without errors in both images; the
@@ -98,12 +98,13 @@ TEST(CovariancesOfEnds, AreThoseOfRandomLinesWithThatInformation) {
   Rng rng(3, "ends");
   Eigen::Matrix3d start = Eigen::Matrix3d::Zero(), end = start;
   constexpr int kSamples = 20000;
+  constexpr double kScale = 1e-3;  // so small that the line moves linearly
   for (int i = 0; i < kSamples; ++i) {
     Eigen::Vector4d unit;
     for (int k = 0; k < 4; ++k) unit(k) = rng.Normal();
-    const PluckerLine moved = ToPlucker(Retract(orthonormal, root * unit));
-    const Eigen::Vector3d a = AcrossAt(model.line, moved, model.start);
-    const Eigen::Vector3d b = AcrossAt(model.line, moved, model.end);
+    const PluckerLine moved = ToPlucker(Retract(orthonormal, kScale * (root * unit)));
+    const Eigen::Vector3d a = AcrossAt(model.line, moved, model.start) / kScale;
+    const Eigen::Vector3d b = AcrossAt(model.line, moved, model.end) / kScale;
     start += a * a.transpose() / kSamples;
     end += b * b.transpose() / kSamples;
   }

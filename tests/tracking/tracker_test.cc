@@ -56,7 +56,7 @@ TEST(Tracker, FollowsASmoothPathWithCutLines) {
     options.lines.residual = residual;
     options.cutting.method = CuttingMethod::kGreedy;
     SyntheticRun run(World(), options);
-    EXPECT_LT(FollowPath(run, 0, 30, {}), 0.03);
+    EXPECT_LT(FollowPath(run, 0, 30, {}), 0.04);  // a little more than whole lines
   }
 }
 
