@@ -54,11 +54,7 @@ struct BaProjectedTerms {
                      const Place& place,
                      const Term& term);
 
-  struct Target {
-    LandmarkEquations<kDof>& landmark;
-    PoseEquations* pose;
-    Eigen::Matrix<double, 6, kDof>* W;
-  };
+  using Target = BaTarget<kDof>;
   static bool Add(const RectifiedCamera& camera,
                   const BaPose& pose,
                   const View& view,
@@ -146,11 +142,7 @@ struct BaLineEnd {
                      const Place& place,
                      const Term& term);
 
-  struct Target {
-    LandmarkEquations<kDof>& landmark;
-    PoseEquations* pose;
-    Eigen::Matrix<double, 6, kDof>* W;
-  };
+  using Target = BaTarget<kDof>;
   static bool Add(const RectifiedCamera& camera,
                   const BaPose& pose,
                   const View& view,

@@ -53,13 +53,7 @@ struct BaPoint {
     return PointChi2(camera, term, p).value_or(std::numeric_limits<double>::infinity());
   }
 
-  // Where an observation adds its part of the normal equations. `pose` and `W` are null for a
-  // fixed pose.
-  struct Target {
-    LandmarkEquations<kDof>& landmark;
-    PoseEquations* pose;
-    Eigen::Matrix<double, 6, kDof>* W;
-  };
+  using Target = BaTarget<kDof>;
   // False when the observation has no residual; nothing is added then.
   static bool Add(const RectifiedCamera& camera,
                   const BaPose& pose,
@@ -95,11 +89,7 @@ struct BaLineTerms {
                      const Place& place,
                      const Term& term);
 
-  struct Target {
-    LandmarkEquations<kDof>& landmark;
-    PoseEquations* pose;
-    Eigen::Matrix<double, 6, kDof>* W;
-  };
+  using Target = BaTarget<kDof>;
   static bool Add(const RectifiedCamera& camera,
                   const BaPose& pose,
                   const View& view,

@@ -33,6 +33,15 @@ struct Coupling {
   Eigen::Matrix<double, 6, kDof> W = Eigen::Matrix<double, 6, kDof>::Zero();
 };
 
+// Where an observation adds its part of the normal equations. `pose` and `W` are null for a fixed
+// pose.
+template <int kDof>
+struct BaTarget {
+  LandmarkEquations<kDof>& landmark;
+  PoseEquations* pose;
+  Eigen::Matrix<double, 6, kDof>* W;
+};
+
 // A landmark after its elimination: with V + damping = L L^T, y = L^-1 g, and its couplings hold
 // Z = W L^-T instead of W.
 template <int kDof>
