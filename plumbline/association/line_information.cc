@@ -30,16 +30,26 @@ Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
   return information;
 }
 
-double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t) {
-  const Eigen::LLT<Eigen::Matrix4d> factor(information);
-  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information) {
+  constexpr double kUnknownLineSigma = 0.5;  // radians
+  return information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
+}
+
+Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,
+                                          const OrthonormalLine& orthonormal,
+                                          double t) {
   // The moment about a point P of the line is m - P x d = 0; a shift x of the line across itself
   // makes it x X d, so x = d X (dm - P X dd), per unit of direction.
-  const OrthonormalLine orthonormal = ToOrthonormal(line);
   const Eigen::Matrix<double, 6, 4> J = HomogeneousJacobian(orthonormal);
   const Eigen::Matrix<double, 3, 4> moment_about_p =
       (J.topRows<3>() - Skew(line.PointAt(t)) * J.bottomRows<3>()) / orthonormal.w.y();
-  const Eigen::Matrix<double, 3, 4> J_shift = Skew(line.direction) * moment_about_p;
+  return Skew(line.direction) * moment_about_p;
+}
+
+double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t) {
+  const Eigen::LLT<Eigen::Matrix4d> factor(information);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const Eigen::Matrix<double, 3, 4> J_shift = ShiftJacobian(line, ToOrthonormal(line), t);
   const Eigen::Matrix3d covariance = J_shift * factor.solve(J_shift.transpose());
   const double variance =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)

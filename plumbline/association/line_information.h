@@ -20,6 +20,16 @@ Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 std::size_t i,
                                 const PluckerLine& line);
 
+// The information with its open directions held: a standard deviation of 0.5 rad for the tangent,
+// which lines without information then have.
+Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
+
+// How the place of the line at parameter t (PluckerLine::PointAt) moves across the line with its
+// orthonormal tangent.
+Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,
+                                          const OrthonormalLine& orthonormal,
+                                          double t);
+
 // Standard deviation, in the map's unit, of the line's place at parameter t (PluckerLine::PointAt),
 // in the worst direction across it. Infinite when the information leaves that direction open.
 double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, double t);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/association/measurements.h"
 
+#include "plumbline/association/line_information.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 
@@ -10,8 +11,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kUnknownLineSigma = 0.5;  // radians
-
 LineMeasurement Measure(const Segment2& segment, double sigma_px, LineWeighting weighting) {
   const double sigma = weighting == LineWeighting::kNone ? 1.0 : sigma_px;
   return {segment, sigma * sigma * Eigen::Matrix2d::Identity(), false};
@@ -19,9 +18,8 @@ LineMeasurement Measure(const Segment2& segment, double sigma_px, LineWeighting 
 
 // J Lambda^-1 J^T.
 Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J, const Eigen::Matrix4d& information) {
-  const Eigen::Matrix4d regularized =
-      information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
-  const Eigen::Matrix<double, 4, 2> spread = regularized.llt().solve(J.transpose());
+  const Eigen::Matrix<double, 4, 2> spread =
+      RegularizedInformation(information).llt().solve(J.transpose());
   return J * spread;
 }
 

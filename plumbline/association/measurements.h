@@ -75,7 +75,7 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
 // Sigma + J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
 // derivative of the two residuals by it at the given pose. For scalar weighting the mean of the two
 // variances replaces both; for none nothing changes. A singular Lambda is regularized: directions
-// without information get a standard deviation of kUnknownLineSigma.
+// without information get the standard deviation of RegularizedInformation.
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const PluckerLine& line,

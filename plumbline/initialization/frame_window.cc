@@ -17,8 +17,7 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kMaxFrames = 40;
-constexpr double kAttachRadiusPx = 1.5;  // of a feature from the place it is taken for
-constexpr double kSeparationPx = 5;      // of the points that are used together
+constexpr double kSeparationPx = 5;  // of the points that are used together
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 

@@ -21,7 +21,6 @@ constexpr int kMinTracks = 50;
 constexpr int kMinPoints = 30;  // of a map
 constexpr std::size_t kMaxFrames = 80;
 constexpr double kTrackSigmaPx = 0.5;
-constexpr double kAttachRadiusPx = 1.5;
 constexpr double kMinShareInFront = 0.9;
 constexpr double kMaxSpread = 2;  // of the residuals, in standard deviations
 constexpr double kMinParallaxDeg = 1;

@@ -40,6 +40,9 @@ class KltTracks {
   std::vector<std::optional<Eigen::Vector2d>> places_;
 };
 
+// Of a feature from the place it is taken for.
+inline constexpr double kAttachRadiusPx = 1.5;
+
 // The feature nearest to each place, no further than `radius_px` and each feature at most once (the
 // nearer place has it); -1 where there is none.
 std::vector<int> NearestFeatures(const IndexedFeatures& features,

@@ -38,17 +38,7 @@ bool BaProjectedTerms<ViewOfEnds>::Add(const RectifiedCamera&,
   using Row = Eigen::Matrix<double, kDof, 1>;
   const Row c0 = view.Row(pose.R.transpose() * a.h0, Eigen::Vector3d::Zero());
   const Row c1 = view.Row(pose.R.transpose() * a.h1_start, pose.R.transpose() * a.h1_end);
-  const Row wc0 = w * c0;
-  const Row wc1 = w * c1;
-  target.landmark.V.noalias() += wc0 * c0.transpose() + wc1 * c1.transpose();
-  target.landmark.g += a.r(0) * wc0 + a.r(1) * wc1;
-  if (target.pose == nullptr) return true;
-  const auto [a0, a1] = PoseRows(a, ends);
-  const Vector6d wa0 = w * a0;
-  const Vector6d wa1 = w * a1;
-  target.pose->H.noalias() += wa0 * a0.transpose() + wa1 * a1.transpose();
-  target.pose->g += a.r(0) * wa0 + a.r(1) * wa1;
-  target.W->noalias() += a0 * wc0.transpose() + a1 * wc1.transpose();
+  AddTwoRows<kDof>(w, a.r, c0, c1, target, [&] { return PoseRows(a, ends); });
   return true;
 }
 

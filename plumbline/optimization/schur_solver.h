@@ -42,6 +42,28 @@ struct BaTarget {
   Eigen::Matrix<double, 6, kDof>* W;
 };
 
+// Adds an observation with the two residuals r: w J^T J and w J^T r, with the rows c0 and c1 of the
+// landmark's J and, where the pose is free, those that `pose_rows` gives as a pair.
+template <int kDof, class PoseRows>
+void AddTwoRows(double w,
+                const Eigen::Vector2d& r,
+                const Eigen::Matrix<double, kDof, 1>& c0,
+                const Eigen::Matrix<double, kDof, 1>& c1,
+                const BaTarget<kDof>& target,
+                const PoseRows& pose_rows) {
+  const Eigen::Matrix<double, kDof, 1> wc0 = w * c0;
+  const Eigen::Matrix<double, kDof, 1> wc1 = w * c1;
+  target.landmark.V.noalias() += wc0 * c0.transpose() + wc1 * c1.transpose();
+  target.landmark.g += r(0) * wc0 + r(1) * wc1;
+  if (target.pose == nullptr) return;
+  const auto [a0, a1] = pose_rows();
+  const Vector6d wa0 = w * a0;
+  const Vector6d wa1 = w * a1;
+  target.pose->H.noalias() += wa0 * a0.transpose() + wa1 * a1.transpose();
+  target.pose->g += r(0) * wa0 + r(1) * wa1;
+  target.W->noalias() += a0 * wc0.transpose() + a1 * wc1.transpose();
+}
+
 // A landmark after its elimination: with V + damping = L L^T, y = L^-1 g, and its couplings hold
 // Z = W L^-T instead of W.
 template <int kDof>

@@ -181,9 +181,11 @@ Trajectory System::FinalTrajectory(MapId map) const {
   return trajectory;
 }
 
-std::vector<MappedLine> System::LineMap(MapId map) const {
+const std::vector<MappedLine>& System::LineMap(MapId map) const {
+  const auto made = line_maps_.find(map);
+  if (made != line_maps_.end()) return made->second;
   const Map& owner = maps().at(static_cast<std::size_t>(map.value));
-  return MakeLineMap(owner, imaging_, options_.mapping.line_map);
+  return line_maps_[map] = MakeLineMap(owner, imaging_, options_.mapping.line_map);
 }
 
 Trajectory System::KeyFrameTrajectory(MapId map) const {

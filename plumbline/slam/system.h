@@ -16,6 +16,7 @@
 #include "plumbline/tracking/tracker.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -95,8 +96,9 @@ class System {
   Trajectory FinalTrajectory(MapId map) const;
   Trajectory KeyFrameTrajectory(MapId map) const;
   Trajectory CausalTrajectory(MapId map) const;
-  // The lines of a map fit to be given out, in its world, after Finish (MakeLineMap).
-  std::vector<MappedLine> LineMap(MapId map) const;
+  // The lines of a map fit to be given out, in its world, after Finish (MakeLineMap); made when
+  // first asked for.
+  const std::vector<MappedLine>& LineMap(MapId map) const;
   // The map in which most frames have a pose (the earlier of two); nullopt when none has.
   std::optional<MapId> MainMap() const;
 
@@ -116,6 +118,7 @@ class System {
   std::int64_t maps_started_ = 0;
   std::vector<FrameRecord> frames_;
   FrameView view_;
+  mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // made so far
 };
 
 }  // namespace plumbline

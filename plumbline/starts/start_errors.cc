@@ -17,7 +17,6 @@ using Eigen::Vector3d;
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kLeastPoints = 10;
 
-// The upper one of the middle two of an even number. `values` must not be empty.
 double AngleDeg(const Vector3d& a, const Vector3d& b) {
   return kDegrees * std::atan2(a.cross(b).norm(), a.dot(b));
 }

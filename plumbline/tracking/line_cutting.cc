@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/line_cutting.h"
 
+#include "plumbline/association/line_information.h"
 #include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
@@ -17,7 +18,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kUnknownLineSigma = 0.5;  // radians
 constexpr double kShortestPx = 5;
 
 // A line of the problem that can be cut. Ratios run from the measured start to the measured end.
@@ -32,13 +32,8 @@ Eigen::Matrix3d CovarianceAt(const Rigid3& cam_from_world,
                              const OrthonormalLine& orthonormal,
                              const Eigen::Matrix4d& tangent_covariance,
                              double t) {
-  // The moment about a point P of the line is m - P x d = 0; a shift x of the line across itself
-  // makes it x X d, so x = d X (dm - P X dd), per unit of direction.
   const Eigen::Vector3d& d = model.line.direction;
-  const Eigen::Matrix<double, 6, 4> J = HomogeneousJacobian(orthonormal);
-  const Eigen::Matrix<double, 3, 4> moment =
-      (J.topRows<3>() - Skew(model.line.PointAt(t)) * J.bottomRows<3>()) / orthonormal.w.y();
-  const Eigen::Matrix<double, 3, 4> shift = Skew(d) * moment;
+  const Eigen::Matrix<double, 3, 4> shift = ShiftJacobian(model.line, orthonormal, t);
   Eigen::Matrix3d covariance = shift * tangent_covariance * shift.transpose();
   covariance += covariance.trace() * d * d.transpose();
   const Eigen::Matrix3d R = cam_from_world.rotation.toRotationMatrix();
@@ -162,9 +157,8 @@ EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
                                  const LineModel& line,
                                  const LineInterval& interval) {
   const OrthonormalLine orthonormal = ToOrthonormal(line.line);
-  const Eigen::Matrix4d regularized =
-      line.information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
-  const Eigen::Matrix4d covariance = regularized.llt().solve(Eigen::Matrix4d::Identity());
+  const Eigen::Matrix4d covariance =
+      RegularizedInformation(line.information).llt().solve(Eigen::Matrix4d::Identity());
   return {CovarianceAt(cam_from_world, line, orthonormal, covariance, interval.start),
           CovarianceAt(cam_from_world, line, orthonormal, covariance, interval.end)};
 }

@@ -141,6 +141,26 @@ TEST(SigmaAt, IsInfiniteWhereNothingIsKnown) {
   EXPECT_TRUE(std::isinf(SigmaAt(scene.line, Eigen::Matrix4d::Zero(), 0)));
 }
 
+TEST(ShiftJacobian, IsTheDerivativeOfThePlace) {
+  const LineScene scene(kSlanted, kExact);
+  const OrthonormalLine line = ToOrthonormal(scene.line);
+  constexpr double kStep = 1e-6;
+  for (const double t : {-0.7, 0.0, 1.9}) {
+    const Eigen::Vector3d place = scene.line.PointAt(t);
+    const auto shift = [&](const Eigen::Vector4d& tangent) -> Eigen::Vector3d {
+      const PluckerLine moved = ToPlucker(Retract(line, tangent));
+      const double to_plane = scene.line.direction.dot(place - moved.Foot()) /
+                              scene.line.direction.dot(moved.direction);
+      return moved.PointAt(to_plane) - place;
+    };
+    const Eigen::Matrix<double, 3, 4> J = ShiftJacobian(scene.line, line, t);
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Vector4d step = kStep * Eigen::Vector4d::Unit(k);
+      EXPECT_LT((J.col(k) - (shift(step) - shift(-step)) / (2 * kStep)).norm(), 1e-7) << t;
+    }
+  }
+}
+
 // Covariance of the two end point distances from the projections of random lines.
 Eigen::Matrix2d SampledDistances(const LineScene& scene,
                                  const Eigen::Matrix4d& information,
