@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting/cut_lines.h"
 
-#include "tests/cutting/random_lines.h"
+#include "tests/cutting/random_points.h"
 
 #include <benchmark/benchmark.h>
 
 // Cutting the lines of a frame, by method, information and number of lines. Arguments: lines.
+// Choosing points and lines together. Arguments: points, lines, budget.
 
 namespace plumbline {
 namespace {
@@ -15,6 +16,15 @@ void Cut(benchmark::State& state, CuttingMethod method, CuttingInformation infor
   const CuttingProblem problem = RandomProblem(1, static_cast<int>(state.range(0)));
   const CuttingOptions options{method, information};
   for (auto _ : state) benchmark::DoNotOptimize(CutLines(problem, options));
+}
+
+void Choose(benchmark::State& state, CuttingMethod method) {
+  const CuttingProblem problem = RandomProblem(1, static_cast<int>(state.range(1)));
+  const auto points = RandomPoints(1, static_cast<int>(state.range(0)));
+  const auto budget = static_cast<std::size_t>(state.range(2));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ChooseFeatures(problem, points, budget, {method}));
+  }
 }
 
 void Sizes(benchmark::internal::Benchmark* bench) {
@@ -36,6 +46,16 @@ BENCHMARK_CAPTURE(Cut, greedy_printed, CuttingMethod::kGreedy, CuttingInformatio
     ->Apply(Sizes);
 BENCHMARK_CAPTURE(Cut, greedy_correlated, CuttingMethod::kGreedy, CuttingInformation::kCorrelated)
     ->Apply(Sizes);
+BENCHMARK_CAPTURE(Choose, whole, CuttingMethod::kNone)
+    ->Args({200, 60, 40})
+    ->Args({200, 60, 100})
+    ->Args({500, 150, 100})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Choose, greedy, CuttingMethod::kGreedy)
+    ->Args({200, 60, 40})
+    ->Args({200, 60, 100})
+    ->Args({500, 150, 100})
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace plumbline

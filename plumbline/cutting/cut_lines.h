@@ -49,6 +49,7 @@ struct CuttingOptions {
   CuttingMethod method = CuttingMethod::kNone;
   CuttingInformation information = CuttingInformation::kIndependent;
   double drop_share = 0.3;
+  int budget = 0;
 };
 
 template <class Visitor>
@@ -63,6 +64,11 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
         "what cutting maximizes: independent (errors of the two cut points taken as independent), "
         "printed (eq 5 of the second paper), correlated (as they are; cutting gains nothing)");
   visit("drop_share", o.drop_share, "of the lines that drop leaves out", Range{0, 1});
+  visit("budget",
+        o.budget,
+        "points and lines that decide about the pose of a frame, chosen together by what they tell "
+        "about it (0: all)",
+        Range{0, 100000});
 }
 
 // A 3D line seen in the image, linearized at the present estimate of the pose.
@@ -113,6 +119,8 @@ struct LineCut {
 // sigma_px is a floor: without it a line whose depth error falls along the viewing ray would be
 // infinitely informative. A direction of the pose that nothing fixes has kPriorInformation. Fewer
 // than three lines have no printed information; they stay whole.
+//
+// options.budget has no part here (choose_features.h).
 //
 // In the chosen information a cut is never worse than full length. Deterministic; greedy depends on
 // the order of the lines. Throws BugError where the input breaks the conditions above.

@@ -161,6 +161,7 @@ Experiment MonocularLineExperiment() {
 // cut, against the last frame (the paper's setting, with its residuals) and against the map (ours),
 // on sharp and on blurred images. Weights do not matter to points alone; PL has those of the
 // defaults as well.
+// PL80: the 80 points and lines that tell most about the pose, chosen together.
 std::vector<Variant> CuttingVariants() {
   struct Setting {
     std::string name;
@@ -172,7 +173,9 @@ std::vector<Variant> CuttingVariants() {
                                       {"L", {"features.points=false"}},
                                       {"L+Cut", {"features.points=false", "cutting.method=greedy"}},
                                       {"PL", {}},
-                                      {"PL+Cut", {"cutting.method=greedy"}}};
+                                      {"PL+Cut", {"cutting.method=greedy"}},
+                                      {"PL80", {"cutting.budget=80"}},
+                                      {"PL80+Cut", {"cutting.method=greedy", "cutting.budget=80"}}};
   std::vector<Variant> variants;
   for (const bool blurred : {false, true}) {
     for (const Setting& reference : references) {
@@ -180,7 +183,8 @@ std::vector<Variant> CuttingVariants() {
         for (const std::string weighting : {"none", "scalar", "covariance"}) {
           const bool points_alone = kind.name == "P";
           if (points_alone && weighting != "none") continue;
-          if (kind.name != "PL" && weighting == "covariance") continue;
+          const bool whole_with_points = kind.name == "PL" || kind.name == "PL80";
+          if (!whole_with_points && weighting == "covariance") continue;
           Variant variant{reference.name + "_" + kind.name, reference.settings};
           variant.settings.insert(
               variant.settings.end(), kind.settings.begin(), kind.settings.end());

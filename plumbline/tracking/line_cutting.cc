@@ -3,6 +3,7 @@
 #include "plumbline/tracking/line_cutting.h"
 
 #include "plumbline/association/line_information.h"
+#include "plumbline/cutting/choose_features.h"
 #include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
@@ -64,17 +65,18 @@ std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
   return out;
 }
 
-// J^T W J of the points at the problem's pose.
-Matrix6d PointInformation(const PoseProblem& problem) {
-  Matrix6d information = Matrix6d::Zero();
+// Derivatives of the whitened residuals of the points at the problem's pose; none for points that
+// have no projection.
+std::vector<PointRows> RowsOfPoints(const PoseProblem& problem) {
+  std::vector<PointRows> rows;
+  rows.reserve(problem.points.size());
   for (const auto& match : problem.points) {
     const auto residual = EvaluatePoint(
         problem.camera, problem.cam_from_world, match.point_in_world, match.measurement);
-    if (!residual) continue;
-    const auto J = residual->J_pose.topRows(residual->rows);
-    information.noalias() += J.transpose() * J;
+    rows.emplace_back(residual ? PointRows(residual->J_pose.topRows(residual->rows))
+                               : PointRows(0, 6));
   }
-  return information;
+  return rows;
 }
 
 // The line as the camera that measured it sees it.
@@ -151,6 +153,11 @@ double Chi2(const PoseProblem& problem, const Rigid3& pose, const PoseProblem::L
   return valid ? r.squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
+std::size_t BudgetOf(const CuttingOptions& cutting) {
+  return cutting.budget > 0 ? static_cast<std::size_t>(cutting.budget)
+                            : std::numeric_limits<std::size_t>::max();
+}
+
 }  // namespace
 
 EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
@@ -167,7 +174,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
                          const std::vector<CutCandidate>& candidates,
                          const LineOptions& lines,
                          const CuttingOptions& cutting) {
-  CuttingProblem to_cut{problem.camera, {}, PointInformation(problem)};
+  CuttingProblem to_cut{problem.camera, {}, Matrix6d::Zero()};
   std::vector<Cuttable> cuttable;
   std::map<int, std::size_t> place;  // in cuttable, by group
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
@@ -178,28 +185,44 @@ PoseProblem WithCutLines(const PoseProblem& problem,
     cuttable.push_back(*made);
     to_cut.lines.push_back(made->line);
   }
-  const std::vector<LineCut> cuts = CutLines(to_cut, cutting);
+  const std::size_t budget = BudgetOf(cutting);
+  const FeatureChoice choice = ChooseFeatures(to_cut, RowsOfPoints(problem), budget, cutting);
+  const bool all_chosen = budget >= problem.points.size() + cuttable.size();
   PoseProblem out = problem;
+  out.points.clear();
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    if (choice.points[i]) out.points.push_back(problem.points[i]);
+  }
   out.lines.clear();
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
     PoseProblem::LineMatch match = problem.lines[i];
     const auto at = place.find(match.group);
-    if (at != place.end()) {
-      const LineCut& cut = cuts[at->second];
-      if (!cut.used) continue;
-      if (cut != LineCut{}) {
-        UsePiece(problem.camera,
-                 cuttable[at->second],
-                 cut,
-                 lines,
-                 cutting,
-                 candidates[i].sigma_px,
-                 match);
-      }
+    if (at == place.end()) {
+      if (all_chosen) out.lines.push_back(match);
+      continue;
+    }
+    const LineCut& cut = choice.lines[at->second];
+    if (!cut.used) continue;
+    if (cut != LineCut{}) {
+      const Cuttable& whole = cuttable[at->second];
+      UsePiece(problem.camera, whole, cut, lines, cutting, candidates[i].sigma_px, match);
     }
     out.lines.push_back(match);
   }
   return out;
+}
+
+std::vector<bool> PointsThatFit(const PoseProblem& problem,
+                                const Rigid3& cam_from_world,
+                                double gate_scale) {
+  std::vector<bool> fits;
+  for (const auto& match : problem.points) {
+    const auto residual =
+        EvaluatePoint(problem.camera, cam_from_world, match.point_in_world, match.measurement);
+    fits.push_back(residual &&
+                   residual->r.squaredNorm() <= gate_scale * Chi2Limit95(residual->rows));
+  }
+  return fits;
 }
 
 std::vector<bool> LinesThatFit(const PoseProblem& problem,

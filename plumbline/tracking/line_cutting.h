@@ -34,7 +34,8 @@ struct CutCandidate {
   double sigma_px = 1;
 };
 
-// A pose problem whose lines are cut (second paper, section 4; cut_lines.h), ready for SolvePose.
+// A pose problem whose lines are cut (second paper, section 4; cut_lines.h), ready for SolvePose;
+// with a budget also of its points only those that are chosen (choose_features.h).
 //
 // What is cut of each line is the part of the landmark that the measured segment of the left image
 // shows at the problem's pose (first paper, eq. 26-30), with end covariances from the landmark's
@@ -52,14 +53,18 @@ struct CutCandidate {
 //
 //   problem     initial pose, points, lines
 //   candidates  one for each entry of problem.lines
-//   cost        CutLines, and some microseconds a line
+//   cost        CutLines or ChooseFeatures, and some microseconds a line
 PoseProblem WithCutLines(const PoseProblem& problem,
                          const std::vector<CutCandidate>& candidates,
                          const LineOptions& lines,
                          const CuttingOptions& cutting);
 
-// Which lines of a problem fit a pose, whole: chi2 of all measurements of a group together at 95 %
-// times gate_scale. A piece of a wrong line may fit where the line does not.
+// Which points and which whole lines of a problem fit a pose: chi2, of all measurements of a group
+// of lines together, at 95 % times gate_scale. A piece of a wrong line may fit where the line does
+// not.
+std::vector<bool> PointsThatFit(const PoseProblem& problem,
+                                const Rigid3& cam_from_world,
+                                double gate_scale);
 std::vector<bool> LinesThatFit(const PoseProblem& problem,
                                const Rigid3& cam_from_world,
                                double gate_scale);

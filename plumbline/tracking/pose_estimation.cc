@@ -5,6 +5,7 @@
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/tracking/line_cutting.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <vector>
@@ -87,14 +88,18 @@ void AddLines(const Features& features,
   }
 }
 
-// The solution with cut lines; inliers among the lines are those that fit it whole.
+// The solution with cut lines and chosen features; inliers are all that fit it, lines whole.
 PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
                                  const LineOptions& lines,
                                  const CuttingOptions& cutting,
                                  const PoseOnlyOptions& options) {
   PoseOnlyResult result =
       SolvePose(WithCutLines(matched.problem, matched.cut_candidates, lines, cutting), options);
-  result.line_inliers = LinesThatFit(matched.problem, result.cam_from_world, options.gate_scale);
+  const Rigid3& pose = result.cam_from_world;
+  result.point_inliers = PointsThatFit(matched.problem, pose, options.gate_scale);
+  result.inlier_points =
+      static_cast<int>(std::count(result.point_inliers.begin(), result.point_inliers.end(), true));
+  result.line_inliers = LinesThatFit(matched.problem, pose, options.gate_scale);
   std::set<std::size_t> features;
   for (std::size_t k = 0; k < matched.line_feature.size(); ++k) {
     if (result.line_inliers[k]) features.insert(matched.line_feature[k]);
@@ -118,9 +123,9 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
   matched.problem.line_residual = lines.residual;
   AddPoints(features, association, matched);
   AddLines(features, lines, association, matched);
-  const PoseOnlyResult result = cutting.method == CuttingMethod::kNone
-                                    ? SolvePose(matched.problem, options)
-                                    : SolveWithCutLines(matched, lines, cutting, options);
+  const bool all_whole = cutting.method == CuttingMethod::kNone && cutting.budget == 0;
+  const PoseOnlyResult result = all_whole ? SolvePose(matched.problem, options)
+                                          : SolveWithCutLines(matched, lines, cutting, options);
   for (std::size_t k = 0; k < matched.point_feature.size(); ++k) {
     if (!result.point_inliers[k]) association.point_of_feature[matched.point_feature[k]] = -1;
   }

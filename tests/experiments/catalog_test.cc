@@ -68,12 +68,13 @@ TEST(Catalog, CuttingHasEverySettingOfThePaperTwiceSharpAndBlurred) {
   std::map<std::string, const Variant*> variants;
   for (const Variant& variant : FindExperiment("cutting").variants)
     variants[variant.name] = &variant;
-  EXPECT_EQ(variants.size(), 40U);
+  EXPECT_EQ(variants.size(), 60U);
   for (const std::string reference : {"last", "map"}) {
     for (const std::string end : {"", "_blur"}) {
       EXPECT_TRUE(variants.contains(reference + "_P" + end));
       EXPECT_TRUE(variants.contains(reference + "_PL_covariance" + end));
-      for (const std::string kind : {"L", "L+Cut", "PL", "PL+Cut"}) {
+      EXPECT_TRUE(variants.contains(reference + "_PL80_covariance" + end));
+      for (const std::string kind : {"L", "L+Cut", "PL", "PL+Cut", "PL80", "PL80+Cut"}) {
         for (const std::string weighting : {"none", "scalar"}) {
           const std::string name = reference + "_" + kind + "_" + weighting + end;
           ASSERT_TRUE(variants.contains(name)) << name;
@@ -84,6 +85,7 @@ TEST(Catalog, CuttingHasEverySettingOfThePaperTwiceSharpAndBlurred) {
                     reference == "last");
           EXPECT_EQ(options.cutting.method != CuttingMethod::kNone, kind.ends_with("Cut"));
           EXPECT_EQ(options.features.points, kind.starts_with("P"));
+          EXPECT_EQ(options.cutting.budget, kind.starts_with("PL80") ? 80 : 0);
           EXPECT_EQ(NameOf(options.lines.weighting), weighting);
           EXPECT_EQ(variants[name]->arguments.empty(), end.empty());
         }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -74,11 +75,14 @@ struct Scene {
 
   PoseProblem Cut(CuttingMethod method,
                   LineWeighting weighting = LineWeighting::kNone,
-                  CuttingInformation information = CuttingInformation::kIndependent) const {
+                  CuttingInformation information = CuttingInformation::kIndependent,
+                  int budget = 0) const {
     LineOptions lines;
     lines.residual = problem.line_residual;
     lines.weighting = weighting;
-    return WithCutLines(problem, candidates, lines, {.method = method, .information = information});
+    CuttingOptions cutting{.method = method, .information = information};
+    cutting.budget = budget;
+    return WithCutLines(problem, candidates, lines, cutting);
   }
 };
 
@@ -215,6 +219,48 @@ TEST(WithCutLines, LeavesShortLinesWhole) {
   const PoseProblem cut = scene.Cut(CuttingMethod::kGreedy);
   EXPECT_EQ(cut.lines[0].measurement.segment.end, left.segment.end);
   EXPECT_EQ(cut.lines[1].measurement.segment.end, scene.problem.lines[1].measurement.segment.end);
+}
+
+TEST(WithCutLines, KeepsToTheBudget) {
+  Scene scene;
+  Rng rng(8, "points of a budget");
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Vector3d place(rng.Uniform(-2, 2), rng.Uniform(-1.5, 1.5), rng.Uniform(2, 7));
+    scene.problem.points.push_back({place, {scene.problem.camera.Project(place), kSigmaPx, {}}});
+  }
+  PoseProblem chosen = scene.Cut(CuttingMethod::kGreedy, LineWeighting::kNone, {}, 15);
+  std::set<int> groups;
+  for (const auto& match : chosen.lines) groups.insert(match.group);
+  EXPECT_EQ(chosen.points.size() + groups.size(), 15U);
+  EXPECT_EQ(chosen.lines.size(), 2 * groups.size());
+  EXPECT_FALSE(chosen.points.empty());
+  EXPECT_FALSE(groups.empty());
+  chosen.cam_from_world =
+      ExpSe3((Vector6d() << 0.004, -0.003, 0.002, 0.01, -0.02, 0.01).finished());
+  EXPECT_LT(LogSe3(SolvePose(chosen).cam_from_world).norm(), 1e-4);
+  // A budget that is not reached changes nothing.
+  const PoseProblem all = scene.Cut(CuttingMethod::kNone, LineWeighting::kNone, {}, 42);
+  EXPECT_EQ(all.points.size(), 30U);
+  EXPECT_EQ(all.lines.size(), scene.problem.lines.size());
+}
+
+TEST(PointsThatFit, LeavesOutWhatIsFarOrBehind) {
+  Scene scene;
+  const RectifiedCamera& camera = scene.problem.camera;
+  const Eigen::Vector3d place(0.3, -0.2, 3);
+  const Eigen::Vector2d px = camera.Project(place);
+  const Disparity disparity{camera.fx * camera.baseline / place.z(), 1};
+  auto& points = scene.problem.points;
+  points.push_back({place, {px, 1, {}}});
+  points.push_back({place, {px + Eigen::Vector2d(4, 0), 1, {}}});
+  points.push_back({place, {px + Eigen::Vector2d(4, 0), 2, {}}});
+  points.push_back({place, {px, 1, disparity}});
+  points.push_back({place, {px, 1, Disparity{disparity.px + 4, 1}}});
+  points.push_back({-place, {px, 1, {}}});
+  EXPECT_EQ(PointsThatFit(scene.problem, Rigid3{}, 1),
+            (std::vector<bool>{true, false, true, true, false, false}));
+  EXPECT_EQ(PointsThatFit(scene.problem, Rigid3{}, 10),
+            (std::vector<bool>{true, true, true, true, true, false}));
 }
 
 TEST(LinesThatFit, JudgesBothImagesTogether) {

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/cutting/choose_features.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/cutting/pose_information.h"
+#include "plumbline/cutting/single_line.h"
+
+#include <cmath>
+#include <queue>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace plumbline {
+namespace {
+
+// log det(R + J^T W J) - log det R.
+template <class Rows, class Weight>
+double GainOf(const Eigen::LLT<Matrix6d>& rest, const Rows& rows, const Weight& weight) {
+  using Square = Eigen::Matrix<double,
+                               Rows::RowsAtCompileTime,
+                               Rows::RowsAtCompileTime,
+                               0,
+                               Rows::MaxRowsAtCompileTime,
+                               Rows::MaxRowsAtCompileTime>;
+  const Square one = Square::Identity(rows.rows(), rows.rows());
+  const Square spread = rows * rest.solve(rows.transpose());
+  return std::log((one + weight * spread).determinant());
+}
+
+bool CutsLines(CuttingMethod method) {
+  return method != CuttingMethod::kNone && method != CuttingMethod::kDrop;
+}
+
+// A point, or a line with its best cut, as it was last looked at.
+struct Candidate {
+  double gain = 0;
+  std::size_t index = 0;   // points first, then lines
+  std::size_t looked = 0;  // how many were chosen then
+  LineCut cut;
+
+  bool operator<(const Candidate& other) const {
+    return gain != other.gain ? gain < other.gain : index > other.index;
+  }
+};
+
+class GreedyChoice {
+ public:
+  GreedyChoice(const CuttingProblem& problem,
+               std::span<const PointRows> points,
+               const CuttingOptions& options)
+      : problem_(problem), points_(points), information_(options.information) {
+    if (information_ == CuttingInformation::kPrinted) {
+      information_ = CuttingInformation::kIndependent;
+    }
+    cuts_ = CutsLines(options.method);
+  }
+
+  // `choice` says which lines may be chosen, and becomes the choice.
+  void Run(std::size_t budget, FeatureChoice& choice) {
+    Refresh();
+    std::priority_queue<Candidate> queue;
+    for (std::size_t i = 0; i < points_.size(); ++i) queue.push(Look(i));
+    for (std::size_t i = 0; i < choice.lines.size(); ++i) {
+      if (choice.lines[i].used) queue.push(Look(points_.size() + i));
+      choice.lines[i].used = false;
+    }
+    while (chosen_ < budget && !queue.empty()) {
+      const Candidate best = queue.top();
+      queue.pop();
+      if (best.looked == chosen_) {
+        Take(best, choice);
+      } else {
+        queue.push(Look(best.index));
+      }
+    }
+  }
+
+ private:
+  void Refresh() {
+    rest_.compute(PoseInformation(sums_, problem_.other_information, information_));
+  }
+
+  Candidate Look(std::size_t index) const {
+    if (index < points_.size()) {
+      const PointRows& rows = points_[index];
+      return {GainOf(rest_, rows, 1.0), index, chosen_, {}};
+    }
+    const std::size_t line = index - points_.size();
+    const LineCut cut =
+        cuts_ ? CutSingleLine(problem_, line, sums_, {}, information_).cut : LineCut{};
+    const CutResiduals residuals =
+        EvaluateCut(problem_.camera, problem_.lines[line], cut, information_);
+    return {GainOf(rest_, residuals.rows, residuals.weight), index, chosen_, cut};
+  }
+
+  void Take(const Candidate& best, FeatureChoice& choice) {
+    if (best.index < points_.size()) {
+      choice.points[best.index] = true;
+      sums_.weighted.noalias() += points_[best.index].transpose() * points_[best.index];
+    } else {
+      const std::size_t line = best.index - points_.size();
+      choice.lines[line] = best.cut;
+      sums_.Add(EvaluateCut(problem_.camera, problem_.lines[line], best.cut, information_));
+    }
+    ++chosen_;
+    Refresh();
+  }
+
+  const CuttingProblem& problem_;
+  std::span<const PointRows> points_;
+  CuttingInformation information_;
+  bool cuts_ = false;
+  InformationSums sums_;  // of what is chosen
+  std::size_t chosen_ = 0;
+  Eigen::LLT<Matrix6d> rest_;
+};
+
+// Cuts the chosen lines once more, with the chosen points for the constant part.
+void CutChosen(const CuttingProblem& problem,
+               std::span<const PointRows> points,
+               const CuttingOptions& options,
+               FeatureChoice& choice) {
+  CuttingProblem chosen{problem.camera, {}, problem.other_information};
+  chosen.other_information += SumPoints(points, choice.points);
+  for (std::size_t i = 0; i < choice.lines.size(); ++i) {
+    if (choice.lines[i].used) chosen.lines.push_back(problem.lines[i]);
+  }
+  const std::vector<LineCut> cuts = CutLines(chosen, options);
+  auto cut = cuts.begin();
+  for (LineCut& line : choice.lines) {
+    if (line.used) line = *cut++;
+  }
+}
+
+}  // namespace
+
+Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used) {
+  PLUMBLINE_CHECK(used.empty() || used.size() == points.size(), "one mark for each point");
+  Matrix6d sum = Matrix6d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (used.empty() || used[i]) sum.noalias() += points[i].transpose() * points[i];
+  }
+  return sum;
+}
+
+FeatureChoice ChooseFeatures(const CuttingProblem& problem,
+                             std::span<const PointRows> points,
+                             std::size_t budget,
+                             const CuttingOptions& options) {
+  if (budget >= points.size() + problem.lines.size()) {
+    CuttingProblem all = problem;
+    all.other_information += SumPoints(points);
+    return {std::vector<bool>(points.size(), true), CutLines(all, options)};
+  }
+  FeatureChoice choice{std::vector<bool>(points.size(), false),
+                       std::vector<LineCut>(problem.lines.size())};
+  if (options.method == CuttingMethod::kDrop) choice.lines = CutLines(problem, options);
+  GreedyChoice(problem, points, options).Run(budget, choice);
+  const bool cut_already = options.method == CuttingMethod::kGreedy &&
+                           options.information != CuttingInformation::kPrinted;
+  if (CutsLines(options.method) && !cut_already) CutChosen(problem, points, options, choice);
+  return choice;
+}
+
+}  // namespace plumbline
