@@ -117,7 +117,17 @@ class GreedyChoice {
   Eigen::LLT<Matrix6d> rest_;
 };
 
-// Cuts the chosen lines once more, with the chosen points for the constant part.
+}  // namespace
+
+Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used) {
+  PLUMBLINE_CHECK(used.empty() || used.size() == points.size(), "one mark for each point");
+  Matrix6d sum = Matrix6d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (used.empty() || used[i]) sum.noalias() += points[i].transpose() * points[i];
+  }
+  return sum;
+}
+
 void CutChosen(const CuttingProblem& problem,
                std::span<const PointRows> points,
                const CuttingOptions& options,
@@ -132,17 +142,6 @@ void CutChosen(const CuttingProblem& problem,
   for (LineCut& line : choice.lines) {
     if (line.used) line = *cut++;
   }
-}
-
-}  // namespace
-
-Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used) {
-  PLUMBLINE_CHECK(used.empty() || used.size() == points.size(), "one mark for each point");
-  Matrix6d sum = Matrix6d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (used.empty() || used[i]) sum.noalias() += points[i].transpose() * points[i];
-  }
-  return sum;
 }
 
 FeatureChoice ChooseFeatures(const CuttingProblem& problem,

@@ -40,6 +40,12 @@ FeatureChoice ChooseFeatures(const CuttingProblem& problem,
                              std::size_t budget,
                              const CuttingOptions& options);
 
+// Cuts the used lines of a choice anew, as by CutLines, with its points for the constant part.
+void CutChosen(const CuttingProblem& problem,
+               std::span<const PointRows> points,
+               const CuttingOptions& options,
+               FeatureChoice& choice);
+
 // Sum of rows^T rows over the points that are used (all where `used` is empty).
 Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used = {});
 

@@ -66,6 +66,14 @@ TrialCell<PoseTrial> TryPoseCell(const SceneOptions& options, int repeats) {
   return cell;
 }
 
+TestbedTrials::Choice TryChoiceCell(const ChoiceOptions& options, int repeats) {
+  TestbedTrials::Choice choice{options, {}};
+  for (int i = 0; i < repeats; ++i) {
+    choice.trials.push_back(TryChoices(options, static_cast<std::uint64_t>(i)));
+  }
+  return choice;
+}
+
 void AddLogDeterminants(const SceneOptions& options,
                         int repeats,
                         TestbedTrials& out,
@@ -90,6 +98,9 @@ Steps MakeSteps(int repeats, TestbedTrials& out) {
   }
   for (const SceneOptions& options : Cells({kHomogeneousPoints, kInverseDepthPoints, kStereo})) {
     steps.emplace_back([=, &out] { out.poses.push_back(TryPoseCell(options, repeats)); });
+  }
+  for (const ChoiceOptions& options : {ChoiceOptions{5, 5, 6, true}, {100, 30, 40, false}}) {
+    steps.emplace_back([=, &out] { out.choices.push_back(TryChoiceCell(options, repeats)); });
   }
   for (const double noise : {0.005, 0.015}) {
     steps.emplace_back([=, &out] {

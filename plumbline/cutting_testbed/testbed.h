@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/cutting_testbed/camera_path_trials.h"
+#include "plumbline/cutting_testbed/choice_trials.h"
 #include "plumbline/cutting_testbed/joint_trials.h"
 #include "plumbline/cutting_testbed/pose_trials.h"
 #include "plumbline/cutting_testbed/single_line_trials.h"
@@ -33,6 +34,11 @@ struct TestbedTrials {
   std::vector<SingleLineCell> single;  // independent from each set of starts, printed from kThree
   std::vector<TrialCell<JointTrial>> joint;
   std::vector<TrialCell<PoseTrial>> poses;  // four times as many trials
+  struct Choice {
+    ChoiceOptions options;
+    std::vector<ChoiceTrial> trials;
+  };
+  std::vector<Choice> choices;  // of few features with all subsets tried, of many
   struct Path {
     SceneOptions options;
     std::vector<CameraPathPoint> points;

@@ -31,7 +31,8 @@ constexpr std::array kMetrics = {
         4},
     FigureMetric{"share_full_length", "%", "lines whose best cut by the grid is none", 1},
     FigureMetric{"share_point", "%", "lines whose best cut by the grid is a point", 1},
-    FigureMetric{"mean_gain", "", "rise of log det over full length, mean", 4},
+    FigureMetric{
+        "mean_gain", "", "rise of log det over full length (choice: over random), mean", 4},
     FigureMetric{"mean_shortfall", "", "log det below the best known, mean", 5},
     FigureMetric{
         "share_within_0.01_of_best", "%", "scenes with log det at most 0.01 below that", 1},
@@ -216,6 +217,25 @@ void AddPoses(const TestbedTrials& trials, std::vector<FigureRow>& rows) {
   }
 }
 
+void AddChoices(const TestbedTrials& trials, std::vector<FigureRow>& rows) {
+  for (const auto& [options, list] : trials.choices) {
+    const std::string sequence =
+        fmt::format("choice/{}_of_{}+{}", options.budget, options.points, options.lines);
+    for (const auto& [variant, name] : EnumNames(std::type_identity<ChoiceVariant>{})) {
+      std::vector<double> gains, shortfalls;
+      for (const ChoiceTrial& trial : list) {
+        const double value = trial.log_determinant.at(variant);
+        gains.push_back(value - trial.log_determinant.at(ChoiceVariant::kRandom));
+        shortfalls.push_back(trial.best - value);
+      }
+      rows.push_back(Row(sequence, name, "cases", static_cast<double>(list.size())));
+      rows.push_back(Row(sequence, name, "mean_gain", Mean(gains)));
+      rows.push_back(Row(sequence, name, "mean_shortfall", Mean(shortfalls)));
+      rows.push_back(Row(sequence, name, "worst_shortfall", Quantile(shortfalls, 1)));
+    }
+  }
+}
+
 }  // namespace
 
 std::span<const FigureMetric> CuttingTestbedMetrics() { return kMetrics; }
@@ -225,6 +245,7 @@ std::vector<FigureRow> CuttingTestbedFigures(const TestbedTrials& trials) {
   AddSingle(trials, rows);
   AddJoint(trials, rows);
   AddPoses(trials, rows);
+  AddChoices(trials, rows);
   return rows;
 }
 

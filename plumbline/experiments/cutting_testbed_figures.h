@@ -15,7 +15,8 @@ namespace plumbline {
 std::span<const FigureMetric> CuttingTestbedMetrics();
 
 // What the trials come to, without seeds. Sequences: single/..., joint/..., pose/... with kind,
-// noise and number of lines of the scenes, or `all` for several taken together.
+// noise and number of lines of the scenes, or `all` for several taken together; choice/... with the
+// budget and the numbers of points and lines.
 std::vector<FigureRow> CuttingTestbedFigures(const TestbedTrials& trials);
 
 // How long the optimizers took: not the same from run to run.
