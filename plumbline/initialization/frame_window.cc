@@ -215,7 +215,37 @@ WindowTracks FrameWindow::TracksOf(const std::vector<int>& frames, int max_point
       add(frames_[Index(frames[i])].places[k], tracks.views[i]);
     }
   }
+  tracks.lines = LinesOf(frames);
   return tracks;
+}
+
+WindowLines FrameWindow::LinesOf(const std::vector<int>& frames) const {
+  const std::vector<LineFeature>& reference = reference_->indexed->features.lines;
+  const double focal = 0.5 * (camera_.fx + camera_.fy);
+  const auto ideal = [&](const Segment2& segment) {
+    return Segment2{camera_.Unproject(segment.start).head<2>(),
+                    camera_.Unproject(segment.end).head<2>()};
+  };
+  WindowLines lines;
+  lines.views.resize(frames.size());
+  for (const FeatureTrack& track : LineTracks(frames)) {
+    if (track.size() < 3) continue;
+    const LineFeature& line = reference[Index(track.front().feature)];
+    lines.reference.segments.push_back(ideal(line.segment));
+    lines.reference.sigmas.push_back(line.sigma_px / focal);
+    for (TrackedLines& view : lines.views) {
+      view.segments.emplace_back();
+      view.sigmas.push_back(0);
+    }
+    for (const InitialObservation& o : std::span(track).subspan(1)) {
+      const std::size_t i = Index(o.view - 1);
+      const LineFeature& seen =
+          frames_[Index(frames[i])].frame.indexed->features.lines[Index(o.feature)];
+      lines.views[i].segments.back() = ideal(seen.segment);
+      lines.views[i].sigmas.back() = seen.sigma_px / focal;
+    }
+  }
+  return lines;
 }
 
 std::vector<FeatureTrack> FrameWindow::PointTracks(const std::vector<int>& frames) const {

@@ -64,6 +64,7 @@ class FrameWindow {
     std::vector<Place> places;  // by feature of the reference
   };
 
+  WindowLines LinesOf(const std::vector<int>& frames) const;
   static std::vector<std::optional<Eigen::Vector2d>> PlacesOf(const Matched& matched);
   void SetReference(const InitializationFrame& frame);
   std::vector<Place> PlacesOfMatches(const Features& features,

@@ -3,8 +3,10 @@
 #include "plumbline/initialization/multi_view.h"
 
 #include "plumbline/base/median.h"
+#include "plumbline/initialization/line_evidence.h"
 #include "plumbline/initialization/window_adjustment.h"
 #include "plumbline/initialization/window_covariance.h"
+#include "plumbline/initialization/window_explanation.h"
 #include "plumbline/solvers/pose_refinement.h"
 #include "plumbline/solvers/relative_pose.h"
 
@@ -19,21 +21,10 @@ namespace plumbline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Of a measurement in variances: 99 % of two degrees of freedom.
-constexpr double kMaxChi2 = 9.21;
-// Solutions nearer to each other than this are the same.
-constexpr double kSameRotation = 0.3 * kDegree;
-constexpr double kSameDirection = 3 * kDegree;
 // A hypothesis this much worse than the best before adjustment is not worth one.
 constexpr double kHopeless = 2;
-constexpr int kIterations = 6;
 // Of a fit, of what the distances from the epipolar lines have: what these do not show is not less.
 constexpr double kLeastNoise = 0.4;
-
-struct Explanation {
-  WindowSolution solution;
-  WindowFit fit;
-};
 
 std::vector<RayMatch> MatchesOfNewest(const WindowTracks& tracks) {
   std::vector<RayMatch> matches;
@@ -62,29 +53,6 @@ double ParallaxDeg(const WindowTracks& tracks, const WindowSolution& solution) {
   return UpperMedian(std::move(angles)) / kDegree;
 }
 
-bool IsSame(const WindowSolution& a, const WindowSolution& b) {
-  const Rigid3& pose_a = a.cam_from_reference.back();
-  const Rigid3& pose_b = b.cam_from_reference.back();
-  const Eigen::Vector3d centre_a = Inverse(pose_a).translation;
-  const Eigen::Vector3d centre_b = Inverse(pose_b).translation;
-  const double angle = std::atan2(centre_a.cross(centre_b).norm(), centre_a.dot(centre_b));
-  return AngularDistance(pose_a.rotation, pose_b.rotation) < kSameRotation &&
-         angle < kSameDirection;
-}
-
-// Adds an explanation; of two that are the same the better stays.
-void Insert(Explanation explanation, std::vector<Explanation>& explanations) {
-  const auto same =
-      std::find_if(explanations.begin(), explanations.end(), [&](const Explanation& other) {
-        return IsSame(other.solution, explanation.solution);
-      });
-  if (same == explanations.end()) {
-    explanations.push_back(std::move(explanation));
-  } else if (explanation.fit.cost < same->fit.cost) {
-    *same = std::move(explanation);
-  }
-}
-
 // All hypotheses carried through all frames.
 std::vector<Explanation> Explain(const WindowTracks& tracks,
                                  const std::vector<WindowHypothesis>& hypotheses,
@@ -93,31 +61,20 @@ std::vector<Explanation> Explain(const WindowTracks& tracks,
   for (const WindowHypothesis& hypothesis : hypotheses) {
     auto solution = FactorizeWindow(tracks, hypothesis, options.factorization);
     if (!solution) continue;
-    const WindowFit fit = Evaluate(tracks, *solution, kMaxChi2);
-    Insert({std::move(*solution), fit}, explanations);
+    const WindowFit fit = Evaluate(tracks, *solution, kMaxMeasurementChi2);
+    Insert({std::move(*solution), fit, fit.cost}, explanations);
   }
   return explanations;
-}
-
-void Adjust(const WindowTracks& tracks, int iterations, Explanation& explanation) {
-  explanation.solution = AdjustWindow(tracks, explanation.solution, iterations);
-  explanation.fit = Evaluate(tracks, explanation.solution, kMaxChi2);
-}
-
-void SortByCost(std::vector<Explanation>& explanations) {
-  std::stable_sort(explanations.begin(), explanations.end(), [](const auto& a, const auto& b) {
-    return a.fit.cost < b.fit.cost;
-  });
 }
 
 // Adjusts all that are worth it. The best first; of those that become the same, the best.
 void AdjustAll(const WindowTracks& tracks, std::vector<Explanation>& explanations) {
   SortByCost(explanations);
-  const double limit = kHopeless * explanations.front().fit.cost;
+  const double limit = kHopeless * explanations.front().cost;
   std::vector<Explanation> adjusted;
   for (Explanation& e : explanations) {
-    if (e.fit.cost > limit) break;
-    Adjust(tracks, kIterations, e);
+    if (e.cost > limit) break;
+    Adjust(tracks, e);
     Insert(std::move(e), adjusted);
   }
   explanations = std::move(adjusted);
@@ -161,8 +118,11 @@ InitializationWait Accuracy(const WindowTracks& tracks,
                             const Explanation& explanation,
                             const WindowDecisionOptions& options) {
   const double noise = std::max(kLeastNoise, explanation.fit.noise);
-  const auto covariance =
-      ComputeWindowCovariance(tracks, explanation.solution, noise, kMaxChi2 / (noise * noise));
+  const auto covariance = ComputeWindowCovariance(tracks,
+                                                  explanation.solution,
+                                                  noise,
+                                                  kMaxMeasurementChi2 / (noise * noise),
+                                                  std::max(kLeastNoise, explanation.line_noise));
   if (!covariance) return InitializationWait::kTooLittleParallax;
   const double depth = MedianDepthSigma(*covariance);
   const int newest = static_cast<int>(tracks.views.size()) - 1;
@@ -184,6 +144,10 @@ InitializationWait Judge(const WindowTracks& tracks,
                          const std::vector<Explanation>& explanations,
                          const WindowDecisionOptions& options) {
   const Explanation& best = explanations.front();
+  // Few points and no lines.
+  if (static_cast<int>(tracks.views.back().CountSeen()) + best.lines < options.min_matches) {
+    return InitializationWait::kTooFewMatches;
+  }
   if (best.fit.inliers < options.min_inlier_share * best.fit.measurements) {
     return InitializationWait::kInaccurate;
   }
@@ -191,12 +155,11 @@ InitializationWait Judge(const WindowTracks& tracks,
     return InitializationWait::kTooLittleParallax;
   }
   for (const Explanation& e : explanations) {
-    if (e.fit.cost > kHopeless * best.fit.cost) break;
+    if (e.cost > kHopeless * best.cost) break;
     const InitializationWait accuracy = Accuracy(tracks, e, options);
     if (accuracy != InitializationWait::kNone) return accuracy;
   }
-  if (explanations.size() > 1 &&
-      explanations[1].fit.cost < best.fit.cost * (1 + options.min_margin)) {
+  if (explanations.size() > 1 && explanations[1].cost < best.cost * (1 + options.min_margin)) {
     return InitializationWait::kAmbiguous;
   }
   return InitializationWait::kNone;
@@ -205,7 +168,7 @@ InitializationWait Judge(const WindowTracks& tracks,
 std::vector<WindowSolution> Possible(const std::vector<Explanation>& explanations) {
   std::vector<WindowSolution> possible;
   for (const Explanation& e : explanations) {
-    if (e.fit.cost <= kHopeless * explanations.front().fit.cost) possible.push_back(e.solution);
+    if (e.cost <= kHopeless * explanations.front().cost) possible.push_back(e.solution);
   }
   return possible;
 }
@@ -262,22 +225,29 @@ WindowDecision DecideWindow(const WindowTracks& tracks,
                             WindowMemory& memory,
                             Rng& rng) {
   const std::vector<RayMatch> matches = MatchesOfNewest(tracks);
-  if (static_cast<int>(matches.size()) < options.min_matches) {
+  if (static_cast<int>(matches.size()) < options.min_points) {
     return Wait(InitializationWait::kTooFewMatches);
   }
   const auto hypotheses = EstimateRelativePoses(matches, options.relative_pose, rng);
   if (hypotheses.empty()) return Wait(InitializationWait::kInaccurate);
   const double noise = NoiseOf(matches, hypotheses.front());
-  const WindowTracks scaled = WithNoise(tracks, std::max(options.min_noise, noise));
+  WindowTracks scaled = WithNoise(tracks, std::max(options.min_noise, noise));
   std::vector<WindowHypothesis> starts = memory.HypothesesFor(scaled);
   for (const RelativePoseHypothesis& h : hypotheses) starts.push_back({h.b_from_a, {}});
   std::vector<Explanation> explanations = Explain(scaled, starts, options);
   if (explanations.empty()) return Wait(InitializationWait::kInaccurate);
   AdjustAll(scaled, explanations);
-  Explanation& best = explanations.front();
   WindowDecision decision;
-  decision.parallax_deg = ParallaxDeg(scaled, best.solution);
   decision.wait = Judge(scaled, explanations, options);
+  // Where points alone do not suffice.
+  if (decision.wait != InitializationWait::kNone &&
+      decision.wait != InitializationWait::kTooLittleParallax && scaled.lines.size() > 0 &&
+      static_cast<int>(scaled.size()) < options.many_points) {
+    explanations = ExplainWithLines(scaled, std::move(explanations), options.min_noise);
+    decision.wait = Judge(scaled, explanations, options);
+  }
+  Explanation& best = explanations.front();
+  decision.parallax_deg = ParallaxDeg(scaled, best.solution);
   const bool sure = decision.wait == InitializationWait::kNone;
   if (sure &&
       !(memory.sure() && Confirms(scaled, memory.HypothesesFor(scaled).front(), best.solution))) {

@@ -18,7 +18,8 @@ namespace plumbline {
 struct WindowDecisionOptions {
   WindowFactorizationOptions factorization;
   RelativePoseOptions relative_pose;
-  int min_matches = 24;            // of the newest frame with the reference
+  int min_matches = 24;            // of the newest frame with the reference: points and lines ...
+  int min_points = 12;             // ... and of them points
   double min_parallax_deg = 1.2;   // of the median point of the newest frame
   double min_inlier_share = 0.85;  // of all matches of all views
   double min_margin = 0.5;         // of chi2 to the next best explanation, of its own
@@ -26,6 +27,7 @@ struct WindowDecisionOptions {
   double max_direction_deg = 0.7;  // ... of the line of the centres ...
   double max_depth = 0.06;         // ... and, relative, for the depth of the median point
   double min_noise = 0.25;         // of what measurements are said to have, at least
+  int many_points = 200;           // with so many, lines are not asked
 };
 
 struct WindowDecision {

@@ -56,7 +56,7 @@ InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   InitializationResult result;
   result.matches = window_.Add(frame);
   most_matches_ = std::max(most_matches_, result.matches);
-  if (result.matches < std::max<double>(decision_.min_matches, kDiedOut * most_matches_)) {
+  if (result.matches < std::max<double>(decision_.min_points, kDiedOut * most_matches_)) {
     window_.MoveReference();
     memory_.Clear();
     most_matches_ = 0;
@@ -88,7 +88,7 @@ InitializationResult Rank1Initializer::Attempt() {
   InitialMap map = BuildStructure(
       imaging_.camera, std::move(views), window_.PointTracks(frames), window_.LineTracks(frames));
   if (!map.points.empty()) Scale(1 / MedianDepth(map), map);
-  if (static_cast<int>(map.points.size()) < kMinPoints) {
+  if (static_cast<int>(map.points.size() + map.lines.size()) < kMinPoints) {
     result.wait = InitializationWait::kInaccurate;
     return result;
   }

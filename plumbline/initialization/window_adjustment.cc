@@ -3,6 +3,7 @@
 #include "plumbline/initialization/window_adjustment.h"
 
 #include "plumbline/base/median.h"
+#include "plumbline/initialization/window_lines.h"
 #include "plumbline/optimization/local_ba.h"
 
 #include <algorithm>
@@ -16,13 +17,6 @@ namespace {
 // The squared length of an error in two coordinates has its median at 2 ln 2 variances.
 constexpr double kMedianChi2 = 1.3863;
 
-// The camera whose pixels are ideal image coordinates.
-constexpr RectifiedCamera kIdealCamera = [] {
-  RectifiedCamera camera;
-  camera.fx = camera.fy = 1;
-  return camera;
-}();
-
 double Chi2(const Rigid3& pose,
             const Eigen::Vector3d& point,
             const Eigen::Vector2d& seen,
@@ -34,6 +28,27 @@ double Chi2(const Rigid3& pose,
 
 void AddObservation(const TrackedPoints& view, std::size_t k, int pose, int point, BaProblem& out) {
   out.point_observations.push_back({pose, point, {view.points[k], view.sigmas[k], std::nullopt}});
+}
+
+// All lines that have a place; returns which.
+std::vector<std::size_t> AddLines(const WindowTracks& tracks,
+                                  const WindowSolution& solution,
+                                  BaProblem& out) {
+  std::vector<std::size_t> added;
+  for (std::size_t k = 0; k < solution.lines.size(); ++k) {
+    if (!solution.lines[k]) continue;
+    const int line = static_cast<int>(added.size());
+    added.push_back(k);
+    out.lines.push_back(ToOrthonormal(*solution.lines[k]));
+    out.line_observations.push_back({0, line, MeasurementOf(tracks.lines.reference, k)});
+    for (std::size_t i = 0; i < tracks.lines.views.size(); ++i) {
+      const TrackedLines& view = tracks.lines.views[i];
+      if (view.Has(k)) {
+        out.line_observations.push_back({static_cast<int>(i) + 1, line, MeasurementOf(view, k)});
+      }
+    }
+  }
+  return added;
 }
 
 bool IsSeen(const WindowTracks& tracks, std::size_t k) {
@@ -92,6 +107,7 @@ WindowSolution AdjustWindow(const WindowTracks& tracks,
       }
     }
   }
+  const std::vector<std::size_t> lines = AddLines(tracks, solution, problem);
   const BaResult result = SolveLocalBa(problem, {.rounds = 4, .max_iterations = max_iterations});
   WindowSolution adjusted_solution = solution;
   for (std::size_t i = 0; i < solution.cam_from_reference.size(); ++i) {
@@ -99,6 +115,9 @@ WindowSolution AdjustWindow(const WindowTracks& tracks,
   }
   for (std::size_t j = 0; j < adjusted.size(); ++j) {
     adjusted_solution.points[adjusted[j]] = result.points[j];
+  }
+  for (std::size_t j = 0; j < lines.size(); ++j) {
+    adjusted_solution.lines[lines[j]] = ToPlucker(result.lines[j]);
   }
   return adjusted_solution;
 }

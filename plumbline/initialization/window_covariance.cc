@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/window_covariance.h"
 
+#include "plumbline/initialization/window_lines.h"
+#include "plumbline/optimization/residuals.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -12,7 +17,6 @@ namespace plumbline {
 namespace {
 
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
-using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 // Whitened error of a measurement and its derivative with respect to the point in the camera.
 struct Measured {
@@ -32,12 +36,55 @@ std::optional<Measured> Measure(const Eigen::Vector3d& in_cam,
   return result;
 }
 
-// A point's part of the normal equations, eliminated.
-struct EliminatedPoint {
-  Eigen::Matrix3d inverse;  // V^-1
-  std::vector<Matrix63> W;  // by view; zero where it is not seen
+// A landmark's part of the normal equations, eliminated: N parameters.
+template <int N>
+struct Eliminated {
+  using Block = Eigen::Matrix<double, 6, N>;
+  Eigen::Matrix<double, N, N> inverse;  // V^-1
+  std::vector<Block> W;                 // by view; zero where it is not seen
   bool known = false;
 };
+
+// What a landmark and the views that see it have in common.
+template <int N>
+struct NormalBlocks {
+  explicit NormalBlocks(std::size_t views)
+      : W(views, Eigen::Matrix<double, 6, N>::Zero()), H(views, Matrix6d::Zero()) {}
+
+  void Add(std::size_t view,
+           const Eigen::Matrix<double, 2, 6>& J_pose,
+           const Eigen::Matrix<double, 2, N>& J) {
+    V += J.transpose() * J;
+    H[view] = J_pose.transpose() * J_pose;
+    W[view] = J_pose.transpose() * J;
+  }
+
+  Eigen::Matrix<double, N, N> V = Eigen::Matrix<double, N, N>::Zero();
+  std::vector<Eigen::Matrix<double, 6, N>> W;
+  std::vector<Matrix6d> H;
+};
+
+// Takes the landmark out and adds what it says about the poses to the lower triangle.
+template <int N>
+Eliminated<N> Eliminate(NormalBlocks<N> blocks, Eigen::MatrixXd& information) {
+  Eliminated<N> landmark;
+  const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(blocks.V);
+  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) return landmark;
+  landmark.known = true;
+  landmark.inverse = factor.solve(Eigen::Matrix<double, N, N>::Identity());
+  landmark.W = std::move(blocks.W);
+  for (std::size_t i = 0; i < blocks.H.size(); ++i) {
+    const typename Eliminated<N>::Block WV = landmark.W[i] * landmark.inverse;
+    const auto row = static_cast<Eigen::Index>(6 * i);
+    information.block<6, 6>(row, row) += blocks.H[i];
+    for (std::size_t j = 0; j <= i; ++j) {
+      const auto column = static_cast<Eigen::Index>(6 * j);
+      information.block<6, 6>(row, column) -= WV * landmark.W[j].transpose();
+    }
+  }
+  return landmark;
+}
+using EliminatedPoint = Eliminated<3>;
 
 struct Rotations {
   std::vector<Eigen::Matrix3d> of_view;
@@ -49,21 +96,19 @@ struct Rotations {
   }
 };
 
-EliminatedPoint Eliminate(const WindowTracks& tracks,
-                          const WindowSolution& solution,
-                          const Rotations& rotations,
-                          std::size_t k,
-                          double noise,
-                          double max_chi2,
-                          Eigen::MatrixXd& information) {
-  EliminatedPoint point;
+EliminatedPoint EliminatePoint(const WindowTracks& tracks,
+                               const WindowSolution& solution,
+                               const Rotations& rotations,
+                               std::size_t k,
+                               double noise,
+                               double max_chi2,
+                               Eigen::MatrixXd& information) {
   const Eigen::Vector3d& X = solution.points[k];
   const auto in_reference =
       Measure(X, tracks.reference.points[k], noise * tracks.reference.sigmas[k]);
-  if (!solution.is_known[k] || !in_reference) return point;
-  Eigen::Matrix3d V = in_reference->J.transpose() * in_reference->J;
-  point.W.assign(tracks.views.size(), Matrix63::Zero());
-  std::vector<Matrix6d> H(tracks.views.size(), Matrix6d::Zero());
+  if (!solution.is_known[k] || !in_reference) return {};
+  NormalBlocks<3> blocks(tracks.views.size());
+  blocks.V = in_reference->J.transpose() * in_reference->J;
   int seen = 0;
   for (std::size_t i = 0; i < tracks.views.size(); ++i) {
     const TrackedPoints& view = tracks.views[i];
@@ -74,25 +119,33 @@ EliminatedPoint Eliminate(const WindowTracks& tracks,
     ++seen;
     Eigen::Matrix<double, 2, 6> J_pose;
     J_pose << -measured->J * Skew(in_cam), measured->J;
-    const Matrix23 J_point = measured->J * rotations.of_view[i];
-    V += J_point.transpose() * J_point;
-    H[i] = J_pose.transpose() * J_pose;
-    point.W[i] = J_pose.transpose() * J_point;
+    blocks.Add(i, J_pose, measured->J * rotations.of_view[i]);
   }
-  const Eigen::LLT<Eigen::Matrix3d> factor(V);
-  if (seen == 0 || factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) return point;
-  point.known = true;
-  point.inverse = factor.solve(Eigen::Matrix3d::Identity());
-  for (std::size_t i = 0; i < H.size(); ++i) {
-    const Matrix63 WV = point.W[i] * point.inverse;
-    const auto row = static_cast<Eigen::Index>(6 * i);
-    information.block<6, 6>(row, row) += H[i];
-    for (std::size_t j = 0; j <= i; ++j) {
-      const auto column = static_cast<Eigen::Index>(6 * j);
-      information.block<6, 6>(row, column) -= WV * point.W[j].transpose();
-    }
+  if (seen == 0) return {};
+  return Eliminate(std::move(blocks), information);
+}
+
+// A line that fits all views that show it.
+void EliminateLine(const WindowTracks& tracks,
+                   const WindowSolution& solution,
+                   std::size_t k,
+                   double noise,
+                   Eigen::MatrixXd& information) {
+  const OrthonormalLine line = ToOrthonormal(*solution.lines[k]);
+  NormalBlocks<4> blocks(tracks.views.size());
+  const auto in_reference =
+      EvaluateLine(kIdealCamera, {}, line, MeasurementOf(tracks.lines.reference, k, noise));
+  if (!in_reference) return;
+  blocks.V = in_reference->J_line.transpose() * in_reference->J_line;
+  for (std::size_t i = 0; i < tracks.lines.views.size(); ++i) {
+    const TrackedLines& view = tracks.lines.views[i];
+    if (!view.Has(k)) continue;
+    const auto measured = EvaluateLine(
+        kIdealCamera, solution.cam_from_reference[i], line, MeasurementOf(view, k, noise));
+    if (!measured) return;
+    blocks.Add(i, measured->J_pose, measured->J_line);
   }
-  return point;
+  Eliminate(std::move(blocks), information);
 }
 
 // The direction in which the whole grows: all centres away from the reference.
@@ -168,14 +221,18 @@ std::vector<double> RelativeDepthSigmas(const WindowSolution& solution,
 std::optional<WindowCovariance> ComputeWindowCovariance(const WindowTracks& tracks,
                                                         const WindowSolution& solution,
                                                         double noise,
-                                                        double max_chi2) {
+                                                        double max_chi2,
+                                                        double line_noise) {
   const auto size = static_cast<Eigen::Index>(6 * tracks.views.size());
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
   const Rotations rotations(solution);
   std::vector<EliminatedPoint> points;
   points.reserve(tracks.size());
   for (std::size_t k = 0; k < tracks.size(); ++k) {
-    points.push_back(Eliminate(tracks, solution, rotations, k, noise, max_chi2, information));
+    points.push_back(EliminatePoint(tracks, solution, rotations, k, noise, max_chi2, information));
+  }
+  for (const std::size_t k : LinesThatFit(tracks, solution)) {
+    EliminateLine(tracks, solution, k, line_noise, information);
   }
   auto poses = InvertWithScaleHeld(std::move(information), solution);
   if (!poses) return std::nullopt;

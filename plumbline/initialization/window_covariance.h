@@ -26,12 +26,15 @@ struct WindowCovariance {
 //
 //   noise    factor on the standard deviations of all measurements
 //   max_chi2 measurements whose squared error exceeds it, in those deviations, do not count
+//   line_noise  factor on those of lines, where lines take part; a line counts where it fits all
+//            views that show it
 //   returns  nullopt where the frames do not fix all poses
 //   cost     O(points views^2)
 std::optional<WindowCovariance> ComputeWindowCovariance(const WindowTracks& tracks,
                                                         const WindowSolution& solution,
                                                         double noise,
-                                                        double max_chi2);
+                                                        double max_chi2,
+                                                        double line_noise = 1);
 
 // Standard deviations of the pose of one view.
 struct PoseAccuracy {

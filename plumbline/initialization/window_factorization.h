@@ -16,7 +16,7 @@ struct WindowFactorizationOptions {
   double min_line_angle = 0;               // of the two epipolar lines, radians
   int reweighting = 5;                     // steps; 0: the plain factorization
   double min_robust_share = 0.5;           // of a frame's matches that must fit
-  int min_matches = 20;                    // of a frame, that fit
+  int min_matches = 10;                    // of a frame, that fit
 };
 
 // Where the solution of a window may begin: the pose of its newest frame and, where an earlier

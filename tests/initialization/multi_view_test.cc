@@ -102,6 +102,29 @@ TEST(DecideWindow, NeedsMatches) {
   EXPECT_EQ(Decide(scene, 1).wait, InitializationWait::kTooFewMatches);
 }
 
+// A wall with a dozen corners and the edges of what hangs there.
+TEST(DecideWindow, StartsFromFewPointsAndLines) {
+  const WindowSceneOptions few{.points = 16, .sigma = kSigma};
+  WindowSceneOptions lines = few;
+  lines.lines = 40;
+  lines.wrong_lines = 4;
+  const Count without = CountOf(CurvedMotion(3, 1), few);
+  EXPECT_EQ(without.right + without.wrong, 0);
+  const Count with = CountOf(CurvedMotion(3, 1), lines);
+  EXPECT_GE(with.right, kSeeds / 2);
+  EXPECT_EQ(with.wrong, 0);
+}
+
+TEST(DecideWindow, WaitsWithLinesWhileTheCameraTurnsOrStands) {
+  std::vector<Rigid3> turning;
+  for (int i = 1; i <= 3; ++i) turning.push_back({ExpSo3({0, 0.05 * i, 0.01 * i}), {0, 0, 0}});
+  const std::vector<Rigid3> standing(3);
+  for (const auto& poses : {turning, standing}) {
+    const Count count = CountOf(poses, {.points = 30, .sigma = kSigma, .lines = 40});
+    EXPECT_EQ(count.right + count.wrong, 0);
+  }
+}
+
 TEST(DecideWindow, ScalesTheMedianDepthToOneAndTellsTheParallax) {
   const WindowScene scene = MakeWindowScene(2, CurvedMotion(3), {.points = 301});
   const WindowDecision decision = Decide(scene, 2);

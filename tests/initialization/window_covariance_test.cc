@@ -77,6 +77,42 @@ TEST(WindowCovariance, IsThatOfManyDraws) {
   EXPECT_NEAR(Median(relative_depths) / (0.6745 * depth), 1, 0.2);
 }
 
+// The same where most is known by lines.
+TEST(WindowCovariance, IsThatOfManyDrawsWithLines) {
+  const std::vector<Rigid3> poses = CurvedMotion(3);
+  const WindowScene exact = MakeWindowScene(5, poses, {.points = 14, .lines = 30});
+  const auto covariance = ComputeWindowCovariance(exact.tracks, exact.truth, 1, kMaxChi2);
+  ASSERT_TRUE(covariance);
+  constexpr int kDraws = 100;
+  constexpr double kSceneSigma = 1e-3;
+  const auto disturb = [](Rng& rng, TrackedPoints& points, TrackedLines& lines) {
+    for (Eigen::Vector2d& place : points.points) place += RandomVector<2>(rng, kSceneSigma);
+    for (Segment2& segment : lines.segments) {
+      segment.start += RandomVector<2>(rng, kSceneSigma);
+      segment.end += RandomVector<2>(rng, kSceneSigma);
+    }
+  };
+  double squares = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Rng rng(10, "draw", static_cast<std::uint64_t>(draw));
+    WindowTracks noisy = exact.tracks;
+    disturb(rng, noisy.reference, noisy.lines.reference);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      disturb(rng, noisy.views[i], noisy.lines.views[i]);
+    }
+    const WindowSolution solved = AdjustWindow(noisy, exact.truth, 15);
+    const Eigen::Quaterniond& found = solved.cam_from_reference.back().rotation;
+    squares += LogSo3(found * poses.back().rotation.conjugate()).squaredNorm() / kDraws;
+  }
+  const double predicted = covariance->poses.block<3, 3>(12, 12).trace();
+  EXPECT_NEAR(std::sqrt(squares / predicted), 1, 0.2);
+  WindowSolution without = exact.truth;
+  without.lines.clear();
+  const auto points_alone = ComputeWindowCovariance(exact.tracks, without, 1, kMaxChi2);
+  ASSERT_TRUE(points_alone);
+  EXPECT_GT(points_alone->poses.block<3, 3>(12, 12).trace(), 1.5 * predicted);
+}
+
 TEST(WindowCovariance, GrowsWithTheNoise) {
   const WindowScene scene = MakeWindowScene(2, CurvedMotion(3));
   const auto one = ComputeWindowCovariance(scene.tracks, scene.truth, 1, kMaxChi2);

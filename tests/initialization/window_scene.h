@@ -18,6 +18,8 @@ struct WindowSceneOptions {
   double sigma = 0;     // of the places; 0.5 px at f = 520 is 0.001
   double missed = 0;    // share of the places in frames between that are not matched
   double outliers = 0;  // share of the places that are wrong
+  int lines = 0;        // between points of the same kind; all views show them
+  int wrong_lines = 0;  // the first of them: other lines in the newest view
 };
 
 struct WindowScene {
@@ -42,6 +44,34 @@ inline Eigen::Vector3d ScenePoint(Rng& rng, bool plane) {
   // The plane (0.3, -0.2, 1) X = 3.
   const double z = plane ? 3 / (1 + 0.3 * x - 0.2 * y) : rng.Uniform(2, 6);
   return {x * z, y * z, z};
+}
+
+inline Segment2 Seen(const Rigid3& pose, const Segment3& line, Rng& rng, double sigma) {
+  return {(pose * line.start).hnormalized() + Eigen::Vector2d(RandomVector<2>(rng, sigma)),
+          (pose * line.end).hnormalized() + Eigen::Vector2d(RandomVector<2>(rng, sigma))};
+}
+
+// The lines of the options, each view's ends elsewhere on them.
+inline void AddLines(std::uint64_t seed, const WindowSceneOptions& o, WindowScene& scene) {
+  Rng rng(seed, "window_scene_lines");
+  const double sigma = o.sigma > 0 ? o.sigma : 1e-3;
+  WindowLines& lines = scene.tracks.lines;
+  lines.views.resize(scene.truth.cam_from_reference.size());
+  const auto see = [&](const Rigid3& pose, const Segment3& line, TrackedLines& view) {
+    const Eigen::Vector3d along = rng.Uniform(-0.2, 0.2) * (line.end - line.start);
+    view.segments.push_back(Seen(pose, {line.start + along, line.end + along}, rng, o.sigma));
+    view.sigmas.push_back(sigma);
+  };
+  for (int k = 0; k < o.lines; ++k) {
+    const Segment3 line{ScenePoint(rng, o.plane), ScenePoint(rng, o.plane)};
+    scene.truth.lines.emplace_back(LineThroughPoints(line.start, line.end));
+    see({}, line, lines.reference);
+    for (std::size_t i = 0; i < lines.views.size(); ++i) {
+      see(scene.truth.cam_from_reference[i], line, lines.views[i]);
+    }
+    if (k >= o.wrong_lines) continue;
+    lines.views.back().segments.back().start += Eigen::Vector2d(0.03, 0.02);
+  }
 }
 
 inline WindowScene MakeWindowScene(std::uint64_t seed,
@@ -72,6 +102,7 @@ inline WindowScene MakeWindowScene(std::uint64_t seed,
       see(poses[i] * point, scene.tracks.views[i], newest || rng.Uniform() >= o.missed);
     }
   }
+  AddLines(seed, o, scene);
   return scene;
 }
 
