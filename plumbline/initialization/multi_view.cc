@@ -189,6 +189,15 @@ bool Confirms(const WindowTracks& tracks,
   return IsSame({{*pose}, {}, {}}, {{solution.cam_from_reference.back()}, {}, {}});
 }
 
+// Where points alone do not suffice and there are few; what many points leave open is not for lines
+// to decide.
+bool NeedsLines(const WindowTracks& tracks,
+                InitializationWait wait,
+                const WindowDecisionOptions& options) {
+  return wait != InitializationWait::kNone && wait != InitializationWait::kTooLittleParallax &&
+         tracks.lines.size() > 0 && static_cast<int>(tracks.size()) < options.many_points;
+}
+
 }  // namespace
 
 void WindowMemory::Keep(const WindowTracks& tracks,
@@ -236,14 +245,14 @@ WindowDecision DecideWindow(const WindowTracks& tracks,
   for (const RelativePoseHypothesis& h : hypotheses) starts.push_back({h.b_from_a, {}});
   std::vector<Explanation> explanations = Explain(scaled, starts, options);
   if (explanations.empty()) return Wait(InitializationWait::kInaccurate);
+  // Adjusted to points alone, two that lines tell apart may become one.
+  std::vector<Explanation> with_lines = explanations;
   AdjustAll(scaled, explanations);
   WindowDecision decision;
   decision.wait = Judge(scaled, explanations, options);
-  // Where points alone do not suffice.
-  if (decision.wait != InitializationWait::kNone &&
-      decision.wait != InitializationWait::kTooLittleParallax && scaled.lines.size() > 0 &&
-      static_cast<int>(scaled.size()) < options.many_points) {
-    explanations = ExplainWithLines(scaled, std::move(explanations), options.min_noise);
+  if (NeedsLines(scaled, decision.wait, options)) {
+    with_lines.insert(with_lines.begin(), explanations.begin(), explanations.end());
+    explanations = ExplainWithLines(scaled, std::move(with_lines), options.min_noise);
     decision.wait = Judge(scaled, explanations, options);
   }
   Explanation& best = explanations.front();

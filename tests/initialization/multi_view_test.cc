@@ -107,6 +107,7 @@ TEST(DecideWindow, StartsFromFewPointsAndLines) {
   const WindowSceneOptions few{.points = 16, .sigma = kSigma};
   WindowSceneOptions lines = few;
   lines.lines = 40;
+  lines.line_noise = 0.2;  // of lines in rendered images against corners there
   lines.wrong_lines = 4;
   const Count without = CountOf(CurvedMotion(3, 1), few);
   EXPECT_EQ(without.right + without.wrong, 0);

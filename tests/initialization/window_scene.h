@@ -14,12 +14,13 @@ namespace plumbline::testing {
 
 struct WindowSceneOptions {
   int points = 200;
-  bool plane = false;   // all points on one plane, else a cloud 2 to 6 m away
-  double sigma = 0;     // of the places; 0.5 px at f = 520 is 0.001
-  double missed = 0;    // share of the places in frames between that are not matched
-  double outliers = 0;  // share of the places that are wrong
-  int lines = 0;        // between points of the same kind; all views show them
-  int wrong_lines = 0;  // the first of them: other lines in the newest view
+  bool plane = false;     // all points on one plane, else a cloud 2 to 6 m away
+  double sigma = 0;       // of the places; 0.5 px at f = 520 is 0.001
+  double missed = 0;      // share of the places in frames between that are not matched
+  double outliers = 0;    // share of the places that are wrong
+  int lines = 0;          // between points of the same kind; all views show them
+  double line_noise = 1;  // of their ends, in sigma
+  int wrong_lines = 0;    // the first of them: other lines in the newest view
 };
 
 struct WindowScene {
@@ -59,7 +60,8 @@ inline void AddLines(std::uint64_t seed, const WindowSceneOptions& o, WindowScen
   lines.views.resize(scene.truth.cam_from_reference.size());
   const auto see = [&](const Rigid3& pose, const Segment3& line, TrackedLines& view) {
     const Eigen::Vector3d along = rng.Uniform(-0.2, 0.2) * (line.end - line.start);
-    view.segments.push_back(Seen(pose, {line.start + along, line.end + along}, rng, o.sigma));
+    view.segments.push_back(
+        Seen(pose, {line.start + along, line.end + along}, rng, o.line_noise * o.sigma));
     view.sigmas.push_back(sigma);
   };
   for (int k = 0; k < o.lines; ++k) {
@@ -70,7 +72,9 @@ inline void AddLines(std::uint64_t seed, const WindowSceneOptions& o, WindowScen
       see(scene.truth.cam_from_reference[i], line, lines.views[i]);
     }
     if (k >= o.wrong_lines) continue;
-    lines.views.back().segments.back().start += Eigen::Vector2d(0.03, 0.02);
+    Segment2& wrong = lines.views.back().segments.back();
+    const Eigen::Vector2d along = wrong.Direction();
+    wrong.start += 0.03 * Eigen::Vector2d(-along.y(), along.x());
   }
 }
 
