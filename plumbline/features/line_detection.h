@@ -24,7 +24,7 @@ struct LineDetectionOptions {
   double merge_gap = 0.15;       // gap between two pieces relative to the shorter one
   bool refine = true;            // move segments to the sub-pixel peak of the gradient
   double min_contrast = 3;       // mean gradient across the line, grey levels per pixel
-  double min_sigma_px = 0.5;     // floor of the deviation of an end point across the line
+  double min_sigma_px = 0.2;     // floor of the deviation of an end point across the line
 };
 
 // Straight edges of an image, directed with the bright side on the left (see LineFeature), without

@@ -38,7 +38,7 @@ std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
 struct StereoLineOptions {
   // Of every disparity, from the pair's calibration. More than the 1 px of points: the ends of a
   // line share one error (docs/methods/pose-and-mapping.md, measured choices).
-  double calibration_sigma_px = 2;
+  double calibration_sigma_px = 1;
   int max_distance = 80;
   double ratio = 0.9;
   double max_angle_deg = 30;

@@ -28,6 +28,11 @@ struct SetPose {
   Rigid3 cam_from_world;
 };
 
+// What corrects the disparities of all keyframes, those of later ones too.
+struct CorrectStereo {
+  StereoCorrection correction;
+};
+
 // The landmark and its observations.
 struct AddPoint {
   MapPoint point;
@@ -100,6 +105,7 @@ struct ScoreLine {
 using MapChange = std::variant<edit::AddKeyFrame,
                                edit::RemoveKeyFrame,
                                edit::SetPose,
+                               edit::CorrectStereo,
                                edit::AddPoint,
                                edit::AddLine,
                                edit::RemovePoint,

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/ids.h"
 #include "plumbline/features/grid.h"
+#include "plumbline/features/stereo_correction.h"
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/se3.h"
 
@@ -18,7 +19,12 @@ namespace plumbline {
 struct IndexedFeatures {
   Features features;
   PointGrid point_grid;
+  StereoCorrection correction = {};  // that the disparities and right lines have
 };
+
+// The features with another correction; the same where it is the one they have.
+std::shared_ptr<const IndexedFeatures> WithCorrection(
+    const std::shared_ptr<const IndexedFeatures>& indexed, const StereoCorrection& correction);
 
 // A frame with a pose and its matches: for each feature the landmark it shows, invalid id for none.
 struct Frame {

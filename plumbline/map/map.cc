@@ -165,6 +165,7 @@ struct MapChanger {
     const auto lines = std::exchange(keyframe.frame.lines, {});
     keyframe.frame.points.resize(points.size());
     keyframe.frame.lines.resize(lines.size());
+    keyframe.frame.indexed = WithCorrection(keyframe.frame.indexed, map.stereo_correction_);
     map.keyframes_.emplace(id, std::move(keyframe));
     ObserveMatches(id, points);
     ObserveMatches(id, lines);
@@ -185,6 +186,13 @@ struct MapChanger {
   void Do(const edit::SetPose& change) {
     if (KeyFrame* keyframe = FindKeyFrame(change.id)) {
       keyframe->frame.cam_from_world = change.cam_from_world;
+    }
+  }
+
+  void Do(const edit::CorrectStereo& change) {
+    map.stereo_correction_ = change.correction;
+    for (auto& [id, keyframe] : map.keyframes_) {
+      keyframe.frame.indexed = WithCorrection(keyframe.frame.indexed, change.correction);
     }
   }
 

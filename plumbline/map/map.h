@@ -41,6 +41,9 @@ class Map {
   PointId NextPointId() const { return next_point_; }
   LineId NextLineId() const { return next_line_; }
 
+  // Of the disparities of all keyframes.
+  const StereoCorrection& stereo_correction() const { return stereo_correction_; }
+
   // Carries out the changes in order and adds one to the version. Changes that name an object that
   // an earlier change removed are skipped.
   void Apply(const MapEdit& edit);
@@ -62,6 +65,7 @@ class Map {
   KeyFrameId next_keyframe_{0};
   PointId next_point_{0};
   LineId next_line_{0};
+  StereoCorrection stereo_correction_;
   std::map<KeyFrameId, KeyFrame> keyframes_;
   std::map<PointId, MapPoint> points_;
   std::map<LineId, MapLine> lines_;

@@ -55,6 +55,7 @@ std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->version = map.version();
   snapshot->centre = centre;
+  snapshot->stereo_correction = map.stereo_correction();
   snapshot->reference = std::make_shared<const KeyFrame>(*reference);
   std::set<PointId> points;
   std::set<LineId> lines;

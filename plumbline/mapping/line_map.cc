@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -152,22 +153,32 @@ std::vector<const MapLine*> ByObservations(const Map& map) {
 
 }  // namespace
 
-std::vector<MappedLine> MakeLineMap(const Map& map,
-                                    const ImagingModel& imaging,
-                                    const LineMapOptions& options) {
+std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
+                                            const ImagingModel& imaging,
+                                            const LineMapOptions& options) {
   LineSupportSearch search(map, imaging);
-  std::vector<MappedLine> lines;
+  std::vector<WellSeenLine> lines;
   for (const MapLine* landmark : ByObservations(map)) {
-    const auto line =
+    auto line =
         Support(search,
                 imaging.camera,
                 {landmark->line, {landmark->start, landmark->end}, landmark->information},
                 options.min_keyframes);
     if (!line) continue;
-    const std::vector<MappedLine> pieces = GoodPieces(map, imaging.camera, *line, options);
+    std::vector<MappedLine> pieces = GoodPieces(map, imaging.camera, *line, options);
     if (pieces.empty()) continue;
     search.Claim(line->supports);
-    lines.insert(lines.end(), pieces.begin(), pieces.end());
+    lines.push_back({line->hypothesis.line, std::move(line->supports), std::move(pieces)});
+  }
+  return lines;
+}
+
+std::vector<MappedLine> MakeLineMap(const Map& map,
+                                    const ImagingModel& imaging,
+                                    const LineMapOptions& options) {
+  std::vector<MappedLine> lines;
+  for (const WellSeenLine& line : FindWellSeenLines(map, imaging, options)) {
+    lines.insert(lines.end(), line.pieces.begin(), line.pieces.end());
   }
   return lines;
 }

@@ -6,6 +6,7 @@
 #include "plumbline/geometry/segment.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/line_map_options.h"
+#include "plumbline/mapping/line_support.h"
 
 #include <vector>
 
@@ -16,6 +17,13 @@ struct MappedLine {
   Segment3 segment;   // world; directed with the brighter side as LineFeature says
   double sigma = 0;   // of the worse end, across the line, in the map's unit, poses taken as known
   int keyframes = 0;  // that show some of it
+};
+
+// An infinite line with what shows it and what is fit to be given out of it.
+struct WellSeenLine {
+  PluckerLine line;  // world
+  std::vector<LineSupport> supports;
+  std::vector<MappedLine> pieces;  // at least one
 };
 
 // The clean line map of a finished map: what is well seen of its lines, each once.
@@ -34,5 +42,10 @@ struct MappedLine {
 std::vector<MappedLine> MakeLineMap(const Map& map,
                                     const ImagingModel& imaging,
                                     const LineMapOptions& options);
+
+// The same with what the lines were made of.
+std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
+                                            const ImagingModel& imaging,
+                                            const LineMapOptions& options);
 
 }  // namespace plumbline

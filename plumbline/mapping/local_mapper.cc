@@ -5,10 +5,14 @@
 #include "plumbline/association/fusion.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/ba_window.h"
+#include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/mapping/landmark_creation.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <variant>
 
@@ -23,6 +27,24 @@ void Timed(const char* name, std::vector<MappingStep>& times, const Step& step) 
   step();
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
   times.push_back({name, taken.count()});
+}
+
+// A correction that moves no place of the image by more is not worth touching all keyframes for.
+constexpr double kMinChangePx = 0.02;
+
+// Over a grid of places of the image.
+double MaxDifference(const RectifiedCamera& camera,
+                     const StereoCorrection& a,
+                     const StereoCorrection& b) {
+  constexpr int kSteps = 4;
+  double largest = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const Eigen::Vector2d px(i * camera.width / kSteps, j * camera.height / kSteps);
+      largest = std::max(largest, std::abs(a.At(px) - b.At(px)));
+    }
+  }
+  return largest;
 }
 
 // New looks for all landmarks that a keyframe shows.
@@ -42,7 +64,7 @@ MapEdit RefreshShown(const Frame& frame) {
 LocalMapper::LocalMapper(const ImagingModel& imaging,
                          const LineOptions& lines,
                          const MappingOptions& options)
-    : imaging_(imaging), lines_(lines), options_(options) {}
+    : imaging_(imaging), lines_(lines), options_(options), calibrator_(imaging.camera) {}
 
 std::vector<MappingStep> LocalMapper::Add(Map& map,
                                           const KeyFrame& keyframe,
@@ -53,6 +75,7 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   Timed("create", times, [&] { CreateLandmarks(map, id); });
   Timed("fuse", times, [&] { Fuse(map, id); });
   Timed("adjust", times, [&] { Adjust(map, id); });
+  if (options_.stereo_calibration) Timed("calibrate", times, [&] { CalibrateStereo(map, id); });
   Timed("clean_up", times, [&] { map.Apply(RemoveRedundantKeyFrames(map, id, options_.cleanup)); });
   return times;
 }
@@ -65,6 +88,12 @@ std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFr
   });
   Timed("adjust", times, [&] { Adjust(map, newest); });
   Timed("create", times, [&] { CreateLandmarks(map, newest); });
+  return times;
+}
+
+std::vector<MappingStep> LocalMapper::Finish(Map& map) const {
+  std::vector<MappingStep> times;
+  Timed("finish", times, [&] { map.Apply(AdjustWholeMap(map, imaging_, lines_, options_)); });
   return times;
 }
 
@@ -122,6 +151,17 @@ void LocalMapper::Adjust(Map& map, KeyFrameId id) const {
   const BaResult result = SolveLocalBa(window.problem, options_.ba, lines_.parametrization);
   if (result.termination == BaTermination::kNotFinite) return;
   map.Apply(ToEdit(map, imaging_, window, result));
+}
+
+// The keyframe kDelay ago is one that others after it have shown the landmarks of.
+void LocalMapper::CalibrateStereo(Map& map, KeyFrameId id) {
+  constexpr std::int64_t kDelay = 3;
+  const KeyFrame* keyframe = map.Find(KeyFrameId{id.value - kDelay});
+  if (keyframe != nullptr) calibrator_.Observe(map, *keyframe);
+  const StereoCorrection correction = calibrator_.Estimate();
+  if (MaxDifference(imaging_.camera, correction, map.stereo_correction()) > kMinChangePx) {
+    map.Apply({edit::CorrectStereo{correction}});
+  }
 }
 
 }  // namespace plumbline

@@ -7,6 +7,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
+#include "plumbline/mapping/stereo_calibration.h"
 
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ class LocalMapper {
   // `newest` is the last: bundle adjustment of all of it, then as Add. Times as Add's.
   std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
 
+  // Adjusts the whole of a map to which nothing will be added (AdjustWholeMap). Times as Add's.
+  std::vector<MappingStep> Finish(Map& map) const;
+
   // Forgets what belongs to the map worked on so far.
   void StartNewMap() { young_ = {}; }
 
@@ -42,11 +46,13 @@ class LocalMapper {
   void Watch(const MapEdit& edit);
   void Fuse(Map& map, KeyFrameId id) const;
   void Adjust(Map& map, KeyFrameId id) const;
+  void CalibrateStereo(Map& map, KeyFrameId id);
 
   ImagingModel imaging_;
   LineOptions lines_;
   MappingOptions options_;
   YoungLandmarks young_;
+  StereoCalibrator calibrator_;
 };
 
 }  // namespace plumbline

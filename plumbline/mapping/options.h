@@ -102,6 +102,8 @@ struct MappingOptions {
   CleanupOptions cleanup;
   BaWindowOptions window;
   LocalBaOptions ba;
+  bool stereo_calibration = true;
+  int final_adjustment_keyframes = 500;
   LineMapOptions line_map;
 };
 
@@ -114,6 +116,13 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
   visit("cleanup", o.cleanup, "removal of weak landmarks and redundant keyframes");
   visit("window", o.window, "what local bundle adjustment adjusts");
   visit("ba", o.ba, "local bundle adjustment");
+  visit("stereo_calibration",
+        o.stereo_calibration,
+        "learn where the right image is displaced along its rows, and correct all disparities");
+  visit("final_adjustment_keyframes",
+        o.final_adjustment_keyframes,
+        "maps of up to so many keyframes are adjusted as a whole when the run ends; 0: none",
+        Range{0, 10000});
   visit("line_map", o.line_map, "which lines of the finished map are given out");
 }
 

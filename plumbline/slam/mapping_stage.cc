@@ -70,6 +70,12 @@ void MappingStage::Finish() {
   dues_.clear();
   const std::lock_guard lock(mutex_);
   while (versions_.size() > 1) versions_.pop_front();
+  if (finished_ == submitted_) return;
+  finished_ = submitted_;
+  for (Map& map : maps_) {
+    const std::vector<MappingStep> times = mapper_.Finish(map);
+    times_.insert(times_.end(), times.begin(), times.end());
+  }
 }
 
 const std::vector<Map>& MappingStage::maps() const {

@@ -53,7 +53,8 @@ class MappingStage {
   // Whether so many keyframes wait that a live tracker should make none it can do without.
   bool Behind() const;
 
-  // Does all work that is left. Rethrows what mapping threw.
+  // Does all work that is left and adjusts each map as a whole; no keyframe may follow in a map
+  // that is to be tracked against. Rethrows what mapping threw.
   void Finish();
 
   // Empty before the first keyframe; the last one is the map in use. With a thread, only after
@@ -89,6 +90,7 @@ class MappingStage {
   std::int64_t lag_;
   // The tracker's side.
   std::int64_t submitted_ = 0;
+  std::int64_t finished_ = 0;   // the last one when Finish() adjusted the maps
   std::deque<Due> dues_;  // of tasks later than the one last asked for; live: of first keyframes
   // The worker's side.
   LocalMapper mapper_;

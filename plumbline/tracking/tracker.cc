@@ -108,7 +108,8 @@ TrackingResult Tracker::Track(FrameId id,
   frame.stamp_ns = stamp_ns;
   frame.points.resize(indexed->features.points.size());
   frame.lines.resize(indexed->features.lines.size());
-  frame.indexed = std::move(indexed);
+  frame.indexed = snapshot != nullptr ? WithCorrection(indexed, snapshot->stereo_correction)
+                                      : std::move(indexed);
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
   return Follow(std::move(frame), *snapshot, mapping_behind);

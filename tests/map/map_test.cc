@@ -129,6 +129,28 @@ TEST(Map, ChangesOfWhatIsGoneAreSkipped) {
   map.CheckInvariants();
 }
 
+TEST(Map, CorrectsTheDisparitiesOfAllKeyFramesOnceForAll) {
+  Map map = ChainOfKeyFrames(1);
+  KeyFrame keyframe = BlankKeyFrame(1, 0);
+  auto features = std::make_shared<IndexedFeatures>(*keyframe.frame.indexed);
+  features->features.point_disparity[0] = Disparity{10, 1};
+  keyframe.frame.indexed = features;
+  const RectifiedCamera camera{400, 400, 320, 240, 0.1, 640, 480};
+  const auto disparity = [&](std::int64_t id) {
+    return map.Find(KeyFrameId{id})->frame.features().point_disparity[0]->px;
+  };
+  map.Apply({edit::AddKeyFrame{keyframe}});
+  map.Apply({edit::CorrectStereo{{camera, 0.5 * Vector6d::Unit(0)}}});
+  EXPECT_DOUBLE_EQ(disparity(1), 9.5);
+  keyframe.id = KeyFrameId{2};
+  map.Apply({edit::AddKeyFrame{keyframe}});
+  EXPECT_DOUBLE_EQ(disparity(2), 9.5);
+  map.Apply({edit::CorrectStereo{{camera, 0.2 * Vector6d::Unit(0)}}});
+  EXPECT_DOUBLE_EQ(disparity(1), 9.8);
+  EXPECT_DOUBLE_EQ(disparity(2), 9.8);
+  EXPECT_DOUBLE_EQ(features->features.point_disparity[0]->px, 10);
+}
+
 TEST(Map, MovesAndScoresAreTakenOver) {
   Map map = ChainOfKeyFrames(1);
   const PluckerLine moved = LineThroughPoints({0, 1, 5}, {1, 1, 5});

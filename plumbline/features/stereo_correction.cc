@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/stereo_correction.h"
+
+#include <cstddef>
+
+namespace plumbline {
+namespace {
+
+Vector6d Quadratic(double x, double y) {
+  Vector6d terms;
+  terms << 1, x, y, x * x, x * y, y * y;
+  return terms;
+}
+
+Eigen::Vector2d Centre(const RectifiedCamera& camera) { return {camera.cx, camera.cy}; }
+
+}  // namespace
+
+StereoCorrection::StereoCorrection(const RectifiedCamera& camera, const Vector6d& coefficients)
+    : centre_(Centre(camera)), inverse_unit_(2.0 / camera.width), coefficients_(coefficients) {}
+
+Vector6d StereoCorrection::Terms(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
+  const Eigen::Vector2d place = (px - Centre(camera)) * (2.0 / camera.width);
+  return Quadratic(place.x(), place.y());
+}
+
+double StereoCorrection::At(const Eigen::Vector2d& px) const {
+  const Eigen::Vector2d place = (px - centre_) * inverse_unit_;
+  return coefficients_.dot(Quadratic(place.x(), place.y()));
+}
+
+void Correct(const StereoCorrection& before,
+             const StereoCorrection& correction,
+             Features& features) {
+  const auto change = [&](const Eigen::Vector2d& px) { return correction.At(px) - before.At(px); };
+  for (std::size_t i = 0; i < features.points.size(); ++i) {
+    auto& disparity = features.point_disparity[i];
+    if (!disparity) continue;
+    disparity->px -= change(features.points[i].px - Eigen::Vector2d(disparity->px, 0));
+  }
+  for (auto& right : features.line_right) {
+    if (!right) continue;
+    right->segment.start.x() += change(right->segment.start);
+    right->segment.end.x() += change(right->segment.end);
+  }
+}
+
+}  // namespace plumbline

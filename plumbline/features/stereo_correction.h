@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/features/types.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/se3.h"
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// How far the right image of a pair is displaced along its rows from where the calibration has it:
+// a smooth error of the rectification, which is different from place to place and does not average
+// out. A quadratic polynomial over the right image, in pixels:
+//
+//   c(x, y) = k0 + k1 x + k2 y + k3 x^2 + k4 x y + k5 y^2
+//
+// with x, y from the principal point in halves of the image's width. A disparity measured as d is
+// right as d - c. For RGB-D the right image is virtual and c an error of the depths.
+class StereoCorrection {
+ public:
+  StereoCorrection() = default;  // none
+  StereoCorrection(const RectifiedCamera& camera, const Vector6d& coefficients);
+
+  // The terms that the coefficients multiply, at a place of the right image.
+  static Vector6d Terms(const RectifiedCamera& camera, const Eigen::Vector2d& px);
+
+  double At(const Eigen::Vector2d& px) const;
+  const Vector6d& coefficients() const { return coefficients_; }
+  bool operator==(const StereoCorrection&) const = default;
+
+ private:
+  Eigen::Vector2d centre_ = Eigen::Vector2d::Zero();
+  double inverse_unit_ = 1;
+  Vector6d coefficients_ = Vector6d::Zero();
+};
+
+// Disparities of points and right lines corrected, of features that were corrected by `before`.
+void Correct(const StereoCorrection& before, const StereoCorrection& correction, Features& features);
+
+}  // namespace plumbline

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/association/projection_search.h"
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/options.h"
+
+namespace plumbline {
+
+// All keyframes and points of a finished map adjusted together with the well seen lines
+// (FindWellSeenLines): each of these is one landmark with all segments that show it, where tracking
+// had several that end where its search ended. This ties keyframes together that share no line
+// landmark. The first keyframe stays where it is; line landmarks move with a keyframe that shows
+// them.
+//
+// Nothing for a map of less than three keyframes, or more than
+// mapping.final_adjustment_keyframes. Cost: MakeLineMap and bundle adjustment of the whole map, of
+// which the time grows with the third power of the keyframes.
+MapEdit AdjustWholeMap(const Map& map,
+                       const ImagingModel& imaging,
+                       const LineOptions& lines,
+                       const MappingOptions& options);
+
+}  // namespace plumbline

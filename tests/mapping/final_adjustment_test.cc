@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/final_adjustment.h"
+
+#include "tests/support/true_map.h"
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+constexpr int kKeyFrames = 10;
+
+std::vector<Rigid3> TruePoses() {
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < kKeyFrames; ++k) poses.push_back(PoseOnPath(8 * k));
+  return poses;
+}
+
+// A true map, then all keyframes but the first out of place, with what they show left behind.
+TrueMap MovedMap(const SyntheticWorld& world) {
+  TrueMap scene = MakeTrueMap(world, TruePoses(), {.noise = 0.3});
+  Rng rng(5, "moved_map");
+  MapEdit edit;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    Vector6d twist;
+    twist << RandomVector<3>(rng, 0.0005), RandomVector<3>(rng, 0.003);
+    if (id == KeyFrameId{0}) twist.setZero();
+    edit.push_back(edit::SetPose{id, ExpSe3(twist) * keyframe.frame.cam_from_world});
+  }
+  scene.map.Apply(edit);
+  return scene;
+}
+
+double WorstPose(const Map& map) {
+  const std::vector<Rigid3> truth = TruePoses();
+  double worst = 0;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const auto k = static_cast<std::size_t>(id.value);
+    worst = std::max(worst, CentreDistance(keyframe.frame.cam_from_world, truth[k]));
+  }
+  return worst;
+}
+
+TEST(AdjustWholeMap, BringsKeyFramesToTheirPlaces) {
+  const SyntheticWorld world = MakeSyntheticWorld(150, 100);
+  TrueMap scene = MovedMap(world);
+  const double before = WorstPose(scene.map);
+  ASSERT_GT(before, 0.004);
+  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  scene.map.CheckInvariants();
+  EXPECT_LT(WorstPose(scene.map), 0.4 * before);
+  EXPECT_LT(CentreDistance(scene.map.Find(KeyFrameId{0})->frame.cam_from_world, PoseOnPath(0)),
+            1e-9);
+}
+
+TEST(AdjustWholeMap, NeedsNoPoints) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 150);
+  TrueMap scene = MovedMap(world);
+  const double before = WorstPose(scene.map);
+  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  EXPECT_LT(WorstPose(scene.map), 0.7 * before);
+}
+
+TEST(AdjustWholeMap, MovesALineLandmarkWithTheNewestKeyFrameThatShowsIt) {
+  const SyntheticWorld world = MakeSyntheticWorld(150, 100);
+  TrueMap scene = MovedMap(world);
+  const Map before = scene.map;
+  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  for (const auto& [id, line] : scene.map.lines()) {
+    const MapLine& old = *before.Find(id);
+    const KeyFrameId newest = line.observations.rbegin()->first;
+    const Rigid3& now = scene.map.Find(newest)->frame.cam_from_world;
+    const Rigid3& then = before.Find(newest)->frame.cam_from_world;
+    EXPECT_LT((now * line.Interval().start - then * old.Interval().start).norm(), 1e-9);
+    EXPECT_LT((now * line.Interval().end - then * old.Interval().end).norm(), 1e-9);
+  }
+}
+
+TEST(AdjustWholeMap, LeavesMapsAloneThatAreTooLargeOrTooSmall) {
+  const SyntheticWorld world = MakeSyntheticWorld(50, 20);
+  const TrueMap scene = MovedMap(world);
+  MappingOptions options;
+  options.final_adjustment_keyframes = kKeyFrames - 1;
+  EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
+  const TrueMap pair = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(8)}, {});
+  EXPECT_TRUE(AdjustWholeMap(pair.map, world.Imaging(), {}, {}).empty());
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/stereo_calibration.h"
+
+#include "tests/support/true_map.h"
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+// A displacement whose mean over the image is small.
+StereoCorrection Displacement(const RectifiedCamera& camera) {
+  Vector6d k;
+  k << 0.2, 0.4, -0.3, -0.8, 0.3, 0.2;
+  return {camera, k};
+}
+
+// A map whose right images are displaced.
+TrueMap Scene(const SyntheticWorld& world, const SensorModel& sensor) {
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < 12; ++k) poses.push_back(PoseOnPath(8 * k));
+  TrueMap scene = MakeTrueMap(world, poses, sensor);
+  Map displaced;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    KeyFrame copy = keyframe;
+    auto indexed = std::make_shared<IndexedFeatures>(*keyframe.frame.indexed);
+    Correct(Displacement(world.camera), {}, indexed->features);
+    copy.frame.indexed = indexed;
+    copy.frame.points.assign(copy.frame.points.size(), PointId{});
+    copy.frame.lines.assign(copy.frame.lines.size(), LineId{});
+    displaced.Apply({edit::AddKeyFrame{copy}});
+  }
+  MapEdit landmarks;
+  for (const auto& [id, point] : scene.map.points()) landmarks.push_back(edit::AddPoint{point});
+  for (const auto& [id, line] : scene.map.lines()) landmarks.push_back(edit::AddLine{line});
+  displaced.Apply(landmarks);
+  scene.map = displaced;
+  return scene;
+}
+
+// RMS of the difference but for its mean, over the landmarks' places in the right images.
+double ErrorBesideTheMean(const StereoCorrection& estimate,
+                          const SyntheticWorld& world,
+                          const Map& map) {
+  double sum = 0, squares = 0, count = 0;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    for (const PointFeature& point : keyframe.frame.features().points) {
+      const double error = estimate.At(point.px) - Displacement(world.camera).At(point.px);
+      sum += error;
+      squares += error * error;
+      ++count;
+    }
+    for (const auto& right : keyframe.frame.features().line_right) {
+      if (!right) continue;
+      const Eigen::Vector2d px = right->segment.Midpoint();
+      const double error = estimate.At(px) - Displacement(world.camera).At(px);
+      sum += error;
+      squares += error * error;
+      ++count;
+    }
+  }
+  return std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)));
+}
+
+StereoCorrection Learn(const SyntheticWorld& world, const Map& map) {
+  StereoCalibrator calibrator(world.camera);
+  for (const auto& [id, keyframe] : map.keyframes()) calibrator.Observe(map, keyframe);
+  return calibrator.Estimate();
+}
+
+TEST(StereoCalibrator, LearnsTheDisplacementFromPoints) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 0);
+  const TrueMap scene = Scene(world, {.noise = 0.5});
+  const double before = ErrorBesideTheMean({}, world, scene.map);
+  EXPECT_GT(before, 0.2);
+  EXPECT_LT(ErrorBesideTheMean(Learn(world, scene.map), world, scene.map), 0.25 * before);
+}
+
+TEST(StereoCalibrator, LearnsTheDisplacementFromLines) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 400);
+  const TrueMap scene = Scene(world, {.noise = 0.5});
+  const double before = ErrorBesideTheMean({}, world, scene.map);
+  EXPECT_GT(before, 0.2);
+  EXPECT_LT(ErrorBesideTheMean(Learn(world, scene.map), world, scene.map), 0.35 * before);
+}
+
+TEST(StereoCalibrator, LearnsTheSameFromDisparitiesThatAreCorrectedAlready) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 100);
+  TrueMap scene = Scene(world, {.noise = 0.5});
+  const StereoCorrection first = Learn(world, scene.map);
+  scene.map.Apply({edit::CorrectStereo{first}});
+  const StereoCorrection second = Learn(world, scene.map);
+  for (const double x : {50.0, 300.0, 600.0}) {
+    EXPECT_NEAR(first.At({x, 200}), second.At({x, 200}), 0.01);
+  }
+}
+
+TEST(StereoCalibrator, LeavesTheMeanAlone) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 0);
+  const TrueMap scene = Scene(world, {.noise = 0.1});
+  const StereoCorrection estimate = Learn(world, scene.map);
+  double sum = 0, count = 0;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    const Features& features = keyframe.frame.features();
+    for (std::size_t i = 0; i < features.points.size(); ++i) {
+      if (!features.point_disparity[i]) continue;
+      sum += estimate.At(features.points[i].px -
+                         Eigen::Vector2d(features.point_disparity[i]->px, 0));
+      ++count;
+    }
+  }
+  EXPECT_NEAR(sum / count, 0, 0.05);
+}
+
+TEST(StereoCalibrator, FindsNothingWhereNothingIs) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 100);
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < 12; ++k) poses.push_back(PoseOnPath(8 * k));
+  const TrueMap scene = MakeTrueMap(world, poses, {.noise = 0.5});
+  const StereoCorrection estimate = Learn(world, scene.map);
+  for (const double x : {50.0, 300.0, 600.0}) EXPECT_NEAR(estimate.At({x, 200}), 0, 0.06);
+}
+
+TEST(StereoCalibrator, HasNoOpinionWithoutEvidence) {
+  EXPECT_EQ(StereoCalibrator(TestCamera()).Estimate(), StereoCorrection());
+  const SyntheticWorld world = MakeSyntheticWorld(100, 50);
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < 6; ++k) poses.push_back(PoseOnPath(8 * k));
+  const TrueMap scene = MakeTrueMap(world, poses, {.depth = false});
+  EXPECT_EQ(Learn(world, scene.map), StereoCorrection());
+}
+
+}  // namespace
+}  // namespace plumbline
