@@ -96,6 +96,28 @@ void MoveLines(const Map& map, const std::map<KeyFrameId, Rigid3>& poses, MapEdi
   }
 }
 
+// Of the distances between keyframes that follow each other.
+double PathLength(const std::vector<Rigid3>& poses) {
+  double length = 0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    length += (Inverse(poses[k]).translation - Inverse(poses[k - 1]).translation).norm();
+  }
+  return length;
+}
+
+// A single camera leaves the scale of the whole open; the frames between the keyframes keep the one
+// that they were tracked with, and so must these.
+void KeepScale(const BaProblem& problem, BaResult& result) {
+  if (problem.camera.baseline > 0) return;
+  std::vector<Rigid3> before;
+  for (const auto& pose : problem.poses) before.push_back(pose.cam_from_world);
+  const double length = PathLength(result.poses);
+  if (!(length > 0)) return;
+  const double scale = PathLength(before) / length;
+  for (Rigid3& pose : result.poses) pose.translation *= scale;
+  for (Eigen::Vector3d& point : result.points) point *= scale;
+}
+
 MapEdit ToEdit(const Map& map, const WholeMap& whole, const BaResult& result) {
   MapEdit edit;
   std::map<KeyFrameId, Rigid3> poses;
@@ -132,8 +154,9 @@ MapEdit AdjustWholeMap(const Map& map,
   }
   const WholeMap whole = WholeMapBuilder(map, imaging, lines)
                              .Build(FindWellSeenLines(map, imaging, options.line_map));
-  const BaResult result = SolveLocalBa(whole.problem, options.ba, LineParametrization::kPlucker);
+  BaResult result = SolveLocalBa(whole.problem, options.ba, LineParametrization::kPlucker);
   if (result.termination == BaTermination::kNotFinite) return {};
+  KeepScale(whole.problem, result);
   return ToEdit(map, whole, result);
 }
 

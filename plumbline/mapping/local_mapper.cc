@@ -92,8 +92,11 @@ std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFr
 }
 
 std::vector<MappingStep> LocalMapper::Finish(Map& map) const {
+  constexpr int kRounds = 2;  // with better poses, lines find more of what shows them
   std::vector<MappingStep> times;
-  Timed("finish", times, [&] { map.Apply(AdjustWholeMap(map, imaging_, lines_, options_)); });
+  for (int round = 0; round < kRounds; ++round) {
+    Timed("finish", times, [&] { map.Apply(AdjustWholeMap(map, imaging_, lines_, options_)); });
+  }
   return times;
 }
 

@@ -21,7 +21,7 @@ std::vector<Rigid3> TruePoses() {
 
 // A true map, then all keyframes but the first out of place, with what they show left behind.
 TrueMap MovedMap(const SyntheticWorld& world) {
-  TrueMap scene = MakeTrueMap(world, TruePoses(), {.noise = 0.3});
+  TrueMap scene = MakeTrueMap(world, TruePoses(), {.noise = 0.1});
   Rng rng(5, "moved_map");
   MapEdit edit;
   for (const auto& [id, keyframe] : scene.map.keyframes()) {
