@@ -152,8 +152,8 @@ MapEdit AdjustWholeMap(const Map& map,
       count > static_cast<std::size_t>(options.final_adjustment_keyframes)) {
     return {};
   }
-  const WholeMap whole = WholeMapBuilder(map, imaging, lines)
-                             .Build(FindWellSeenLines(map, imaging, options.line_map));
+  const WholeMap whole =
+      WholeMapBuilder(map, imaging, lines).Build(FindWellSeenLines(map, imaging, options.line_map));
   BaResult result = SolveLocalBa(whole.problem, options.ba, LineParametrization::kPlucker);
   if (result.termination == BaTermination::kNotFinite) return {};
   KeepScale(whole.problem, result);

@@ -159,11 +159,10 @@ std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
   LineSupportSearch search(map, imaging);
   std::vector<WellSeenLine> lines;
   for (const MapLine* landmark : ByObservations(map)) {
-    auto line =
-        Support(search,
-                imaging.camera,
-                {landmark->line, {landmark->start, landmark->end}, landmark->information},
-                options.min_keyframes);
+    auto line = Support(search,
+                        imaging.camera,
+                        {landmark->line, {landmark->start, landmark->end}, landmark->information},
+                        options.min_keyframes);
     if (!line) continue;
     std::vector<MappedLine> pieces = GoodPieces(map, imaging.camera, *line, options);
     if (pieces.empty()) continue;

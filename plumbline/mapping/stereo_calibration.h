@@ -12,12 +12,13 @@ namespace plumbline {
 
 // Learns the smooth part of the errors of disparities (StereoCorrection) from a map.
 //
-// Where at least three keyframes show a point or a steep line in their left images, these and the
-// poses tell where the right image should show it; what the right image was measured to show is
-// off by c(x, y). A normal distribution with deviation kPriorSigmaPx for each coefficient comes
-// before all evidence; the evidence enters under the Huber loss. The mean of c over all evidence is
-// left as it is: with the poses that were found with the same disparities it tells little, and the
-// scale of the map, which hangs on it, is the calibration's to say.
+// Where at least three keyframes show a point in their left images, these and the poses tell where
+// the right image should show it; what the right image was measured to show is off by c(x, y).
+// Points alone: where there are none, lines learned a correction that bent the map. A normal
+// distribution with deviation kPriorSigmaPx for each coefficient comes before all evidence; the
+// evidence enters under the Huber loss. The mean of c over all evidence is left as it is: with the
+// poses that were found with the same disparities it tells little, and the scale of the map, which
+// hangs on it, is the calibration's to say.
 class StereoCalibrator {
  public:
   explicit StereoCalibrator(const RectifiedCamera& camera);
@@ -30,14 +31,11 @@ class StereoCalibrator {
   StereoCorrection Estimate() const;
 
  private:
-  void ObservePoints(const Map& map, const KeyFrame& keyframe, const StereoCorrection& current);
-  void ObserveLines(const Map& map, const KeyFrame& keyframe, const StereoCorrection& current);
   // A displacement measured at a place of the right image, with its variance.
   void Add(const StereoCorrection& current,
            const Eigen::Vector2d& px,
            double displacement,
-           double variance,
-           double share);
+           double variance);
 
   RectifiedCamera camera_;
   Matrix6d information_ = Matrix6d::Zero();

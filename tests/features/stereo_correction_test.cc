@@ -20,10 +20,9 @@ TEST(StereoCorrection, IsAQuadraticPolynomialAroundThePrincipalPoint) {
   EXPECT_NEAR(correction.At({camera.cx + x * unit, camera.cy + y * unit}),
               0.1 - 0.2 * x + 0.3 * y - 0.4 * x * x + 0.5 * x * y - 0.6 * y * y,
               1e-12);
-  EXPECT_NEAR(
-      StereoCorrection::Terms(camera, {camera.cx + x * unit, camera.cy + y * unit}).dot(k),
-      correction.At({camera.cx + x * unit, camera.cy + y * unit}),
-      1e-12);
+  EXPECT_NEAR(StereoCorrection::Terms(camera, {camera.cx + x * unit, camera.cy + y * unit}).dot(k),
+              correction.At({camera.cx + x * unit, camera.cy + y * unit}),
+              1e-12);
 }
 
 TEST(StereoCorrection, IsNothingByDefault) {

@@ -120,7 +120,9 @@ TEST(LocalMapper, ReportsItsStepsInOrder) {
     names.push_back(step.name);
     EXPECT_GE(step.milliseconds, 0);
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"take_in", "create", "fuse", "adjust", "calibrate", "clean_up"}));
+  EXPECT_EQ(
+      names,
+      (std::vector<std::string>{"take_in", "create", "fuse", "adjust", "calibrate", "clean_up"}));
 }
 
 TEST(LocalMapper, TheFirstKeyFrameNeverMoves) {
