@@ -37,6 +37,8 @@ class StereoCorrection {
 };
 
 // Disparities of points and right lines corrected, of features that were corrected by `before`.
-void Correct(const StereoCorrection& before, const StereoCorrection& correction, Features& features);
+void Correct(const StereoCorrection& before,
+             const StereoCorrection& correction,
+             Features& features);
 
 }  // namespace plumbline
