@@ -27,7 +27,7 @@ struct SnapshotLine : LineModel {
 struct MapSnapshot {
   std::int64_t version = 0;
   KeyFrameId centre;
-  StereoCorrection stereo_correction;             // of disparities
+  StereoCorrection stereo_correction;           // of disparities
   std::map<KeyFrameId, Rigid3> cam_from_world;  // keyframes of the window
   std::shared_ptr<const KeyFrame> reference;    // the centre, for matching by appearance
   std::vector<SnapshotPoint> points;            // sorted by id

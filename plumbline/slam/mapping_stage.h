@@ -90,7 +90,7 @@ class MappingStage {
   std::int64_t lag_;
   // The tracker's side.
   std::int64_t submitted_ = 0;
-  std::int64_t finished_ = 0;   // the last one when Finish() adjusted the maps
+  std::int64_t finished_ = 0;  // the last one when Finish() adjusted the maps
   std::deque<Due> dues_;  // of tasks later than the one last asked for; live: of first keyframes
   // The worker's side.
   LocalMapper mapper_;
