@@ -7,6 +7,7 @@
 #include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/optimization/pose_sigma.h"
 
 #include <algorithm>
 #include <chrono>
@@ -150,9 +151,16 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
 }
 
 void LocalMapper::Adjust(Map& map, KeyFrameId id) const {
-  const BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
-  const BaResult result = SolveLocalBa(window.problem, options_.ba, lines_.parametrization);
+  BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
+  BaProblem& problem = window.problem;
+  const double max_sigma = options_.window.max_pose_sigma;
+  HoldLoosePoses(InitialState(problem), max_sigma, problem);
+  BaResult result = SolveLocalBa(problem, options_.ba, lines_.parametrization);
   if (result.termination == BaTermination::kNotFinite) return;
+  // Rejected observations may leave a pose loose that was fixed before.
+  if (HoldLoosePoses(result, max_sigma, problem)) {
+    result = SolveLocalBa(problem, options_.ba, lines_.parametrization);
+  }
   map.Apply(ToEdit(map, imaging_, window, result));
 }
 

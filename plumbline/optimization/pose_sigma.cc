@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/pose_sigma.h"
+
+#include "plumbline/base/median.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/optimization/residuals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+namespace plumbline {
+namespace {
+
+// What the observations of one pose add up to.
+struct Sums {
+  Matrix6d information = Matrix6d::Zero();
+  std::vector<double> depths;
+};
+
+void AddPoints(const BaProblem& problem, const BaResult& state, std::vector<Sums>& sums) {
+  for (std::size_t k = 0; k < problem.point_observations.size(); ++k) {
+    if (!state.point_inliers[k]) continue;
+    const auto& o = problem.point_observations[k];
+    const auto pose = static_cast<std::size_t>(o.pose);
+    const Eigen::Vector3d& point = state.points[static_cast<std::size_t>(o.point)];
+    const auto residual = EvaluatePoint(problem.camera, state.poses[pose], point, o.measurement);
+    if (!residual) continue;
+    const auto J = residual->J_pose.topRows(residual->rows);
+    sums[pose].information.noalias() += J.transpose() * J;
+    sums[pose].depths.push_back((state.poses[pose] * point).z());
+  }
+}
+
+void AddLines(const BaProblem& problem, const BaResult& state, std::vector<Sums>& sums) {
+  for (std::size_t k = 0; k < problem.line_observations.size(); ++k) {
+    if (!state.line_inliers[k]) continue;
+    const auto& o = problem.line_observations[k];
+    const auto pose = static_cast<std::size_t>(o.pose);
+    const Rigid3& cam_from_world = state.poses[pose];
+    const OrthonormalLine& line = state.lines[static_cast<std::size_t>(o.line)];
+    const auto residual = EvaluateLine(problem.camera, cam_from_world, line, o.measurement);
+    if (!residual) continue;
+    sums[pose].information.noalias() += residual->J_pose.transpose() * residual->J_pose;
+    if (o.measurement.in_right_camera) continue;
+    const PluckerLine plucker = ToPlucker(line);
+    const auto seen =
+        TrimToSegment(problem.camera, cam_from_world, plucker, o.measurement.segment);
+    if (!seen) continue;
+    const Segment3 part = SegmentOf(plucker, *seen);
+    sums[pose].depths.push_back((cam_from_world * part.Midpoint()).z());
+  }
+}
+
+// Square root of the largest eigenvalue.
+double LargestSigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, eigen.eigenvalues()(2)));
+}
+
+}  // namespace
+
+PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!(scene_depth > 0)) return {kInfinity, kInfinity};
+  Vector6d unit = Vector6d::Ones();
+  unit.tail<3>().setConstant(scene_depth);
+  const Matrix6d scaled = unit.asDiagonal() * information * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
+  const Vector6d& values = eigen.eigenvalues();
+  if (!(values(0) > 1e-12 * values(5))) return {kInfinity, kInfinity};
+  const Matrix6d covariance =
+      eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  return {LargestSigma(covariance.topLeftCorner<3, 3>()),
+          LargestSigma(covariance.bottomRightCorner<3, 3>())};
+}
+
+std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state) {
+  std::vector<Sums> sums(problem.poses.size());
+  AddPoints(problem, state, sums);
+  AddLines(problem, state, sums);
+  std::vector<PoseSigma> sigmas;
+  sigmas.reserve(sums.size());
+  for (Sums& s : sums) {
+    sigmas.push_back(SigmaOfPose(s.information, UpperMedian(std::span<double>(s.depths))));
+  }
+  return sigmas;
+}
+
+BaResult InitialState(const BaProblem& problem) {
+  BaResult state;
+  for (const auto& pose : problem.poses) state.poses.push_back(pose.cam_from_world);
+  state.points = problem.points;
+  state.lines = problem.lines;
+  state.point_inliers.assign(problem.point_observations.size(), true);
+  state.line_inliers.assign(problem.line_observations.size(), true);
+  return state;
+}
+
+bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
+  const std::vector<PoseSigma> sigmas = SigmasOfPoses(problem, state);
+  bool any = false;
+  for (std::size_t i = 0; i < sigmas.size(); ++i) {
+    if (problem.poses[i].fixed || sigmas[i].AtMost(limit)) continue;
+    problem.poses[i].fixed = true;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/problem.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// How well a pose is known: standard deviations in the worst direction, each with the other five
+// degrees of freedom unknown (marginal). Infinite where the information leaves a direction open.
+struct PoseSigma {
+  double rotation = 0;     // radians
+  double translation = 0;  // relative to the depth of the scene
+
+  // Both at most `limit`: the number counts of inliers cannot give. A hundred parallel lines leave
+  // the pose open, six in three directions fix it.
+  bool AtMost(double limit) const { return rotation <= limit && translation <= limit; }
+};
+
+// From the information of a left perturbation [rotation, translation] of cam_from_world, the
+// translation in the unit of scene_depth: the median depth of the landmarks, greater than 0 (with
+// any other depth the result is infinite). Having no unit, one limit serves a room, a road and a
+// map from one camera.
+PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth);
+
+// Of each pose of a problem from its observations, with all landmarks where they are; of `state`
+// only poses, points, lines and inliers are used.
+std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state);
+
+// A problem before anything is solved, with all observations as inliers.
+BaResult InitialState(const BaProblem& problem);
+
+// Marks the free poses as fixed that the observations in use do not fix to `limit`: whatever lets
+// them fit the few observations they have is cheap, and takes them anywhere. Returns whether there
+// were any. The caller solves again, from the problem's poses.
+bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem);
+
+}  // namespace plumbline
