@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/pose_estimation.h"
 
+#include "plumbline/base/median.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/tracking/line_cutting.h"
 
@@ -108,6 +109,22 @@ PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
   return result;
 }
 
+// Median depth of what is matched, at points and in the middle of the lines.
+double SceneDepth(const FrameAssociation& association, const Rigid3& cam_from_world) {
+  std::vector<double> depths;
+  for (const int match : association.point_of_feature) {
+    if (match < 0) continue;
+    const PointModel& point = association.points[static_cast<std::size_t>(match)].model;
+    depths.push_back((cam_from_world * point.position).z());
+  }
+  for (const int match : association.line_of_feature) {
+    if (match < 0) continue;
+    const LineModel& line = association.lines[static_cast<std::size_t>(match)].model;
+    depths.push_back((cam_from_world * line.Interval().Midpoint()).z());
+  }
+  return UpperMedian(std::span<double>(depths));
+}
+
 }  // namespace
 
 PoseEstimate EstimatePose(const RectifiedCamera& camera,
@@ -133,7 +150,7 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
     if (!result.line_inliers[k]) association.line_of_feature[matched.line_feature[k]] = -1;
   }
   return {result.cam_from_world,
-          result.information,
+          SigmaOfPose(result.information, SceneDepth(association, result.cam_from_world)),
           result.inlier_points,
           result.inlier_line_groups,
           result.converged};

@@ -6,18 +6,23 @@
 #include "plumbline/cutting/cut_lines.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/optimization/pose_only.h"
+#include "plumbline/optimization/pose_sigma.h"
 #include "plumbline/tracking/frame_association.h"
 
 namespace plumbline {
 
 struct PoseEstimate {
   Rigid3 cam_from_world;
-  Matrix6d information = Matrix6d::Zero();
+  PoseSigma sigma;  // from the inliers; infinite where they do not fix the pose
   int inlier_points = 0;
   int inlier_lines = 0;
   bool converged = false;
 
   int Inliers() const { return inlier_points + inlier_lines; }
+  // Enough inliers agree, and what they say fixes all six degrees of freedom.
+  bool Accepted(int min_inliers, double max_sigma) const {
+    return Inliers() >= min_inliers && converged && sigma.AtMost(max_sigma);
+  }
 };
 
 // The pose that best fits the matches, from `initial`; matches that turn out to be outliers are

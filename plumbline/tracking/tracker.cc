@@ -192,7 +192,7 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   if (pose.Inliers() < options_.min_inliers) {
     return Fail(std::move(frame), TrackingFailure::kTooFewInliers, result.counts);
   }
-  if (!pose.converged) {
+  if (!Accepted(pose)) {
     return Fail(std::move(frame), TrackingFailure::kPoseNotObservable, result.counts);
   }
 
@@ -281,12 +281,9 @@ std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
     search.line_offset_px = factor * options_.first_radius_px;
     MatchCandidates(imaging_, *frame.indexed, predicted, search, association);
     const int matches = association.PointMatches() + association.LineMatches();
-    if (matches < 2 * options_.min_inliers) continue;
+    if (matches < options_.min_inliers) continue;
     const PoseEstimate estimate = Estimate(frame, predicted, association);
-    if (estimate.converged && estimate.Inliers() >= options_.min_inliers &&
-        estimate.Inliers() * 3 >= matches) {
-      return estimate;
-    }
+    if (Accepted(estimate) && estimate.Inliers() * 3 >= matches) return estimate;
   }
   return std::nullopt;
 }
@@ -347,8 +344,7 @@ std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
   counts.matched_lines = association.LineMatches();
   if (counts.matched_points + counts.matched_lines < options_.min_inliers) return std::nullopt;
   const PoseEstimate estimate = Estimate(frame, initial, association);
-  if (!estimate.converged || estimate.Inliers() < options_.min_inliers) return std::nullopt;
-  return estimate;
+  return Accepted(estimate) ? std::optional(estimate) : std::nullopt;
 }
 
 PoseEstimate Tracker::WithLastFrame(const Frame& frame,

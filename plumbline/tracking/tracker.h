@@ -35,6 +35,7 @@ constexpr auto EnumNames(std::type_identity<TrackingReference>) {
 struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
   int min_inliers = 10;  // points + lines a pose needs to be accepted
+  double max_pose_sigma = 0.02;  // and to which they must fix it (PoseSigma)
   int min_initial = 60;  // points with depth + lines with depth that can start a map
   double max_relative_depth_sigma = 0.05;       // of points made from one frame
   double max_relative_line_depth_sigma = 0.15;  // of the ends of lines, whose weights allow for it
@@ -57,6 +58,11 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
       "what a frame is tracked against: local_map, or last_frame (odometry: points and lines with "
       "depth of the frame before alone, only the first frame becomes a keyframe; needs depth)");
   visit("min_inliers", o.min_inliers, "points + lines a pose needs to be accepted", Range{4, 1000});
+  visit("max_pose_sigma",
+        o.max_pose_sigma,
+        "deviation to which they must fix it: rotation [rad] and translation relative to the depth "
+        "of the scene",
+        Range{1e-6, 10});
   visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
   visit("max_relative_depth_sigma",
         o.max_relative_depth_sigma,
@@ -219,6 +225,9 @@ class Tracker {
                             FrameAssociation& association,
                             FrameCounts& counts);
   PoseEstimate Estimate(const Frame& frame, const Rigid3& initial, FrameAssociation& a) const;
+  bool Accepted(const PoseEstimate& pose) const {
+    return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);
+  }
   void Score(const ExpectedLandmarks& expected, const FrameAssociation& association);
   KeyFrameSituation Situation(const Frame& frame,
                               const FrameAssociation& association,
