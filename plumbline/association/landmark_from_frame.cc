@@ -4,13 +4,68 @@
 
 #include "plumbline/association/line_information.h"
 #include "plumbline/association/measurements.h"
+#include "plumbline/base/median.h"
 #include "plumbline/features/match_lines.h"
+
+#include <cmath>
+#include <vector>
 
 namespace plumbline {
 namespace {
 
 bool DepthIsKnown(const Disparity& disparity, double max_relative_sigma) {
   return disparity.px > 0 && disparity.sigma_px <= max_relative_sigma * disparity.px;
+}
+
+// Of the ends of a line that the right image shows, too.
+std::optional<LineEndDisparity> MeasuredEnds(const Frame& frame,
+                                             std::size_t i,
+                                             double flat_angle_deg) {
+  const Features& features = frame.features();
+  if (!features.line_right[i]) return std::nullopt;
+  return LineEndDisparities(features.lines[i], *features.line_right[i], flat_angle_deg);
+}
+
+// The line through the ends of feature i at these disparities.
+LineModel LineAt(const RectifiedCamera& camera,
+                 const Frame& frame,
+                 std::size_t i,
+                 const LineEndDisparity& ends) {
+  const LineFeature& feature = frame.features().lines[i];
+  const Rigid3 world_from_cam = Inverse(frame.cam_from_world);
+  const auto lift = [&](const Eigen::Vector2d& px, const Disparity& disparity) {
+    return world_from_cam * (camera.DepthFromDisparity(disparity.px) * camera.Unproject(px));
+  };
+  const Eigen::Vector3d start = lift(feature.segment.start, ends.start);
+  const Eigen::Vector3d end = lift(feature.segment.end, ends.end);
+  LineModel model;
+  model.line = LineThroughPoints(start, end);
+  model.start = model.line.ParameterOf(start);
+  model.end = model.line.ParameterOf(end);
+  model.view_direction = (0.5 * (start + end) - world_from_cam.translation).normalized();
+  model.descriptor = feature.descriptor;
+  model.information = LineInformation(camera, frame, i, model.line);
+  return model;
+}
+
+Disparity Average(const Disparity& a, const Disparity& b) {
+  const double wa = 1 / (a.sigma_px * a.sigma_px);
+  const double wb = 1 / (b.sigma_px * b.sigma_px);
+  return {(wa * a.px + wb * b.px) / (wa + wb), 1 / std::sqrt(wa + wb)};
+}
+
+// What a known distance from the camera says about a line: that of its place at parameter t, with a
+// deviation relative to it. Only the part of the ray across the line counts.
+Eigen::Matrix4d DepthInformation(const PluckerLine& line,
+                                 double t,
+                                 const Eigen::Vector3d& camera_centre,
+                                 double relative_sigma) {
+  const Eigen::Vector3d ray = line.PointAt(t) - camera_centre;
+  const Eigen::Vector3d across = ray - ray.dot(line.direction) * line.direction;
+  const double shift = across.norm();
+  const Eigen::RowVector4d row = across.transpose() / (shift * shift * relative_sigma) *
+                                 ShiftJacobian(line, ToOrthonormal(line), t);
+  return row.transpose() * row;
 }
 
 }  // namespace
@@ -38,27 +93,45 @@ std::optional<LineModel> LineFromFrame(const RectifiedCamera& camera,
                                        const Frame& frame,
                                        std::size_t i,
                                        double max_relative_sigma) {
-  const Features& features = frame.features();
-  const LineFeature& feature = features.lines[i];
-  if (!features.line_right[i]) return std::nullopt;
-  const auto ends = LineEndDisparities(feature, *features.line_right[i]);
+  const auto ends = MeasuredEnds(frame, i, 5);
   if (!ends || !DepthIsKnown(ends->start, max_relative_sigma) ||
       !DepthIsKnown(ends->end, max_relative_sigma)) {
     return std::nullopt;
   }
-  const Rigid3 world_from_cam = Inverse(frame.cam_from_world);
-  const auto lift = [&](const Eigen::Vector2d& px, const Disparity& disparity) {
-    return world_from_cam * (camera.DepthFromDisparity(disparity.px) * camera.Unproject(px));
-  };
-  const Eigen::Vector3d start = lift(feature.segment.start, ends->start);
-  const Eigen::Vector3d end = lift(feature.segment.end, ends->end);
-  LineModel model;
-  model.line = LineThroughPoints(start, end);
-  model.start = model.line.ParameterOf(start);
-  model.end = model.line.ParameterOf(end);
-  model.view_direction = (0.5 * (start + end) - world_from_cam.translation).normalized();
-  model.descriptor = feature.descriptor;
-  model.information = LineInformation(camera, frame, i, model.line);
+  return LineAt(camera, frame, i, *ends);
+}
+
+std::optional<Disparity> SceneDisparity(const Frame& frame) {
+  constexpr double kRelativeSigma = 0.5;
+  std::vector<double> disparities;
+  for (const auto& point : frame.features().point_disparity) {
+    if (point && DepthIsKnown(*point, kRelativeSigma)) disparities.push_back(point->px);
+  }
+  for (std::size_t i = 0; i < frame.lines.size(); ++i) {
+    const auto ends = MeasuredEnds(frame, i, 5);
+    if (!ends) continue;
+    for (const Disparity& end : {ends->start, ends->end}) {
+      if (DepthIsKnown(end, kRelativeSigma)) disparities.push_back(end.px);
+    }
+  }
+  if (disparities.empty()) return std::nullopt;
+  const double median = UpperMedian(std::span<double>(disparities));
+  return Disparity{median, kRelativeSigma * median};
+}
+
+std::optional<LineModel> LineAtSceneDepth(const RectifiedCamera& camera,
+                                          const Frame& frame,
+                                          std::size_t i,
+                                          const Disparity& scene) {
+  const auto measured = MeasuredEnds(frame, i, 0);
+  const LineEndDisparity ends = measured ? LineEndDisparity{Average(measured->start, scene),
+                                                            Average(measured->end, scene)}
+                                         : LineEndDisparity{scene, scene};
+  LineModel model = LineAt(camera, frame, i, ends);
+  const Eigen::Vector3d centre = Inverse(frame.cam_from_world).translation;
+  for (const double t : {model.start, model.end}) {
+    model.information += DepthInformation(model.line, t, centre, scene.sigma_px / scene.px);
+  }
   return model;
 }
 

@@ -27,4 +27,18 @@ std::optional<LineModel> LineFromFrame(const RectifiedCamera& camera,
                                        std::size_t i,
                                        double max_relative_sigma);
 
+// The disparity of the scene that a stereo or RGB-D frame shows: the median of its points and ends
+// of lines, with half of it as deviation. nullopt where none was measured.
+std::optional<Disparity> SceneDisparity(const Frame& frame);
+
+// The line that line feature i shows if it is about as far away as the scene: a line along the rows
+// or far away, or one that the right image does not show, has no depth of its own, but says as much
+// as any other about the rotation of a camera that moves little against that depth. What was
+// measured of its disparities and `scene` are averaged by their variances; both are in the
+// information. nullopt where the result would not be in front of the camera.
+std::optional<LineModel> LineAtSceneDepth(const RectifiedCamera& camera,
+                                          const Frame& frame,
+                                          std::size_t i,
+                                          const Disparity& scene);
+
 }  // namespace plumbline

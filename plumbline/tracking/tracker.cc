@@ -235,10 +235,11 @@ Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
 // depths, at the places that go with its pose of today.
 FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
                                         const Frame& frame,
-                                        bool wide) const {
+                                        Depths depths) const {
   const double worst = options_.worst_relative_depth_sigma;
-  const double point_sigma = wide ? worst : options_.max_relative_depth_sigma;
-  const double line_sigma = wide ? worst : options_.max_relative_line_depth_sigma;
+  const bool known_only = depths == Depths::kKnown;
+  const double point_sigma = known_only ? options_.max_relative_depth_sigma : worst;
+  const double line_sigma = known_only ? options_.max_relative_line_depth_sigma : worst;
   FrameAssociation result(frame.points.size(), frame.lines.size());
   Frame last = last_->frame;
   last.cam_from_world = LastPose(snapshot);
@@ -251,12 +252,17 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
       result.points.push_back({PointId{}, *point});
     }
   }
+  const auto scene = depths == Depths::kGuessed ? SceneDisparity(last) : std::nullopt;
   for (std::size_t i = 0; i < last.lines.size(); ++i) {
     const auto* known = InSnapshot(before.lines, before.line_of_feature[i], snapshot);
     if (known != nullptr) {
       result.lines.push_back({known->id, *known});
     } else if (const auto line = LineFromFrame(imaging_.camera, last, i, line_sigma)) {
       result.lines.push_back({LineId{}, *line});
+    } else if (scene) {
+      if (const auto guess = LineAtSceneDepth(imaging_.camera, last, i, *scene)) {
+        result.lines.push_back({LineId{}, *guess});
+      }
     }
   }
   return result;
@@ -269,23 +275,41 @@ PoseEstimate Tracker::Estimate(const Frame& frame,
       imaging_.camera, frame.features(), initial, lines_, cutting_, options_.pose, association);
 }
 
+std::optional<PoseEstimate> Tracker::SearchLast(const Frame& frame,
+                                                const Rigid3& predicted,
+                                                const MapSnapshot& snapshot,
+                                                const LastSearch& how,
+                                                FrameAssociation& association) const {
+  association = LastLandmarks(snapshot, frame, how.depths);
+  ProjectionSearchOptions search = options_.search;
+  search.point_radius_px = how.factor * options_.first_radius_px;
+  search.line_offset_px = how.factor * options_.first_radius_px;
+  MatchCandidates(imaging_, *frame.indexed, predicted, search, association);
+  const int matches = association.PointMatches() + association.LineMatches();
+  if (matches < options_.min_inliers) return std::nullopt;
+  const PoseEstimate estimate = Estimate(frame, predicted, association);
+  if (!Accepted(estimate) || estimate.Inliers() * 3 < matches) return std::nullopt;
+  return estimate;
+}
+
 std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
                                                     const Rigid3& predicted,
                                                     const MapSnapshot& snapshot,
                                                     FrameAssociation& association) const {
-  for (const bool wide : {false, true}) {
-    const double factor = wide ? options_.wide_factor : 1.0;
-    association = LastLandmarks(snapshot, frame, wide);
-    ProjectionSearchOptions search = options_.search;
-    search.point_radius_px = factor * options_.first_radius_px;
-    search.line_offset_px = factor * options_.first_radius_px;
-    MatchCandidates(imaging_, *frame.indexed, predicted, search, association);
-    const int matches = association.PointMatches() + association.LineMatches();
-    if (matches < options_.min_inliers) continue;
-    const PoseEstimate estimate = Estimate(frame, predicted, association);
-    if (Accepted(estimate) && estimate.Inliers() * 3 >= matches) return estimate;
+  std::optional<PoseEstimate> best;
+  for (const LastSearch& how : {LastSearch{Depths::kKnown, 1},
+                                LastSearch{Depths::kUncertain, 1},
+                                LastSearch{Depths::kGuessed, 1},
+                                LastSearch{Depths::kGuessed, options_.wide_factor}}) {
+    if (best && how.depths == Depths::kGuessed) break;  // guesses may be wrong: only where needed
+    FrameAssociation found;
+    const auto estimate = SearchLast(frame, predicted, snapshot, how, found);
+    if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;
+    best = estimate;
+    association = std::move(found);
+    if (best->Inliers() >= 2 * options_.min_inliers) break;
   }
-  return std::nullopt;
+  return best;
 }
 
 std::optional<CandidatePoint> Tracker::PointOf(const Frame& frame,

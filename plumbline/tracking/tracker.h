@@ -196,7 +196,21 @@ class Tracker {
   TrackingResult StartMap(Frame frame);
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind);
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
-  FrameAssociation LastLandmarks(const MapSnapshot& snapshot, const Frame& frame, bool wide) const;
+  // Which new landmarks are made from the last frame's depths: those that it knows well, also those
+  // that it hardly knows, also lines at the depth of the scene.
+  enum class Depths { kKnown, kUncertain, kGuessed };
+  struct LastSearch {
+    Depths depths = Depths::kKnown;
+    double factor = 1;  // of the usual distance from the predicted places
+  };
+  FrameAssociation LastLandmarks(const MapSnapshot& snapshot,
+                                 const Frame& frame,
+                                 Depths depths) const;
+  std::optional<PoseEstimate> SearchLast(const Frame& frame,
+                                         const Rigid3& predicted,
+                                         const MapSnapshot& snapshot,
+                                         const LastSearch& how,
+                                         FrameAssociation& association) const;
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const Rigid3& predicted,
                                              const MapSnapshot& snapshot,
