@@ -57,6 +57,7 @@ class PoseSolver {
  public:
   PoseSolver(const PoseProblem& problem, const PoseOnlyOptions& options)
       : camera_(problem.camera),
+        prior_(problem.prior),
         options_(options),
         projected_ends_(problem.line_residual == LineResidualKind::kProjectedEnds) {
     Pack(problem);
@@ -71,6 +72,7 @@ class PoseSolver {
   void EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   void EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   void EvaluateProjectedLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
+  void AddPrior(const Rigid3& pose, PoseSums& eq) const;
   // Levenberg-Marquardt from pose_; true when it met a tolerance.
   bool Optimize(const HuberThresholds& huber, int max_iterations);
   // At pose_, whose rotation R is.
@@ -89,6 +91,7 @@ class PoseSolver {
   }
 
   const RectifiedCamera camera_;
+  const PosePrior prior_;
   const PoseOnlyOptions& options_;
   const bool projected_ends_;
   std::vector<PosePoint> points_;
@@ -211,6 +214,16 @@ void PoseSolver::EvaluateProjectedLines(const Rigid3& pose,
   }
 }
 
+// The derivative of the deviation by the left perturbation is the identity up to the square of the
+// deviation's angle.
+void PoseSolver::AddPrior(const Rigid3& pose, PoseSums& eq) const {
+  const Vector6d deviation = LogSe3(pose * Inverse(prior_.cam_from_world));
+  const Vector6d gradient = prior_.information * deviation;
+  eq.cost += 0.5 * deviation.dot(gradient);
+  eq.g += gradient;
+  eq.H += prior_.information;
+}
+
 PoseSums PoseSolver::Evaluate(const Rigid3& pose, const HuberThresholds& huber) {
   PoseSums eq;
   EvaluatePoints(pose, huber, eq);
@@ -219,6 +232,7 @@ PoseSums PoseSolver::Evaluate(const Rigid3& pose, const HuberThresholds& huber) 
   } else {
     EvaluateLines(pose, huber, eq);
   }
+  AddPrior(pose, eq);
   return eq;
 }
 

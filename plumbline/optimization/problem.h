@@ -60,6 +60,13 @@ struct BaProblem {
   std::vector<LineObservation> line_observations;
 };
 
+// What is known of a pose beforehand: normally distributed about `cam_from_world`, with the
+// information of the left perturbation [rotation, translation]. Zero: nothing.
+struct PosePrior {
+  Rigid3 cam_from_world;
+  Matrix6d information = Matrix6d::Zero();
+};
+
 // Camera pose from landmarks that stay fixed.
 struct PoseProblem {
   struct PointMatch {
@@ -76,6 +83,7 @@ struct PoseProblem {
   RectifiedCamera camera;
   LineResidualKind line_residual = LineResidualKind::kObservedEnds;
   Rigid3 cam_from_world;  // initial
+  PosePrior prior;
   std::vector<PointMatch> points;
   std::vector<LineMatch> lines;
 };

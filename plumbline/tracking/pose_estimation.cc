@@ -133,8 +133,10 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const LineOptions& lines,
                           const CuttingOptions& cutting,
                           const PoseOnlyOptions& options,
-                          FrameAssociation& association) {
+                          FrameAssociation& association,
+                          const PosePrior& prior) {
   MatchedProblem matched;
+  matched.problem.prior = prior;
   matched.problem.camera = camera;
   matched.problem.cam_from_world = initial;
   matched.problem.line_residual = lines.residual;
@@ -149,8 +151,11 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
   for (std::size_t k = 0; k < matched.line_feature.size(); ++k) {
     if (!result.line_inliers[k]) association.line_of_feature[matched.line_feature[k]] = -1;
   }
+  const double depth = SceneDepth(association, result.cam_from_world);
   return {result.cam_from_world,
-          SigmaOfPose(result.information, SceneDepth(association, result.cam_from_world)),
+          result.information,
+          depth,
+          SigmaOfPose(result.information, depth),
           result.inlier_points,
           result.inlier_line_groups,
           result.converged};

@@ -13,7 +13,10 @@ namespace plumbline {
 
 struct PoseEstimate {
   Rigid3 cam_from_world;
-  PoseSigma sigma;  // from the inliers; infinite where they do not fix the pose
+  // Of the inliers and the prior, left perturbation [rotation, translation].
+  Matrix6d information = Matrix6d::Zero();
+  double scene_depth = 0;  // median of the inliers
+  PoseSigma sigma;         // of the two; infinite where they do not fix the pose
   int inlier_points = 0;
   int inlier_lines = 0;
   bool converged = false;
@@ -35,6 +38,7 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const LineOptions& lines,
                           const CuttingOptions& cutting,
                           const PoseOnlyOptions& options,
-                          FrameAssociation& association);
+                          FrameAssociation& association,
+                          const PosePrior& prior = {});
 
 }  // namespace plumbline

@@ -139,6 +139,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   result.state = state_;
   lost_frames_ = 0;
   velocity_.setZero();
+  spread_.reset();
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
   last_ = LastFrame{std::move(frame), FrameAssociation(points, lines), newest_keyframe_, Rigid3{}};
@@ -154,6 +155,7 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   lost_frames_ = 0;
   trial_keyframes_ = options_.trial_keyframes;
   velocity_ = velocity;
+  spread_.reset();
   state_ = NextState(state_, true, 0, options_.new_map_after);
   FrameAssociation association = AssociationOf(frame, snapshot);
   TrackingResult result;
@@ -173,9 +175,12 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   FrameAssociation association;
   TrackingResult result;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
-  const Rigid3 predicted = RetractLeft(last_pose, seconds * velocity_);
+  PosePrior predicted = Predict(last_pose, seconds);
   auto first = FromPrediction(frame, predicted, snapshot, association);
-  if (!first) first = FromAppearance(frame, last_pose, snapshot, association, result.counts);
+  if (!first) {
+    predicted.information.setZero();
+    first = FromAppearance(frame, last_pose, snapshot, association, result.counts);
+  }
   if (!first) {
     const int matches = result.counts.matched_points + result.counts.matched_lines;
     return Fail(std::move(frame),
@@ -185,8 +190,8 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   }
   const bool odometry = options_.reference == TrackingReference::kLastFrame;
   const PoseEstimate pose = odometry
-                                ? WithLastFrame(frame, *first, association, result.counts)
-                                : WithLocalMap(frame, *first, snapshot, association, result.counts);
+          ? WithLastFrame(frame, *first, predicted, association, result.counts)
+          : WithLocalMap(frame, *first, predicted, snapshot, association, result.counts);
   result.counts.inlier_points = pose.inlier_points;
   result.counts.inlier_lines = pose.inlier_lines;
   if (pose.Inliers() < options_.min_inliers) {
@@ -200,6 +205,7 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   frame.points = IdsOfMatches<PointId>(association.point_of_feature, association.points);
   frame.lines = IdsOfMatches<LineId>(association.line_of_feature, association.lines);
   velocity_ = LogSe3(frame.cam_from_world * Inverse(last_pose)) / seconds;
+  spread_ = Spread{pose.information.inverse(), pose.scene_depth};
   lost_frames_ = 0;
   state_ = NextState(state_, true, 0, options_.new_map_after);
   result.state = state_;
@@ -229,6 +235,19 @@ Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
   const auto it = snapshot.cam_from_world.find(last_->reference);
   if (it == snapshot.cam_from_world.end()) return last_->frame.cam_from_world;
   return last_->cam_from_reference * it->second;
+}
+
+// Constant velocity; it may change by motion_sigma a second, the translation in the unit of the
+// scene's depth. The last pose adds its own covariance.
+PosePrior Tracker::Predict(const Rigid3& last_pose, double seconds) const {
+  PosePrior prior{RetractLeft(last_pose, seconds * velocity_)};
+  if (!spread_) return prior;
+  Vector6d sigma = Vector6d::Constant(options_.motion_sigma * seconds * seconds);
+  sigma.tail<3>() *= spread_->scene_depth;
+  Matrix6d covariance = spread_->covariance;
+  covariance.diagonal() += sigma.cwiseAbs2();
+  prior.information = covariance.inverse();
+  return prior;
 }
 
 // What the last frame showed: its landmarks as they are in the snapshot, and new ones from its
@@ -270,13 +289,20 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
 
 PoseEstimate Tracker::Estimate(const Frame& frame,
                                const Rigid3& initial,
+                               const PosePrior& prior,
                                FrameAssociation& association) const {
-  return EstimatePose(
-      imaging_.camera, frame.features(), initial, lines_, cutting_, options_.pose, association);
+  return EstimatePose(imaging_.camera,
+                      frame.features(),
+                      initial,
+                      lines_,
+                      cutting_,
+                      options_.pose,
+                      association,
+                      prior);
 }
 
 std::optional<PoseEstimate> Tracker::SearchLast(const Frame& frame,
-                                                const Rigid3& predicted,
+                                                const PosePrior& predicted,
                                                 const MapSnapshot& snapshot,
                                                 const LastSearch& how,
                                                 FrameAssociation& association) const {
@@ -284,16 +310,16 @@ std::optional<PoseEstimate> Tracker::SearchLast(const Frame& frame,
   ProjectionSearchOptions search = options_.search;
   search.point_radius_px = how.factor * options_.first_radius_px;
   search.line_offset_px = how.factor * options_.first_radius_px;
-  MatchCandidates(imaging_, *frame.indexed, predicted, search, association);
+  MatchCandidates(imaging_, *frame.indexed, predicted.cam_from_world, search, association);
   const int matches = association.PointMatches() + association.LineMatches();
   if (matches < options_.min_inliers) return std::nullopt;
-  const PoseEstimate estimate = Estimate(frame, predicted, association);
+  const PoseEstimate estimate = Estimate(frame, predicted.cam_from_world, predicted, association);
   if (!Accepted(estimate) || estimate.Inliers() * 3 < matches) return std::nullopt;
   return estimate;
 }
 
 std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
-                                                    const Rigid3& predicted,
+                                                    const PosePrior& predicted,
                                                     const MapSnapshot& snapshot,
                                                     FrameAssociation& association) const {
   std::optional<PoseEstimate> best;
@@ -307,7 +333,7 @@ std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
     if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;
     best = estimate;
     association = std::move(found);
-    if (best->Inliers() >= 2 * options_.min_inliers) break;
+    if (best->sigma.AtMost(options_.enough_pose_sigma)) break;
   }
   return best;
 }
@@ -367,22 +393,24 @@ std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
   if (counts.matched_points + counts.matched_lines < options_.min_inliers) return std::nullopt;
-  const PoseEstimate estimate = Estimate(frame, initial, association);
+  const PoseEstimate estimate = Estimate(frame, initial, {}, association);
   return Accepted(estimate) ? std::optional(estimate) : std::nullopt;
 }
 
 PoseEstimate Tracker::WithLastFrame(const Frame& frame,
                                     const PoseEstimate& first,
+                                    const PosePrior& prior,
                                     FrameAssociation& association,
                                     FrameCounts& counts) const {
   MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
-  return Estimate(frame, first.cam_from_world, association);
+  return Estimate(frame, first.cam_from_world, prior, association);
 }
 
 PoseEstimate Tracker::WithLocalMap(const Frame& frame,
                                    const PoseEstimate& first,
+                                   const PosePrior& prior,
                                    const MapSnapshot& snapshot,
                                    FrameAssociation& association,
                                    FrameCounts& counts) {
@@ -398,7 +426,7 @@ PoseEstimate Tracker::WithLocalMap(const Frame& frame,
   association = std::move(with_map);
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
-  PoseEstimate estimate = Estimate(frame, first.cam_from_world, association);
+  PoseEstimate estimate = Estimate(frame, first.cam_from_world, prior, association);
   Score(expected, association);
   return estimate;
 }
@@ -443,6 +471,7 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   const int patience = trial_keyframes_ > 0 ? 1 : options_.new_map_after;
   state_ = NextState(state_, false, lost_frames_, patience);
   velocity_.setZero();
+  spread_.reset();
   TrackingResult result;
   result.state = state_;
   result.failure = failure;

@@ -34,8 +34,10 @@ constexpr auto EnumNames(std::type_identity<TrackingReference>) {
 
 struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
-  int min_inliers = 10;  // points + lines a pose needs to be accepted
+  int min_inliers = 6;  // points + lines a pose needs to be accepted
   double max_pose_sigma = 0.02;  // and to which they must fix it (PoseSigma)
+  double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
+  double motion_sigma = 5;           // change of the velocity [rad/s^2], [scene depths/s^2]
   int min_initial = 60;  // points with depth + lines with depth that can start a map
   double max_relative_depth_sigma = 0.05;       // of points made from one frame
   double max_relative_line_depth_sigma = 0.15;  // of the ends of lines, whose weights allow for it
@@ -63,6 +65,15 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         "deviation to which they must fix it: rotation [rad] and translation relative to the depth "
         "of the scene",
         Range{1e-6, 10});
+  visit("enough_pose_sigma",
+        o.enough_pose_sigma,
+        "the same, from which on no landmarks of more uncertain depth are searched",
+        Range{1e-6, 10});
+  visit("motion_sigma",
+        o.motion_sigma,
+        "change of velocity that the prediction allows for: rotation [rad/s^2] and translation "
+        "[scene depths/s^2]",
+        Range{0.01, 1000});
   visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
   visit("max_relative_depth_sigma",
         o.max_relative_depth_sigma,
@@ -196,6 +207,8 @@ class Tracker {
   TrackingResult StartMap(Frame frame);
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind);
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
+  // No information where the velocity is not known.
+  PosePrior Predict(const Rigid3& last_pose, double seconds) const;
   // Which new landmarks are made from the last frame's depths: those that it knows well, also those
   // that it hardly knows, also lines at the depth of the scene.
   enum class Depths { kKnown, kUncertain, kGuessed };
@@ -207,12 +220,12 @@ class Tracker {
                                  const Frame& frame,
                                  Depths depths) const;
   std::optional<PoseEstimate> SearchLast(const Frame& frame,
-                                         const Rigid3& predicted,
+                                         const PosePrior& predicted,
                                          const MapSnapshot& snapshot,
                                          const LastSearch& how,
                                          FrameAssociation& association) const;
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
-                                             const Rigid3& predicted,
+                                             const PosePrior& predicted,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association) const;
   // What a feature of the frame to match by appearance shows: of the map, or, with odometry, made
@@ -231,14 +244,19 @@ class Tracker {
   // Searches more of the last frame's landmarks from the first estimate.
   PoseEstimate WithLastFrame(const Frame& frame,
                              const PoseEstimate& first,
+                             const PosePrior& prior,
                              FrameAssociation& association,
                              FrameCounts& counts) const;
   PoseEstimate WithLocalMap(const Frame& frame,
                             const PoseEstimate& first,
+                            const PosePrior& prior,
                             const MapSnapshot& snapshot,
                             FrameAssociation& association,
                             FrameCounts& counts);
-  PoseEstimate Estimate(const Frame& frame, const Rigid3& initial, FrameAssociation& a) const;
+  PoseEstimate Estimate(const Frame& frame,
+                        const Rigid3& initial,
+                        const PosePrior& prior,
+                        FrameAssociation& association) const;
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);
   }
@@ -257,6 +275,12 @@ class Tracker {
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<LastFrame> last_;
   Vector6d velocity_ = Vector6d::Zero();  // left tangent of the camera motion, per second
+  // How well the last pose is known, where the velocity is.
+  struct Spread {
+    Matrix6d covariance;
+    double scene_depth = 0;
+  };
+  std::optional<Spread> spread_;
   TrackingScores scores_;
   KeyFrameId next_keyframe_{0};
   KeyFrameId newest_keyframe_;

@@ -39,6 +39,30 @@ TEST(SolvePose, RecoversThePoseFromPointsAloneAndFromLinesAlone) {
   }
 }
 
+// A prior beside the truth: the pose moves towards it as far as the two informations say.
+TEST(SolvePose, WeighsThePriorAgainstTheMatches) {
+  Scene scene = MakePoseScene(2, {.points = 30, .lines = 10});
+  const PoseOnlyOptions options{.decrement_tolerance = 1e-14};
+  const PoseOnlyResult alone = SolvePose(scene.problem, options);
+  Vector6d away;
+  away << 2e-4, -1e-4, 1e-4, 1e-3, 2e-3, -1e-3;
+  scene.problem.prior.cam_from_world = ExpSe3(away) * scene.truth;
+  scene.problem.prior.information = 0.5 * alone.information;
+  const PoseOnlyResult both = SolvePose(scene.problem, options);
+  const Vector6d moved = LogSe3(both.cam_from_world * Inverse(scene.truth));
+  EXPECT_LT((moved - away / 3).norm(), 0.01 * away.norm());
+  EXPECT_LT((both.information - 1.5 * alone.information).norm(), 0.01 * alone.information.norm());
+}
+
+TEST(SolvePose, PriorStandsInForWhatMatchesLeaveOpen) {
+  Scene scene = MakePoseScene(2, {.points = 2, .lines = 0});
+  EXPECT_FALSE(SolvePose(scene.problem).converged);
+  scene.problem.prior = {scene.truth, 1e4 * Matrix6d::Identity()};
+  const PoseOnlyResult result = SolvePose(scene.problem);
+  EXPECT_TRUE(result.converged);
+  EXPECT_LT(Error(result.cam_from_world, scene.truth), 1e-4);
+}
+
 // Every seed: 30 % gross outliers, start several tens of pixels off.
 TEST(SolvePose, FindsThePoseAmongGrossOutliersFromAFarStart) {
   for (unsigned seed = 0; seed < 50; ++seed) {

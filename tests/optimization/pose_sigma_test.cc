@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/pose_sigma.h"
+
+#include "plumbline/base/random.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+TEST(SigmaOfPose, IsTheWorstDeviationOfEachHalf) {
+  Vector6d sigma;
+  sigma << 0.001, 0.003, 0.002, 0.04, 0.02, 0.08;
+  const Matrix6d information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+  const PoseSigma result = SigmaOfPose(information, 4);
+  EXPECT_NEAR(result.rotation, 0.003, 1e-12);
+  EXPECT_NEAR(result.translation, 0.08 / 4, 1e-12);
+  EXPECT_TRUE(result.AtMost(0.021));
+  EXPECT_FALSE(result.AtMost(0.019));
+}
+
+// What the other degrees of freedom take away counts: a turn that looks like a shift.
+TEST(SigmaOfPose, IsMarginal) {
+  Matrix6d information = 100 * Matrix6d::Identity();
+  information(1, 3) = information(3, 1) = 99;
+  const double variance = information.inverse()(1, 1);
+  EXPECT_NEAR(SigmaOfPose(information, 1).rotation, std::sqrt(variance), 1e-9);
+  EXPECT_GT(std::sqrt(variance), 0.5);  // 0.1 without the correlation
+}
+
+TEST(SigmaOfPose, IsInfiniteWhereADirectionIsOpenOrThereIsNoScene) {
+  Matrix6d information = 100 * Matrix6d::Identity();
+  EXPECT_TRUE(std::isinf(SigmaOfPose(information, 0).rotation));
+  information(4, 4) = 0;
+  EXPECT_TRUE(std::isinf(SigmaOfPose(information, 1).translation));
+  EXPECT_FALSE(SigmaOfPose(information, 1).AtMost(1e9));
+}
+
+// Two stereo cameras; the second sees only the first `seen` of the lines. The first lines are
+// vertical, one beside the other.
+BaProblem TwoViewsOfLines(int seen) {
+  BaProblem problem;
+  problem.camera = {.fx = 400, .fy = 400, .cx = 320, .cy = 240, .width = 640, .height = 480};
+  problem.camera.baseline = 0.1;
+  problem.poses = {{Rigid3{}}, {ExpSe3((Vector6d() << 0, 0.02, 0, 0.1, 0, 0.1).finished())}};
+  Rng rng(1, "lines", 0);
+  for (int i = 0; i < 24; ++i) {
+    const Eigen::Vector3d start(-1.2 + 0.1 * i, -0.5, 4 + 0.05 * i);
+    const Eigen::Vector3d along = i < 8 ? Eigen::Vector3d(0, 1, 0)
+                                        : Eigen::Vector3d(rng.Uniform(-1, 1),
+                                                          rng.Uniform(-1, 1),
+                                                          rng.Uniform(-1, 1));
+    problem.lines.push_back(ToOrthonormal(LineThroughPoints(start, start + along)));
+    for (int pose = 0; pose < 2; ++pose) {
+      if (pose == 1 && i >= seen) continue;
+      const Rigid3& cam = problem.poses[static_cast<std::size_t>(pose)].cam_from_world;
+      const auto px = [&](const Eigen::Vector3d& p, double shift) -> Eigen::Vector2d {
+        return problem.camera.Project(cam * p - Eigen::Vector3d(shift, 0, 0));
+      };
+      for (const double shift : {0.0, 0.1}) {
+        problem.line_observations.push_back({pose,
+                                             i,
+                                             {{px(start, shift), px(start + along, shift)},
+                                              0.25 * Eigen::Matrix2d::Identity(),
+                                              shift > 0}});
+      }
+    }
+  }
+  return problem;
+}
+
+TEST(HoldLoosePoses, HoldsThePoseThatParallelLinesLeaveOpen) {
+  BaProblem all = TwoViewsOfLines(24);
+  EXPECT_FALSE(HoldLoosePoses(InitialState(all), 0.01, all));
+  EXPECT_FALSE(all.poses[0].fixed || all.poses[1].fixed);
+
+  BaProblem parallel = TwoViewsOfLines(8);
+  EXPECT_TRUE(HoldLoosePoses(InitialState(parallel), 0.01, parallel));
+  EXPECT_FALSE(parallel.poses[0].fixed);
+  EXPECT_TRUE(parallel.poses[1].fixed);
+  EXPECT_FALSE(HoldLoosePoses(InitialState(parallel), 0.01, parallel)) << "held already";
+}
+
+TEST(HoldLoosePoses, CountsInliersOnly) {
+  BaProblem problem = TwoViewsOfLines(24);
+  BaResult state = InitialState(problem);
+  for (std::size_t k = 0; k < problem.line_observations.size(); ++k) {
+    const auto& o = problem.line_observations[k];
+    if (o.pose == 1 && o.line >= 8) state.line_inliers[k] = false;
+  }
+  EXPECT_TRUE(HoldLoosePoses(state, 0.01, problem));
+  EXPECT_TRUE(problem.poses[1].fixed);
+}
+
+TEST(SigmasOfPoses, ShrinkWithTheNumberOfObservations) {
+  const BaProblem few = TwoViewsOfLines(14);
+  const BaProblem many = TwoViewsOfLines(24);
+  const PoseSigma a = SigmasOfPoses(few, InitialState(few))[1];
+  const PoseSigma b = SigmasOfPoses(many, InitialState(many))[1];
+  EXPECT_LT(b.rotation, a.rotation);
+  EXPECT_LT(b.translation, a.translation);
+}
+
+}  // namespace
+}  // namespace plumbline
