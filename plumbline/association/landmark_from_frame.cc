@@ -124,9 +124,9 @@ std::optional<LineModel> LineAtSceneDepth(const RectifiedCamera& camera,
                                           std::size_t i,
                                           const Disparity& scene) {
   const auto measured = MeasuredEnds(frame, i, 0);
-  const LineEndDisparity ends = measured ? LineEndDisparity{Average(measured->start, scene),
-                                                            Average(measured->end, scene)}
-                                         : LineEndDisparity{scene, scene};
+  const LineEndDisparity ends =
+      measured ? LineEndDisparity{Average(measured->start, scene), Average(measured->end, scene)}
+               : LineEndDisparity{scene, scene};
   LineModel model = LineAt(camera, frame, i, ends);
   const Eigen::Vector3d centre = Inverse(frame.cam_from_world).translation;
   for (const double t : {model.start, model.end}) {

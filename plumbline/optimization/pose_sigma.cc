@@ -48,8 +48,7 @@ void AddLines(const BaProblem& problem, const BaResult& state, std::vector<Sums>
     sums[pose].information.noalias() += residual->J_pose.transpose() * residual->J_pose;
     if (o.measurement.in_right_camera) continue;
     const PluckerLine plucker = ToPlucker(line);
-    const auto seen =
-        TrimToSegment(problem.camera, cam_from_world, plucker, o.measurement.segment);
+    const auto seen = TrimToSegment(problem.camera, cam_from_world, plucker, o.measurement.segment);
     if (!seen) continue;
     const Segment3 part = SegmentOf(plucker, *seen);
     sums[pose].depths.push_back((cam_from_world * part.Midpoint()).z());

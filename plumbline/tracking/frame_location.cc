@@ -40,7 +40,7 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
       located.cam_from_world = pose.cam_from_world;
       located.counts.inlier_points = pose.inlier_points;
       located.counts.inlier_lines = pose.inlier_lines;
-      return pose.Accepted(options.min_inliers, options.max_pose_sigma);
+      return pose.Accepted(options.min_unpredicted_inliers, options.max_pose_sigma);
     };
     MatchCandidates(imaging, image, predicted, search, association);
     if (!accepted(predicted)) continue;

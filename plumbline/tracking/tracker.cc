@@ -189,9 +189,9 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
                 result.counts);
   }
   const bool odometry = options_.reference == TrackingReference::kLastFrame;
-  const PoseEstimate pose = odometry
-          ? WithLastFrame(frame, *first, predicted, association, result.counts)
-          : WithLocalMap(frame, *first, predicted, snapshot, association, result.counts);
+  const PoseEstimate pose =
+      odometry ? WithLastFrame(frame, *first, predicted, association, result.counts)
+               : WithLocalMap(frame, *first, predicted, snapshot, association, result.counts);
   result.counts.inlier_points = pose.inlier_points;
   result.counts.inlier_lines = pose.inlier_lines;
   if (pose.Inliers() < options_.min_inliers) {
@@ -327,13 +327,15 @@ std::optional<PoseEstimate> Tracker::FromPrediction(const Frame& frame,
                                 LastSearch{Depths::kUncertain, 1},
                                 LastSearch{Depths::kGuessed, 1},
                                 LastSearch{Depths::kGuessed, options_.wide_factor}}) {
-    if (best && how.depths == Depths::kGuessed) break;  // guesses may be wrong: only where needed
+    // Guesses may be wrong: only where needed.
+    const double limit =
+        how.depths == Depths::kGuessed ? options_.guess_pose_sigma : options_.enough_pose_sigma;
+    if (best && best->sigma.AtMost(limit)) break;
     FrameAssociation found;
     const auto estimate = SearchLast(frame, predicted, snapshot, how, found);
     if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;
     best = estimate;
     association = std::move(found);
-    if (best->sigma.AtMost(options_.enough_pose_sigma)) break;
   }
   return best;
 }
@@ -392,9 +394,11 @@ std::optional<PoseEstimate> Tracker::FromAppearance(const Frame& frame,
   }
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
-  if (counts.matched_points + counts.matched_lines < options_.min_inliers) return std::nullopt;
+  const int needed = options_.min_unpredicted_inliers;
+  if (counts.matched_points + counts.matched_lines < needed) return std::nullopt;
   const PoseEstimate estimate = Estimate(frame, initial, {}, association);
-  return Accepted(estimate) ? std::optional(estimate) : std::nullopt;
+  if (!estimate.Accepted(needed, options_.max_pose_sigma)) return std::nullopt;
+  return estimate;
 }
 
 PoseEstimate Tracker::WithLastFrame(const Frame& frame,

@@ -34,11 +34,13 @@ constexpr auto EnumNames(std::type_identity<TrackingReference>) {
 
 struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
-  int min_inliers = 6;  // points + lines a pose needs to be accepted
-  double max_pose_sigma = 0.02;  // and to which they must fix it (PoseSigma)
+  int min_inliers = 4;               // points + lines a pose near the predicted one needs ...
+  int min_unpredicted_inliers = 10;  // ... and one without prediction
+  double max_pose_sigma = 0.02;      // and to which they must fix it (PoseSigma)
   double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
+  double guess_pose_sigma = 0.005;   // up to which lines at the depth of the scene are not tried
   double motion_sigma = 5;           // change of the velocity [rad/s^2], [scene depths/s^2]
-  int min_initial = 60;  // points with depth + lines with depth that can start a map
+  int min_initial = 60;              // points with depth + lines with depth that can start a map
   double max_relative_depth_sigma = 0.05;       // of points made from one frame
   double max_relative_line_depth_sigma = 0.15;  // of the ends of lines, whose weights allow for it
   double worst_relative_depth_sigma = 0.3;      // the same when the first search finds too little
@@ -60,6 +62,10 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
       "what a frame is tracked against: local_map, or last_frame (odometry: points and lines with "
       "depth of the frame before alone, only the first frame becomes a keyframe; needs depth)");
   visit("min_inliers", o.min_inliers, "points + lines a pose needs to be accepted", Range{4, 1000});
+  visit("min_unpredicted_inliers",
+        o.min_unpredicted_inliers,
+        "the same without a predicted pose to search from",
+        Range{4, 1000});
   visit("max_pose_sigma",
         o.max_pose_sigma,
         "deviation to which they must fix it: rotation [rad] and translation relative to the depth "
@@ -68,6 +74,10 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
   visit("enough_pose_sigma",
         o.enough_pose_sigma,
         "the same, from which on no landmarks of more uncertain depth are searched",
+        Range{1e-6, 10});
+  visit("guess_pose_sigma",
+        o.guess_pose_sigma,
+        "the same, up to which no lines without known depth are searched",
         Range{1e-6, 10});
   visit("motion_sigma",
         o.motion_sigma,

@@ -22,12 +22,13 @@ RectifiedCamera Stereo() {
 }
 
 // A frame at the origin with these lines, some of them in the right image, too.
-Frame FrameOf(const std::vector<Segment2>& left, const std::vector<std::optional<Segment2>>& right) {
+Frame FrameOf(const std::vector<Segment2>& left,
+              const std::vector<std::optional<Segment2>>& right) {
   auto indexed = std::make_shared<IndexedFeatures>();
   for (std::size_t i = 0; i < left.size(); ++i) {
     indexed->features.lines.push_back({left[i], 0.5});
-    indexed->features.line_right.push_back(
-        right[i] ? std::optional(RightLine{*right[i], 0.5}) : std::nullopt);
+    indexed->features.line_right.push_back(right[i] ? std::optional(RightLine{*right[i], 0.5})
+                                                    : std::nullopt);
   }
   Frame frame;
   frame.lines.resize(left.size());

@@ -50,10 +50,9 @@ BaProblem TwoViewsOfLines(int seen) {
   Rng rng(1, "lines", 0);
   for (int i = 0; i < 24; ++i) {
     const Eigen::Vector3d start(-1.2 + 0.1 * i, -0.5, 4 + 0.05 * i);
-    const Eigen::Vector3d along = i < 8 ? Eigen::Vector3d(0, 1, 0)
-                                        : Eigen::Vector3d(rng.Uniform(-1, 1),
-                                                          rng.Uniform(-1, 1),
-                                                          rng.Uniform(-1, 1));
+    const Eigen::Vector3d along =
+        i < 8 ? Eigen::Vector3d(0, 1, 0)
+              : Eigen::Vector3d(rng.Uniform(-1, 1), rng.Uniform(-1, 1), rng.Uniform(-1, 1));
     problem.lines.push_back(ToOrthonormal(LineThroughPoints(start, start + along)));
     for (int pose = 0; pose < 2; ++pose) {
       if (pose == 1 && i >= seen) continue;
