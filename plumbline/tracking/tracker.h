@@ -38,7 +38,7 @@ struct TrackingOptions {
   int min_unpredicted_inliers = 10;  // ... and one without prediction
   double max_pose_sigma = 0.02;      // and to which they must fix it (PoseSigma)
   double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
-  double guess_pose_sigma = 0.005;   // up to which lines at the depth of the scene are not tried
+  double guess_pose_sigma = 0.01;    // up to which lines at the depth of the scene are not tried
   double motion_sigma = 5;           // change of the velocity [rad/s^2], [scene depths/s^2]
   int min_initial = 60;              // points with depth + lines with depth that can start a map
   double max_relative_depth_sigma = 0.05;       // of points made from one frame
