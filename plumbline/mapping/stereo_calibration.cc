@@ -18,6 +18,9 @@ constexpr double kPriorSigmaPx = 0.5;  // of each coefficient
 // Of a single displacement, beside the error of its prediction: noise of the disparity, and what a
 // landmark's looks do to all its disparities alike.
 constexpr double kNoisePx = 0.5;
+// Looks of one point, and points beside each other, share errors: this part of them is news. All of
+// it, and a few dozen points would bend the map.
+constexpr double kIndependentShare = 0.1;
 constexpr double kHuber = 1.345;               // sigma
 constexpr double kMaxPredictionSigmaPx = 0.3;  // worse predictions tell nothing
 constexpr double kMaxDisplacementPx = 3;       // more is a wrong match
@@ -78,7 +81,8 @@ void StereoCalibrator::Add(const StereoCorrection& current,
   const double sigma = std::sqrt(variance + kNoisePx * kNoisePx);
   const double surprise = std::abs(displacement - current.At(px));
   if (surprise > kMaxDisplacementPx) return;
-  const double weight = std::min(1.0, kHuber * sigma / surprise) / (sigma * sigma);
+  const double weight =
+      kIndependentShare * std::min(1.0, kHuber * sigma / surprise) / (sigma * sigma);
   const Vector6d terms = StereoCorrection::Terms(camera_, px);
   information_ += weight * terms * terms.transpose();
   weighted_ += weight * displacement * terms;

@@ -56,7 +56,7 @@ void Check(const WorldGate& gate) {
 TEST(WorldsAccuracy, Room) { Check({"room", "", 0.045, 0.18, 0.42}); }
 TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.0095, 0.11, 0.28}); }
 TEST(WorldsAccuracy, RoomWithLinesOnly) {
-  Check({"room", "--set features.points=false", 0.035, 0, 0});
+  Check({"room", "--set features.points=false", 0.045, 0, 0});
 }
 TEST(WorldsAccuracy, LowTextureWithLinesOnly) {
   Check({"lowtexture", "--set features.points=false", 0.022, 0, 0});
