@@ -3,13 +3,12 @@
 #include "plumbline/association/line_information.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/optimization/residuals.h"
 
-#include <cmath>
 #include <limits>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 
@@ -50,12 +49,7 @@ double SigmaAt(const PluckerLine& line, const Eigen::Matrix4d& information, doub
   const Eigen::LLT<Eigen::Matrix4d> factor(information);
   if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
   const Eigen::Matrix<double, 3, 4> J_shift = ShiftJacobian(line, ToOrthonormal(line), t);
-  const Eigen::Matrix3d covariance = J_shift * factor.solve(J_shift.transpose());
-  const double variance =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
-          .eigenvalues()(2);
-  return std::isfinite(variance) && variance >= 0 ? std::sqrt(variance)
-                                                  : std::numeric_limits<double>::infinity();
+  return LargestSigma(J_shift * factor.solve(J_shift.transpose()));
 }
 
 }  // namespace plumbline

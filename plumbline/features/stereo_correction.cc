@@ -7,27 +7,30 @@
 namespace plumbline {
 namespace {
 
-Vector6d Quadratic(double x, double y) {
+Eigen::Vector2d Centre(const RectifiedCamera& camera) { return {camera.cx, camera.cy}; }
+
+double InverseUnit(const RectifiedCamera& camera) { return 2.0 / camera.width; }
+
+Vector6d TermsAt(const Eigen::Vector2d& px, const Eigen::Vector2d& centre, double inverse_unit) {
+  const Eigen::Vector2d place = (px - centre) * inverse_unit;
+  const double x = place.x();
+  const double y = place.y();
   Vector6d terms;
   terms << 1, x, y, x * x, x * y, y * y;
   return terms;
 }
 
-Eigen::Vector2d Centre(const RectifiedCamera& camera) { return {camera.cx, camera.cy}; }
-
 }  // namespace
 
 StereoCorrection::StereoCorrection(const RectifiedCamera& camera, const Vector6d& coefficients)
-    : centre_(Centre(camera)), inverse_unit_(2.0 / camera.width), coefficients_(coefficients) {}
+    : centre_(Centre(camera)), inverse_unit_(InverseUnit(camera)), coefficients_(coefficients) {}
 
 Vector6d StereoCorrection::Terms(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
-  const Eigen::Vector2d place = (px - Centre(camera)) * (2.0 / camera.width);
-  return Quadratic(place.x(), place.y());
+  return TermsAt(px, Centre(camera), InverseUnit(camera));
 }
 
 double StereoCorrection::At(const Eigen::Vector2d& px) const {
-  const Eigen::Vector2d place = (px - centre_) * inverse_unit_;
-  return coefficients_.dot(Quadratic(place.x(), place.y()));
+  return coefficients_.dot(TermsAt(px, centre_, inverse_unit_));
 }
 
 void Correct(const StereoCorrection& before,

@@ -32,14 +32,6 @@ double LineNoiseOf(const std::vector<LineFit>& fits) {
   return chi2.empty() ? 1 : std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
 }
 
-void ScaleLineNoise(double noise, WindowTracks& tracks) {
-  const auto scale = [noise](TrackedLines& view) {
-    for (double& sigma : view.sigmas) sigma *= noise;
-  };
-  scale(tracks.lines.reference);
-  for (TrackedLines& view : tracks.lines.views) scale(view);
-}
-
 // The points where all rays of given poses meet.
 void TriangulatePoints(const WindowTracks& tracks, WindowSolution& solution) {
   for (std::size_t k = 0; k < tracks.size(); ++k) {
@@ -127,7 +119,7 @@ std::vector<Explanation> ExplainWithLines(WindowTracks& tracks,
   WindowSolution& best = explanations.front().solution;
   best.lines = TriangulateLines(tracks, best);
   const double noise = LineNoiseOf(EvaluateLines(tracks, best, kMaxMeasurementChi2));
-  ScaleLineNoise(std::max(min_noise, noise), tracks);
+  ScaleSigmas(std::max(min_noise, noise), tracks.lines);
   for (Explanation& e : explanations) AdjustWithLines(tracks, e);
   CountLines(tracks, explanations);
   for (WindowSolution& probe : Probes(tracks, explanations.front(), kProbe)) {

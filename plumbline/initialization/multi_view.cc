@@ -95,15 +95,6 @@ double NoiseOf(const std::vector<RayMatch>& matches, const RelativePoseHypothesi
 }
 
 // The same matches with the noise that they turned out to have.
-WindowTracks WithNoise(WindowTracks tracks, double noise) {
-  const auto scale = [noise](TrackedPoints& view) {
-    for (double& sigma : view.sigmas) sigma *= noise;
-  };
-  scale(tracks.reference);
-  for (TrackedPoints& view : tracks.views) scale(view);
-  return tracks;
-}
-
 // Of the depths of all points of the tracks; those without count as unknown.
 double MedianDepthSigma(const WindowCovariance& covariance) {
   std::vector<double> sigmas = covariance.relative_depth_sigmas;
@@ -240,7 +231,8 @@ WindowDecision DecideWindow(const WindowTracks& tracks,
   const auto hypotheses = EstimateRelativePoses(matches, options.relative_pose, rng);
   if (hypotheses.empty()) return Wait(InitializationWait::kInaccurate);
   const double noise = NoiseOf(matches, hypotheses.front());
-  WindowTracks scaled = WithNoise(tracks, std::max(options.min_noise, noise));
+  WindowTracks scaled = tracks;
+  ScaleSigmas(std::max(options.min_noise, noise), scaled);
   std::vector<WindowHypothesis> starts = memory.HypothesesFor(scaled);
   for (const RelativePoseHypothesis& h : hypotheses) starts.push_back({h.b_from_a, {}});
   std::vector<Explanation> explanations = Explain(scaled, starts, options);

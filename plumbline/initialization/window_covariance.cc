@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/window_covariance.h"
 
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/initialization/window_lines.h"
 #include "plumbline/optimization/residuals.h"
 
@@ -11,7 +12,6 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 namespace {
@@ -250,15 +250,9 @@ PoseAccuracy AccuracyOf(const WindowSolution& solution,
   const double length = pose.translation.norm();
   const Eigen::Vector3d t = pose.translation / length;
   const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - t * t.transpose()) / length;
-  const auto largest = [](const Eigen::Matrix3d& m) {
-    return std::sqrt(
-        std::max(0.0,
-                 Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly)
-                     .eigenvalues()(2)));
-  };
   // exp([w, v]) T moves the centre by -R^T v: the shift alone turns its direction.
-  return {largest(covariance.poses.block<3, 3>(row, row)),
-          largest(across * covariance.poses.block<3, 3>(row + 3, row + 3) * across)};
+  return {LargestSigma(covariance.poses.block<3, 3>(row, row)),
+          LargestSigma(across * covariance.poses.block<3, 3>(row + 3, row + 3) * across)};
 }
 
 }  // namespace plumbline

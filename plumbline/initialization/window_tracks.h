@@ -54,6 +54,16 @@ struct WindowTracks {
   std::size_t size() const { return reference.points.size(); }
 };
 
+// Multiplies the standard deviations of a window's points (WindowTracks) or lines (WindowLines).
+template <class Tracks>
+void ScaleSigmas(double factor, Tracks& tracks) {
+  const auto scale = [factor](auto& tracked) {
+    for (double& sigma : tracked.sigmas) sigma *= factor;
+  };
+  scale(tracks.reference);
+  for (auto& view : tracks.views) scale(view);
+}
+
 // One explanation of a window of frames: the reference's camera is the world, its unit free.
 struct WindowSolution {
   std::vector<Rigid3> cam_from_reference;  // by view

@@ -233,10 +233,7 @@ BaResult BundleAdjuster<LineKind>::Solve() {
 }
 
 BaResult Unchanged(const BaProblem& problem) {
-  BaResult result;
-  for (const auto& pose : problem.poses) result.poses.push_back(pose.cam_from_world);
-  result.points = problem.points;
-  result.lines = problem.lines;
+  BaResult result = InitialState(problem);
   result.point_inliers.assign(problem.point_observations.size(), false);
   result.line_inliers.assign(problem.line_observations.size(), false);
   const double infinite = std::numeric_limits<double>::infinity();
@@ -313,6 +310,16 @@ BaResult SolveWithSeparateEnds(const BaProblem& problem, const LocalBaOptions& o
 }
 
 }  // namespace
+
+BaResult InitialState(const BaProblem& problem) {
+  BaResult state;
+  for (const auto& pose : problem.poses) state.poses.push_back(pose.cam_from_world);
+  state.points = problem.points;
+  state.lines = problem.lines;
+  state.point_inliers.assign(problem.point_observations.size(), true);
+  state.line_inliers.assign(problem.line_observations.size(), true);
+  return state;
+}
 
 BaResult SolveLocalBa(const BaProblem& problem,
                       const LocalBaOptions& options,

@@ -83,6 +83,9 @@ struct BaResult {
   BaTermination termination = BaTermination::kNothingToDo;
 };
 
+// A problem before anything is solved, with all observations as inliers and no chi2 known.
+BaResult InitialState(const BaProblem& problem);
+
 // Bundle adjustment of poses, points and lines: Levenberg-Marquardt, landmarks eliminated by the
 // Schur complement with fixed-size blocks (poses 6, points 3, lines 4 or, as end points, 6).
 //

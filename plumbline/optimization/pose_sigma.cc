@@ -3,11 +3,10 @@
 #include "plumbline/optimization/pose_sigma.h"
 
 #include "plumbline/base/median.h"
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/residuals.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -55,12 +54,6 @@ void AddLines(const BaProblem& problem, const BaResult& state, std::vector<Sums>
   }
 }
 
-// Square root of the largest eigenvalue.
-double LargestSigma(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()(2)));
-}
-
 }  // namespace
 
 PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth) {
@@ -88,16 +81,6 @@ std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& s
     sigmas.push_back(SigmaOfPose(s.information, UpperMedian(std::span<double>(s.depths))));
   }
   return sigmas;
-}
-
-BaResult InitialState(const BaProblem& problem) {
-  BaResult state;
-  for (const auto& pose : problem.poses) state.poses.push_back(pose.cam_from_world);
-  state.points = problem.points;
-  state.lines = problem.lines;
-  state.point_inliers.assign(problem.point_observations.size(), true);
-  state.line_inliers.assign(problem.line_observations.size(), true);
-  return state;
 }
 
 bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {

@@ -31,9 +31,6 @@ PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth);
 // only poses, points, lines and inliers are used.
 std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state);
 
-// A problem before anything is solved, with all observations as inliers.
-BaResult InitialState(const BaProblem& problem);
-
 // Marks the free poses as fixed that the observations in use do not fix to `limit`: whatever lets
 // them fit the few observations they have is cheap, and takes them anywhere. Returns whether there
 // were any. The caller solves again, from the problem's poses.

@@ -152,6 +152,11 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) c
 
 void System::Finish() {
   mapping_.Finish();
+  if (!frames_.empty()) {
+    for (const MappingStep& step : mapping_.TakeTimes()) {
+      frames_.back().times.push_back({"map_" + step.name, step.milliseconds});
+    }
+  }
   if (!monocular_start_) return;
   for (const EarlierFrame& earlier : monocular_start_->Locate(mapping_.maps())) {
     FrameRecord& record = frames_[static_cast<std::size_t>(earlier.id.value)];

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Standard deviation in the worst direction: the square root of the largest eigenvalue. Infinite
+// where the covariance has numbers that are not finite.
+double LargestSigma(const Eigen::Matrix3d& covariance);
+
+}  // namespace plumbline
