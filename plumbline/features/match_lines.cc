@@ -233,11 +233,12 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
       if (compatible) table.Set(i, j, HammingDistance(left[i].descriptor, right[j].descriptor));
     }
   }
+  const double calibration_sigma_px = options.calibration_sigma * camera.width;
   std::vector<std::optional<RightLine>> result(left.size());
   for (const LineMatch& m : table.Match(right, {options.max_distance, options.ratio, true})) {
     const LineFeature& r = right[static_cast<std::size_t>(m.b)];
     // An error of the calibration shifts the line along the rows, so across itself by this much.
-    const double shift = options.calibration_sigma_px * std::abs(r.segment.Direction().y());
+    const double shift = calibration_sigma_px * std::abs(r.segment.Direction().y());
     result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, std::hypot(r.sigma_px, shift)};
   }
   return result;

@@ -36,9 +36,8 @@ std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const LineMatchOptions& options);
 
 struct StereoLineOptions {
-  // Of every disparity, from the pair's calibration. More than the 1 px of points: the ends of a
-  // line share one error (docs/methods/pose-and-mapping.md, measured choices).
-  double calibration_sigma_px = 1;
+  // Of every disparity, from the pair's calibration, relative to the width of the image.
+  double calibration_sigma = 8e-4;
   int max_distance = 80;
   double ratio = 0.9;
   double max_angle_deg = 30;
@@ -87,10 +86,11 @@ void VisitFields(Visitor&& visit, LineMatchOptions& o) {
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoLineOptions& o) {
-  visit("calibration_sigma_px",
-        o.calibration_sigma_px,
-        "deviation that the calibration of the pair adds to every disparity [px]",
-        Range{0, 10});
+  visit("calibration_sigma",
+        o.calibration_sigma,
+        "deviation that the calibration of the pair adds to every disparity, relative to the width "
+        "of the image",
+        Range{0, 0.01});
   visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
   visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
   visit("max_angle_deg", o.max_angle_deg, "largest difference of directions [deg]", Range{0, 90});

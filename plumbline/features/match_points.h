@@ -42,7 +42,9 @@ struct StereoPointOptions {
   int search_px = 5;           // half width of the correlation search on the level image
   double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
   double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
-  double calibration_sigma_px = 1;  // of every disparity, from the pair's calibration
+  // Of every disparity, from the pair's calibration, relative to the width of the image: errors of
+  // angles and of the lens are the same part of an image of any size (8e-4: 1 px of 1250).
+  double calibration_sigma = 8e-4;
 };
 
 struct StereoView {
@@ -90,10 +92,11 @@ void VisitFields(Visitor&& visit, StereoPointOptions& o) {
         o.max_sad_factor,
         "residual limit as a multiple of the median",
         Range{1, 100});
-  visit("calibration_sigma_px",
-        o.calibration_sigma_px,
-        "deviation that the calibration of the pair adds to every disparity [px]",
-        Range{0, 10});
+  visit("calibration_sigma",
+        o.calibration_sigma,
+        "deviation that the calibration of the pair adds to every disparity, relative to the width "
+        "of the image",
+        Range{0, 0.01});
   visit("min_sigma_px",
         o.min_sigma_px,
         "floor of the deviation of a disparity at octave 0 [px]",

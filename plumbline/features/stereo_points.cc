@@ -271,6 +271,7 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
   PLUMBLINE_CHECK(options.window_px <= kMaxWindow, "size of the correlation window");
   const StereoGate gate{
       left.pyramid, camera.DisparityFromDepth(options.min_depth_m), options.row_band_px};
+  const double calibration_sigma_px = options.calibration_sigma * camera.width;
   const RowIndex rows(right.points);
   std::vector<Candidate> candidates(left.points.size());
   for (std::size_t i = 0; i < left.points.size(); ++i) {
@@ -294,7 +295,7 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
     const double disparity = (at.x() - found->x) * level.scale.x();
     if (disparity <= 0 || disparity > gate.max_disparity) continue;
     const double sigma = std::hypot(std::max(options.min_sigma_px, found->sigma) * level.scale.x(),
-                                    options.calibration_sigma_px);
+                                    calibration_sigma_px);
     result[i] = Disparity{disparity, sigma};
     residuals[i] = found->residual;
   }

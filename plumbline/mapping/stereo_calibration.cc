@@ -14,13 +14,12 @@
 namespace plumbline {
 namespace {
 
-constexpr double kPriorSigmaPx = 0.5;  // of each coefficient
+// Of each coefficient, relative to the width of the image: a rig's angles and lenses are off by so
+// much whatever the number of pixels.
+constexpr double kPriorSigma = 4e-4;
 // Of a single displacement, beside the error of its prediction: noise of the disparity, and what a
 // landmark's looks do to all its disparities alike.
 constexpr double kNoisePx = 0.5;
-// Looks of one point, and points beside each other, share errors: this part of them is news. All of
-// it, and a few dozen points would bend the map.
-constexpr double kIndependentShare = 0.1;
 constexpr double kHuber = 1.345;               // sigma
 constexpr double kMaxPredictionSigmaPx = 0.3;  // worse predictions tell nothing
 constexpr double kMaxDisplacementPx = 3;       // more is a wrong match
@@ -66,7 +65,8 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
 
 StereoCorrection StereoCalibrator::Estimate() const {
   if (information_(0, 0) == 0) return {};
-  const Matrix6d prior = Matrix6d::Identity() / (kPriorSigmaPx * kPriorSigmaPx);
+  const double prior_sigma_px = kPriorSigma * camera_.width;
+  const Matrix6d prior = Matrix6d::Identity() / (prior_sigma_px * prior_sigma_px);
   Vector6d k = (information_ + prior).llt().solve(weighted_);
   const Eigen::Matrix<double, 1, 5> mean_terms =
       information_.block<1, 5>(0, 1) / information_(0, 0);
@@ -81,8 +81,7 @@ void StereoCalibrator::Add(const StereoCorrection& current,
   const double sigma = std::sqrt(variance + kNoisePx * kNoisePx);
   const double surprise = std::abs(displacement - current.At(px));
   if (surprise > kMaxDisplacementPx) return;
-  const double weight =
-      kIndependentShare * std::min(1.0, kHuber * sigma / surprise) / (sigma * sigma);
+  const double weight = std::min(1.0, kHuber * sigma / surprise) / (sigma * sigma);
   const Vector6d terms = StereoCorrection::Terms(camera_, px);
   information_ += weight * terms * terms.transpose();
   weighted_ += weight * displacement * terms;

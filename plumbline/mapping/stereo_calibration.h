@@ -15,10 +15,10 @@ namespace plumbline {
 // Where at least three keyframes show a point in their left images, these and the poses tell where
 // the right image should show it; what the right image was measured to show is off by c(x, y).
 // Points alone: where there are none, lines learned a correction that bent the map. A normal
-// distribution with deviation kPriorSigmaPx for each coefficient comes before all evidence; the
-// evidence enters under the Huber loss. The mean of c over all evidence is left as it is: with the
-// poses that were found with the same disparities it tells little, and the scale of the map, which
-// hangs on it, is the calibration's to say.
+// distribution for each coefficient, its deviation 4e-4 of the image's width, comes before all
+// evidence; the evidence enters under the Huber loss. The mean of c over all evidence is left as it
+// is: with the poses that were found with the same disparities it tells little, and the scale of
+// the map, which hangs on it, is the calibration's to say.
 class StereoCalibrator {
  public:
   explicit StereoCalibrator(const RectifiedCamera& camera);

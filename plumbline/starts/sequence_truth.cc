@@ -21,7 +21,7 @@ FeatureOptions StereoFeatures() {
   FeatureOptions options;
   options.point_count = 3000;
   options.lines = false;
-  options.stereo_points.calibration_sigma_px = 0.2;
+  options.stereo_points.calibration_sigma = 2e-4;
   return options;
 }
 

@@ -9,7 +9,7 @@ KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
   const bool needs_close = situation.close_tracked < options.min_close &&
                            situation.close_untracked > options.min_new_close;
   const auto fewer_than = [&](double ratio) {
-    return situation.tracked_landmarks < ratio * situation.reference_landmarks;
+    return situation.shared_landmarks < ratio * situation.reference_landmarks;
   };
   const double min_ratio =
       situation.monocular ? options.monocular_landmark_ratio : options.min_landmark_ratio;

@@ -7,9 +7,9 @@
 namespace plumbline {
 
 struct KeyFramePolicyOptions {
-  int max_frames = 20;               // a keyframe at the latest after so many frames
-  int min_frames = 2;                // and never sooner than this, unless tracking is about to fail
-  double min_landmark_ratio = 0.75;  // landmarks tracked of those the last keyframe shows
+  int max_frames = 20;              // a keyframe at the latest after so many frames
+  int min_frames = 2;               // and never sooner than this, unless tracking is about to fail
+  double min_landmark_ratio = 0.7;  // landmarks tracked of those the last keyframe shows
   double monocular_landmark_ratio = 0.9;  // the same where new landmarks need a second view
   double critical_ratio = 0.35;           // below this at once
   int min_close = 100;                    // enough near landmarks to fix the translation
@@ -39,8 +39,8 @@ enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints
 // What the decision depends on, of the frame just tracked.
 struct KeyFrameSituation {
   int frames_since_keyframe = 0;
-  int tracked_landmarks = 0;    // map points and lines among the inliers
-  int reference_landmarks = 0;  // well observed points and lines of the last keyframe
+  int shared_landmarks = 0;     // points and lines of the map that it shows like the last keyframe
+  int reference_landmarks = 0;  // well observed ones that the last keyframe shows
   int close_tracked = 0;        // points with good disparity that show a map point
   int close_untracked = 0;      // and that show none
   bool mapping_behind = false;  // live: mapping has not finished earlier keyframes

@@ -56,17 +56,25 @@ void ScoreKind(const std::vector<int>& expected,
   }
 }
 
-template <class LandmarkId, class Landmark>
-int CountWellObserved(const std::vector<LandmarkId>& ids,
-                      const MapSnapshot& snapshot,
-                      bool monocular,
-                      const Landmark*) {
-  const int needed = std::min(monocular ? kWellObservedByOne : kWellObserved,
-                              static_cast<int>(snapshot.cam_from_world.size()));
-  return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](LandmarkId id) {
-    const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
-    return landmark != nullptr && landmark->observation_count >= needed;
-  }));
+// Counts the landmarks of a keyframe that `needed` keyframes show, and those that a frame shows
+// too.
+template <class LandmarkId>
+void CountShared(const std::vector<LandmarkId>& of_keyframe,
+                 const std::vector<LandmarkId>& of_frame,
+                 const MapSnapshot& snapshot,
+                 int needed,
+                 KeyFrameSituation& situation) {
+  std::vector<LandmarkId> known;
+  for (const LandmarkId id : of_keyframe) {
+    const auto* landmark = id.valid() ? snapshot.Find(id) : nullptr;
+    if (landmark != nullptr && landmark->observation_count >= needed) known.push_back(id);
+  }
+  std::sort(known.begin(), known.end());
+  situation.reference_landmarks += static_cast<int>(known.size());
+  situation.shared_landmarks +=
+      static_cast<int>(std::count_if(of_frame.begin(), of_frame.end(), [&](LandmarkId id) {
+        return std::binary_search(known.begin(), known.end(), id);
+      }));
 }
 
 // The landmark of the map that a feature of the last frame showed; nullptr when it is not in the
@@ -446,17 +454,11 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
   KeyFrameSituation situation;
   situation.monocular = imaging_.camera.baseline == 0;
   situation.frames_since_keyframe = static_cast<int>(frames_since_keyframe_);
-  for (const PointId id : frame.points) situation.tracked_landmarks += id.valid();
-  for (const LineId id : frame.lines) situation.tracked_landmarks += id.valid();
   const Frame& reference = snapshot.reference->frame;
-  situation.reference_landmarks = CountWellObserved(reference.points,
-                                                    snapshot,
-                                                    situation.monocular,
-                                                    static_cast<const SnapshotPoint*>(nullptr)) +
-                                  CountWellObserved(reference.lines,
-                                                    snapshot,
-                                                    situation.monocular,
-                                                    static_cast<const SnapshotLine*>(nullptr));
+  const int needed = std::min(situation.monocular ? kWellObservedByOne : kWellObserved,
+                              static_cast<int>(snapshot.cam_from_world.size()));
+  CountShared(reference.points, frame.points, snapshot, needed, situation);
+  CountShared(reference.lines, frame.lines, snapshot, needed, situation);
   const auto& disparities = frame.features().point_disparity;
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     if (!disparities[i] ||

@@ -14,11 +14,11 @@ TEST(DecideKeyFrame, IsSoonerWithASingleCamera) {
   options.min_landmark_ratio = 0.75;
   options.monocular_landmark_ratio = 0.9;
   KeyFrameSituation situation{
-      .frames_since_keyframe = 5, .tracked_landmarks = 170, .reference_landmarks = 200};
+      .frames_since_keyframe = 5, .shared_landmarks = 170, .reference_landmarks = 200};
   EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
   situation.monocular = true;
   EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kFewLandmarks);
-  situation.tracked_landmarks = 180;
+  situation.shared_landmarks = 180;
   EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
 }
 
@@ -31,7 +31,7 @@ TEST(DecideKeyFrame, FollowsTheTable) {
   options.min_close = 100;
   options.min_new_close = 70;
   struct Row {
-    KeyFrameSituation situation;  // frames, tracked, reference, close tracked, close untracked
+    KeyFrameSituation situation;  // frames, shared, reference, close tracked, close untracked
     KeyFrameReason expected;
   };
   const Row rows[] = {
