@@ -5,6 +5,7 @@
 #include "plumbline/association/line_information.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/line_interval.h"
+#include "plumbline/mapping/parallel_lines.h"
 #include "plumbline/optimization/line_ends.h"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ class WindowBuilder {
     ChooseFixed();
     AddPoints();
     AddLines();
+    AddParallelLines();
     if (line_options_.residual == LineResidualKind::kProjectedEnds) WeighProjectedEnds();
     return std::move(window_);
   }
@@ -166,6 +168,31 @@ class WindowBuilder {
     observations.push_back({pose, line, MeasureLeftLine(features, i, line_options_.weighting)});
     if (const auto right = MeasureRightLine(features, i, line_options_.weighting)) {
       observations.push_back({pose, line, *right});
+    }
+  }
+
+  // Fixed directions from all of the map. The lines parallel to one share its error, so that its
+  // variance counts once for each of them: together they do not claim to know it better.
+  void AddParallelLines() {
+    BaProblem& problem = window_.problem;
+    if (!options_.parallel_lines || problem.line_residual != LineResidualKind::kObservedEnds)
+      return;
+    const std::vector<CommonDirection> directions = CommonDirections(map_);
+    std::vector<int> count(directions.size(), 0);
+    for (std::size_t i = 0; i < window_.lines.size(); ++i) {
+      const MapLine& line = *lines_.at(window_.lines[i]);
+      const auto direction = DirectionOf(line.line, line.information);
+      const auto axis = direction ? ParallelTo(*direction, directions) : std::nullopt;
+      if (!axis) continue;
+      problem.parallel_lines.push_back({static_cast<int>(*axis), static_cast<int>(i), 0});
+      ++count[*axis];
+    }
+    for (auto& line : problem.parallel_lines) {
+      const auto axis = static_cast<std::size_t>(line.axis);
+      line.sigma = std::hypot(ParallelSigma(), std::sqrt(count[axis]) * directions[axis].sigma);
+    }
+    for (const CommonDirection& axis : directions) {
+      problem.axes.push_back(window_.window_from_world.rotation * axis.direction);
     }
   }
 

@@ -79,6 +79,7 @@ struct BaWindowOptions {
   double min_line_plane_angle_deg = 10;  // between views, for a line to take part ...
   double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
   double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma)
+  bool parallel_lines = true;             // lines keep to directions that many of the map share
 };
 
 template <class Visitor>
@@ -99,6 +100,10 @@ void VisitFields(Visitor&& visit, BaWindowOptions& o) {
         "deviation to which its landmarks must fix a keyframe that is adjusted: rotation [rad] and "
         "translation relative to their depth",
         Range{1e-6, 10});
+  visit("parallel_lines",
+        o.parallel_lines,
+        "lines that are parallel to many others of the map by chi2 are held so (not with "
+        "lines.residual: projected_ends)");
 }
 
 struct MappingOptions {

@@ -322,6 +322,7 @@ CeresPoseResult CeresPose::Solve(const CeresPoseOptions& options) {
 }  // namespace
 
 CeresBaResult SolveWithCeres(const BaProblem& problem, const CeresBaOptions& options) {
+  PLUMBLINE_CHECK(problem.parallel_lines.empty(), "parallel lines have no reference");
   return CeresBa(problem, options).Solve();
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 namespace plumbline {
@@ -41,15 +42,23 @@ bool IsFinite(const BaProblem& p) {
          all(p.points, [](const auto& x) { return x.allFinite(); }) &&
          all(p.lines, [](const auto& x) { return x.U.coeffs().allFinite() && x.w.allFinite(); }) &&
          all(p.point_observations, [](const auto& x) { return IsFinite(x.measurement); }) &&
-         all(p.line_observations, [](const auto& x) { return IsFinite(x.measurement); });
+         all(p.line_observations, [](const auto& x) { return IsFinite(x.measurement); }) &&
+         all(p.axes, [](const auto& x) { return x.allFinite(); }) &&
+         all(p.parallel_lines, [](const auto& x) { return std::isfinite(x.sigma); });
 }
 
+// The poses, then for each axis the fixed pose of a frame whose z it is.
 std::vector<BaPose> MakePoses(const BaProblem& problem) {
-  std::vector<BaPose> poses(problem.poses.size());
+  std::vector<BaPose> poses(problem.poses.size() + problem.axes.size());
   int free_index = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     poses[i].Set(problem.poses[i].cam_from_world);
     if (!problem.poses[i].fixed) poses[i].free_index = free_index++;
+  }
+  for (std::size_t i = 0; i < problem.axes.size(); ++i) {
+    Rigid3 frame;
+    frame.rotation = Eigen::Quaterniond::FromTwoVectors(problem.axes[i], Eigen::Vector3d::UnitZ());
+    poses[problem.poses.size() + i].Set(frame);
   }
   return poses;
 }
@@ -68,6 +77,12 @@ void CheckIndices(const BaProblem& problem) {
   for (const auto& o : problem.line_observations) {
     CheckIndices(o.pose, o.line, problem.poses.size(), problem.lines.size());
   }
+  PLUMBLINE_CHECK(problem.axes.empty() || problem.line_residual == LineResidualKind::kObservedEnds,
+                  "axes need the residual observed_ends");
+  for (const auto& o : problem.parallel_lines) {
+    CheckIndices(o.axis, o.line, problem.axes.size(), problem.lines.size());
+    PLUMBLINE_CHECK(o.sigma > 0, "sigma of a parallel line must be positive");
+  }
 }
 
 std::vector<BaObservation<PointTerm>> PointObservations(const BaProblem& problem) {
@@ -85,6 +100,13 @@ std::vector<BaObservation<typename LineKind::Term>> LineObservations(const BaPro
   out.reserve(problem.line_observations.size());
   for (const auto& o : problem.line_observations) {
     out.push_back({o.pose, o.line, LineKind::MakeTerm(problem.camera, o.measurement)});
+  }
+  if constexpr (std::is_same_v<typename LineKind::Term, LineTerm>) {
+    for (const auto& o : problem.parallel_lines) {
+      out.push_back({static_cast<int>(problem.poses.size()) + o.axis,
+                     o.line,
+                     LineTerm{.axis_weight = 1 / o.sigma}});
+    }
   }
   return out;
 }
@@ -232,6 +254,13 @@ BaResult BundleAdjuster<LineKind>::Solve() {
   return result;
 }
 
+// Leaves out what stands for axes and parallel lines.
+void TrimToObservations(const BaProblem& problem, BaResult& result) {
+  result.poses.resize(problem.poses.size());
+  result.line_chi2.resize(problem.line_observations.size());
+  result.line_inliers.resize(problem.line_observations.size());
+}
+
 BaResult Unchanged(const BaProblem& problem) {
   BaResult result = InitialState(problem);
   result.point_inliers.assign(problem.point_observations.size(), false);
@@ -248,6 +277,7 @@ template <class Line>
 BaResult SolveWithLines(const BaProblem& problem, const LocalBaOptions& options) {
   BundleAdjuster<Line> adjuster(problem, problem.lines, options);
   BaResult result = adjuster.Solve();
+  TrimToObservations(problem, result);
   result.lines = adjuster.lines();
   return result;
 }
@@ -274,6 +304,7 @@ BaResult SolveWithEnds(const BaProblem& problem, const LocalBaOptions& options) 
   const std::vector<Segment3> ends = TrimmedEnds(problem);
   BundleAdjuster<Ends> adjuster(problem, ends, options);
   BaResult result = adjuster.Solve();
+  TrimToObservations(problem, result);
   result.lines = LinesThroughEnds(problem.lines, ends, adjuster.lines());
   return result;
 }

@@ -95,6 +95,8 @@ BaResult InitialState(const BaProblem& problem);
 // cost, that landmark alone stands still, so that degenerate lines do not hold up the others.
 // End points under projected ends with diagonal covariances are two landmarks a line, each with its
 // own loss: their blocks share nothing then.
+// A parallel line adds the two components of its unit direction across the axis, over sigma, under
+// the loss of lines; from round to round it counts or not as observations do.
 // Poses marked fixed and landmarks without observations do not move. The gauge is up to the caller;
 // what no observation fixes is held by the damping.
 //

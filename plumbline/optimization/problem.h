@@ -50,6 +50,13 @@ struct BaProblem {
     int line = 0;
     LineMeasurement measurement;
   };
+  // A line that is parallel to an axis, with either sense. Residual: the two components of the
+  // line's unit direction across the axis, over sigma.
+  struct ParallelLine {
+    int axis = 0;
+    int line = 0;
+    double sigma = 1;  // rad, per component
+  };
 
   RectifiedCamera camera;
   LineResidualKind line_residual = LineResidualKind::kObservedEnds;
@@ -58,6 +65,8 @@ struct BaProblem {
   std::vector<OrthonormalLine> lines;   // in the world
   std::vector<PointObservation> point_observations;
   std::vector<LineObservation> line_observations;
+  std::vector<Eigen::Vector3d> axes;         // unit vectors in the world; they stay as they are
+  std::vector<ParallelLine> parallel_lines;  // for LineResidualKind::kObservedEnds only
 };
 
 // What is known of a pose beforehand: normally distributed about `cam_from_world`, with the

@@ -68,6 +68,54 @@ TEST(BaWindow, IsConsistent) {
   EXPECT_LT(LogSe3(problem.poses[index].cam_from_world).norm(), 1e-9);
 }
 
+// Every other line is upright.
+SyntheticWorld WorldWithUprightLines() {
+  SyntheticWorld world = MakeSyntheticWorld(300, 120);
+  for (std::size_t i = 0; i < world.lines.size(); i += 2) {
+    Segment3& segment = world.lines[i].segment;
+    segment.end = segment.start + Eigen::Vector3d(0, 2, 0);
+  }
+  return world;
+}
+
+TEST(BaWindow, HoldsTheUprightLinesParallel) {
+  const SyntheticWorld world = WorldWithUprightLines();
+  const TrueMap scene = MakeTrueMap(world, Path(9, 12), kSensor);
+  const BaWindow window = Window(scene, world, 8, {});
+  std::set<LineId> upright;
+  for (const auto& [i, id] : scene.line_of) {
+    if (i % 2 == 0) upright.insert(id);
+  }
+  ASSERT_EQ(window.problem.axes.size(), 1U);
+  const Eigen::Vector3d axis =
+      Inverse(window.window_from_world).rotation * window.problem.axes.front();
+  EXPECT_GT(std::abs(axis.y()), std::cos(0.005));
+  ASSERT_GT(window.problem.parallel_lines.size(), 10U);
+  std::ptrdiff_t right = 0;
+  for (const auto& line : window.problem.parallel_lines) {
+    EXPECT_EQ(line.axis, 0);
+    right += upright.contains(window.lines[static_cast<std::size_t>(line.line)]) ? 1 : 0;
+  }
+  EXPECT_GE(right + 1, std::ssize(window.problem.parallel_lines));
+  // All of them have what one has: 0.2 deg and the share in the error of the axis.
+  const double sigma = window.problem.parallel_lines.front().sigma;
+  EXPECT_GT(sigma, 0.0035);
+  EXPECT_LT(sigma, 0.05);
+}
+
+TEST(BaWindow, HoldsNoLinesParallelUnlessAskedTo) {
+  const SyntheticWorld world = WorldWithUprightLines();
+  const TrueMap scene = MakeTrueMap(world, Path(9, 12), kSensor);
+  const auto window = [&](const LineOptions& lines, bool parallel) {
+    return MakeBaWindow(
+        scene.map, world.Imaging(), KeyFrameId{8}, lines, {.parallel_lines = parallel});
+  };
+  EXPECT_FALSE(window({}, true).problem.parallel_lines.empty());
+  EXPECT_TRUE(window({}, false).problem.parallel_lines.empty());
+  const LineOptions projected{.residual = LineResidualKind::kProjectedEnds};
+  EXPECT_TRUE(window(projected, true).problem.axes.empty());
+}
+
 TEST(BaWindow, FixesTheFirstKeyFrameOfTheMap) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 40);
   const TrueMap scene = MakeTrueMap(world, Path(4, 5), kSensor);

@@ -318,5 +318,57 @@ TEST(SolveLocalBa, AnIndexOutOfRangeIsABug) {
   EXPECT_THROW(SolveLocalBa(problem), BugError);
 }
 
+double LineAngle(const OrthonormalLine& a, const OrthonormalLine& b) {
+  return ToPlucker(a).direction.cross(ToPlucker(b).direction).norm();
+}
+
+TEST(SolveLocalBa, HoldsLinesParallelToTheirAxes) {
+  for (const auto parametrization : {LineParametrization::kPlucker,
+                                     LineParametrization::kPluckerLeft,
+                                     LineParametrization::kEndpoints}) {
+    BaScene scene = MakeBaScene(31, {.sigma = 1});
+    const BaResult without = SolveLocalBa(scene.problem, {}, parametrization);
+    for (std::size_t i = 0; i < scene.truth.lines.size(); ++i) {
+      const double sense = i % 2 == 0 ? 1 : -1;
+      scene.problem.axes.push_back(sense * ToPlucker(scene.truth.lines[i]).direction);
+      scene.problem.parallel_lines.push_back({static_cast<int>(i), static_cast<int>(i), 2e-3});
+    }
+    const BaResult with = SolveLocalBa(scene.problem, {}, parametrization);
+    EXPECT_EQ(with.poses.size(), scene.problem.poses.size());
+    EXPECT_EQ(with.line_inliers.size(), scene.problem.line_observations.size());
+    EXPECT_EQ(with.line_chi2.size(), scene.problem.line_observations.size());
+    double error_without = 0;
+    double error_with = 0;
+    for (std::size_t i = 0; i < scene.truth.lines.size(); ++i) {
+      error_without += LineAngle(without.lines[i], scene.truth.lines[i]);
+      error_with += LineAngle(with.lines[i], scene.truth.lines[i]);
+    }
+    EXPECT_LT(error_with, 0.5 * error_without);
+  }
+}
+
+TEST(SolveLocalBa, LetsGoOfALineThatIsNotParallel) {
+  BaScene scene = MakeBaScene(32, {.sigma = 1});
+  const BaResult without = SolveLocalBa(scene.problem);
+  const Eigen::Vector3d direction = ToPlucker(scene.truth.lines[0]).direction;
+  const Eigen::Vector3d across = direction.unitOrthogonal();
+  scene.problem.axes = {std::cos(0.5) * direction + std::sin(0.5) * across};
+  scene.problem.parallel_lines = {{0, 0, 0.02}};
+  const BaResult with = SolveLocalBa(scene.problem);
+  EXPECT_LT(LineAngle(with.lines[0], without.lines[0]), 2e-3);
+}
+
+TEST(SolveLocalBa, RefusesAxesItCannotUse) {
+  BaScene scene = MakeBaScene(33, {});
+  scene.problem.axes = {Eigen::Vector3d::UnitY()};
+  scene.problem.parallel_lines = {{1, 0, 0.01}};
+  EXPECT_THROW(SolveLocalBa(scene.problem), BugError);
+  scene.problem.parallel_lines = {{0, 0, 0}};
+  EXPECT_THROW(SolveLocalBa(scene.problem), BugError);
+  scene.problem.parallel_lines = {{0, 0, 0.01}};
+  scene.problem.line_residual = LineResidualKind::kProjectedEnds;
+  EXPECT_THROW(SolveLocalBa(scene.problem), BugError);
+}
+
 }  // namespace
 }  // namespace plumbline

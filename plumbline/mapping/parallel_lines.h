@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/map/map.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// What is known of the direction of a line: a unit vector of either sense and its covariance
+// (rad^2; nothing along it).
+struct LineDirection {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+// A direction that many lines share: unit vector of either sense, and its standard deviation in
+// rad.
+struct CommonDirection {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  double sigma = 0;
+};
+
+// By how much parallel lines differ from their common direction, in rad per component: what is
+// built, drawn and printed is not exactly parallel.
+double ParallelSigma();
+
+// The direction of a line and what its information (of the orthonormal tangent, Lambda) says of it:
+// J Lambda^-1 J^T with J = [u3, 0, -u1, 0] from eq. 19. nullopt when Lambda is singular.
+std::optional<LineDirection> DirectionOf(const PluckerLine& line,
+                                         const Eigen::Matrix4d& information);
+
+// The directions that at least five of the lines known to 1 deg share, the most frequent first.
+// Each starts at the line with most others within 2 deg and becomes the mean, weighted with
+// covariance and ParallelSigma(), of those that agree with it by chi2 at 95 %. O(lines squared) for
+// each direction found.
+std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& lines);
+
+// The same for all lines of a map that at least three keyframes show; in the world. The map
+// outlives the window of bundle adjustment: what it has seen before holds the heading.
+std::vector<CommonDirection> CommonDirections(const Map& map);
+
+// The one of the directions that a line is parallel to by chi2 at 95 %. nullopt also where the test
+// means little: several pass, or the line is so badly known that one direction in 200 would pass by
+// chance.
+std::optional<std::size_t> ParallelTo(const LineDirection& line,
+                                      const std::vector<CommonDirection>& directions);
+
+}  // namespace plumbline
