@@ -7,7 +7,7 @@
 namespace plumbline {
 
 struct LineMapOptions {
-  int min_keyframes = 4;             // that show each point of a line
+  int min_keyframes = 6;             // that show each point of a line
   double max_relative_sigma = 0.02;  // of each point of a line, over its distance
   double min_found_ratio = 0.25;     // of the keyframes that have a line in their image
 };

@@ -114,7 +114,7 @@ struct MappingOptions {
   BaWindowOptions window;
   LocalBaOptions ba;
   bool stereo_calibration = true;
-  int final_adjustment_keyframes = 500;
+  int final_adjustment_keyframes = 800;
   LineMapOptions line_map;
 };
 
