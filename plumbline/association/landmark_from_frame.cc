@@ -17,6 +17,9 @@ bool DepthIsKnown(const Disparity& disparity, double max_relative_sigma) {
   return disparity.px > 0 && disparity.sigma_px <= max_relative_sigma * disparity.px;
 }
 
+// Flatter lines have no depth that could be trusted alone.
+const double kFlatAngleDeg = StereoLineOptions{}.flat_angle_deg;
+
 // Of the ends of a line that the right image shows, too.
 std::optional<LineEndDisparity> MeasuredEnds(const Frame& frame,
                                              std::size_t i,
@@ -93,7 +96,7 @@ std::optional<LineModel> LineFromFrame(const RectifiedCamera& camera,
                                        const Frame& frame,
                                        std::size_t i,
                                        double max_relative_sigma) {
-  const auto ends = MeasuredEnds(frame, i, 5);
+  const auto ends = MeasuredEnds(frame, i, kFlatAngleDeg);
   if (!ends || !DepthIsKnown(ends->start, max_relative_sigma) ||
       !DepthIsKnown(ends->end, max_relative_sigma)) {
     return std::nullopt;
@@ -108,7 +111,7 @@ std::optional<Disparity> SceneDisparity(const Frame& frame) {
     if (point && DepthIsKnown(*point, kRelativeSigma)) disparities.push_back(point->px);
   }
   for (std::size_t i = 0; i < frame.lines.size(); ++i) {
-    const auto ends = MeasuredEnds(frame, i, 5);
+    const auto ends = MeasuredEnds(frame, i, kFlatAngleDeg);
     if (!ends) continue;
     for (const Disparity& end : {ends->start, ends->end}) {
       if (DepthIsKnown(end, kRelativeSigma)) disparities.push_back(end.px);
