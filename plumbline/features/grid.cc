@@ -64,7 +64,6 @@ void PointGrid::InWindow(const Eigen::Vector2d& center,
       if (std::abs(d.x()) <= radius.x() && std::abs(d.y()) <= radius.y()) out->push_back(i);
     }
   }
-  std::sort(out->begin(), out->end());
 }
 
 }  // namespace plumbline

@@ -16,7 +16,7 @@ class PointGrid {
   // Cost: O(n). `cell_px` about the usual radius of a query is best.
   PointGrid(const std::vector<Eigen::Vector2d>& positions, int width, int height, int cell_px = 32);
 
-  // Indices, ascending, of the positions with |dx| <= radius.x and |dy| <= radius.y.
+  // Indices of the positions with |dx| <= radius.x and |dy| <= radius.y, in the order of the cells.
   std::vector<int> InWindow(const Eigen::Vector2d& center, const Eigen::Vector2d& radius) const;
   std::vector<int> InWindow(const Eigen::Vector2d& center, double radius) const {
     return InWindow(center, Eigen::Vector2d(radius, radius));
