@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::string_view kMagic = "PLBMAP\r\n";  // line ends show a transfer as text
 constexpr std::uint32_t kVersion = 1;
-constexpr std::int64_t kMaxId = std::int64_t{1} << 48;  // leaves room for new ids
+constexpr std::int64_t kMaxId = std::int64_t{1} << 26;  // a map has an index of all of its ids
 constexpr std::size_t kHeaderBytes = 8 + 4 + 4 + 8;     // magic, version, CRC-32, size of the body
 
 // A keyframe as stored; its matches follow from the observations of the landmarks.

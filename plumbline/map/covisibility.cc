@@ -3,28 +3,27 @@
 #include "plumbline/map/covisibility.h"
 
 #include <algorithm>
-#include <map>
+#include <cstddef>
 
 namespace plumbline {
-namespace {
 
-template <class LandmarkId>
-void CountShared(const Map& map,
-                 const std::vector<LandmarkId>& matches,
-                 std::map<KeyFrameId, int>& shared) {
-  for (const LandmarkId id : matches) {
-    if (!id.valid()) continue;
-    for (const auto& [keyframe, feature] : map.Find(id)->observations) ++shared[keyframe];
+SharedCounts::SharedCounts(const Map& map)
+    : shared_(static_cast<std::size_t>(map.NextKeyFrameId().value), 0) {}
+
+void SharedCounts::Add(const Observations& observations) {
+  for (const auto& [keyframe, feature] : observations) {
+    ++shared_[static_cast<std::size_t>(keyframe.value)];
   }
 }
 
-}  // namespace
+void SharedCounts::Leave(KeyFrameId id) { shared_[static_cast<std::size_t>(id.value)] = 0; }
 
-std::vector<CovisibleKeyFrame> RankByShared(const std::map<KeyFrameId, int>& shared,
-                                            int min_shared) {
+std::vector<CovisibleKeyFrame> SharedCounts::Rank(int min_shared) const {
   std::vector<CovisibleKeyFrame> result;
-  for (const auto& [id, count] : shared) {
-    if (count >= min_shared) result.push_back({id, count});
+  for (std::size_t i = 0; i < shared_.size(); ++i) {
+    if (shared_[i] >= std::max(min_shared, 1)) {
+      result.push_back({KeyFrameId{static_cast<std::int64_t>(i)}, shared_[i]});
+    }
   }
   std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
     return a.shared != b.shared ? a.shared > b.shared : a.id > b.id;
@@ -35,11 +34,16 @@ std::vector<CovisibleKeyFrame> RankByShared(const std::map<KeyFrameId, int>& sha
 std::vector<CovisibleKeyFrame> Covisible(const Map& map, KeyFrameId id, int min_shared) {
   const KeyFrame* keyframe = map.Find(id);
   if (keyframe == nullptr) return {};
-  std::map<KeyFrameId, int> shared;
-  CountShared(map, keyframe->frame.points, shared);
-  CountShared(map, keyframe->frame.lines, shared);
-  shared.erase(id);
-  return RankByShared(shared, min_shared);
+  SharedCounts shared(map);
+  const auto count = [&](const auto& matches) {
+    for (const auto landmark : matches) {
+      if (landmark.valid()) shared.Add(map.Find(landmark)->observations);
+    }
+  };
+  count(keyframe->frame.points);
+  count(keyframe->frame.lines);
+  shared.Leave(id);
+  return shared.Rank(min_shared);
 }
 
 }  // namespace plumbline

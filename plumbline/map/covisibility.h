@@ -4,7 +4,6 @@
 
 #include "plumbline/map/map.h"
 
-#include <map>
 #include <vector>
 
 namespace plumbline {
@@ -14,10 +13,20 @@ struct CovisibleKeyFrame {
   int shared = 0;  // points and lines that both show
 };
 
-// Keyframes by the number of landmarks they share with something, most first (ties: newest first),
-// those below min_shared left out.
-std::vector<CovisibleKeyFrame> RankByShared(const std::map<KeyFrameId, int>& shared,
-                                            int min_shared);
+// Counts, for each keyframe of a map, the landmarks that it shows of those given.
+class SharedCounts {
+ public:
+  explicit SharedCounts(const Map& map);
+
+  void Add(const Observations& observations);
+  void Leave(KeyFrameId id);  // out of the ranking
+
+  // Keyframes by their number, most first (ties: newest first), those below min_shared left out.
+  std::vector<CovisibleKeyFrame> Rank(int min_shared) const;
+
+ private:
+  std::vector<int> shared_;  // by id
+};
 
 // The keyframes that show at least min_shared of the landmarks that `id` shows, most shared first
 // (ties: newest first), without `id` itself. Derived from the observations at each call, O(matches

@@ -5,6 +5,7 @@
 #include "plumbline/base/ids.h"
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/plucker.h"
+#include "plumbline/map/observations.h"
 
 #include <map>
 
@@ -34,9 +35,6 @@ struct LineModel {
 
   Segment3 Interval() const { return {line.PointAt(start), line.PointAt(end)}; }
 };
-
-// Which feature of which keyframe shows a landmark.
-using Observations = std::map<KeyFrameId, int>;
 
 // How often the tracker expected to see a landmark and how often it did.
 struct TrackingScore {

@@ -12,19 +12,13 @@
 namespace plumbline {
 namespace {
 
-template <class K, class V>
-const V* FindIn(const std::map<K, V>& table, K id) {
-  const auto it = table.find(id);
-  return it == table.end() ? nullptr : &it->second;
-}
-
 // Follows the merges from id to the landmark that stands today.
 template <class LandmarkId, class Landmark>
 LandmarkId Follow(const std::map<LandmarkId, LandmarkId>& merged,
-                  const std::map<LandmarkId, Landmark>& landmarks,
+                  const IdTable<LandmarkId, Landmark>& landmarks,
                   LandmarkId id) {
   for (auto it = merged.find(id); it != merged.end(); it = merged.find(id)) id = it->second;
-  return landmarks.contains(id) ? id : LandmarkId{};
+  return landmarks.Find(id) != nullptr ? id : LandmarkId{};
 }
 
 std::vector<PointId>& Matches(Frame& frame, PointId) { return frame.points; }
@@ -34,9 +28,9 @@ const std::vector<LineId>& Matches(const Frame& frame, LineId) { return frame.li
 
 }  // namespace
 
-const KeyFrame* Map::Find(KeyFrameId id) const { return FindIn(keyframes_, id); }
-const MapPoint* Map::Find(PointId id) const { return FindIn(points_, id); }
-const MapLine* Map::Find(LineId id) const { return FindIn(lines_, id); }
+const KeyFrame* Map::Find(KeyFrameId id) const { return keyframes_.Find(id); }
+const MapPoint* Map::Find(PointId id) const { return points_.Find(id); }
+const MapLine* Map::Find(LineId id) const { return lines_.Find(id); }
 
 PointId Map::Current(PointId id) const { return Follow(merged_points_, points_, id); }
 LineId Map::Current(LineId id) const { return Follow(merged_lines_, lines_, id); }
@@ -62,15 +56,10 @@ struct MapChanger {
   auto& Merged(PointId) { return map.merged_points_; }
   auto& Merged(LineId) { return map.merged_lines_; }
 
-  KeyFrame* FindKeyFrame(KeyFrameId id) {
-    const auto it = map.keyframes_.find(id);
-    return it == map.keyframes_.end() ? nullptr : &it->second;
-  }
+  KeyFrame* FindKeyFrame(KeyFrameId id) { return map.keyframes_.Find(id); }
   template <class LandmarkId>
   auto* FindLandmark(LandmarkId id) {
-    auto& table = Landmarks(id);
-    const auto it = table.find(id);
-    return it == table.end() ? nullptr : &it->second;
+    return Landmarks(id).Find(id);
   }
 
   // A keyframe shows a landmark with one feature, and a feature shows one landmark: whichever was
@@ -100,7 +89,7 @@ struct MapChanger {
       Matches(keyframe->frame, id)[static_cast<std::size_t>(it->second)] = LandmarkId{};
     }
     landmark->observations.erase(it);
-    if (landmark->observations.empty()) Landmarks(id).erase(id);
+    if (landmark->observations.empty()) Landmarks(id).Erase(id);
   }
 
   template <class LandmarkId>
@@ -112,7 +101,7 @@ struct MapChanger {
         Matches(keyframe->frame, id)[static_cast<std::size_t>(feature)] = LandmarkId{};
       }
     }
-    Landmarks(id).erase(id);
+    Landmarks(id).Erase(id);
   }
 
   template <class LandmarkId, class Landmark>
@@ -120,9 +109,9 @@ struct MapChanger {
     PLUMBLINE_CHECK(id >= next, "id of a new landmark is not new");
     next = LandmarkId{id.value + 1};
     const Observations observations = std::exchange(landmark.observations, {});
-    Landmarks(id).emplace(id, std::move(landmark));
+    Landmarks(id).Insert(id, std::move(landmark));
     for (const auto& [keyframe_id, feature] : observations) Observe(id, keyframe_id, feature);
-    if (FindLandmark(id)->observations.empty()) Landmarks(id).erase(id);
+    if (FindLandmark(id)->observations.empty()) Landmarks(id).Erase(id);
   }
 
   template <class LandmarkId>
@@ -166,7 +155,7 @@ struct MapChanger {
     keyframe.frame.points.resize(points.size());
     keyframe.frame.lines.resize(lines.size());
     keyframe.frame.indexed = WithCorrection(keyframe.frame.indexed, map.stereo_correction_);
-    map.keyframes_.emplace(id, std::move(keyframe));
+    map.keyframes_.Insert(id, std::move(keyframe));
     ObserveMatches(id, points);
     ObserveMatches(id, lines);
   }
@@ -180,7 +169,7 @@ struct MapChanger {
     const Frame frame = keyframe->frame;
     for (const PointId id : frame.points) Unobserve(id, change.id);
     for (const LineId id : frame.lines) Unobserve(id, change.id);
-    map.keyframes_.erase(change.id);
+    map.keyframes_.Erase(change.id);
   }
 
   void Do(const edit::SetPose& change) {
@@ -191,7 +180,7 @@ struct MapChanger {
 
   void Do(const edit::CorrectStereo& change) {
     map.stereo_correction_ = change.correction;
-    for (auto& [id, keyframe] : map.keyframes_) {
+    for (auto& [id, keyframe] : map.keyframes_.entries()) {
       keyframe.frame.indexed = WithCorrection(keyframe.frame.indexed, change.correction);
     }
   }
@@ -218,10 +207,10 @@ struct MapChanger {
   void Do(const edit::MergePoints& change) { Merge(change.kept, change.gone); }
   void Do(const edit::MergeLines& change) { Merge(change.kept, change.gone); }
   void Do(const edit::RefreshPoint& change) {
-    if (MapPoint* point = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *point);
+    if (MapPoint* point = FindLandmark(change.id)) RefreshAppearance(map.keyframes(), *point);
   }
   void Do(const edit::RefreshLine& change) {
-    if (MapLine* line = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *line);
+    if (MapLine* line = FindLandmark(change.id)) RefreshAppearance(map.keyframes(), *line);
   }
   void Do(const edit::ScorePoint& change) { Score(change.id, change.visible, change.found); }
   void Do(const edit::ScoreLine& change) { Score(change.id, change.visible, change.found); }
@@ -268,11 +257,11 @@ void CheckMatches(KeyFrameId keyframe_id,
 }  // namespace
 
 void Map::CheckInvariants() const {
-  CheckLandmarks(points_, keyframes_);
-  CheckLandmarks(lines_, keyframes_);
-  for (const auto& [id, keyframe] : keyframes_) {
-    CheckMatches(id, keyframe.frame.points, points_);
-    CheckMatches(id, keyframe.frame.lines, lines_);
+  CheckLandmarks(points(), keyframes());
+  CheckLandmarks(lines(), keyframes());
+  for (const auto& [id, keyframe] : keyframes()) {
+    CheckMatches(id, keyframe.frame.points, points());
+    CheckMatches(id, keyframe.frame.lines, lines());
   }
 }
 

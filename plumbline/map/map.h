@@ -4,6 +4,7 @@
 
 #include "plumbline/map/edit.h"
 #include "plumbline/map/frame.h"
+#include "plumbline/map/id_table.h"
 #include "plumbline/map/landmarks.h"
 
 #include <cstdint>
@@ -20,9 +21,9 @@ class Map {
 
   MapId id() const { return id_; }
   std::int64_t version() const { return version_; }
-  const std::map<KeyFrameId, KeyFrame>& keyframes() const { return keyframes_; }
-  const std::map<PointId, MapPoint>& points() const { return points_; }
-  const std::map<LineId, MapLine>& lines() const { return lines_; }
+  const std::map<KeyFrameId, KeyFrame>& keyframes() const { return keyframes_.entries(); }
+  const std::map<PointId, MapPoint>& points() const { return points_.entries(); }
+  const std::map<LineId, MapLine>& lines() const { return lines_.entries(); }
 
   // nullptr where there is no such object (any more).
   const KeyFrame* Find(KeyFrameId id) const;
@@ -66,9 +67,9 @@ class Map {
   PointId next_point_{0};
   LineId next_line_{0};
   StereoCorrection stereo_correction_;
-  std::map<KeyFrameId, KeyFrame> keyframes_;
-  std::map<PointId, MapPoint> points_;
-  std::map<LineId, MapLine> lines_;
+  IdTable<KeyFrameId, KeyFrame> keyframes_;
+  IdTable<PointId, MapPoint> points_;
+  IdTable<LineId, MapLine> lines_;
   std::map<KeyFrameId, Removed> removed_keyframes_;
   std::map<PointId, PointId> merged_points_;
   std::map<LineId, LineId> merged_lines_;

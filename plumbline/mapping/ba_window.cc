@@ -30,6 +30,7 @@ class WindowBuilder {
   }
 
   BaWindow Build(KeyFrameId centre) {
+    pose_of_.assign(static_cast<std::size_t>(map_.NextKeyFrameId().value), kNotInWindow);
     window_.window_from_world = map_.Find(centre)->frame.cam_from_world;
     world_from_window_ = Inverse(window_.window_from_world);
     ChooseFree(centre);
@@ -43,17 +44,14 @@ class WindowBuilder {
   }
 
  private:
-  // A keyframe of the window.
-  struct Member {
-    int pose = 0;  // its index
-    const KeyFrame* keyframe = nullptr;
-  };
+  static constexpr int kNotInWindow = -1;
 
   void AddPose(KeyFrameId id, bool fixed) {
-    const KeyFrame* keyframe = map_.Find(id);
-    members_[id] = {static_cast<int>(window_.keyframes.size()), keyframe};
+    const Frame& frame = map_.Find(id)->frame;
+    pose_of_[static_cast<std::size_t>(id.value)] = static_cast<int>(frames_.size());
+    frames_.push_back(&frame);
     window_.keyframes.push_back(id);
-    window_.problem.poses.push_back({keyframe->frame.cam_from_world * world_from_window_, fixed});
+    window_.problem.poses.push_back({frame.cam_from_world * world_from_window_, fixed});
   }
 
   void ChooseFree(KeyFrameId centre) {
@@ -67,34 +65,36 @@ class WindowBuilder {
     for (const KeyFrameId id : free) AddPose(id, id == origin);
   }
 
-  // Takes a landmark with at least two views; each is looked up in the map once.
-  template <class Id, class Landmark>
-  void Choose(Id id, std::map<Id, const Landmark*>& chosen) const {
-    if (!id.valid()) return;
-    const auto [place, is_new] = chosen.try_emplace(id, nullptr);
-    if (!is_new) return;
-    place->second = map_.Find(id);
-    if (place->second->observations.size() < 2) chosen.erase(place);
+  // The landmarks with at least two views that the keyframes of the window show, by id.
+  template <class Landmark, class LandmarkId>
+  std::vector<const Landmark*> Shown(std::vector<LandmarkId> Frame::*matches) const {
+    std::vector<LandmarkId> ids;
+    for (const Frame* frame : frames_) {
+      for (const LandmarkId id : frame->*matches) {
+        if (id.valid()) ids.push_back(id);
+      }
+    }
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    std::vector<const Landmark*> landmarks;
+    for (const LandmarkId id : ids) {
+      const Landmark* landmark = map_.Find(id);
+      if (landmark->observations.size() >= 2) landmarks.push_back(landmark);
+    }
+    return landmarks;
   }
 
   void ChooseLandmarks() {
-    for (const KeyFrameId id : window_.keyframes) {
-      const Frame& frame = map_.Find(id)->frame;
-      for (const PointId point : frame.points) Choose(point, points_);
-      for (const LineId line : frame.lines) Choose(line, lines_);
-    }
+    points_ = Shown<MapPoint>(&Frame::points);
+    lines_ = Shown<MapLine>(&Frame::lines);
   }
 
   void ChooseFixed() {
-    std::map<KeyFrameId, int> shared;
-    const auto count = [&](const Observations& observations) {
-      for (const auto& [id, feature] : observations) {
-        if (!members_.contains(id)) ++shared[id];
-      }
-    };
-    for (const auto& [id, point] : points_) count(point->observations);
-    for (const auto& [id, line] : lines_) count(line->observations);
-    std::vector<CovisibleKeyFrame> others = RankByShared(shared, 1);
+    SharedCounts shared(map_);
+    for (const MapPoint* point : points_) shared.Add(point->observations);
+    for (const MapLine* line : lines_) shared.Add(line->observations);
+    for (const KeyFrameId id : window_.keyframes) shared.Leave(id);
+    std::vector<CovisibleKeyFrame> others = shared.Rank(1);
     if (static_cast<int>(others.size()) > options_.fixed_keyframes) {
       others.resize(static_cast<std::size_t>(options_.fixed_keyframes));
     }
@@ -108,7 +108,7 @@ class WindowBuilder {
   void HoldGauge() {
     auto& poses = window_.problem.poses;
     const bool depth = window_.problem.camera.baseline > 0;
-    const bool whole_map = members_.size() == map_.keyframes().size();
+    const bool whole_map = frames_.size() == map_.keyframes().size();
     const std::ptrdiff_t needed = depth || whole_map ? 1 : 2;
     auto fixed = std::count_if(poses.begin(), poses.end(), [](const auto& p) { return p.fixed; });
     for (auto pose = poses.begin(); pose != poses.end() && fixed < needed; ++pose) {
@@ -117,57 +117,61 @@ class WindowBuilder {
     }
   }
 
-  int ViewsInWindow(const Observations& observations) const {
-    return static_cast<int>(
-        std::count_if(observations.begin(), observations.end(), [&](const auto& observation) {
-          return members_.contains(observation.first);
-        }));
+  // A view of a landmark from the window.
+  struct View {
+    int pose = 0;
+    std::size_t feature = 0;
+  };
+
+  // Into views_; false where there are fewer than two.
+  bool FindViews(const Observations& observations) {
+    views_.clear();
+    for (const auto& [keyframe, feature] : observations) {
+      const int pose = pose_of_[static_cast<std::size_t>(keyframe.value)];
+      if (pose != kNotInWindow) views_.push_back({pose, static_cast<std::size_t>(feature)});
+    }
+    return views_.size() >= 2;
+  }
+
+  const Features& FeaturesOf(const View& view) const {
+    return frames_[static_cast<std::size_t>(view.pose)]->features();
   }
 
   void AddPoints() {
-    for (const auto& [id, point] : points_) {
-      if (ViewsInWindow(point->observations) < 2) continue;
+    for (const MapPoint* point : points_) {
+      if (!FindViews(point->observations)) continue;
       const int index = static_cast<int>(window_.points.size());
-      window_.points.push_back(id);
+      window_.points.push_back(point->id);
       window_.problem.points.push_back(window_.window_from_world * point->position);
-      for (const auto& [keyframe, feature] : point->observations) {
-        const auto member = members_.find(keyframe);
-        if (member == members_.end()) continue;
-        const Features& features = member->second.keyframe->frame.features();
+      for (const View& view : views_) {
         window_.problem.point_observations.push_back(
-            {member->second.pose,
-             index,
-             MeasurePoint(features, static_cast<std::size_t>(feature))});
+            {view.pose, index, MeasurePoint(FeaturesOf(view), view.feature)});
       }
     }
   }
 
   void AddLines() {
-    for (const auto& [id, line] : lines_) {
-      if (ViewsInWindow(line->observations) < 2) continue;
+    for (const MapLine* line : lines_) {
+      if (!FindViews(line->observations)) continue;
       if (!WellConditioned(*line)) {
-        window_.young_lines.push_back(id);
+        window_.young_lines.push_back(line->id);
         continue;
       }
       const int index = static_cast<int>(window_.lines.size());
-      window_.lines.push_back(id);
+      window_.lines.push_back(line->id);
       window_.problem.lines.push_back(
           ToOrthonormal(Transform(window_.window_from_world, line->line)));
-      for (const auto& [keyframe, feature] : line->observations) {
-        const auto member = members_.find(keyframe);
-        if (member == members_.end()) continue;
-        const auto& [pose, seen_by] = member->second;
-        AddLineObservations(pose, index, seen_by->frame.features(), feature);
-      }
+      for (const View& view : views_) AddLineObservations(index, view);
     }
   }
 
-  void AddLineObservations(int pose, int line, const Features& features, int feature) {
-    const auto i = static_cast<std::size_t>(feature);
+  void AddLineObservations(int line, const View& view) {
+    const Features& features = FeaturesOf(view);
+    const LineWeighting weighting = line_options_.weighting;
     auto& observations = window_.problem.line_observations;
-    observations.push_back({pose, line, MeasureLeftLine(features, i, line_options_.weighting)});
-    if (const auto right = MeasureRightLine(features, i, line_options_.weighting)) {
-      observations.push_back({pose, line, *right});
+    observations.push_back({view.pose, line, MeasureLeftLine(features, view.feature, weighting)});
+    if (const auto right = MeasureRightLine(features, view.feature, weighting)) {
+      observations.push_back({view.pose, line, *right});
     }
   }
 
@@ -180,7 +184,7 @@ class WindowBuilder {
     const std::vector<CommonDirection> directions = CommonDirections(map_);
     std::vector<int> count(directions.size(), 0);
     for (std::size_t i = 0; i < window_.lines.size(); ++i) {
-      const MapLine& line = *lines_.at(window_.lines[i]);
+      const MapLine& line = *map_.Find(window_.lines[i]);
       const auto direction = DirectionOf(line.line, line.information);
       const auto axis = direction ? ParallelTo(*direction, directions) : std::nullopt;
       if (!axis) continue;
@@ -224,7 +228,7 @@ class WindowBuilder {
       if (!first) first = normal;
       if (std::abs(first->dot(normal)) <= limit) return true;
     }
-    const KeyFrame& newest = *map_.Find(line.observations.rbegin()->first);
+    const KeyFrame& newest = *map_.Find(line.observations.newest().first);
     const auto known = [&](double t) {
       const double distance = (newest.frame.cam_from_world * line.line.PointAt(t)).norm();
       return SigmaAt(line.line, line.information, t) <= options_.max_line_relative_sigma * distance;
@@ -237,9 +241,11 @@ class WindowBuilder {
   const BaWindowOptions& options_;
   BaWindow window_;
   Rigid3 world_from_window_;
-  std::map<KeyFrameId, Member> members_;
-  std::map<PointId, const MapPoint*> points_;
-  std::map<LineId, const MapLine*> lines_;
+  std::vector<int> pose_of_;             // by keyframe
+  std::vector<const Frame*> frames_;     // by pose
+  std::vector<const MapPoint*> points_;  // candidates
+  std::vector<const MapLine*> lines_;
+  std::vector<View> views_;  // of the landmark that is being added
 };
 
 }  // namespace

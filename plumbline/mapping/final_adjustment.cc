@@ -87,7 +87,7 @@ class WholeMapBuilder {
 // Line landmarks keep their place before the newest keyframe that shows them.
 void MoveLines(const Map& map, const std::map<KeyFrameId, Rigid3>& poses, MapEdit& edit) {
   for (const auto& [id, line] : map.lines()) {
-    const KeyFrameId newest = line.observations.rbegin()->first;
+    const KeyFrameId newest = line.observations.newest().first;
     const Rigid3 motion = Inverse(poses.at(newest)) * map.Find(newest)->frame.cam_from_world;
     edit::MoveLine change{id, Transform(motion, line.line), 0, 0, line.information};
     change.start = change.line.ParameterOf(motion * line.line.PointAt(line.start));

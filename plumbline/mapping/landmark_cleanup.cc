@@ -37,38 +37,51 @@ void JudgeAll(const Map& map,
   });
 }
 
-// How many of a keyframe's landmarks there are and how many others show as well.
-struct Redundancy {
-  int landmarks = 0;
-  int redundant = 0;
-};
-
 int OctaveOf(const Map& map, KeyFrameId keyframe, int feature) {
   return map.Find(keyframe)->frame.features().points[static_cast<std::size_t>(feature)].octave;
 }
 
-Redundancy RedundancyOf(const Map& map, const KeyFrame& keyframe, int views) {
-  Redundancy result;
-  for (std::size_t i = 0; i < keyframe.frame.points.size(); ++i) {
-    const PointId id = keyframe.frame.points[i];
-    if (!id.valid()) continue;
-    const auto& observations = map.Find(id)->observations;
+// Whether at least `views` of the observations count; looks at no more than it needs.
+template <class Counts>
+bool HasViews(const Observations& observations, int views, const Counts& counts) {
+  for (auto o = observations.begin(); o != observations.end() && views > 0; ++o) {
+    views -= counts(*o);
+  }
+  return views <= 0;
+}
+
+template <class LandmarkId>
+std::ptrdiff_t CountValid(const std::vector<LandmarkId>& matches) {
+  return std::count_if(matches.begin(), matches.end(), [](auto id) { return id.valid(); });
+}
+
+// Whether other keyframes show the share of a keyframe's landmarks, points as sharply. Most
+// keyframes have more landmarks of their own than that, and are not looked at further.
+bool IsRedundant(const Map& map, const KeyFrame& keyframe, const CleanupOptions& options) {
+  const Frame& frame = keyframe.frame;
+  int landmarks = 0;
+  int own = 0;
+  const auto count = [&](bool redundant) {
+    ++landmarks;
+    own += !redundant;
+  };
+  const auto is_below_share = [&](int of) { return of - own < options.redundant_share * of; };
+  const auto at_most = static_cast<int>(CountValid(frame.points) + CountValid(frame.lines));
+  for (std::size_t i = 0; i < frame.points.size() && !is_below_share(at_most); ++i) {
+    if (!frame.points[i].valid()) continue;
+    const auto& observations = map.Find(frame.points[i])->observations;
     if (observations.size() < 2) continue;
-    const int octave = keyframe.frame.features().points[i].octave;
-    const auto others = std::count_if(observations.begin(), observations.end(), [&](const auto& o) {
+    const int octave = frame.features().points[i].octave;
+    count(HasViews(observations, options.redundant_views, [&](const auto& o) {
       return o.first != keyframe.id && OctaveOf(map, o.first, o.second) <= octave + 1;
-    });
-    ++result.landmarks;
-    result.redundant += others >= views;
+    }));
   }
-  for (const LineId id : keyframe.frame.lines) {
+  for (const LineId id : frame.lines) {
     if (!id.valid()) continue;
-    const auto count = static_cast<int>(map.Find(id)->observations.size());
-    if (count < 2) continue;
-    ++result.landmarks;
-    result.redundant += count - 1 >= views;
+    const auto views = static_cast<int>(map.Find(id)->observations.size());
+    if (views >= 2) count(views - 1 >= options.redundant_views);
   }
-  return result;
+  return landmarks > 0 && !is_below_share(landmarks);
 }
 
 }  // namespace
@@ -91,8 +104,7 @@ MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const Cleanu
       centre_it == map.keyframes().begin() ? centre : std::prev(centre_it)->first;
   for (const auto& neighbour : Covisible(map, centre, 10)) {
     if (neighbour.id == origin || neighbour.id == before) continue;
-    const Redundancy r = RedundancyOf(map, *map.Find(neighbour.id), options.redundant_views);
-    if (r.landmarks > 0 && r.redundant >= options.redundant_share * r.landmarks) {
+    if (IsRedundant(map, *map.Find(neighbour.id), options)) {
       // One at a time: what others show changes with each removal.
       return {edit::RemoveKeyFrame{neighbour.id}};
     }

@@ -50,14 +50,23 @@ std::optional<LineInterval> Trimmed(const RectifiedCamera& camera,
   return interval;
 }
 
-// Before the exact test: near the projected line and nearly parallel to it.
-bool MayShow(const Segment2& projected, const Segment2& segment) {
-  constexpr double kLoosePx = 10, kMinCosine = 0.95;
-  const Eigen::Vector3d line = LineThrough(projected);
-  return std::abs(LineDistance(line, segment.start)) <= kLoosePx &&
-         std::abs(LineDistance(line, segment.end)) <= kLoosePx &&
-         segment.Direction().dot(projected.Direction()) >= kMinCosine;
-}
+// Before the exact test: which segments are near the projected line and nearly parallel to it.
+class LooseTest {
+ public:
+  explicit LooseTest(const Segment2& projected)
+      : line_(LineThrough(projected)), direction_(projected.Direction()) {}
+
+  bool MayShow(const Segment2& segment) const {
+    constexpr double kLoosePx = 10, kMinCosine = 0.95;
+    return std::abs(LineDistance(line_, segment.start)) <= kLoosePx &&
+           std::abs(LineDistance(line_, segment.end)) <= kLoosePx &&
+           segment.Direction().dot(direction_) >= kMinCosine;
+  }
+
+ private:
+  Eigen::Vector3d line_;
+  Eigen::Vector2d direction_;
+};
 
 }  // namespace
 
@@ -78,10 +87,11 @@ std::vector<LineSupport> LineSupportSearch::Find(const LineHypothesis& hypothesi
         ProjectSegment(imaging_.camera,
                        {frame.cam_from_world * segment.start, frame.cam_from_world * segment.end});
     if (!projected || !(projected->Length() > kMinLengthPx)) continue;
-    for (std::size_t i = 0; i < frame.lines.size(); ++i) {
-      if (IsClaimed(keyframe, i) || !MayShow(*projected, frame.features().lines[i].segment)) {
-        continue;
-      }
+    const LooseTest test(*projected);
+    const std::vector<LineFeature>& lines = frame.features().lines;
+    const std::vector<bool>& claimed = claimed_.at(id);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (claimed[i] || !test.MayShow(lines[i].segment)) continue;
       if (const auto support = Test(hypothesis, keyframe, i)) supports.push_back(*support);
     }
   }
@@ -92,10 +102,6 @@ void LineSupportSearch::Claim(std::span<const LineSupport> supports) {
   for (const LineSupport& support : supports) {
     claimed_.at(support.keyframe->id)[support.feature] = true;
   }
-}
-
-bool LineSupportSearch::IsClaimed(const KeyFrame& keyframe, std::size_t feature) const {
-  return claimed_.at(keyframe.id)[feature];
 }
 
 std::optional<LineSupport> LineSupportSearch::Test(const LineHypothesis& hypothesis,

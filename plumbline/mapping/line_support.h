@@ -48,7 +48,6 @@ class LineSupportSearch {
   void Claim(std::span<const LineSupport> supports);
 
  private:
-  bool IsClaimed(const KeyFrame& keyframe, std::size_t feature) const;
   std::optional<LineSupport> Test(const LineHypothesis& hypothesis,
                                   const KeyFrame& keyframe,
                                   std::size_t feature) const;

@@ -74,7 +74,7 @@ std::optional<MapLine> Reconstruct(const Map& map,
   line.view_direction =
       (line.Interval().Midpoint() - Inverse(first.cam_from_world).translation).normalized();
   for (const LineViewOf& view : views) {
-    line.observations[view.keyframe] = static_cast<int>(view.feature);
+    line.observations.emplace(view.keyframe, static_cast<int>(view.feature));
     line.information +=
         LineInformation(camera, map.Find(view.keyframe)->frame, view.feature, line.line);
   }

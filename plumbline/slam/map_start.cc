@@ -56,7 +56,7 @@ class StartBuilder {
   Observations ByKeyFrame(const std::vector<InitialObservation>& observations) const {
     Observations result;
     for (const InitialObservation& o : observations) {
-      result[start_.keyframes[static_cast<std::size_t>(o.view)]] = o.feature;
+      result.emplace(start_.keyframes[static_cast<std::size_t>(o.view)], o.feature);
     }
     return result;
   }

@@ -60,7 +60,7 @@ inline MapLine LineSeenBy(std::int64_t id, const Observations& observations) {
 // Observations of keyframes first to last, all by the same feature.
 inline Observations SeenBy(std::int64_t first, std::int64_t last, int feature) {
   Observations observations;
-  for (std::int64_t k = first; k <= last; ++k) observations[KeyFrameId{k}] = feature;
+  for (std::int64_t k = first; k <= last; ++k) observations.emplace(KeyFrameId{k}, feature);
   return observations;
 }
 

@@ -277,7 +277,8 @@ MapChange RandomChange(const Map& map, Rng& rng) {
   const KeyFrameId k{upto(map.NextKeyFrameId().value)};
   const int feature = static_cast<int>(rng.Index(kFeatures));
   Observations seen{{k, feature}};
-  seen[KeyFrameId{upto(map.NextKeyFrameId().value)}] = static_cast<int>(rng.Index(kFeatures));
+  const KeyFrameId other{upto(map.NextKeyFrameId().value)};
+  seen.emplace(other, static_cast<int>(rng.Index(kFeatures)));
   KeyFrame keyframe = BlankKeyFrame(map.NextKeyFrameId().value, map.NextKeyFrameId().value - 1);
   for (std::size_t i = 0; i < kFeatures; i += 2) {
     keyframe.frame.points[i] = PointId{upto(map.NextPointId().value)};

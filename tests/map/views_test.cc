@@ -73,12 +73,12 @@ TEST(Snapshot, HoldsAllLandmarksOfItsKeyFramesSortedById) {
   std::size_t points = 0;
   std::size_t lines = 0;
   for (const auto& [id, point] : map.points()) {
-    const bool inside = point.observations.rbegin()->first >= KeyFrameId{3};
+    const bool inside = point.observations.newest().first >= KeyFrameId{3};
     EXPECT_EQ(snapshot->Find(id) != nullptr, inside) << id.value;
     points += inside;
   }
   for (const auto& [id, line] : map.lines()) {
-    const bool inside = line.observations.rbegin()->first >= KeyFrameId{3};
+    const bool inside = line.observations.newest().first >= KeyFrameId{3};
     EXPECT_EQ(snapshot->Find(id) != nullptr, inside) << id.value;
     lines += inside;
   }

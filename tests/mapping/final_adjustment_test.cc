@@ -71,7 +71,7 @@ TEST(AdjustWholeMap, MovesALineLandmarkWithTheNewestKeyFrameThatShowsIt) {
   scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
   for (const auto& [id, line] : scene.map.lines()) {
     const MapLine& old = *before.Find(id);
-    const KeyFrameId newest = line.observations.rbegin()->first;
+    const KeyFrameId newest = line.observations.newest().first;
     const Rigid3& now = scene.map.Find(newest)->frame.cam_from_world;
     const Rigid3& then = before.Find(newest)->frame.cam_from_world;
     EXPECT_LT((now * line.Interval().start - then * old.Interval().start).norm(), 1e-9);

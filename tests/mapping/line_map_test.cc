@@ -68,11 +68,11 @@ TEST(LineMap, HasALineOnceHoweverOftenItIsInTheMap) {
     twin.id = next;
     ++next.value;
     twin.start = 0.5 * (line.start + line.end);
-    twin.observations.clear();
+    twin.observations = {};
     for (const auto& [keyframe, feature] : line.observations) {
       if (keyframe.value % 2 == 0) continue;
       edit.push_back(edit::RemoveLineObservation{id, keyframe});
-      twin.observations[keyframe] = feature;
+      twin.observations.emplace(keyframe, feature);
     }
     if (!twin.observations.empty()) edit.push_back(edit::AddLine{twin});
   }
