@@ -122,10 +122,10 @@ std::optional<Disparity> SceneDisparity(const Frame& frame) {
   return Disparity{median, kRelativeSigma * median};
 }
 
-std::optional<LineModel> LineAtSceneDepth(const RectifiedCamera& camera,
-                                          const Frame& frame,
-                                          std::size_t i,
-                                          const Disparity& scene) {
+LineModel LineAtSceneDepth(const RectifiedCamera& camera,
+                           const Frame& frame,
+                           std::size_t i,
+                           const Disparity& scene) {
   const auto measured = MeasuredEnds(frame, i, 0);
   const LineEndDisparity ends =
       measured ? LineEndDisparity{Average(measured->start, scene), Average(measured->end, scene)}

@@ -35,10 +35,10 @@ std::optional<Disparity> SceneDisparity(const Frame& frame);
 // or far away, or one that the right image does not show, has no depth of its own, but says as much
 // as any other about the rotation of a camera that moves little against that depth. What was
 // measured of its disparities and `scene` are averaged by their variances; both are in the
-// information. nullopt where the result would not be in front of the camera.
-std::optional<LineModel> LineAtSceneDepth(const RectifiedCamera& camera,
-                                          const Frame& frame,
-                                          std::size_t i,
-                                          const Disparity& scene);
+// information.
+LineModel LineAtSceneDepth(const RectifiedCamera& camera,
+                           const Frame& frame,
+                           std::size_t i,
+                           const Disparity& scene);
 
 }  // namespace plumbline

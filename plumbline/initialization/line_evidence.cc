@@ -3,10 +3,10 @@
 #include "plumbline/initialization/line_evidence.h"
 
 #include "plumbline/base/median.h"
+#include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/initialization/window_covariance.h"
 #include "plumbline/initialization/window_lines.h"
-#include "plumbline/solvers/pose_refinement.h"
 
 #include <algorithm>
 #include <cmath>

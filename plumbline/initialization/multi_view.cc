@@ -3,6 +3,7 @@
 #include "plumbline/initialization/multi_view.h"
 
 #include "plumbline/base/median.h"
+#include "plumbline/geometry/basis_across.h"
 #include "plumbline/initialization/line_evidence.h"
 #include "plumbline/initialization/window_adjustment.h"
 #include "plumbline/initialization/window_covariance.h"

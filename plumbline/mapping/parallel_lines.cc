@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/parallel_lines.h"
 
+#include "plumbline/geometry/basis_across.h"
 #include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
@@ -26,14 +27,6 @@ constexpr double kMaxChance = 0.005;
 constexpr double kMinCosine = 0.9;
 
 using Basis = Eigen::Matrix<double, 3, 2>;
-
-// Two unit vectors across a direction.
-Basis Across(const Eigen::Vector3d& direction) {
-  Basis basis;
-  basis.col(0) = direction.unitOrthogonal();
-  basis.col(1) = direction.cross(basis.col(0));
-  return basis;
-}
 
 // How far a line's direction is from another one, in a basis across the latter.
 struct Deviation {
@@ -81,7 +74,7 @@ CommonDirection WeightedMean(const Eigen::Vector3d& start, const Lines& lines, L
   constexpr int kSteps = 4;
   CommonDirection mean{start, 0};
   for (int step = 0; step < kSteps; ++step) {
-    const Basis across = Across(mean.direction);
+    const Basis across = BasisAcross(mean.direction);
     others.clear();
     Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
     Eigen::Vector2d g = Eigen::Vector2d::Zero();
@@ -156,7 +149,7 @@ std::optional<std::size_t> ParallelTo(const LineDirection& line,
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Eigen::Vector3d& axis = directions[i].direction;
     const Deviation d =
-        DeviationFrom(axis, Across(axis), line, std::hypot(kSigma, directions[i].sigma));
+        DeviationFrom(axis, BasisAcross(axis), line, std::hypot(kSigma, directions[i].sigma));
     if (!d.agrees) continue;
     // The ellipse that passes, as a share of the hemisphere of all directions.
     const double chance = 0.5 * Chi2Limit95(2) * std::sqrt(d.covariance.determinant());

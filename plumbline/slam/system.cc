@@ -78,9 +78,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
 TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock) {
   const auto snapshot = mapping_.SnapshotFor(record.id.value);
   clock.Done("map");
-  for (const MappingStep& step : mapping_.TakeTimes()) {
-    clock.Add("map_" + step.name, step.milliseconds);
-  }
+  for (const StageTime& time : TakeMappingTimes()) clock.Add(time.stage, time.milliseconds);
   const bool behind = options_.slam.mode == RunMode::kLive && mapping_.Behind();
   TrackingResult result = tracker_.Track(
       record.id, record.stamp_ns, std::move(measured.indexed), snapshot.get(), behind);
@@ -150,12 +148,19 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) c
   record.causal_world_from_camera = AsDelivered(*result.cam_from_world);
 }
 
+std::vector<StageTime> System::TakeMappingTimes() {
+  std::vector<StageTime> times;
+  for (const MappingStep& step : mapping_.TakeTimes()) {
+    times.push_back({"map_" + step.name, step.milliseconds});
+  }
+  return times;
+}
+
 void System::Finish() {
   mapping_.Finish();
+  const std::vector<StageTime> times = TakeMappingTimes();
   if (!frames_.empty()) {
-    for (const MappingStep& step : mapping_.TakeTimes()) {
-      frames_.back().times.push_back({"map_" + step.name, step.milliseconds});
-    }
+    frames_.back().times.insert(frames_.back().times.end(), times.begin(), times.end());
   }
   if (!monocular_start_) return;
   for (const EarlierFrame& earlier : monocular_start_->Locate(mapping_.maps())) {

@@ -105,6 +105,8 @@ class System {
  private:
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
   TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
+  // Of the steps of mapping that ended since the last call.
+  std::vector<StageTime> TakeMappingTimes();
   TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/pose_refinement.h"
 
+#include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
 
@@ -158,15 +159,6 @@ Matrix5d Covariance(std::span<const RayMatch> matches, const Rigid3& pose, bool 
 }
 
 }  // namespace
-
-Eigen::Matrix<double, 3, 2> BasisAcross(const Eigen::Vector3d& direction) {
-  Eigen::Index smallest = 0;
-  direction.cwiseAbs().minCoeff(&smallest);
-  Eigen::Matrix<double, 3, 2> basis;
-  basis.col(0) = direction.cross(Eigen::Vector3d::Unit(smallest)).normalized();
-  basis.col(1) = direction.cross(basis.col(0)).normalized();
-  return basis;
-}
 
 SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
                                 const Eigen::Matrix<double, 3, 2>& basis,

@@ -12,10 +12,6 @@
 
 namespace plumbline {
 
-// Two directions of unit length at right angles to a unit vector and to each other: the columns.
-// What a change of a translation's direction is written in: t + basis d, scaled to length 1.
-Eigen::Matrix<double, 3, 2> BasisAcross(const Eigen::Vector3d& direction);
-
 // The signed Sampson distance of a match over its deviation (its square is SampsonChi2), and its
 // derivative by (w, d): rotation <- Exp(w) rotation, translation <- translation + basis d.
 struct SampsonResidual {

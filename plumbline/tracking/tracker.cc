@@ -287,9 +287,7 @@ FrameAssociation Tracker::LastLandmarks(const MapSnapshot& snapshot,
     } else if (const auto line = LineFromFrame(imaging_.camera, last, i, line_sigma)) {
       result.lines.push_back({LineId{}, *line});
     } else if (scene) {
-      if (const auto guess = LineAtSceneDepth(imaging_.camera, last, i, *scene)) {
-        result.lines.push_back({LineId{}, *guess});
-      }
+      result.lines.push_back({LineId{}, LineAtSceneDepth(imaging_.camera, last, i, *scene)});
     }
   }
   return result;

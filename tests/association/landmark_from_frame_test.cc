@@ -44,9 +44,7 @@ TEST(LineAtSceneDepth, PutsALineAlongTheRowsWhereTheSceneIs) {
   const RectifiedCamera camera = Stereo();
   const Frame frame = FrameOf({kAlongRows}, {Segment2{{80, 150}, {280, 150}}});
   EXPECT_FALSE(LineFromFrame(camera, frame, 0, 0.3)) << "it has no depth of its own";
-  const auto line = LineAtSceneDepth(camera, frame, 0, kScene);
-  ASSERT_TRUE(line);
-  const Segment3 part = line->Interval();
+  const Segment3 part = LineAtSceneDepth(camera, frame, 0, kScene).Interval();
   EXPECT_NEAR(part.start.z(), 2, 1e-9);
   EXPECT_LT((camera.Project(part.start) - kAlongRows.start).norm(), 1e-9);
   EXPECT_LT((camera.Project(part.end) - kAlongRows.end).norm(), 1e-9);
@@ -56,7 +54,7 @@ TEST(LineAtSceneDepth, PutsALineAlongTheRowsWhereTheSceneIs) {
 TEST(LineAtSceneDepth, KnowsWhatItDoesNotKnow) {
   const RectifiedCamera camera = Stereo();
   const Frame frame = FrameOf({kAlongRows}, {std::nullopt});
-  const LineModel line = *LineAtSceneDepth(camera, frame, 0, kScene);
+  const LineModel line = LineAtSceneDepth(camera, frame, 0, kScene);
   const double middle = 0.5 * (line.start + line.end);
   const auto J = ShiftJacobian(line.line, ToOrthonormal(line.line), middle);
   const Eigen::Matrix3d covariance =
@@ -76,7 +74,7 @@ TEST(LineAtSceneDepth, AveragesWithWhatWasMeasured) {
   // Upright, 5 px of disparity, known to a pixel or so: far better than the scene's 20.
   const Frame frame =
       FrameOf({Segment2{{300, 100}, {300, 300}}}, {Segment2{{295, 100}, {295, 300}}});
-  const LineModel line = *LineAtSceneDepth(camera, frame, 0, kScene);
+  const LineModel line = LineAtSceneDepth(camera, frame, 0, kScene);
   const double disparity = camera.DisparityFromDepth(line.Interval().Midpoint().z());
   EXPECT_GT(disparity, 5);
   EXPECT_LT(disparity, 5.3);

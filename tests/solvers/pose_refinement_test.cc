@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/pose_refinement.h"
 
+#include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
 
@@ -32,16 +33,6 @@ Vector5d Change(const Rigid3& from, const Rigid3& to) {
   change.head<3>() = LogSo3(to.rotation * from.rotation.conjugate());
   change.tail<2>() = BasisAcross(from.translation).transpose() * to.translation;
   return change;
-}
-
-TEST(BasisAcross, IsOrthonormal) {
-  Rng rng(1);
-  for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d t = RandomVector<3>(rng).normalized();
-    Eigen::Matrix3d all;
-    all << t, BasisAcross(t);
-    EXPECT_LT((all.transpose() * all - Eigen::Matrix3d::Identity()).norm(), 1e-12);
-  }
 }
 
 TEST(SampsonResidual, IsTheRootOfChi2WithItsDerivative) {

@@ -40,7 +40,7 @@ inline std::map<std::size_t, Observations> Gather(const std::vector<SyntheticFra
   for (std::size_t k = 0; k < sensed.size(); ++k) {
     const std::vector<std::size_t>& indices = sensed[k].*truth;
     for (std::size_t i = 0; i < indices.size(); ++i) {
-      all[indices[i]][KeyFrameId{static_cast<std::int64_t>(k)}] = static_cast<int>(i);
+      all[indices[i]].emplace(KeyFrameId{static_cast<std::int64_t>(k)}, static_cast<int>(i));
     }
   }
   return all;
