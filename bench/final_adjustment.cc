@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Time of the adjustment that ends a run, on maps that runs wrote: final_adjustment MAP.plb...
+#include "plumbline/io/map_io.h"
+#include "plumbline/mapping/final_adjustment.h"
+
+#include <chrono>
+#include <exception>
+
+#include <fmt/format.h>
+
+namespace {
+
+using plumbline::ImagingModel;
+using plumbline::LineOptions;
+using plumbline::MappingOptions;
+
+void Measure(const char* path) {
+  const plumbline::SavedMap saved = plumbline::LoadMap(path);
+  ImagingModel imaging;
+  imaging.camera = saved.camera;
+  MappingOptions options;
+  options.final_adjustment_keyframes = 1'000'000;
+  const auto start = std::chrono::steady_clock::now();
+  const plumbline::MapEdit edit =
+      plumbline::AdjustWholeMap(saved.map, imaging, LineOptions{}, options);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  fmt::print("{}: {} keyframes, {} points, {} lines, {} changes, {:.2f} s\n",
+             path,
+             saved.map.keyframes().size(),
+             saved.map.points().size(),
+             saved.map.lines().size(),
+             edit.size(),
+             seconds.count());
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    for (int i = 1; i < count; ++i) Measure(arguments[i]);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "final_adjustment: {}\n", error.what());
+    return 2;
+  }
+  return count > 1 ? 0 : 2;
+}
