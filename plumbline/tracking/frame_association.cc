@@ -70,6 +70,33 @@ void CopyKind(const std::vector<Candidate>& candidates,
   }
 }
 
+template <class Candidate>
+void TakeOutYoungKind(const MapSnapshot& snapshot,
+                      int views,
+                      const std::vector<Candidate>& candidates,
+                      std::vector<int>& match_of_feature,
+                      std::vector<int>& young_match_of_feature) {
+  for (std::size_t i = 0; i < match_of_feature.size(); ++i) {
+    if (match_of_feature[i] < 0) continue;
+    const auto id = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
+    const auto* landmark = id.valid() ? snapshot.Find(id) : nullptr;
+    const bool is_young = landmark == nullptr || landmark->observation_count < views;
+    (is_young ? match_of_feature : young_match_of_feature)[i] = -1;
+  }
+}
+
+int CountCommon(const std::vector<int>& a, const std::vector<int>& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] >= 0 && b[i] >= 0;
+  return count;
+}
+
+void PutBackKind(const std::vector<int>& from, std::vector<int>& to) {
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (to[i] < 0) to[i] = from[i];
+  }
+}
+
 }  // namespace
 
 FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot) {
@@ -86,6 +113,27 @@ void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to
 
 int FrameAssociation::PointMatches() const { return CountMatches(point_of_feature); }
 int FrameAssociation::LineMatches() const { return CountMatches(line_of_feature); }
+
+FrameAssociation TakeOutYoung(const MapSnapshot& snapshot,
+                              int views,
+                              FrameAssociation& association) {
+  FrameAssociation young = association;
+  TakeOutYoungKind(
+      snapshot, views, young.points, association.point_of_feature, young.point_of_feature);
+  TakeOutYoungKind(
+      snapshot, views, young.lines, association.line_of_feature, young.line_of_feature);
+  return young;
+}
+
+void PutBack(const FrameAssociation& from, FrameAssociation& to) {
+  PutBackKind(from.point_of_feature, to.point_of_feature);
+  PutBackKind(from.line_of_feature, to.line_of_feature);
+}
+
+int CommonMatches(const FrameAssociation& a, const FrameAssociation& b) {
+  return CountCommon(a.point_of_feature, b.point_of_feature) +
+         CountCommon(a.line_of_feature, b.line_of_feature);
+}
 
 ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,
                                   const IndexedFeatures& image,

@@ -45,6 +45,18 @@ FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot);
 // `to` yet.
 void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to);
 
+// Takes the matches with landmarks that fewer than `views` keyframes show, and with those made on
+// the spot, out of an association. Returns them, with the same candidates.
+FrameAssociation TakeOutYoung(const MapSnapshot& snapshot,
+                              int views,
+                              FrameAssociation& association);
+
+// Matches of `from`, which has the same candidates, for the features that have none in `to`.
+void PutBack(const FrameAssociation& from, FrameAssociation& to);
+
+// Features that have a match in both.
+int CommonMatches(const FrameAssociation& a, const FrameAssociation& b);
+
 // Indices of the candidates that were projected into the image (expected to be seen).
 struct ExpectedLandmarks {
   std::vector<int> points;

@@ -161,4 +161,26 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
           result.converged};
 }
 
+void DropDisagreeing(const RectifiedCamera& camera,
+                     const Features& features,
+                     const Rigid3& cam_from_world,
+                     const LineOptions& lines,
+                     double gate_scale,
+                     FrameAssociation& association) {
+  MatchedProblem matched;
+  matched.problem.camera = camera;
+  matched.problem.cam_from_world = cam_from_world;
+  matched.problem.line_residual = lines.residual;
+  AddPoints(features, association, matched);
+  AddLines(features, lines, association, matched);
+  const auto points = PointsThatFit(matched.problem, cam_from_world, gate_scale);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!points[k]) association.point_of_feature[matched.point_feature[k]] = -1;
+  }
+  const auto line_fits = LinesThatFit(matched.problem, cam_from_world, gate_scale);
+  for (std::size_t k = 0; k < line_fits.size(); ++k) {
+    if (!line_fits[k]) association.line_of_feature[matched.line_feature[k]] = -1;
+  }
+}
+
 }  // namespace plumbline

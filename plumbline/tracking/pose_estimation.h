@@ -41,4 +41,12 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           FrameAssociation& association,
                           const PosePrior& prior = {});
 
+// Undoes the matches that do not agree with a pose: chi2 above gate_scale times its limit of 95 %.
+void DropDisagreeing(const RectifiedCamera& camera,
+                     const Features& features,
+                     const Rigid3& cam_from_world,
+                     const LineOptions& lines,
+                     double gate_scale,
+                     FrameAssociation& association);
+
 }  // namespace plumbline

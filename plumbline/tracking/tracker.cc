@@ -418,6 +418,36 @@ PoseEstimate Tracker::WithLastFrame(const Frame& frame,
   return Estimate(frame, first.cam_from_world, prior, association);
 }
 
+PoseEstimate Tracker::EstimateNotOutvoted(const Frame& frame,
+                                          const Rigid3& initial,
+                                          const PosePrior& prior,
+                                          const MapSnapshot& snapshot,
+                                          FrameAssociation& association) const {
+  constexpr double kOutvoted = 0.95;  // of the established that agree by themselves
+  const int views =
+      std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
+  FrameAssociation established = association;
+  FrameAssociation young = TakeOutYoung(snapshot, views, established);
+  FrameAssociation all = std::move(association);
+  const PoseEstimate of_all = Estimate(frame, initial, prior, all);
+  association = established;
+  const PoseEstimate of_established = Estimate(frame, initial, prior, association);
+  if (!Accepted(of_established) || !of_established.sigma.AtMost(options_.enough_pose_sigma) ||
+      CommonMatches(association, all) >= kOutvoted * of_established.Inliers()) {
+    association = std::move(all);
+    return of_all;
+  }
+  DropDisagreeing(imaging_.camera,
+                  frame.features(),
+                  of_established.cam_from_world,
+                  lines_,
+                  options_.pose.gate_scale,
+                  young);
+  PutBack(young, established);
+  association = std::move(established);
+  return Estimate(frame, of_established.cam_from_world, prior, association);
+}
+
 PoseEstimate Tracker::WithLocalMap(const Frame& frame,
                                    const PoseEstimate& first,
                                    const PosePrior& prior,
@@ -436,7 +466,8 @@ PoseEstimate Tracker::WithLocalMap(const Frame& frame,
   association = std::move(with_map);
   counts.matched_points = association.PointMatches();
   counts.matched_lines = association.LineMatches();
-  PoseEstimate estimate = Estimate(frame, first.cam_from_world, prior, association);
+  PoseEstimate estimate =
+      EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);
   Score(expected, association);
   return estimate;
 }

@@ -39,6 +39,7 @@ struct TrackingOptions {
   double max_pose_sigma = 0.02;      // and to which they must fix it (PoseSigma)
   double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
   double guess_pose_sigma = 0.01;    // up to which lines at the depth of the scene are not tried
+  int established_views = 3;         // keyframes that show a landmark which others cannot outvote
   double motion_sigma = 5;           // change of the velocity [rad/s^2], [scene depths/s^2]
   int min_initial = 60;              // points with depth + lines with depth that can start a map
   double max_relative_depth_sigma = 0.05;       // of points made from one frame
@@ -79,6 +80,11 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         o.guess_pose_sigma,
         "the same, up to which no lines without known depth are searched",
         Range{1e-6, 10});
+  visit("established_views",
+        o.established_views,
+        "keyframes that show an established landmark: where these fix the pose to "
+        "enough_pose_sigma, others cannot outvote them; 0: all count alike",
+        Range{0, 1000});
   visit("motion_sigma",
         o.motion_sigma,
         "change of velocity that the prediction allows for: rotation [rad/s^2] and translation "
@@ -257,6 +263,15 @@ class Tracker {
                              const PosePrior& prior,
                              FrameAssociation& association,
                              FrameCounts& counts) const;
+  // Things that move make new landmarks all the time; near the camera, whose disparities say most,
+  // they outvote walls that have been known for long. Where the pose from all matches loses some of
+  // the established landmarks, which fix the pose without the others and agree among themselves,
+  // they decide, and the others count as far as they agree.
+  PoseEstimate EstimateNotOutvoted(const Frame& frame,
+                                   const Rigid3& initial,
+                                   const PosePrior& prior,
+                                   const MapSnapshot& snapshot,
+                                   FrameAssociation& association) const;
   PoseEstimate WithLocalMap(const Frame& frame,
                             const PoseEstimate& first,
                             const PosePrior& prior,

@@ -163,6 +163,44 @@ TEST(EstimatePose, TellsWhenThePoseIsNotDetermined) {
   EXPECT_FALSE(estimate.converged);
 }
 
+TEST(DropDisagreeing, LeavesWhatAgreesWithThePose) {
+  MatchedFrame frame(0.2);
+  const int points = frame.association.PointMatches();
+  const int lines = frame.association.LineMatches();
+  DropDisagreeing(
+      frame.world.camera, frame.sensed.indexed->features, frame.pose, {}, 1, frame.association);
+  EXPECT_LE(CountWrongLeft(frame.wrong_point, frame.association.point_of_feature), 1);
+  EXPECT_LE(CountWrongLeft(frame.wrong_line, frame.association.line_of_feature), 2);
+  EXPECT_GT(frame.association.PointMatches(), points * 7 / 10);
+  EXPECT_GT(frame.association.LineMatches(), lines / 2);
+}
+
+TEST(TakeOutYoung, PartsMatchesByTheViewsOfTheirLandmarks) {
+  const MatchedFrame frame(0);
+  MapSnapshot snapshot;
+  for (const CandidatePoint& point : frame.association.points) {
+    if (point.id.value % 3 == 0) continue;  // not in the snapshot: as young as can be
+    snapshot.points.push_back({{point.model}, point.id, point.id.value % 3 == 1 ? 2 : 3});
+  }
+  for (const CandidateLine& line : frame.association.lines) {
+    snapshot.lines.push_back({{line.model}, line.id, line.id.value % 2 == 1 ? 2 : 3});
+  }
+  FrameAssociation established = frame.association;
+  const FrameAssociation young = TakeOutYoung(snapshot, 3, established);
+  for (std::size_t i = 0; i < young.point_of_feature.size(); ++i) {
+    const int match = frame.association.point_of_feature[i];
+    EXPECT_EQ(established.point_of_feature[i], match >= 0 && match % 3 == 2 ? match : -1);
+    EXPECT_EQ(young.point_of_feature[i], match >= 0 && match % 3 != 2 ? match : -1);
+  }
+  for (std::size_t i = 0; i < young.line_of_feature.size(); ++i) {
+    const int match = frame.association.line_of_feature[i];
+    EXPECT_EQ(established.line_of_feature[i], match >= 0 && match % 2 == 0 ? match : -1);
+  }
+  PutBack(young, established);
+  EXPECT_EQ(established.point_of_feature, frame.association.point_of_feature);
+  EXPECT_EQ(established.line_of_feature, frame.association.line_of_feature);
+}
+
 TEST(MatchCandidates, MatchesWhatIsFreeAndTellsWhatShouldBeSeen) {
   MatchedFrame frame(0);
   const FrameAssociation all = frame.association;

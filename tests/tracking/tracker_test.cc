@@ -87,6 +87,41 @@ TEST(Tracker, FollowsTheLastFrameAlone) {
   EXPECT_LT(CentreDistance(*back.cam_from_world, PoseOnPath(32)), 0.1);
 }
 
+// Distance from the true position after a body has moved before the camera for a while, nearer than
+// the rest of the world and with as many points.
+double ErrorBehindAMovingBody(int established_views) {
+  constexpr int kAppears = 10, kLast = 40;
+  SlamOptions options = SyntheticRun::InlineOptions();
+  options.tracking.established_views = established_views;
+  const SyntheticWorld world = MakeSyntheticWorld(500, 0);
+  SyntheticRun run(world, options);
+  Rng rng(3, "body");
+  std::vector<SyntheticWorld::Point> body;
+  for (int i = 0; i < 200; ++i) {
+    const double x = rng.Uniform(-1, 0.6);
+    const double y = rng.Uniform(-0.7, 0.7);
+    body.push_back({{x, y, rng.Uniform(1.8, 2)}, RandomDescriptor(rng)});
+  }
+  double error = 0;
+  for (int i = 0; i <= kLast; ++i) {
+    SyntheticWorld today = world;
+    for (SyntheticWorld::Point point : body) {
+      point.position.x() += 0.02 * (i - kAppears);
+      if (i >= kAppears) today.points.push_back(point);
+    }
+    Rng noise(1, "synthetic_run", static_cast<std::uint64_t>(i));
+    const TrackingResult result = run.Step(Sense(today, PoseOnPath(i), {}, noise));
+    if (!result.cam_from_world) return 1e9;
+    error = CentreDistance(*result.cam_from_world, PoseOnPath(i));
+  }
+  return error;
+}
+
+TEST(Tracker, IsNotMovedByABodyThatIsNearAndMoves) {
+  EXPECT_LT(ErrorBehindAMovingBody(3), 0.02);
+  EXPECT_GT(ErrorBehindAMovingBody(0), 0.1) << "the body says nothing wrong here";
+}
+
 TEST(Tracker, ExactMeasurementsGiveExactPoses) {
   SyntheticRun run(World());
   EXPECT_LT(FollowPath(run, 0, 20, {.noise = 0}), 1e-4);
