@@ -4,11 +4,20 @@
 
 #include "plumbline/base/error.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 namespace plumbline {
 namespace {
 
 constexpr int kSnapshotKeyFrames = 40;
 constexpr std::size_t kBehind = 2;  // waiting keyframes
+
+// Of this thread (Linux). Where it is refused, things stay as they are.
+void LowerPriority() {
+  constexpr int kNice = 10;
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
+}
 
 }  // namespace
 
@@ -102,6 +111,7 @@ void MappingStage::WaitFor(std::int64_t task) {
 }
 
 void MappingStage::WorkUntilStopped() {
+  if (mode_ == RunMode::kLive) LowerPriority();  // frames come, whether mapping is done or not
   std::unique_lock lock(mutex_);
   while (true) {
     task_added_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
