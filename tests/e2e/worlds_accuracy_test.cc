@@ -26,14 +26,15 @@ struct WorldGate {
   // Of lines, at 5 cm. Metres of true lines, not a share of those asked for, which are fewer the
   // fewer keyframes there are.
   double min_found_m, min_precision;
+  int frames = 100;
 };
 
 void Check(const WorldGate& gate) {
-  constexpr int kFrames = 100, kThreads = 2;
+  constexpr int kThreads = 2;
   SynthOptions options;
   if (const auto adjust = FindWorld(gate.world).adjust) adjust(options);
   options.scale = 0.5;
-  options.frames = kFrames;
+  options.frames = gate.frames;
   const ScratchFolder folder;
   const std::filesystem::path world =
       CachedSequence(PLUMBLINE_RENDERED_FOLDER, gate.world, options, kThreads);
@@ -45,7 +46,7 @@ void Check(const WorldGate& gate) {
     ASSERT_EQ(outcome.code, 0) << command << "\n" << outcome.err;
   }
   const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
-  EXPECT_EQ(summary["frames"]["tracked"], kFrames);
+  EXPECT_EQ(summary["frames"]["tracked"], gate.frames);
   EXPECT_EQ(summary["maps"], 1);
   EXPECT_LE(summary["accuracy"]["ate"]["rmse"], gate.max_ate_m);
   if (gate.min_found_m == 0) return;
@@ -66,6 +67,8 @@ TEST(WorldsAccuracy, LowTextureWithLinesOnly) {
 }
 TEST(WorldsAccuracy, Lateral) { Check({"lateral", "", 0.006, 30, 0.65}); }
 TEST(WorldsAccuracy, Planar) { Check({"planar", "", 0.004, 0, 0}); }
+// Two walk past the camera, near, from frame 85 on.
+TEST(WorldsAccuracy, Dynamic) { Check({"dynamic", "", 0.015, 0, 0, 150}); }
 TEST(WorldsAccuracy, PlanarWithPointsOnly) {
   Check({"planar", "--set features.lines=false", 0.004, 0, 0});
 }
