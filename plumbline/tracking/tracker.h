@@ -2,18 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
-#include "plumbline/association/projection_search.h"
-#include "plumbline/base/options.h"
 #include "plumbline/cutting/cut_lines.h"
-#include "plumbline/features/match_lines.h"
-#include "plumbline/features/match_points.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
-#include "plumbline/optimization/pose_only.h"
-#include "plumbline/tracking/frame_association.h"
 #include "plumbline/tracking/keyframe_policy.h"
-#include "plumbline/tracking/pose_estimation.h"
+#include "plumbline/tracking/options.h"
+#include "plumbline/tracking/pose_search.h"
 
 #include <array>
 #include <map>
@@ -24,107 +18,6 @@
 #include <vector>
 
 namespace plumbline {
-
-// What a frame is tracked against.
-enum class TrackingReference { kLocalMap, kLastFrame };
-constexpr auto EnumNames(std::type_identity<TrackingReference>) {
-  return std::array{std::pair{TrackingReference::kLocalMap, "local_map"},
-                    std::pair{TrackingReference::kLastFrame, "last_frame"}};
-}
-
-struct TrackingOptions {
-  TrackingReference reference = TrackingReference::kLocalMap;
-  int min_inliers = 4;               // points + lines a pose near the predicted one needs ...
-  int min_unpredicted_inliers = 10;  // ... and one without prediction
-  double max_pose_sigma = 0.02;      // and to which they must fix it (PoseSigma)
-  double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
-  double guess_pose_sigma = 0.01;    // up to which lines at the depth of the scene are not tried
-  int established_views = 3;         // keyframes that show a landmark which others cannot outvote
-  double motion_sigma = 5;           // change of the velocity [rad/s^2], [scene depths/s^2]
-  int min_initial = 60;              // points with depth + lines with depth that can start a map
-  double max_relative_depth_sigma = 0.05;       // of points made from one frame
-  double max_relative_line_depth_sigma = 0.15;  // of the ends of lines, whose weights allow for it
-  double worst_relative_depth_sigma = 0.3;      // the same when the first search finds too little
-  double close_relative_depth_sigma = 0.05;     // of points that count as near
-  double first_radius_px = 12;  // search around the predicted place, from the last frame
-  double wide_factor = 3;       // the same when that finds too little
-  int new_map_after = 10;       // lost frames after which a new map starts
-  int trial_keyframes = 5;      // until then a map of a single camera is given up at once
-  ProjectionSearchOptions search;
-  PoseOnlyOptions pose;
-  KeyFramePolicyOptions keyframes;
-};
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, TrackingOptions& o) {
-  visit(
-      "reference",
-      o.reference,
-      "what a frame is tracked against: local_map, or last_frame (odometry: points and lines with "
-      "depth of the frame before alone, only the first frame becomes a keyframe; needs depth)");
-  visit("min_inliers", o.min_inliers, "points + lines a pose needs to be accepted", Range{4, 1000});
-  visit("min_unpredicted_inliers",
-        o.min_unpredicted_inliers,
-        "the same without a predicted pose to search from",
-        Range{4, 1000});
-  visit("max_pose_sigma",
-        o.max_pose_sigma,
-        "deviation to which they must fix it: rotation [rad] and translation relative to the depth "
-        "of the scene",
-        Range{1e-6, 10});
-  visit("enough_pose_sigma",
-        o.enough_pose_sigma,
-        "the same, from which on no landmarks of more uncertain depth are searched",
-        Range{1e-6, 10});
-  visit("guess_pose_sigma",
-        o.guess_pose_sigma,
-        "the same, up to which no lines without known depth are searched",
-        Range{1e-6, 10});
-  visit("established_views",
-        o.established_views,
-        "keyframes that show an established landmark: where these fix the pose to "
-        "enough_pose_sigma, others cannot outvote them; 0: all count alike",
-        Range{0, 1000});
-  visit("motion_sigma",
-        o.motion_sigma,
-        "change of velocity that the prediction allows for: rotation [rad/s^2] and translation "
-        "[scene depths/s^2]",
-        Range{0.01, 1000});
-  visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
-  visit("max_relative_depth_sigma",
-        o.max_relative_depth_sigma,
-        "depth uncertainty of points from one frame, relative to depth",
-        Range{0.001, 1});
-  visit("max_relative_line_depth_sigma",
-        o.max_relative_line_depth_sigma,
-        "the same for the ends of lines",
-        Range{0.001, 1});
-  visit("worst_relative_depth_sigma",
-        o.worst_relative_depth_sigma,
-        "the same when the first search finds too little",
-        Range{0.001, 1});
-  visit("close_relative_depth_sigma",
-        o.close_relative_depth_sigma,
-        "depth uncertainty below which a point counts as near, relative to depth",
-        Range{0.001, 1});
-  visit("first_radius_px",
-        o.first_radius_px,
-        "search radius from the last frame [px]",
-        Range{1, 200});
-  visit(
-      "wide_factor", o.wide_factor, "larger search when the first finds too little", Range{1, 20});
-  visit("new_map_after",
-        o.new_map_after,
-        "lost frames after which a new map starts",
-        Range{1, 100000});
-  visit("trial_keyframes",
-        o.trial_keyframes,
-        "keyframes after the start from a single camera until which one lost frame ends the map",
-        Range{0, 100});
-  visit("search", o.search, "search of landmarks in the image");
-  visit("pose", o.pose, "pose from matches");
-  visit("keyframes", o.keyframes, "when a frame becomes a keyframe");
-}
 
 enum class TrackerState { kInitializing, kTracking, kLost };
 constexpr auto EnumNames(std::type_identity<TrackerState>) {
@@ -156,11 +49,6 @@ struct NewKeyFrame {
   KeyFrame keyframe;
   KeyFrameReason reason = KeyFrameReason::kNone;  // kNone: the first of a map
   TrackingScores scores;
-};
-
-struct FrameCounts {
-  int matched_points = 0, matched_lines = 0;
-  int inlier_points = 0, inlier_lines = 0;
 };
 
 struct TrackingResult {
@@ -213,9 +101,7 @@ class Tracker {
   KeyFrameId next_keyframe() const { return next_keyframe_; }
 
  private:
-  struct LastFrame {
-    Frame frame;
-    FrameAssociation association;
+  struct Tracked : LastFrame {
     KeyFrameId reference;
     Rigid3 cam_from_reference;
   };
@@ -225,66 +111,6 @@ class Tracker {
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
   // No information where the velocity is not known.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;
-  // Which new landmarks are made from the last frame's depths: those that it knows well, also those
-  // that it hardly knows, also lines at the depth of the scene.
-  enum class Depths { kKnown, kUncertain, kGuessed };
-  struct LastSearch {
-    Depths depths = Depths::kKnown;
-    double factor = 1;  // of the usual distance from the predicted places
-  };
-  FrameAssociation LastLandmarks(const MapSnapshot& snapshot,
-                                 const Frame& frame,
-                                 Depths depths) const;
-  std::optional<PoseEstimate> SearchLast(const Frame& frame,
-                                         const PosePrior& predicted,
-                                         const MapSnapshot& snapshot,
-                                         const LastSearch& how,
-                                         FrameAssociation& association) const;
-  std::optional<PoseEstimate> FromPrediction(const Frame& frame,
-                                             const PosePrior& predicted,
-                                             const MapSnapshot& snapshot,
-                                             FrameAssociation& association) const;
-  // What a feature of the frame to match by appearance shows: of the map, or, with odometry, made
-  // from its depth.
-  std::optional<CandidatePoint> PointOf(const Frame& frame,
-                                        std::size_t feature,
-                                        const MapSnapshot& snapshot) const;
-  std::optional<CandidateLine> LineOf(const Frame& frame,
-                                      std::size_t feature,
-                                      const MapSnapshot& snapshot) const;
-  std::optional<PoseEstimate> FromAppearance(const Frame& frame,
-                                             const Rigid3& initial,
-                                             const MapSnapshot& snapshot,
-                                             FrameAssociation& association,
-                                             FrameCounts& counts) const;
-  // Searches more of the last frame's landmarks from the first estimate.
-  PoseEstimate WithLastFrame(const Frame& frame,
-                             const PoseEstimate& first,
-                             const PosePrior& prior,
-                             FrameAssociation& association,
-                             FrameCounts& counts) const;
-  // Things that move make new landmarks all the time; near the camera, whose disparities say most,
-  // they outvote walls that have been known for long. Where the pose from all matches loses some of
-  // the established landmarks, which fix the pose without the others and agree among themselves,
-  // they decide, and the others count as far as they agree.
-  PoseEstimate EstimateNotOutvoted(const Frame& frame,
-                                   const Rigid3& initial,
-                                   const PosePrior& prior,
-                                   const MapSnapshot& snapshot,
-                                   FrameAssociation& association) const;
-  PoseEstimate WithLocalMap(const Frame& frame,
-                            const PoseEstimate& first,
-                            const PosePrior& prior,
-                            const MapSnapshot& snapshot,
-                            FrameAssociation& association,
-                            FrameCounts& counts);
-  PoseEstimate Estimate(const Frame& frame,
-                        const Rigid3& initial,
-                        const PosePrior& prior,
-                        FrameAssociation& association) const;
-  bool Accepted(const PoseEstimate& pose) const {
-    return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);
-  }
   void Score(const ExpectedLandmarks& expected, const FrameAssociation& association);
   KeyFrameSituation Situation(const Frame& frame,
                               const FrameAssociation& association,
@@ -292,13 +118,12 @@ class Tracker {
   TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
   NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, KeyFrameReason reason);
 
-  ImagingModel imaging_;
   TrackingOptions options_;
-  LineOptions lines_;
-  CuttingOptions cutting_;
+  PoseSearch search_;
+  bool monocular_;
   Rigid3 first_cam_from_world_;
   TrackerState state_ = TrackerState::kInitializing;
-  std::optional<LastFrame> last_;
+  std::optional<Tracked> last_;
   Vector6d velocity_ = Vector6d::Zero();  // left tangent of the camera motion, per second
   // How well the last pose is known, where the velocity is.
   struct Spread {

@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/pose_search.h"
+
+#include "plumbline/association/landmark_from_frame.h"
+#include "plumbline/features/match_lines.h"
+#include "plumbline/features/match_points.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+// Adds the snapshot's landmarks that are not among the candidates yet.
+template <class Candidate, class Landmark>
+void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& candidates) {
+  std::set<decltype(Candidate::id)> known;
+  for (const Candidate& candidate : candidates) known.insert(candidate.id);
+  for (const Landmark& landmark : landmarks) {
+    if (!known.contains(landmark.id)) candidates.push_back({landmark.id, landmark});
+  }
+}
+
+// The landmark of the map that a feature of the last frame showed; nullptr when it is not in the
+// snapshot (any more): removed, merged into another, or never in the map.
+template <class Candidate>
+auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSnapshot& snapshot)
+    -> decltype(snapshot.Find(Candidate{}.id)) {
+  if (match < 0) return nullptr;
+  const auto id = candidates[static_cast<std::size_t>(match)].id;
+  return id.valid() ? snapshot.Find(id) : nullptr;
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const ImagingModel& imaging,
+                       const TrackingOptions& options,
+                       const LineOptions& lines,
+                       const CuttingOptions& cutting)
+    : imaging_(imaging), options_(options), lines_(lines), cutting_(cutting) {}
+
+// What the last frame showed: its landmarks as they are in the snapshot, and new ones from its
+// depths, at the places that go with its pose of today.
+FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
+                                           const MapSnapshot& snapshot,
+                                           const Frame& frame,
+                                           Depths depths) const {
+  const double worst = options_.worst_relative_depth_sigma;
+  const bool known_only = depths == Depths::kKnown;
+  const double point_sigma = known_only ? options_.max_relative_depth_sigma : worst;
+  const double line_sigma = known_only ? options_.max_relative_line_depth_sigma : worst;
+  FrameAssociation result(frame.points.size(), frame.lines.size());
+  const FrameAssociation& before = last.association;
+  for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
+    const auto* known = InSnapshot(before.points, before.point_of_feature[i], snapshot);
+    if (known != nullptr) {
+      result.points.push_back({known->id, *known});
+    } else if (const auto point = PointFromFrame(imaging_.camera, last.frame, i, point_sigma)) {
+      result.points.push_back({PointId{}, *point});
+    }
+  }
+  const auto scene = depths == Depths::kGuessed ? SceneDisparity(last.frame) : std::nullopt;
+  for (std::size_t i = 0; i < last.frame.lines.size(); ++i) {
+    const auto* known = InSnapshot(before.lines, before.line_of_feature[i], snapshot);
+    if (known != nullptr) {
+      result.lines.push_back({known->id, *known});
+    } else if (const auto line = LineFromFrame(imaging_.camera, last.frame, i, line_sigma)) {
+      result.lines.push_back({LineId{}, *line});
+    } else if (scene) {
+      result.lines.push_back({LineId{}, LineAtSceneDepth(imaging_.camera, last.frame, i, *scene)});
+    }
+  }
+  return result;
+}
+
+PoseEstimate PoseSearch::Estimate(const Frame& frame,
+                                  const Rigid3& initial,
+                                  const PosePrior& prior,
+                                  FrameAssociation& association) const {
+  return EstimatePose(imaging_.camera,
+                      frame.features(),
+                      initial,
+                      lines_,
+                      cutting_,
+                      options_.pose,
+                      association,
+                      prior);
+}
+
+std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
+                                                   const PosePrior& predicted,
+                                                   const LastFrame& last,
+                                                   const MapSnapshot& snapshot,
+                                                   const LastSearch& how,
+                                                   FrameAssociation& association) const {
+  association = LastLandmarks(last, snapshot, frame, how.depths);
+  ProjectionSearchOptions search = options_.search;
+  search.point_radius_px = how.factor * options_.first_radius_px;
+  search.line_offset_px = how.factor * options_.first_radius_px;
+  MatchCandidates(imaging_, *frame.indexed, predicted.cam_from_world, search, association);
+  const int matches = association.PointMatches() + association.LineMatches();
+  if (matches < options_.min_inliers) return std::nullopt;
+  const PoseEstimate estimate = Estimate(frame, predicted.cam_from_world, predicted, association);
+  if (!Accepted(estimate) || estimate.Inliers() * 3 < matches) return std::nullopt;
+  return estimate;
+}
+
+std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
+                                                       const PosePrior& predicted,
+                                                       const LastFrame& last,
+                                                       const MapSnapshot& snapshot,
+                                                       FrameAssociation& association) const {
+  std::optional<PoseEstimate> best;
+  for (const LastSearch& how : {LastSearch{Depths::kKnown, 1},
+                                LastSearch{Depths::kUncertain, 1},
+                                LastSearch{Depths::kGuessed, 1},
+                                LastSearch{Depths::kGuessed, options_.wide_factor}}) {
+    // Guesses may be wrong: only where needed.
+    const double limit =
+        how.depths == Depths::kGuessed ? options_.guess_pose_sigma : options_.enough_pose_sigma;
+    if (best && best->sigma.AtMost(limit)) break;
+    FrameAssociation found;
+    const auto estimate = SearchLast(frame, predicted, last, snapshot, how, found);
+    if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;
+    best = estimate;
+    association = std::move(found);
+  }
+  return best;
+}
+
+std::optional<CandidatePoint> PoseSearch::PointOf(const Frame& frame,
+                                                  std::size_t feature,
+                                                  const MapSnapshot& snapshot) const {
+  if (options_.reference == TrackingReference::kLastFrame) {
+    const double sigma = options_.worst_relative_depth_sigma;
+    const auto point = PointFromFrame(imaging_.camera, frame, feature, sigma);
+    return point ? std::optional(CandidatePoint{PointId{}, *point}) : std::nullopt;
+  }
+  const PointId id = frame.points[feature];
+  const SnapshotPoint* point = id.valid() ? snapshot.Find(id) : nullptr;
+  return point != nullptr ? std::optional(CandidatePoint{id, *point}) : std::nullopt;
+}
+
+std::optional<CandidateLine> PoseSearch::LineOf(const Frame& frame,
+                                                std::size_t feature,
+                                                const MapSnapshot& snapshot) const {
+  if (options_.reference == TrackingReference::kLastFrame) {
+    const double sigma = options_.worst_relative_depth_sigma;
+    const auto line = LineFromFrame(imaging_.camera, frame, feature, sigma);
+    return line ? std::optional(CandidateLine{LineId{}, *line}) : std::nullopt;
+  }
+  const LineId id = frame.lines[feature];
+  const SnapshotLine* line = id.valid() ? snapshot.Find(id) : nullptr;
+  return line != nullptr ? std::optional(CandidateLine{id, *line}) : std::nullopt;
+}
+
+std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
+                                                       const LastFrame& last,
+                                                       const MapSnapshot& snapshot,
+                                                       FrameAssociation& association,
+                                                       FrameCounts& counts) const {
+  association = FrameAssociation(frame.points.size(), frame.lines.size());
+  const bool odometry = options_.reference == TrackingReference::kLastFrame;
+  const Frame& reference = odometry ? last.frame : snapshot.reference->frame;
+  const auto point_matches = MatchPoints(
+      reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
+  for (const PointMatch& match : point_matches) {
+    const auto point = PointOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    if (!point) continue;
+    association.point_of_feature[static_cast<std::size_t>(match.b)] =
+        static_cast<int>(association.points.size());
+    association.points.push_back(*point);
+  }
+  const auto line_matches =
+      MatchLines(reference.features().lines, frame.features().lines, LineMatchOptions{});
+  for (const LineMatch& match : line_matches) {
+    const auto line = LineOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    if (!line) continue;
+    association.line_of_feature[static_cast<std::size_t>(match.b)] =
+        static_cast<int>(association.lines.size());
+    association.lines.push_back(*line);
+  }
+  counts.matched_points = association.PointMatches();
+  counts.matched_lines = association.LineMatches();
+  const int needed = options_.min_unpredicted_inliers;
+  if (counts.matched_points + counts.matched_lines < needed) return std::nullopt;
+  const PoseEstimate estimate = Estimate(frame, last.frame.cam_from_world, {}, association);
+  if (!estimate.Accepted(needed, options_.max_pose_sigma)) return std::nullopt;
+  return estimate;
+}
+
+PoseEstimate PoseSearch::WithLastFrame(const Frame& frame,
+                                       const PoseEstimate& first,
+                                       const PosePrior& prior,
+                                       FrameAssociation& association,
+                                       FrameCounts& counts) const {
+  MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+  counts.matched_points = association.PointMatches();
+  counts.matched_lines = association.LineMatches();
+  return Estimate(frame, first.cam_from_world, prior, association);
+}
+
+PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
+                                             const Rigid3& initial,
+                                             const PosePrior& prior,
+                                             const MapSnapshot& snapshot,
+                                             FrameAssociation& association) const {
+  constexpr double kOutvoted = 0.95;  // of the established that agree by themselves
+  const int views =
+      std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
+  FrameAssociation established = association;
+  FrameAssociation young = TakeOutYoung(snapshot, views, established);
+  FrameAssociation all = std::move(association);
+  const PoseEstimate of_all = Estimate(frame, initial, prior, all);
+  association = established;
+  const PoseEstimate of_established = Estimate(frame, initial, prior, association);
+  if (!Accepted(of_established) || !of_established.sigma.AtMost(options_.enough_pose_sigma) ||
+      CommonMatches(association, all) >= kOutvoted * of_established.Inliers()) {
+    association = std::move(all);
+    return of_all;
+  }
+  DropDisagreeing(imaging_.camera,
+                  frame.features(),
+                  of_established.cam_from_world,
+                  lines_,
+                  options_.pose.gate_scale,
+                  young);
+  PutBack(young, established);
+  association = std::move(established);
+  return Estimate(frame, of_established.cam_from_world, prior, association);
+}
+
+PoseEstimate PoseSearch::WithLocalMap(const Frame& frame,
+                                      const PoseEstimate& first,
+                                      const PosePrior& prior,
+                                      const MapSnapshot& snapshot,
+                                      FrameAssociation& association,
+                                      ExpectedLandmarks& expected,
+                                      FrameCounts& counts) const {
+  // Landmarks of the map come before those made on the spot from the last frame: these know the
+  // pose from one frame only, and would keep the map's from being found.
+  FrameAssociation with_map(frame.points.size(), frame.lines.size());
+  CopyMatches(association, true, with_map);
+  AddRest(snapshot.points, with_map.points);
+  AddRest(snapshot.lines, with_map.lines);
+  expected =
+      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, with_map);
+  CopyMatches(association, false, with_map);
+  association = std::move(with_map);
+  counts.matched_points = association.PointMatches();
+  counts.matched_lines = association.LineMatches();
+  return EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/association/projection_search.h"
+#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/map/frame.h"
+#include "plumbline/map/snapshot.h"
+#include "plumbline/tracking/frame_association.h"
+#include "plumbline/tracking/options.h"
+#include "plumbline/tracking/pose_estimation.h"
+
+#include <optional>
+
+namespace plumbline {
+
+// The last frame with a pose, that of today's map, and what it showed.
+struct LastFrame {
+  Frame frame;
+  FrameAssociation association;
+};
+
+struct FrameCounts {
+  int matched_points = 0, matched_lines = 0;
+  int inlier_points = 0, inlier_lines = 0;
+};
+
+// Finds what a frame shows and its pose from it: first the landmarks of the last frame near where a
+// prediction puts them, or without one by descriptor, then the rest of the local map. Keeps nothing
+// from frame to frame.
+class PoseSearch {
+ public:
+  PoseSearch(const ImagingModel& imaging,
+             const TrackingOptions& options,
+             const LineOptions& lines,
+             const CuttingOptions& cutting);
+
+  // From the landmarks that the last frame showed, and points and lines of its depths, near where
+  // `predicted` puts them; of more uncertain depths where the others do not fix the pose. nullopt
+  // where no pose is accepted or two thirds of the matches disagree.
+  std::optional<PoseEstimate> FromPrediction(const Frame& frame,
+                                             const PosePrior& predicted,
+                                             const LastFrame& last,
+                                             const MapSnapshot& snapshot,
+                                             FrameAssociation& association) const;
+  // By the descriptors of the newest keyframe (of the last frame with odometry).
+  std::optional<PoseEstimate> FromAppearance(const Frame& frame,
+                                             const LastFrame& last,
+                                             const MapSnapshot& snapshot,
+                                             FrameAssociation& association,
+                                             FrameCounts& counts) const;
+  // Searches more of the last frame's landmarks from the first estimate.
+  PoseEstimate WithLastFrame(const Frame& frame,
+                             const PoseEstimate& first,
+                             const PosePrior& prior,
+                             FrameAssociation& association,
+                             FrameCounts& counts) const;
+  // Searches the rest of the snapshot from the first estimate; `expected` are the landmarks that
+  // should be visible from there.
+  PoseEstimate WithLocalMap(const Frame& frame,
+                            const PoseEstimate& first,
+                            const PosePrior& prior,
+                            const MapSnapshot& snapshot,
+                            FrameAssociation& association,
+                            ExpectedLandmarks& expected,
+                            FrameCounts& counts) const;
+
+  bool Accepted(const PoseEstimate& pose) const {
+    return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);
+  }
+
+ private:
+  // Which new landmarks are made from the last frame's depths: those that it knows well, also those
+  // that it hardly knows, also lines at the depth of the scene.
+  enum class Depths { kKnown, kUncertain, kGuessed };
+  struct LastSearch {
+    Depths depths = Depths::kKnown;
+    double factor = 1;  // of the usual distance from the predicted places
+  };
+  FrameAssociation LastLandmarks(const LastFrame& last,
+                                 const MapSnapshot& snapshot,
+                                 const Frame& frame,
+                                 Depths depths) const;
+  std::optional<PoseEstimate> SearchLast(const Frame& frame,
+                                         const PosePrior& predicted,
+                                         const LastFrame& last,
+                                         const MapSnapshot& snapshot,
+                                         const LastSearch& how,
+                                         FrameAssociation& association) const;
+  // What a feature of the frame to match by appearance shows: of the map, or, with odometry, made
+  // from its depth.
+  std::optional<CandidatePoint> PointOf(const Frame& frame,
+                                        std::size_t feature,
+                                        const MapSnapshot& snapshot) const;
+  std::optional<CandidateLine> LineOf(const Frame& frame,
+                                      std::size_t feature,
+                                      const MapSnapshot& snapshot) const;
+  // Things that move make new landmarks all the time; near the camera, whose disparities say most,
+  // they outvote walls that have been known for long. Where the pose from all matches loses some of
+  // the established landmarks, which fix the pose without the others and agree among themselves,
+  // they decide, and the others count as far as they agree.
+  PoseEstimate EstimateNotOutvoted(const Frame& frame,
+                                   const Rigid3& initial,
+                                   const PosePrior& prior,
+                                   const MapSnapshot& snapshot,
+                                   FrameAssociation& association) const;
+  PoseEstimate Estimate(const Frame& frame,
+                        const Rigid3& initial,
+                        const PosePrior& prior,
+                        FrameAssociation& association) const;
+
+  ImagingModel imaging_;
+  TrackingOptions options_;
+  LineOptions lines_;
+  CuttingOptions cutting_;
+};
+
+}  // namespace plumbline
