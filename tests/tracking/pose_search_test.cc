@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/pose_search.h"
+
+#include "tests/support/synthetic_world.h"
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+// A frame of the path with its features, and no matches yet.
+Frame FrameAt(const SyntheticWorld& world, int step) {
+  Rng rng(5, "pose_search", static_cast<std::uint64_t>(step));
+  Frame frame;
+  frame.indexed = Sense(world, PoseOnPath(step), {}, rng).indexed;
+  frame.points.resize(frame.features().points.size());
+  frame.lines.resize(frame.features().lines.size());
+  return frame;
+}
+
+// The first frame of the path was tracked; the map has nothing.
+struct Scene {
+  SyntheticWorld world = MakeSyntheticWorld(400, 100);
+  LastFrame last;
+  MapSnapshot snapshot;
+  TrackingOptions options;
+  FrameAssociation association;
+
+  Scene() {
+    last.frame = FrameAt(world, 0);
+    last.frame.cam_from_world = PoseOnPath(0);
+    last.association = FrameAssociation(last.frame.points.size(), last.frame.lines.size());
+    auto keyframe = std::make_shared<KeyFrame>();
+    keyframe->frame = last.frame;
+    snapshot.reference = keyframe;
+    snapshot.cam_from_world[KeyFrameId{0}] = PoseOnPath(0);
+  }
+
+  PoseSearch Search() const { return {world.Imaging(), options, {}, {}}; }
+};
+
+void ExpectPose(const std::optional<PoseEstimate>& pose, const Rigid3& truth) {
+  ASSERT_TRUE(pose);
+  EXPECT_LT(CentreDistance(pose->cam_from_world, truth), 0.03);
+  EXPECT_GT(pose->inlier_points, 50);
+  EXPECT_GT(pose->inlier_lines, 10);
+}
+
+TEST(PoseSearch, FollowsTheDepthsOfTheLastFrame) {
+  Scene scene;
+  const Frame frame = FrameAt(scene.world, 2);
+  const auto pose = scene.Search().FromPrediction(
+      frame, {PoseOnPath(1)}, scene.last, scene.snapshot, scene.association);
+  ExpectPose(pose, PoseOnPath(2));
+  EXPECT_EQ(pose->inlier_points, scene.association.PointMatches());
+}
+
+TEST(PoseSearch, FindsNoPoseWhereNothingIsToBeSeen) {
+  Scene scene;
+  Frame frame;
+  frame.indexed = IndexFeatures(scene.world.camera, {});
+  const auto pose = scene.Search().FromPrediction(
+      frame, {PoseOnPath(0)}, scene.last, scene.snapshot, scene.association);
+  EXPECT_FALSE(pose);
+}
+
+// Of the map, which has nothing here, or with odometry of the last frame.
+TEST(PoseSearch, FindsByAppearanceWhatNoPredictionLeadsTo) {
+  constexpr int kFarAway = 15;
+  Scene scene;
+  const Frame frame = FrameAt(scene.world, kFarAway);
+  FrameCounts counts;
+  EXPECT_FALSE(
+      scene.Search().FromAppearance(frame, scene.last, scene.snapshot, scene.association, counts));
+  EXPECT_EQ(counts.matched_points, 0);
+  scene.options.reference = TrackingReference::kLastFrame;
+  const auto pose =
+      scene.Search().FromAppearance(frame, scene.last, scene.snapshot, scene.association, counts);
+  ExpectPose(pose, PoseOnPath(kFarAway));
+  EXPECT_GT(counts.matched_points, 50);
+}
+
+TEST(PoseSearch, FindsMoreOfTheLastFrameFromAFirstPose) {
+  Scene scene;
+  const Frame frame = FrameAt(scene.world, 2);
+  const PoseSearch search = scene.Search();
+  const auto first =
+      search.FromPrediction(frame, {PoseOnPath(1)}, scene.last, scene.snapshot, scene.association);
+  ASSERT_TRUE(first);
+  FrameCounts counts;
+  const PoseEstimate pose = search.WithLastFrame(frame, *first, {}, scene.association, counts);
+  ExpectPose(pose, PoseOnPath(2));
+  EXPECT_GE(counts.matched_points, first->inlier_points);
+}
+
+}  // namespace
+}  // namespace plumbline
