@@ -80,8 +80,8 @@ void TakeOutYoungKind(const MapSnapshot& snapshot,
     if (match_of_feature[i] < 0) continue;
     const auto id = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
     const auto* landmark = id.valid() ? snapshot.Find(id) : nullptr;
-    const bool is_young = landmark == nullptr || landmark->observation_count < views;
-    (is_young ? match_of_feature : young_match_of_feature)[i] = -1;
+    const int shown_by = landmark != nullptr ? landmark->observation_count : 0;
+    (shown_by < views ? match_of_feature : young_match_of_feature)[i] = -1;
   }
 }
 

@@ -45,8 +45,8 @@ FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot);
 // `to` yet.
 void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to);
 
-// Takes the matches with landmarks that fewer than `views` keyframes show, and with those made on
-// the spot, out of an association. Returns them, with the same candidates.
+// Takes the matches with landmarks that fewer than `views` keyframes show out of an association
+// (none shows those made on the spot). Returns them, with the same candidates.
 FrameAssociation TakeOutYoung(const MapSnapshot& snapshot,
                               int views,
                               FrameAssociation& association);

@@ -89,6 +89,33 @@ void AddLines(const Features& features,
   }
 }
 
+MatchedProblem MakeProblem(const RectifiedCamera& camera,
+                           const Features& features,
+                           const Rigid3& cam_from_world,
+                           const LineOptions& lines,
+                           const FrameAssociation& association) {
+  MatchedProblem matched;
+  matched.problem.camera = camera;
+  matched.problem.cam_from_world = cam_from_world;
+  matched.problem.line_residual = lines.residual;
+  AddPoints(features, association, matched);
+  AddLines(features, lines, association, matched);
+  return matched;
+}
+
+// Takes the matches that are not among those to keep out of the association.
+void Keep(const std::vector<bool>& points,
+          const std::vector<bool>& lines,
+          const MatchedProblem& matched,
+          FrameAssociation& association) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!points[k]) association.point_of_feature[matched.point_feature[k]] = -1;
+  }
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (!lines[k]) association.line_of_feature[matched.line_feature[k]] = -1;
+  }
+}
+
 // The solution with cut lines and chosen features; inliers are all that fit it, lines whole.
 PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
                                  const LineOptions& lines,
@@ -135,22 +162,12 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const PoseOnlyOptions& options,
                           FrameAssociation& association,
                           const PosePrior& prior) {
-  MatchedProblem matched;
+  MatchedProblem matched = MakeProblem(camera, features, initial, lines, association);
   matched.problem.prior = prior;
-  matched.problem.camera = camera;
-  matched.problem.cam_from_world = initial;
-  matched.problem.line_residual = lines.residual;
-  AddPoints(features, association, matched);
-  AddLines(features, lines, association, matched);
   const bool all_whole = cutting.method == CuttingMethod::kNone && cutting.budget == 0;
   const PoseOnlyResult result = all_whole ? SolvePose(matched.problem, options)
                                           : SolveWithCutLines(matched, lines, cutting, options);
-  for (std::size_t k = 0; k < matched.point_feature.size(); ++k) {
-    if (!result.point_inliers[k]) association.point_of_feature[matched.point_feature[k]] = -1;
-  }
-  for (std::size_t k = 0; k < matched.line_feature.size(); ++k) {
-    if (!result.line_inliers[k]) association.line_of_feature[matched.line_feature[k]] = -1;
-  }
+  Keep(result.point_inliers, result.line_inliers, matched, association);
   const double depth = SceneDepth(association, result.cam_from_world);
   return {result.cam_from_world,
           result.information,
@@ -167,20 +184,11 @@ void DropDisagreeing(const RectifiedCamera& camera,
                      const LineOptions& lines,
                      double gate_scale,
                      FrameAssociation& association) {
-  MatchedProblem matched;
-  matched.problem.camera = camera;
-  matched.problem.cam_from_world = cam_from_world;
-  matched.problem.line_residual = lines.residual;
-  AddPoints(features, association, matched);
-  AddLines(features, lines, association, matched);
-  const auto points = PointsThatFit(matched.problem, cam_from_world, gate_scale);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!points[k]) association.point_of_feature[matched.point_feature[k]] = -1;
-  }
-  const auto line_fits = LinesThatFit(matched.problem, cam_from_world, gate_scale);
-  for (std::size_t k = 0; k < line_fits.size(); ++k) {
-    if (!line_fits[k]) association.line_of_feature[matched.line_feature[k]] = -1;
-  }
+  const MatchedProblem matched = MakeProblem(camera, features, cam_from_world, lines, association);
+  Keep(PointsThatFit(matched.problem, cam_from_world, gate_scale),
+       LinesThatFit(matched.problem, cam_from_world, gate_scale),
+       matched,
+       association);
 }
 
 }  // namespace plumbline

@@ -214,6 +214,9 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
       std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
   FrameAssociation established = association;
   FrameAssociation young = TakeOutYoung(snapshot, views, established);
+  if (young.PointMatches() + young.LineMatches() == 0) {
+    return Estimate(frame, initial, prior, association);
+  }
   FrameAssociation all = std::move(association);
   const PoseEstimate of_all = Estimate(frame, initial, prior, all);
   association = established;
