@@ -13,51 +13,13 @@
 #include "tests/optimization/ba_scene.h"
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <new>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-
-namespace {
-
-// Bytes in use and the most of them, to tell what a solve needs.
-std::atomic<std::size_t> bytes_now{0}, bytes_most{0};
-
-void* Allocate(std::size_t size, std::size_t alignment) {
-  alignment = std::max(alignment, 2 * sizeof(std::size_t));
-  void* block = std::aligned_alloc(alignment, (size + 2 * alignment - 1) / alignment * alignment);
-  if (block == nullptr) throw std::bad_alloc();
-  *static_cast<std::size_t*>(block) = size;  // in front of what is given away
-  const std::size_t now = bytes_now += size;
-  if (now > bytes_most) bytes_most = now;
-  return static_cast<char*>(block) + alignment;
-}
-
-void Free(void* given, std::size_t alignment) {
-  if (given == nullptr) return;
-  void* block = static_cast<char*>(given) - std::max(alignment, 2 * sizeof(std::size_t));
-  bytes_now -= *static_cast<std::size_t*>(block);
-  std::free(block);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return Allocate(size, 1); }
-void* operator new(std::size_t size, std::align_val_t a) {
-  return Allocate(size, static_cast<std::size_t>(a));
-}
-void operator delete(void* p) noexcept { Free(p, 1); }
-void operator delete(void* p, std::size_t) noexcept { Free(p, 1); }
-void operator delete(void* p, std::align_val_t a) noexcept { Free(p, static_cast<std::size_t>(a)); }
-void operator delete(void* p, std::size_t, std::align_val_t a) noexcept {
-  Free(p, static_cast<std::size_t>(a));
-}
 
 namespace plumbline {
 namespace {
@@ -111,7 +73,7 @@ struct Figures {
   std::vector<double> milliseconds;
   int iterations = 0;
   double cost = 0;
-  std::size_t bytes = 0;  // the most that a solve has in use
+  std::size_t line_bytes = 0;
 };
 
 double Median(std::vector<double> values) {
@@ -129,14 +91,12 @@ std::vector<Figures> Measure(int points, int lines, double outliers, int repetit
   std::vector<Figures> figures(kRivals.size());
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     for (std::size_t i = 0; i < kRivals.size(); ++i) {
-      bytes_most = bytes_now.load();
-      const std::size_t before = bytes_now;
       const double start = CpuMilliseconds();
       const BaResult result = SolveLocalBa(problems[i], options, kRivals[i].lines);
       figures[i].milliseconds.push_back(CpuMilliseconds() - start);
       figures[i].iterations = result.iterations;
       figures[i].cost = result.final_cost;
-      figures[i].bytes = bytes_most - before;
+      figures[i].line_bytes = result.line_bytes;
     }
   }
   return figures;
@@ -159,7 +119,7 @@ void Print(int points, int lines, const std::vector<Figures>& all) {
                least(f) / least(all[0]),
                least(f) / f.iterations / (least(all[0]) / all[0].iterations),
                f.cost,
-               points > 0 ? "" : fmt::format("{}", f.bytes / static_cast<std::size_t>(lines)));
+               f.line_bytes / static_cast<std::size_t>(lines));
   }
   std::fflush(stdout);
 }

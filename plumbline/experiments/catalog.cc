@@ -130,6 +130,8 @@ Experiment LineExperiment() {
                         "line_angle",
                         "line_distance",
                         "line_multiplicity",
+                        "map_line_bytes",
+                        "adjusted_line_bytes",
                         "adjust_ms",
                         "adjust_p95_ms",
                         "cpu_ms",

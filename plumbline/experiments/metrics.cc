@@ -102,6 +102,16 @@ constexpr std::array kEntries = {
            false,
            2},
           {}},
+    Entry{{"map_line_bytes",
+           "B",
+           "memory of a line of the map: place, information, looks, list of observations; mean",
+           kLower},
+          {"/line_bytes/map"}},
+    Entry{{"adjusted_line_bytes",
+           "B",
+           "memory of a line in local bundle adjustment: parameters, observations, equations; mean",
+           kLower},
+          {"/line_bytes/adjustment"}},
     Entry{{"starts", "", "monocular starts that were tried"}, {"/starts/starts"}},
     Entry{{"possible", "", "starts whose true median parallax reaches 2 degrees in time"},
           {"/starts/possible"}},
@@ -222,6 +232,7 @@ std::string WhyMissing(const Json& summary, const char* pointer) {
   if (number.starts_with("/starts")) return "no such start, or the truth is not known";
   if (NumberAt(summary, "/frames/tracked").value_or(0) == 0) return "no frame has a pose";
   if (number.empty()) return "the true lines are not known";
+  if (number.starts_with("/line_bytes")) return "there is no line";
   if (!number.starts_with("/accuracy")) return "not measured";
   const std::string part(number.substr(1, number.find('/', 1) - 1));
   if (!summary.contains(part) || summary[part].is_null()) return "no ground truth of any pose";

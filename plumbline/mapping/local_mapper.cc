@@ -150,16 +150,22 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
   map.Apply(RefreshShown(map.Find(id)->frame));
 }
 
-void LocalMapper::Adjust(Map& map, KeyFrameId id) const {
+void LocalMapper::Adjust(Map& map, KeyFrameId id) {
   BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
   BaProblem& problem = window.problem;
   const double max_sigma = options_.window.max_pose_sigma;
   HoldLoosePoses(InitialState(problem), max_sigma, problem);
-  BaResult result = SolveLocalBa(problem, options_.ba, lines_.parametrization);
+  const auto solve = [&] {
+    BaResult solved = SolveLocalBa(problem, options_.ba, lines_.parametrization);
+    adjusted_lines_.count += problem.lines.size();
+    adjusted_lines_.bytes += solved.line_bytes;
+    return solved;
+  };
+  BaResult result = solve();
   if (result.termination == BaTermination::kNotFinite) return;
   // Rejected observations may leave a pose loose that was fixed before.
   if (HoldLoosePoses(result, max_sigma, problem)) {
-    result = SolveLocalBa(problem, options_.ba, lines_.parametrization);
+    result = solve();
   }
   map.Apply(ToEdit(map, imaging_, window, result));
 }

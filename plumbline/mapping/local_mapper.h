@@ -9,6 +9,7 @@
 #include "plumbline/mapping/options.h"
 #include "plumbline/mapping/stereo_calibration.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ namespace plumbline {
 struct MappingStep {
   std::string name;
   double milliseconds = 0;
+};
+
+// What local bundle adjustment held in memory for its lines, summed over all solutions.
+struct AdjustedLines {
+  std::size_t count = 0;
+  std::size_t bytes = 0;
 };
 
 // Takes keyframes into the map, one after the other: observations, landmarks from depth and from
@@ -40,12 +47,15 @@ class LocalMapper {
   // Forgets what belongs to the map worked on so far.
   void StartNewMap() { young_ = {}; }
 
+  // Of all maps so far.
+  const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
+
  private:
   void TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
   void CreateLandmarks(Map& map, KeyFrameId id);
   void Watch(const MapEdit& edit);
   void Fuse(Map& map, KeyFrameId id) const;
-  void Adjust(Map& map, KeyFrameId id) const;
+  void Adjust(Map& map, KeyFrameId id);
   void CalibrateStereo(Map& map, KeyFrameId id);
 
   ImagingModel imaging_;
@@ -53,6 +63,7 @@ class LocalMapper {
   MappingOptions options_;
   YoungLandmarks young_;
   StereoCalibrator calibrator_;
+  AdjustedLines adjusted_lines_;
 };
 
 }  // namespace plumbline

@@ -60,6 +60,14 @@ class BaLandmarks {
   std::size_t used() const {
     return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), char{1}));
   }
+  // What the landmarks, their observations and their parts of the equations take, room that is kept
+  // for more included.
+  std::size_t Bytes() const {
+    return HeapBytes(states_) + HeapBytes(trial_) + HeapBytes(begin_) + HeapBytes(coupling_begin_) +
+           HeapBytes(observations_) + HeapBytes(original_) + HeapBytes(used_) + HeapBytes(chi2_) +
+           HeapBytes(couplings_) + HeapBytes(eliminated_) + HeapBytes(cost_) +
+           HeapBytes(trial_cost_) + HeapBytes(own_lambda_);
+  }
   // chi2 and use of each observation as of the last Classify() or UseAll(), in the order of the
   // caller.
   void Export(std::vector<double>& chi2, std::vector<bool>& inliers) const;
@@ -67,6 +75,10 @@ class BaLandmarks {
  private:
   static constexpr double kOwnLambda = 1e-3;  // initial
   static constexpr double kNegligible = 1e-6;
+  template <class T>
+  static std::size_t HeapBytes(const std::vector<T>& items) {
+    return items.capacity() * sizeof(T);
+  }
   struct Packed {
     Term term;
     int pose = 0;

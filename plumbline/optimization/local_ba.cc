@@ -251,6 +251,7 @@ BaResult BundleAdjuster<LineKind>::Solve() {
   points_.Export(result.point_chi2, result.point_inliers);
   lines_.Export(result.line_chi2, result.line_inliers);
   result.iterations = iterations_;
+  result.line_bytes = lines_.Bytes();
   return result;
 }
 

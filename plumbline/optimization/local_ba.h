@@ -7,6 +7,7 @@
 #include "plumbline/optimization/problem.h"
 
 #include <array>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -80,6 +81,7 @@ struct BaResult {
   double initial_cost = 0;
   double final_cost = 0;
   int iterations = 0;
+  std::size_t line_bytes = 0;  // of memory that the lines took, their observations included
   BaTermination termination = BaTermination::kNothingToDo;
 };
 

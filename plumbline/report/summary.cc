@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kKittiGapNs = 250'000'000;
 
+Json OrNull(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+
 Json Statistics(const ErrorStatistics& s, double factor, const char* unit) {
   return {{"rmse", s.rmse * factor},
           {"mean", s.mean * factor},
@@ -115,6 +117,25 @@ RunCounts CountRun(const System& system) {
   return counts;
 }
 
+LineMemory MeasureLineMemory(const System& system) {
+  const auto mean = [](std::size_t bytes, std::size_t count) -> std::optional<double> {
+    if (count == 0) return std::nullopt;
+    return static_cast<double>(bytes) / static_cast<double>(count);
+  };
+  LineMemory memory;
+  const AdjustedLines& adjusted = system.adjusted_lines();
+  memory.adjustment = mean(adjusted.bytes, adjusted.count);
+  const auto main = system.MainMap();
+  if (!main) return memory;
+  const auto& lines = system.maps()[static_cast<std::size_t>(main->value)].lines();
+  std::size_t bytes = 0;
+  for (const auto& [id, line] : lines) {
+    bytes += sizeof(line) + line.observations.size() * sizeof(Observations::value_type);
+  }
+  memory.map = mean(bytes, lines.size());
+  return memory;
+}
+
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
                                                       const Dataset& dataset,
                                                       MapId map) {
@@ -155,11 +176,12 @@ std::string FormatSummary(const RunDescription& description,
   const auto causal = main ? Compare(system.CausalTrajectory(*main), dataset) : std::nullopt;
   json["accuracy_causal"] = causal ? Accuracy(*causal, dataset.sensor(), counts) : Json(nullptr);
   json["timing"] = Timing(system.frames());
-  json["first_pose_seconds"] =
-      resources.first_pose_seconds ? Json(*resources.first_pose_seconds) : Json(nullptr);
+  json["first_pose_seconds"] = OrNull(resources.first_pose_seconds);
   json["wall_seconds"] = resources.wall_seconds;
   json["cpu_seconds"] = resources.cpu_seconds;
   json["peak_memory_mb"] = resources.peak_memory_mb;
+  const LineMemory memory = MeasureLineMemory(system);
+  json["line_bytes"] = {{"map", OrNull(memory.map)}, {"adjustment", OrNull(memory.adjustment)}};
   json["options"] = description.options_yaml;
   // A path need not be UTF-8; what is not becomes a replacement character.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -34,6 +34,16 @@ struct RunCounts {
 };
 RunCounts CountRun(const System& system);
 
+// Memory of a line landmark in bytes, mean; nullopt where there is none.
+struct LineMemory {
+  // Of the main map: place, information, looks and its list of observations.
+  std::optional<double> map;
+  // In local bundle adjustment, over all windows of the run: parameters, observations and
+  // equations.
+  std::optional<double> adjustment;
+};
+LineMemory MeasureLineMemory(const System& system);
+
 // The final trajectory of a map, or of the main one, against the data set's ground truth: SE(3)
 // alignment, Sim(3) for mono, windows of 3 s. nullopt without ground truth, trajectory, or common
 // time.

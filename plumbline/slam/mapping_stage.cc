@@ -87,12 +87,20 @@ void MappingStage::Finish() {
   }
 }
 
+void MappingStage::CheckComplete() const {
+  if (mode_ == RunMode::kInline) return;
+  const std::lock_guard lock(mutex_);
+  PLUMBLINE_CHECK(Done() == submitted_, "maps are complete only after Finish");
+}
+
 const std::vector<Map>& MappingStage::maps() const {
-  if (mode_ != RunMode::kInline) {
-    const std::lock_guard lock(mutex_);
-    PLUMBLINE_CHECK(Done() == submitted_, "maps are complete only after Finish");
-  }
+  CheckComplete();
   return maps_;
+}
+
+const AdjustedLines& MappingStage::adjusted_lines() const {
+  CheckComplete();
+  return mapper_.adjusted_lines();
 }
 
 std::vector<MappingStep> MappingStage::TakeTimes() {

@@ -61,6 +61,9 @@ class MappingStage {
   // Finish (BugError).
   const std::vector<Map>& maps() const;
 
+  // Like maps().
+  const AdjustedLines& adjusted_lines() const;
+
   // Time of the mapping steps done since the last call.
   std::vector<MappingStep> TakeTimes();
 
@@ -83,6 +86,7 @@ class MappingStage {
   void Submit(std::int64_t frame, std::variant<NewKeyFrame, MapStart> work, bool starts_map);
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
+  void CheckComplete() const;
   void DoNext(std::unique_lock<std::mutex>& lock);
   std::int64_t Done() const { return versions_.empty() ? 0 : versions_.back().task; }
 

@@ -86,6 +86,7 @@ class System {
   const std::vector<FrameRecord>& frames() const { return frames_; }
   // Complete after Finish, and not to be asked for before but inline (BugError).
   const std::vector<Map>& maps() const { return mapping_.maps(); }
+  const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
   const SlamOptions& options() const { return options_; }
   const RectifiedCamera& camera() const { return rectifier().camera(); }
   const Rectifier& rectifier() const { return front_end_.rectifier(); }

@@ -27,6 +27,17 @@ TEST(Metrics, AreReadInTheirUnits) {
   EXPECT_EQ(figures->trajectory, "1.0 0 0 0 0 0 0 1\n");
 }
 
+TEST(Metrics, TellTheMemoryOfALine) {
+  const ScratchFolder folder;
+  folder.Write("summary.json",
+               R"({"frames": {"tracked": 1}, "line_bytes": {"map": 512.5, "adjustment": null}})");
+  const auto figures = ReadFigures(folder.path());
+  ASSERT_TRUE(figures.has_value());
+  EXPECT_DOUBLE_EQ(figures->values.at("map_line_bytes"), 512.5);
+  EXPECT_FALSE(figures->values.contains("adjusted_line_bytes"));
+  EXPECT_EQ(figures->reasons.at("adjusted_line_bytes"), "there is no line");
+}
+
 TEST(Metrics, OfStartsAreReadFromTheirSummary) {
   const ScratchFolder folder;
   folder.Write("summary.json",

@@ -34,6 +34,7 @@ class MapperRun {
   }
 
   const Map& map() const { return map_; }
+  const AdjustedLines& adjusted_lines() const { return mapper_.adjusted_lines(); }
   const std::vector<MappingStep>& steps() const { return steps_; }
   double WorstPose() const {
     double worst = 0;
@@ -123,6 +124,16 @@ TEST(LocalMapper, ReportsItsStepsInOrder) {
   EXPECT_EQ(
       names,
       (std::vector<std::string>{"take_in", "create", "fuse", "adjust", "calibrate", "clean_up"}));
+}
+
+TEST(LocalMapper, CountsTheLinesThatItAdjusts) {
+  MapperRun run;
+  EXPECT_EQ(run.adjusted_lines().count, 0U);
+  for (int k = 0; k < 3; ++k) run.Add(4 * k, 0.01);
+  const AdjustedLines before = run.adjusted_lines();
+  EXPECT_GT(before.bytes, before.count * 2 * sizeof(OrthonormalLine));
+  run.Add(12, 0.01);
+  EXPECT_GT(run.adjusted_lines().count, before.count);
 }
 
 TEST(LocalMapper, TheFirstKeyFrameNeverMoves) {

@@ -9,7 +9,9 @@
 #include "tests/optimization/ba_scene.h"
 #include <cmath>
 #include <limits>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -152,6 +154,30 @@ TEST(SolveLocalBa, EndPointsReachTheMinimumOfPluckerLines) {
       EXPECT_GT(a.direction.dot(b.direction), 0.99) << seed << " " << i;
     }
   }
+}
+
+// Per line two states, its measurements, and a 6 x 4 or 6 x 6 block for each free pose that sees
+// it.
+TEST(SolveLocalBa, TellsTheMemoryOfLines) {
+  const auto bytes = [](int points, int lines, LineParametrization parametrization) {
+    const BaScene scene = MakeBaScene(1, {.points = points, .lines = lines, .sigma = 1});
+    return SolveLocalBa(scene.problem, {.rounds = 1}, parametrization).line_bytes;
+  };
+  const std::size_t plucker = bytes(50, 80, LineParametrization::kPlucker);
+  const BaProblem problem = MakeBaScene(1, {.points = 50, .lines = 80, .sigma = 1}).problem;
+  const std::size_t measurements = problem.line_observations.size();
+  const auto& poses = problem.poses;
+  std::set<std::pair<int, int>> free_views;
+  for (const auto& o : problem.line_observations) {
+    if (!poses[static_cast<std::size_t>(o.pose)].fixed) free_views.insert({o.line, o.pose});
+  }
+  constexpr std::size_t kBlock = 6 * 4 * sizeof(double);
+  EXPECT_GT(plucker,
+            80 * 2 * sizeof(OrthonormalLine) + measurements * sizeof(LineMeasurement) / 2 +
+                free_views.size() * kBlock);
+  EXPECT_GE(bytes(50, 80, LineParametrization::kEndpoints),
+            plucker + free_views.size() * kBlock / 2);
+  EXPECT_EQ(bytes(0, 80, LineParametrization::kPlucker), plucker);  // without those of points
 }
 
 // The free sliding of the ends must not cost iterations.

@@ -165,6 +165,21 @@ TEST(Summary, HoldsTheFieldsOfTheInterface) {
   }
 }
 
+TEST(Summary, TellsTheMemoryOfALine) {
+  const PosterRun run;
+  const auto bytes =
+      nlohmann::json::parse(FormatSummary({}, run.system(), PosterDataset(6), {}))["line_bytes"];
+  EXPECT_GT(bytes["map"], sizeof(MapLine));
+  EXPECT_LT(bytes["map"], 2 * sizeof(MapLine));
+  EXPECT_TRUE(bytes["adjustment"].is_null());  // a poster straight ahead: no line is known well
+  SlamOptions no_lines;
+  no_lines.features.lines = false;
+  const PosterRun points(no_lines);
+  const LineMemory memory = MeasureLineMemory(points.system());
+  EXPECT_FALSE(memory.map.has_value());
+  EXPECT_FALSE(memory.adjustment.has_value());
+}
+
 TEST(Summary, SaysNullWithoutGroundTruth) {
   const PosterRun run;
   const auto json =
