@@ -101,36 +101,36 @@ void PutBackKind(const std::vector<int>& from, std::vector<int>& to) {
 
 FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot) {
   FrameAssociation association(frame.points.size(), frame.lines.size());
-  Associate(frame.points, snapshot, association.points, association.point_of_feature);
-  Associate(frame.lines, snapshot, association.lines, association.line_of_feature);
+  Associate(frame.points, snapshot, association.points, association.matches.point_of_feature);
+  Associate(frame.lines, snapshot, association.lines, association.matches.line_of_feature);
   return association;
 }
 
 void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to) {
-  CopyKind(from.points, from.point_of_feature, of_map, to.points, to.point_of_feature);
-  CopyKind(from.lines, from.line_of_feature, of_map, to.lines, to.line_of_feature);
+  CopyKind(
+      from.points, from.matches.point_of_feature, of_map, to.points, to.matches.point_of_feature);
+  CopyKind(from.lines, from.matches.line_of_feature, of_map, to.lines, to.matches.line_of_feature);
 }
 
-int FrameAssociation::PointMatches() const { return CountMatches(point_of_feature); }
-int FrameAssociation::LineMatches() const { return CountMatches(line_of_feature); }
+int FrameMatches::Points() const { return CountMatches(point_of_feature); }
+int FrameMatches::Lines() const { return CountMatches(line_of_feature); }
 
-FrameAssociation TakeOutYoung(const MapSnapshot& snapshot,
-                              int views,
-                              FrameAssociation& association) {
-  FrameAssociation young = association;
+FrameMatches TakeOutYoung(const MapSnapshot& snapshot, int views, FrameAssociation& association) {
+  FrameMatches& matches = association.matches;
+  FrameMatches young = matches;
   TakeOutYoungKind(
-      snapshot, views, young.points, association.point_of_feature, young.point_of_feature);
+      snapshot, views, association.points, matches.point_of_feature, young.point_of_feature);
   TakeOutYoungKind(
-      snapshot, views, young.lines, association.line_of_feature, young.line_of_feature);
+      snapshot, views, association.lines, matches.line_of_feature, young.line_of_feature);
   return young;
 }
 
-void PutBack(const FrameAssociation& from, FrameAssociation& to) {
+void PutBack(const FrameMatches& from, FrameMatches& to) {
   PutBackKind(from.point_of_feature, to.point_of_feature);
   PutBackKind(from.line_of_feature, to.line_of_feature);
 }
 
-int CommonMatches(const FrameAssociation& a, const FrameAssociation& b) {
+int CommonMatches(const FrameMatches& a, const FrameMatches& b) {
   return CountCommon(a.point_of_feature, b.point_of_feature) +
          CountCommon(a.line_of_feature, b.line_of_feature);
 }
@@ -143,18 +143,18 @@ ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,
   ExpectedLandmarks expected;
   const auto points = ProjectUnmatched(
       association.points,
-      association.point_of_feature,
+      association.matches.point_of_feature,
       [&](const PointModel& m) { return ProjectPoint(imaging, cam_from_world, m, options); },
       expected.points);
   const auto lines = ProjectUnmatched(
       association.lines,
-      association.line_of_feature,
+      association.matches.line_of_feature,
       [&](const LineModel& m) { return ProjectLine(imaging, cam_from_world, m, options); },
       expected.lines);
-  Record(MatchProjectedPoints(image, points, Taken(association.point_of_feature), options),
-         association.point_of_feature);
-  Record(MatchProjectedLines(image, lines, Taken(association.line_of_feature), options),
-         association.line_of_feature);
+  Record(MatchProjectedPoints(image, points, Taken(association.matches.point_of_feature), options),
+         association.matches.point_of_feature);
+  Record(MatchProjectedLines(image, lines, Taken(association.matches.line_of_feature), options),
+         association.matches.line_of_feature);
   return expected;
 }
 

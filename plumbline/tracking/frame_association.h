@@ -23,19 +23,29 @@ struct CandidateLine {
   LineModel model;
 };
 
-// Candidates and which feature of the frame shows which: -1 or an index into the candidates.
-struct FrameAssociation {
-  std::vector<CandidatePoint> points;
-  std::vector<CandidateLine> lines;
+// Which feature of a frame shows which of some candidates: -1 or an index into them.
+struct FrameMatches {
   std::vector<int> point_of_feature;
   std::vector<int> line_of_feature;
 
-  FrameAssociation() = default;
-  FrameAssociation(std::size_t point_features, std::size_t line_features)
+  FrameMatches() = default;
+  FrameMatches(std::size_t point_features, std::size_t line_features)
       : point_of_feature(point_features, -1), line_of_feature(line_features, -1) {}
 
-  int PointMatches() const;
-  int LineMatches() const;
+  int Points() const;
+  int Lines() const;
+  int All() const { return Points() + Lines(); }
+};
+
+struct FrameAssociation {
+  std::vector<CandidatePoint> points;
+  std::vector<CandidateLine> lines;
+  FrameMatches matches;  // of these
+
+  FrameAssociation() = default;
+  // No candidates and no matches.
+  FrameAssociation(std::size_t point_features, std::size_t line_features)
+      : matches(point_features, line_features) {}
 };
 
 // The matches of a frame of the map, with landmarks that are in the snapshot.
@@ -46,16 +56,14 @@ FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot);
 void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to);
 
 // Takes the matches with landmarks that fewer than `views` keyframes show out of an association
-// (none shows those made on the spot). Returns them, with the same candidates.
-FrameAssociation TakeOutYoung(const MapSnapshot& snapshot,
-                              int views,
-                              FrameAssociation& association);
+// (none shows those made on the spot) and returns them.
+FrameMatches TakeOutYoung(const MapSnapshot& snapshot, int views, FrameAssociation& association);
 
-// Matches of `from`, which has the same candidates, for the features that have none in `to`.
-void PutBack(const FrameAssociation& from, FrameAssociation& to);
+// Matches of `from`, with the same candidates, for the features that have none in `to`.
+void PutBack(const FrameMatches& from, FrameMatches& to);
 
 // Features that have a match in both.
-int CommonMatches(const FrameAssociation& a, const FrameAssociation& b);
+int CommonMatches(const FrameMatches& a, const FrameMatches& b);
 
 // Indices of the candidates that were projected into the image (expected to be seen).
 struct ExpectedLandmarks {

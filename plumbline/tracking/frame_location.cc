@@ -33,8 +33,8 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
     search.line_offset_px = factor * options.first_radius_px;
     LocatedFrame located;
     const auto accepted = [&](const Rigid3& initial) {
-      located.counts.matched_points = association.PointMatches();
-      located.counts.matched_lines = association.LineMatches();
+      located.counts.matched_points = association.matches.Points();
+      located.counts.matched_lines = association.matches.Lines();
       const PoseEstimate pose = EstimatePose(
           imaging.camera, image.features, initial, lines, cutting, options.pose, association);
       located.cam_from_world = pose.cam_from_world;

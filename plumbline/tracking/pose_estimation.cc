@@ -23,8 +23,8 @@ struct MatchedProblem {
 };
 
 void AddPoints(const Features& features, const FrameAssociation& association, MatchedProblem& out) {
-  for (std::size_t i = 0; i < association.point_of_feature.size(); ++i) {
-    const int match = association.point_of_feature[i];
+  for (std::size_t i = 0; i < association.matches.point_of_feature.size(); ++i) {
+    const int match = association.matches.point_of_feature[i];
     if (match < 0) continue;
     const PointModel& point = association.points[static_cast<std::size_t>(match)].model;
     out.problem.points.push_back({point.position, MeasurePoint(features, i)});
@@ -77,8 +77,8 @@ void AddLines(const Features& features,
               const LineOptions& lines,
               const FrameAssociation& association,
               MatchedProblem& out) {
-  for (std::size_t i = 0; i < association.line_of_feature.size(); ++i) {
-    const int match = association.line_of_feature[i];
+  for (std::size_t i = 0; i < association.matches.line_of_feature.size(); ++i) {
+    const int match = association.matches.line_of_feature[i];
     if (match < 0) continue;
     const LineModel& line = association.lines[static_cast<std::size_t>(match)].model;
     const double sigma_px = features.lines[i].sigma_px;
@@ -109,10 +109,10 @@ void Keep(const std::vector<bool>& points,
           const MatchedProblem& matched,
           FrameAssociation& association) {
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!points[k]) association.point_of_feature[matched.point_feature[k]] = -1;
+    if (!points[k]) association.matches.point_of_feature[matched.point_feature[k]] = -1;
   }
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    if (!lines[k]) association.line_of_feature[matched.line_feature[k]] = -1;
+    if (!lines[k]) association.matches.line_of_feature[matched.line_feature[k]] = -1;
   }
 }
 
@@ -139,12 +139,12 @@ PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
 // Median depth of what is matched, at points and in the middle of the lines.
 double SceneDepth(const FrameAssociation& association, const Rigid3& cam_from_world) {
   std::vector<double> depths;
-  for (const int match : association.point_of_feature) {
+  for (const int match : association.matches.point_of_feature) {
     if (match < 0) continue;
     const PointModel& point = association.points[static_cast<std::size_t>(match)].model;
     depths.push_back((cam_from_world * point.position).z());
   }
-  for (const int match : association.line_of_feature) {
+  for (const int match : association.matches.line_of_feature) {
     if (match < 0) continue;
     const LineModel& line = association.lines[static_cast<std::size_t>(match)].model;
     depths.push_back((cam_from_world * line.Interval().Midpoint()).z());

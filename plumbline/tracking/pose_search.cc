@@ -56,7 +56,7 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
   FrameAssociation result(frame.points.size(), frame.lines.size());
   const FrameAssociation& before = last.association;
   for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
-    const auto* known = InSnapshot(before.points, before.point_of_feature[i], snapshot);
+    const auto* known = InSnapshot(before.points, before.matches.point_of_feature[i], snapshot);
     if (known != nullptr) {
       result.points.push_back({known->id, *known});
     } else if (const auto point = PointFromFrame(imaging_.camera, last.frame, i, point_sigma)) {
@@ -65,7 +65,7 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
   }
   const auto scene = depths == Depths::kGuessed ? SceneDisparity(last.frame) : std::nullopt;
   for (std::size_t i = 0; i < last.frame.lines.size(); ++i) {
-    const auto* known = InSnapshot(before.lines, before.line_of_feature[i], snapshot);
+    const auto* known = InSnapshot(before.lines, before.matches.line_of_feature[i], snapshot);
     if (known != nullptr) {
       result.lines.push_back({known->id, *known});
     } else if (const auto line = LineFromFrame(imaging_.camera, last.frame, i, line_sigma)) {
@@ -102,7 +102,7 @@ std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
   search.point_radius_px = how.factor * options_.first_radius_px;
   search.line_offset_px = how.factor * options_.first_radius_px;
   MatchCandidates(imaging_, *frame.indexed, predicted.cam_from_world, search, association);
-  const int matches = association.PointMatches() + association.LineMatches();
+  const int matches = association.matches.All();
   if (matches < options_.min_inliers) return std::nullopt;
   const PoseEstimate estimate = Estimate(frame, predicted.cam_from_world, predicted, association);
   if (!Accepted(estimate) || estimate.Inliers() * 3 < matches) return std::nullopt;
@@ -171,7 +171,7 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
   for (const PointMatch& match : point_matches) {
     const auto point = PointOf(reference, static_cast<std::size_t>(match.a), snapshot);
     if (!point) continue;
-    association.point_of_feature[static_cast<std::size_t>(match.b)] =
+    association.matches.point_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(association.points.size());
     association.points.push_back(*point);
   }
@@ -180,12 +180,12 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
   for (const LineMatch& match : line_matches) {
     const auto line = LineOf(reference, static_cast<std::size_t>(match.a), snapshot);
     if (!line) continue;
-    association.line_of_feature[static_cast<std::size_t>(match.b)] =
+    association.matches.line_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(association.lines.size());
     association.lines.push_back(*line);
   }
-  counts.matched_points = association.PointMatches();
-  counts.matched_lines = association.LineMatches();
+  counts.matched_points = association.matches.Points();
+  counts.matched_lines = association.matches.Lines();
   const int needed = options_.min_unpredicted_inliers;
   if (counts.matched_points + counts.matched_lines < needed) return std::nullopt;
   const PoseEstimate estimate = Estimate(frame, last.frame.cam_from_world, {}, association);
@@ -199,8 +199,8 @@ PoseEstimate PoseSearch::WithLastFrame(const Frame& frame,
                                        FrameAssociation& association,
                                        FrameCounts& counts) const {
   MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
-  counts.matched_points = association.PointMatches();
-  counts.matched_lines = association.LineMatches();
+  counts.matched_points = association.matches.Points();
+  counts.matched_lines = association.matches.Lines();
   return Estimate(frame, first.cam_from_world, prior, association);
 }
 
@@ -212,28 +212,26 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
   constexpr double kOutvoted = 0.95;  // of the established that agree by themselves
   const int views =
       std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
-  FrameAssociation established = association;
-  FrameAssociation young = TakeOutYoung(snapshot, views, established);
-  if (young.PointMatches() + young.LineMatches() == 0) {
-    return Estimate(frame, initial, prior, association);
-  }
-  FrameAssociation all = std::move(association);
-  const PoseEstimate of_all = Estimate(frame, initial, prior, all);
-  association = established;
+  const FrameMatches offered = association.matches;
+  const FrameMatches young = TakeOutYoung(snapshot, views, association);
+  if (young.All() == 0) return Estimate(frame, initial, prior, association);
+  const FrameMatches established = std::exchange(association.matches, offered);
+  const PoseEstimate of_all = Estimate(frame, initial, prior, association);
+  const FrameMatches all = std::exchange(association.matches, established);
   const PoseEstimate of_established = Estimate(frame, initial, prior, association);
   if (!Accepted(of_established) || !of_established.sigma.AtMost(options_.enough_pose_sigma) ||
-      CommonMatches(association, all) >= kOutvoted * of_established.Inliers()) {
-    association = std::move(all);
+      CommonMatches(association.matches, all) >= kOutvoted * of_established.Inliers()) {
+    association.matches = all;
     return of_all;
   }
+  association.matches = young;
   DropDisagreeing(imaging_.camera,
                   frame.features(),
                   of_established.cam_from_world,
                   lines_,
                   options_.pose.gate_scale,
-                  young);
-  PutBack(young, established);
-  association = std::move(established);
+                  association);
+  PutBack(established, association.matches);
   return Estimate(frame, of_established.cam_from_world, prior, association);
 }
 
@@ -254,8 +252,8 @@ PoseEstimate PoseSearch::WithLocalMap(const Frame& frame,
       MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, with_map);
   CopyMatches(association, false, with_map);
   association = std::move(with_map);
-  counts.matched_points = association.PointMatches();
-  counts.matched_lines = association.LineMatches();
+  counts.matched_points = association.matches.Points();
+  counts.matched_lines = association.matches.Lines();
   return EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);
 }
 

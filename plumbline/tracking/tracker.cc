@@ -10,7 +10,9 @@
 namespace plumbline {
 namespace {
 
-// Keyframes' landmarks count as well observed from this many views on (fewer in a young map).
+// Keyframes' landmarks count as well observed from this many views on (fewer in a young map). Not
+// tracking.established_views, which is about trust, may be 0 for none, and is the same with one
+// camera.
 constexpr int kWellObserved = 3;
 // With one camera a landmark has two views from its first day on; where few grow older, waiting for
 // a third would let all go before a keyframe is made.
@@ -146,8 +148,8 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   FrameAssociation association = AssociationOf(frame, snapshot);
   TrackingResult result;
   result.state = state_;
-  result.counts.matched_points = result.counts.inlier_points = association.PointMatches();
-  result.counts.matched_lines = result.counts.inlier_lines = association.LineMatches();
+  result.counts.matched_points = result.counts.inlier_points = association.matches.Points();
+  result.counts.matched_lines = result.counts.inlier_lines = association.matches.Lines();
   result.cam_from_world = frame.cam_from_world;
   result.reference = newest_keyframe_;
   result.frame = frame;
@@ -192,8 +194,8 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   }
 
   frame.cam_from_world = pose.cam_from_world;
-  frame.points = IdsOfMatches<PointId>(association.point_of_feature, association.points);
-  frame.lines = IdsOfMatches<LineId>(association.line_of_feature, association.lines);
+  frame.points = IdsOfMatches<PointId>(association.matches.point_of_feature, association.points);
+  frame.lines = IdsOfMatches<LineId>(association.matches.line_of_feature, association.lines);
   velocity_ = LogSe3(frame.cam_from_world * Inverse(last_pose)) / seconds;
   spread_ = Spread{pose.information.inverse(), pose.scene_depth};
   lost_frames_ = 0;
@@ -241,8 +243,9 @@ PosePrior Tracker::Predict(const Rigid3& last_pose, double seconds) const {
 }
 
 void Tracker::Score(const ExpectedLandmarks& expected, const FrameAssociation& association) {
-  ScoreKind(expected.points, association.point_of_feature, association.points, scores_.points);
-  ScoreKind(expected.lines, association.line_of_feature, association.lines, scores_.lines);
+  ScoreKind(
+      expected.points, association.matches.point_of_feature, association.points, scores_.points);
+  ScoreKind(expected.lines, association.matches.line_of_feature, association.lines, scores_.lines);
 }
 
 KeyFrameSituation Tracker::Situation(const Frame& frame,
@@ -262,7 +265,7 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
         disparities[i]->sigma_px > options_.close_relative_depth_sigma * disparities[i]->px) {
       continue;
     }
-    const bool tracked = association.point_of_feature[i] >= 0 && frame.points[i].valid();
+    const bool tracked = association.matches.point_of_feature[i] >= 0 && frame.points[i].valid();
     ++(tracked ? situation.close_tracked : situation.close_untracked);
   }
   return situation;

@@ -32,13 +32,13 @@ struct MatchedFrame {
                         association.points.size(),
                         wrong_share,
                         rng,
-                        association.point_of_feature);
+                        association.matches.point_of_feature);
     wrong_line = Match(scene.line_of,
                        sensed.line_truth,
                        association.lines.size(),
                        wrong_share,
                        rng,
-                       association.line_of_feature);
+                       association.matches.line_of_feature);
   }
 
  private:
@@ -94,8 +94,8 @@ TEST_P(EstimatePoseBy, RecoversThePoseAndDropsWrongMatches) {
   std::tie(options.residual, options.weighting) = GetParam();
   {
     MatchedFrame frame(0.2);
-    const int points = frame.association.PointMatches();
-    const int lines = frame.association.LineMatches();
+    const int points = frame.association.matches.Points();
+    const int lines = frame.association.matches.Lines();
     const PoseEstimate estimate = EstimatePose(frame.world.camera,
                                                frame.sensed.indexed->features,
                                                Disturbed(frame.pose),
@@ -105,23 +105,25 @@ TEST_P(EstimatePoseBy, RecoversThePoseAndDropsWrongMatches) {
                                                frame.association);
     EXPECT_TRUE(estimate.converged);
     ExpectNear(estimate.cam_from_world, frame.pose, 0.01, 0.1);
-    EXPECT_EQ(estimate.inlier_points, frame.association.PointMatches());
-    EXPECT_EQ(estimate.inlier_lines, frame.association.LineMatches());
+    EXPECT_EQ(estimate.inlier_points, frame.association.matches.Points());
+    EXPECT_EQ(estimate.inlier_lines, frame.association.matches.Lines());
     EXPECT_EQ(estimate.Inliers(), estimate.inlier_points + estimate.inlier_lines);
     EXPECT_GT(estimate.inlier_points, points * 7 / 10);  // 0.8 of 0.95
     EXPECT_GT(estimate.inlier_lines, lines / 2);
-    EXPECT_LE(CountWrongLeft(frame.wrong_point, frame.association.point_of_feature), 1);
+    EXPECT_LE(CountWrongLeft(frame.wrong_point, frame.association.matches.point_of_feature), 1);
     // The mean variance of two projected ends is that of the worse known: its gates are lax.
     const bool lax = options.residual == LineResidualKind::kProjectedEnds &&
                      options.weighting == LineWeighting::kScalar;
-    EXPECT_LE(CountWrongLeft(frame.wrong_line, frame.association.line_of_feature), lax ? 8 : 2);
+    EXPECT_LE(CountWrongLeft(frame.wrong_line, frame.association.matches.line_of_feature),
+              lax ? 8 : 2);
   }
 }
 
 TEST(EstimatePose, WorksWithPointsOrLinesAlone) {
   MatchedFrame points(0);
-  std::fill(
-      points.association.line_of_feature.begin(), points.association.line_of_feature.end(), -1);
+  std::fill(points.association.matches.line_of_feature.begin(),
+            points.association.matches.line_of_feature.end(),
+            -1);
   const PoseEstimate from_points = EstimatePose(points.world.camera,
                                                 points.sensed.indexed->features,
                                                 Disturbed(points.pose),
@@ -134,8 +136,9 @@ TEST(EstimatePose, WorksWithPointsOrLinesAlone) {
   ExpectNear(from_points.cam_from_world, points.pose, 0.01, 0.1);
 
   MatchedFrame lines(0);
-  std::fill(
-      lines.association.point_of_feature.begin(), lines.association.point_of_feature.end(), -1);
+  std::fill(lines.association.matches.point_of_feature.begin(),
+            lines.association.matches.point_of_feature.end(),
+            -1);
   const PoseEstimate from_lines = EstimatePose(lines.world.camera,
                                                lines.sensed.indexed->features,
                                                Disturbed(lines.pose),
@@ -150,9 +153,12 @@ TEST(EstimatePose, WorksWithPointsOrLinesAlone) {
 
 TEST(EstimatePose, TellsWhenThePoseIsNotDetermined) {
   MatchedFrame frame(0);
-  std::fill(frame.association.line_of_feature.begin(), frame.association.line_of_feature.end(), -1);
-  std::fill(
-      frame.association.point_of_feature.begin() + 1, frame.association.point_of_feature.end(), -1);
+  std::fill(frame.association.matches.line_of_feature.begin(),
+            frame.association.matches.line_of_feature.end(),
+            -1);
+  std::fill(frame.association.matches.point_of_feature.begin() + 1,
+            frame.association.matches.point_of_feature.end(),
+            -1);
   const PoseEstimate estimate = EstimatePose(frame.world.camera,
                                              frame.sensed.indexed->features,
                                              frame.pose,
@@ -165,14 +171,14 @@ TEST(EstimatePose, TellsWhenThePoseIsNotDetermined) {
 
 TEST(DropDisagreeing, LeavesWhatAgreesWithThePose) {
   MatchedFrame frame(0.2);
-  const int points = frame.association.PointMatches();
-  const int lines = frame.association.LineMatches();
+  const int points = frame.association.matches.Points();
+  const int lines = frame.association.matches.Lines();
   DropDisagreeing(
       frame.world.camera, frame.sensed.indexed->features, frame.pose, {}, 1, frame.association);
-  EXPECT_LE(CountWrongLeft(frame.wrong_point, frame.association.point_of_feature), 1);
-  EXPECT_LE(CountWrongLeft(frame.wrong_line, frame.association.line_of_feature), 2);
-  EXPECT_GT(frame.association.PointMatches(), points * 7 / 10);
-  EXPECT_GT(frame.association.LineMatches(), lines / 2);
+  EXPECT_LE(CountWrongLeft(frame.wrong_point, frame.association.matches.point_of_feature), 1);
+  EXPECT_LE(CountWrongLeft(frame.wrong_line, frame.association.matches.line_of_feature), 2);
+  EXPECT_GT(frame.association.matches.Points(), points * 7 / 10);
+  EXPECT_GT(frame.association.matches.Lines(), lines / 2);
 }
 
 TEST(TakeOutYoung, PartsMatchesByTheViewsOfTheirLandmarks) {
@@ -185,39 +191,40 @@ TEST(TakeOutYoung, PartsMatchesByTheViewsOfTheirLandmarks) {
   for (const CandidateLine& line : frame.association.lines) {
     snapshot.lines.push_back({{line.model}, line.id, line.id.value % 2 == 1 ? 2 : 3});
   }
-  FrameAssociation established = frame.association;
-  const FrameAssociation young = TakeOutYoung(snapshot, 3, established);
+  FrameAssociation parted = frame.association;
+  const FrameMatches young = TakeOutYoung(snapshot, 3, parted);
+  FrameMatches& established = parted.matches;
   for (std::size_t i = 0; i < young.point_of_feature.size(); ++i) {
-    const int match = frame.association.point_of_feature[i];
+    const int match = frame.association.matches.point_of_feature[i];
     EXPECT_EQ(established.point_of_feature[i], match >= 0 && match % 3 == 2 ? match : -1);
     EXPECT_EQ(young.point_of_feature[i], match >= 0 && match % 3 != 2 ? match : -1);
   }
   for (std::size_t i = 0; i < young.line_of_feature.size(); ++i) {
-    const int match = frame.association.line_of_feature[i];
+    const int match = frame.association.matches.line_of_feature[i];
     EXPECT_EQ(established.line_of_feature[i], match >= 0 && match % 2 == 0 ? match : -1);
   }
   PutBack(young, established);
-  EXPECT_EQ(established.point_of_feature, frame.association.point_of_feature);
-  EXPECT_EQ(established.line_of_feature, frame.association.line_of_feature);
+  EXPECT_EQ(established.point_of_feature, frame.association.matches.point_of_feature);
+  EXPECT_EQ(established.line_of_feature, frame.association.matches.line_of_feature);
 }
 
 TEST(MatchCandidates, MatchesWhatIsFreeAndTellsWhatShouldBeSeen) {
   MatchedFrame frame(0);
-  const FrameAssociation all = frame.association;
+  const FrameMatches all = frame.association.matches;
   // Half of the matches known before, the others to be found.
   for (std::size_t i = 0; i < all.point_of_feature.size(); i += 2) {
-    frame.association.point_of_feature[i] = -1;
+    frame.association.matches.point_of_feature[i] = -1;
   }
   for (std::size_t i = 0; i < all.line_of_feature.size(); i += 2) {
-    frame.association.line_of_feature[i] = -1;
+    frame.association.matches.line_of_feature[i] = -1;
   }
   const ExpectedLandmarks expected = MatchCandidates(
       frame.world.Imaging(), *frame.sensed.indexed, frame.pose, {}, frame.association);
-  EXPECT_GT(frame.association.PointMatches(), all.PointMatches() * 95 / 100);
-  EXPECT_GT(frame.association.LineMatches(), all.LineMatches() * 9 / 10);
+  EXPECT_GT(frame.association.matches.Points(), all.Points() * 95 / 100);
+  EXPECT_GT(frame.association.matches.Lines(), all.Lines() * 9 / 10);
   std::vector<int> matched;
   for (std::size_t i = 0; i < all.point_of_feature.size(); ++i) {
-    const int match = frame.association.point_of_feature[i];
+    const int match = frame.association.matches.point_of_feature[i];
     if (i % 2 == 1) {
       EXPECT_EQ(match, all.point_of_feature[i]);
     }
@@ -230,8 +237,8 @@ TEST(MatchCandidates, MatchesWhatIsFreeAndTellsWhatShouldBeSeen) {
   std::sort(matched.begin(), matched.end());
   EXPECT_EQ(std::adjacent_find(matched.begin(), matched.end()), matched.end());
   // Expected to be seen: nearly those matched and the few that the sensor missed.
-  EXPECT_GE(static_cast<int>(expected.points.size()), frame.association.PointMatches());
-  EXPECT_LT(static_cast<int>(expected.points.size()), all.PointMatches() * 12 / 10);
+  EXPECT_GE(static_cast<int>(expected.points.size()), frame.association.matches.Points());
+  EXPECT_LT(static_cast<int>(expected.points.size()), all.Points() * 12 / 10);
 }
 
 }  // namespace

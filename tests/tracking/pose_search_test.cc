@@ -54,7 +54,7 @@ TEST(PoseSearch, FollowsTheDepthsOfTheLastFrame) {
   const auto pose = scene.Search().FromPrediction(
       frame, {PoseOnPath(1)}, scene.last, scene.snapshot, scene.association);
   ExpectPose(pose, PoseOnPath(2));
-  EXPECT_EQ(pose->inlier_points, scene.association.PointMatches());
+  EXPECT_EQ(pose->inlier_points, scene.association.matches.Points());
 }
 
 TEST(PoseSearch, FindsNoPoseWhereNothingIsToBeSeen) {
