@@ -17,59 +17,50 @@
 namespace plumbline {
 namespace {
 
-// Builds a BaWindow step by step: keyframes, then landmarks, then observations.
+// Builds a BaWindow step by step: keyframes, then landmarks with their observations.
 class WindowBuilder {
  public:
   WindowBuilder(const Map& map,
                 const ImagingModel& imaging,
                 const LineOptions& lines,
-                const BaWindowOptions& options)
-      : map_(map), line_options_(lines), options_(options) {
-    window_.problem.camera = imaging.camera;
+                const BaWindowOptions& options,
+                KeyFrameId centre)
+      : map_(map),
+        line_options_(lines),
+        options_(options),
+        centre_(centre),
+        builder_(map, imaging, lines.weighting, centre, window_) {
     window_.problem.line_residual = lines.residual;
   }
 
-  BaWindow Build(KeyFrameId centre) {
-    pose_of_.assign(static_cast<std::size_t>(map_.NextKeyFrameId().value), kNotInWindow);
-    window_.window_from_world = map_.Find(centre)->frame.cam_from_world;
-    world_from_window_ = Inverse(window_.window_from_world);
-    ChooseFree(centre);
+  BaWindow Build() {
+    ChooseFree();
     ChooseLandmarks();
     ChooseFixed();
-    AddPoints();
-    AddLines();
+    for (const MapPoint* point : points_) builder_.AddPoint(*point);
+    for (const MapLine* line : lines_) AddLine(*line);
     AddParallelLines();
     if (line_options_.residual == LineResidualKind::kProjectedEnds) WeighProjectedEnds();
     return std::move(window_);
   }
 
  private:
-  static constexpr int kNotInWindow = -1;
-
-  void AddPose(KeyFrameId id, bool fixed) {
-    const Frame& frame = map_.Find(id)->frame;
-    pose_of_[static_cast<std::size_t>(id.value)] = static_cast<int>(frames_.size());
-    frames_.push_back(&frame);
-    window_.keyframes.push_back(id);
-    window_.problem.poses.push_back({frame.cam_from_world * world_from_window_, fixed});
-  }
-
-  void ChooseFree(KeyFrameId centre) {
+  void ChooseFree() {
     const KeyFrameId origin = map_.keyframes().begin()->first;
-    std::vector<KeyFrameId> free{centre};
-    for (const auto& neighbour : Covisible(map_, centre, options_.min_shared)) {
+    std::vector<KeyFrameId> free{centre_};
+    for (const auto& neighbour : Covisible(map_, centre_, options_.min_shared)) {
       if (static_cast<int>(free.size()) >= options_.free_keyframes) break;
       free.push_back(neighbour.id);
     }
     std::sort(free.begin(), free.end());
-    for (const KeyFrameId id : free) AddPose(id, id == origin);
+    for (const KeyFrameId id : free) builder_.AddPose(id, id == origin);
   }
 
   // The landmarks with at least two views that the keyframes of the window show, by id.
   template <class Landmark, class LandmarkId>
   std::vector<const Landmark*> Shown(std::vector<LandmarkId> Frame::*matches) const {
     std::vector<LandmarkId> ids;
-    for (const Frame* frame : frames_) {
+    for (const Frame* frame : builder_.frames()) {
       for (const LandmarkId id : frame->*matches) {
         if (id.valid()) ids.push_back(id);
       }
@@ -98,7 +89,7 @@ class WindowBuilder {
     if (static_cast<int>(others.size()) > options_.fixed_keyframes) {
       others.resize(static_cast<std::size_t>(options_.fixed_keyframes));
     }
-    for (const auto& other : others) AddPose(other.id, true);
+    for (const auto& other : others) builder_.AddPose(other.id, true);
     HoldGauge();
   }
 
@@ -108,7 +99,7 @@ class WindowBuilder {
   void HoldGauge() {
     auto& poses = window_.problem.poses;
     const bool depth = window_.problem.camera.baseline > 0;
-    const bool whole_map = frames_.size() == map_.keyframes().size();
+    const bool whole_map = poses.size() == map_.keyframes().size();
     const std::ptrdiff_t needed = depth || whole_map ? 1 : 2;
     auto fixed = std::count_if(poses.begin(), poses.end(), [](const auto& p) { return p.fixed; });
     for (auto pose = poses.begin(); pose != poses.end() && fixed < needed; ++pose) {
@@ -117,62 +108,16 @@ class WindowBuilder {
     }
   }
 
-  // A view of a landmark from the window.
-  struct View {
-    int pose = 0;
-    std::size_t feature = 0;
-  };
-
-  // Into views_; false where there are fewer than two.
-  bool FindViews(const Observations& observations) {
-    views_.clear();
-    for (const auto& [keyframe, feature] : observations) {
-      const int pose = pose_of_[static_cast<std::size_t>(keyframe.value)];
-      if (pose != kNotInWindow) views_.push_back({pose, static_cast<std::size_t>(feature)});
+  void AddLine(const MapLine& line) {
+    const auto& views = builder_.ViewsOf(line.observations);
+    if (views.size() < 2) return;
+    if (!WellConditioned(line)) {
+      window_.young_lines.push_back(line.id);
+      return;
     }
-    return views_.size() >= 2;
-  }
-
-  const Features& FeaturesOf(const View& view) const {
-    return frames_[static_cast<std::size_t>(view.pose)]->features();
-  }
-
-  void AddPoints() {
-    for (const MapPoint* point : points_) {
-      if (!FindViews(point->observations)) continue;
-      const int index = static_cast<int>(window_.points.size());
-      window_.points.push_back(point->id);
-      window_.problem.points.push_back(window_.window_from_world * point->position);
-      for (const View& view : views_) {
-        window_.problem.point_observations.push_back(
-            {view.pose, index, MeasurePoint(FeaturesOf(view), view.feature)});
-      }
-    }
-  }
-
-  void AddLines() {
-    for (const MapLine* line : lines_) {
-      if (!FindViews(line->observations)) continue;
-      if (!WellConditioned(*line)) {
-        window_.young_lines.push_back(line->id);
-        continue;
-      }
-      const int index = static_cast<int>(window_.lines.size());
-      window_.lines.push_back(line->id);
-      window_.problem.lines.push_back(
-          ToOrthonormal(Transform(window_.window_from_world, line->line)));
-      for (const View& view : views_) AddLineObservations(index, view);
-    }
-  }
-
-  void AddLineObservations(int line, const View& view) {
-    const Features& features = FeaturesOf(view);
-    const LineWeighting weighting = line_options_.weighting;
-    auto& observations = window_.problem.line_observations;
-    observations.push_back({view.pose, line, MeasureLeftLine(features, view.feature, weighting)});
-    if (const auto right = MeasureRightLine(features, view.feature, weighting)) {
-      observations.push_back({view.pose, line, *right});
-    }
+    window_.lines.push_back(line.id);
+    const int index = builder_.AddLine(line.line);
+    for (const auto& view : views) builder_.AddLineView(index, view, true);
   }
 
   // Fixed directions from all of the map. The lines parallel to one share its error, so that its
@@ -196,7 +141,7 @@ class WindowBuilder {
       line.sigma = std::hypot(ParallelSigma(), std::sqrt(count[axis]) * directions[axis].sigma);
     }
     for (const CommonDirection& axis : directions) {
-      problem.axes.push_back(window_.window_from_world.rotation * axis.direction);
+      problem.axes.push_back(window_.problem_from_world.rotation * axis.direction);
     }
   }
 
@@ -239,13 +184,11 @@ class WindowBuilder {
   const Map& map_;
   LineOptions line_options_;
   const BaWindowOptions& options_;
+  KeyFrameId centre_;
   BaWindow window_;
-  Rigid3 world_from_window_;
-  std::vector<int> pose_of_;             // by keyframe
-  std::vector<const Frame*> frames_;     // by pose
+  MapProblemBuilder builder_;            // of window_
   std::vector<const MapPoint*> points_;  // candidates
   std::vector<const MapLine*> lines_;
-  std::vector<View> views_;  // of the landmark that is being added
 };
 
 }  // namespace
@@ -255,27 +198,10 @@ BaWindow MakeBaWindow(const Map& map,
                       KeyFrameId centre,
                       const LineOptions& lines,
                       const BaWindowOptions& options) {
-  return WindowBuilder(map, imaging, lines, options).Build(centre);
+  return WindowBuilder(map, imaging, lines, options, centre).Build();
 }
 
 namespace {
-
-void RemoveOutliers(const BaWindow& window, const BaResult& result, MapEdit& edit) {
-  const auto& points = window.problem.point_observations;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (result.point_inliers[k]) continue;
-    edit.push_back(
-        edit::RemovePointObservation{window.points[static_cast<std::size_t>(points[k].point)],
-                                     window.keyframes[static_cast<std::size_t>(points[k].pose)]});
-  }
-  const auto& lines = window.problem.line_observations;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    if (result.line_inliers[k]) continue;
-    edit.push_back(
-        edit::RemoveLineObservation{window.lines[static_cast<std::size_t>(lines[k].line)],
-                                    window.keyframes[static_cast<std::size_t>(lines[k].pose)]});
-  }
-}
 
 // The window's lines with the observations that stay.
 std::vector<MapLine> LinesWithoutOutliers(const Map& map,
@@ -298,26 +224,22 @@ MapEdit ToEdit(const Map& map,
                const ImagingModel& imaging,
                const BaWindow& window,
                const BaResult& result) {
-  MapEdit edit;
-  for (std::size_t k = 0; k < window.keyframes.size(); ++k) {
-    if (window.problem.poses[k].fixed) continue;
-    edit.push_back(edit::SetPose{window.keyframes[k], result.poses[k] * window.window_from_world});
-  }
-  const Rigid3 world_from_window = Inverse(window.window_from_world);
-  for (std::size_t k = 0; k < window.points.size(); ++k) {
-    edit.push_back(edit::MovePoint{window.points[k], world_from_window * result.points[k]});
-  }
+  MapEdit edit = PosesAndPointsOf(window, result);
   // Intervals and information follow from the poses and observations as they will be.
-  std::map<KeyFrameId, Rigid3> poses;
-  for (std::size_t k = 0; k < window.keyframes.size(); ++k) {
-    poses[window.keyframes[k]] = result.poses[k] * window.window_from_world;
-  }
+  const std::map<KeyFrameId, Rigid3> poses = PosesByKeyFrame(window, result);
   const std::vector<MapLine> lines = LinesWithoutOutliers(map, window, result);
+  const Rigid3 world_from_window = Inverse(window.problem_from_world);
   for (std::size_t k = 0; k < window.lines.size(); ++k) {
     const PluckerLine line = Transform(world_from_window, ToPlucker(result.lines[k]));
     edit.push_back(RefitInterval(map, imaging, poses, lines[k], line));
   }
-  RemoveOutliers(window, result, edit);
+  const auto& observations = window.problem.line_observations;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (result.line_inliers[k]) continue;
+    edit.push_back(edit::RemoveLineObservation{
+        window.lines[static_cast<std::size_t>(observations[k].line)],
+        window.keyframes[static_cast<std::size_t>(observations[k].pose)]});
+  }
   return edit;
 }
 

@@ -5,23 +5,16 @@
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
+#include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/options.h"
-#include "plumbline/optimization/local_ba.h"
-#include "plumbline/optimization/problem.h"
 
-#include <utility>
 #include <vector>
 
 namespace plumbline {
 
-// A part of the map as a plain problem, and what its numbers stand for. The problem's world is the
-// camera of the centre keyframe: lines far from the map's origin would be ill conditioned there.
-struct BaWindow {
-  BaProblem problem;
-  Rigid3 window_from_world;
-  std::vector<KeyFrameId> keyframes;  // by pose index
-  std::vector<PointId> points;
-  std::vector<LineId> lines;
+// A part of the map around a keyframe, which is the world of the problem.
+struct BaWindow : MapProblem {
+  std::vector<LineId> lines;        // by line index
   std::vector<LineId> young_lines;  // seen by the window, too badly conditioned to take part
 };
 

@@ -3,86 +3,35 @@
 #include "plumbline/mapping/final_adjustment.h"
 
 #include "plumbline/mapping/line_map.h"
-#include "plumbline/optimization/local_ba.h"
+#include "plumbline/mapping/map_problem.h"
 
 #include <cstddef>
 #include <map>
-#include <utility>
 #include <vector>
 
 namespace plumbline {
 namespace {
 
-// The whole map as a plain problem in the frame of its first keyframe, and what its numbers stand
-// for.
-struct WholeMap {
-  BaProblem problem;
-  Rigid3 problem_from_world;
-  std::vector<KeyFrameId> keyframes;  // by pose index
-  std::vector<PointId> points;
-};
-
-class WholeMapBuilder {
- public:
-  WholeMapBuilder(const Map& map, const ImagingModel& imaging, const LineOptions& lines)
-      : map_(map), weighting_(lines.weighting) {
-    whole_.problem.camera = imaging.camera;
-    whole_.problem_from_world = map.keyframes().begin()->second.frame.cam_from_world;
-  }
-
-  WholeMap Build(const std::vector<WellSeenLine>& lines) {
-    AddPoses();
-    AddPoints();
-    for (const WellSeenLine& line : lines) AddLine(line);
-    return std::move(whole_);
-  }
-
- private:
-  void AddPoses() {
-    const Rigid3 world_from_problem = Inverse(whole_.problem_from_world);
-    for (const auto& [id, keyframe] : map_.keyframes()) {
-      const bool first = whole_.keyframes.empty();
-      pose_of_[id] = static_cast<int>(whole_.keyframes.size());
-      whole_.keyframes.push_back(id);
-      whole_.problem.poses.push_back({keyframe.frame.cam_from_world * world_from_problem, first});
-    }
-  }
-
-  void AddPoints() {
-    for (const auto& [id, point] : map_.points()) {
-      if (point.observations.size() < 2) continue;
-      const int index = static_cast<int>(whole_.points.size());
-      whole_.points.push_back(id);
-      whole_.problem.points.push_back(whole_.problem_from_world * point.position);
-      for (const auto& [keyframe, feature] : point.observations) {
-        const Features& features = map_.Find(keyframe)->frame.features();
-        whole_.problem.point_observations.push_back(
-            {pose_of_.at(keyframe),
-             index,
-             MeasurePoint(features, static_cast<std::size_t>(feature))});
-      }
-    }
-  }
-
-  void AddLine(const WellSeenLine& line) {
-    const int index = static_cast<int>(whole_.problem.lines.size());
-    whole_.problem.lines.push_back(ToOrthonormal(Transform(whole_.problem_from_world, line.line)));
-    auto& observations = whole_.problem.line_observations;
+// The whole map, with the lines that are well seen, as a problem in the frame of its first
+// keyframe.
+MapProblem MakeWholeMap(const Map& map,
+                        const ImagingModel& imaging,
+                        LineWeighting weighting,
+                        const std::vector<WellSeenLine>& lines) {
+  MapProblem whole;
+  const KeyFrameId first = map.keyframes().begin()->first;
+  MapProblemBuilder builder(map, imaging, weighting, first, whole);
+  for (const auto& [id, keyframe] : map.keyframes()) builder.AddPose(id, id == first);
+  for (const auto& [id, point] : map.points()) builder.AddPoint(point);
+  for (const WellSeenLine& line : lines) {
+    const int index = builder.AddLine(line.line);
     for (const LineSupport& support : line.supports) {
-      const int pose = pose_of_.at(support.keyframe->id);
-      const Features& features = support.keyframe->frame.features();
-      observations.push_back({pose, index, MeasureLeftLine(features, support.feature, weighting_)});
-      if (!support.right) continue;
-      observations.push_back(
-          {pose, index, *MeasureRightLine(features, support.feature, weighting_)});
+      const int pose = builder.PoseOf(support.keyframe->id);
+      builder.AddLineView(index, {pose, support.feature}, support.right);
     }
   }
-
-  const Map& map_;
-  LineWeighting weighting_;
-  WholeMap whole_;
-  std::map<KeyFrameId, int> pose_of_;
-};
+  return whole;
+}
 
 // Line landmarks keep their place before the newest keyframe that shows them.
 void MoveLines(const Map& map, const std::map<KeyFrameId, Rigid3>& poses, MapEdit& edit) {
@@ -118,28 +67,6 @@ void KeepScale(const BaProblem& problem, BaResult& result) {
   for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
-MapEdit ToEdit(const Map& map, const WholeMap& whole, const BaResult& result) {
-  MapEdit edit;
-  std::map<KeyFrameId, Rigid3> poses;
-  for (std::size_t k = 0; k < whole.keyframes.size(); ++k) {
-    poses[whole.keyframes[k]] = result.poses[k] * whole.problem_from_world;
-    edit.push_back(edit::SetPose{whole.keyframes[k], poses[whole.keyframes[k]]});
-  }
-  const Rigid3 world_from_problem = Inverse(whole.problem_from_world);
-  for (std::size_t k = 0; k < whole.points.size(); ++k) {
-    edit.push_back(edit::MovePoint{whole.points[k], world_from_problem * result.points[k]});
-  }
-  const auto& observations = whole.problem.point_observations;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    if (result.point_inliers[k]) continue;
-    edit.push_back(edit::RemovePointObservation{
-        whole.points[static_cast<std::size_t>(observations[k].point)],
-        whole.keyframes[static_cast<std::size_t>(observations[k].pose)]});
-  }
-  MoveLines(map, poses, edit);
-  return edit;
-}
-
 }  // namespace
 
 MapEdit AdjustWholeMap(const Map& map,
@@ -152,12 +79,14 @@ MapEdit AdjustWholeMap(const Map& map,
       count > static_cast<std::size_t>(options.final_adjustment_keyframes)) {
     return {};
   }
-  const WholeMap whole =
-      WholeMapBuilder(map, imaging, lines).Build(FindWellSeenLines(map, imaging, options.line_map));
+  const MapProblem whole = MakeWholeMap(
+      map, imaging, lines.weighting, FindWellSeenLines(map, imaging, options.line_map));
   BaResult result = SolveLocalBa(whole.problem, options.ba, LineParametrization::kPlucker);
   if (result.termination == BaTermination::kNotFinite) return {};
   KeepScale(whole.problem, result);
-  return ToEdit(map, whole, result);
+  MapEdit edit = PosesAndPointsOf(whole, result);
+  MoveLines(map, PosesByKeyFrame(whole, result), edit);
+  return edit;
 }
 
 }  // namespace plumbline

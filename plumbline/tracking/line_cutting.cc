@@ -153,11 +153,6 @@ double Chi2(const PoseProblem& problem, const Rigid3& pose, const PoseProblem::L
   return valid ? r.squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
-std::size_t BudgetOf(const CuttingOptions& cutting) {
-  return cutting.budget > 0 ? static_cast<std::size_t>(cutting.budget)
-                            : std::numeric_limits<std::size_t>::max();
-}
-
 }  // namespace
 
 EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
@@ -185,9 +180,10 @@ PoseProblem WithCutLines(const PoseProblem& problem,
     cuttable.push_back(*made);
     to_cut.lines.push_back(made->line);
   }
-  const std::size_t budget = BudgetOf(cutting);
+  const std::size_t offered = problem.points.size() + cuttable.size();
+  const std::size_t budget =
+      cutting.budget > 0 ? static_cast<std::size_t>(cutting.budget) : offered;
   const FeatureChoice choice = ChooseFeatures(to_cut, RowsOfPoints(problem), budget, cutting);
-  const bool all_chosen = budget >= problem.points.size() + cuttable.size();
   PoseProblem out = problem;
   out.points.clear();
   for (std::size_t i = 0; i < problem.points.size(); ++i) {
@@ -197,8 +193,8 @@ PoseProblem WithCutLines(const PoseProblem& problem,
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
     PoseProblem::LineMatch match = problem.lines[i];
     const auto at = place.find(match.group);
-    if (at == place.end()) {
-      if (all_chosen) out.lines.push_back(match);
+    if (at == place.end()) {  // where all the others stay, it does, too
+      if (budget >= offered) out.lines.push_back(match);
       continue;
     }
     const LineCut& cut = choice.lines[at->second];

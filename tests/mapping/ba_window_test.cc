@@ -46,9 +46,9 @@ TEST(BaWindow, IsConsistent) {
   ASSERT_EQ(problem.lines.size(), window.lines.size());
   EXPECT_EQ(std::set<KeyFrameId>(window.keyframes.begin(), window.keyframes.end()).size(),
             window.keyframes.size());
-  const Rigid3 world_from_window = Inverse(window.window_from_world);
+  const Rigid3 world_from_window = Inverse(window.problem_from_world);
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    const Rigid3 pose = problem.poses[i].cam_from_world * window.window_from_world;
+    const Rigid3 pose = problem.poses[i].cam_from_world * window.problem_from_world;
     const Rigid3& expected = scene.map.Find(window.keyframes[i])->frame.cam_from_world;
     EXPECT_LT(LogSe3(pose * Inverse(expected)).norm(), 1e-9);
   }
@@ -88,7 +88,7 @@ TEST(BaWindow, HoldsTheUprightLinesParallel) {
   }
   ASSERT_EQ(window.problem.axes.size(), 1U);
   const Eigen::Vector3d axis =
-      Inverse(window.window_from_world).rotation * window.problem.axes.front();
+      Inverse(window.problem_from_world).rotation * window.problem.axes.front();
   EXPECT_GT(std::abs(axis.y()), std::cos(0.005));
   ASSERT_GT(window.problem.parallel_lines.size(), 10U);
   std::ptrdiff_t right = 0;

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/association/projection_search.h"
+#include "plumbline/map/map.h"
+#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/problem.h"
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace plumbline {
+
+// Keyframes and landmarks of a map as a plain problem, and what its numbers stand for. The
+// problem's world is the camera of a keyframe: lines far from the map's origin would be ill
+// conditioned there.
+struct MapProblem {
+  BaProblem problem;
+  Rigid3 problem_from_world;
+  std::vector<KeyFrameId> keyframes;  // by pose index
+  std::vector<PointId> points;        // by point index
+};
+
+// Fills a MapProblem: first the poses, then what they show.
+class MapProblemBuilder {
+ public:
+  // A feature of a keyframe that has a pose in the problem.
+  struct View {
+    int pose = 0;
+    std::size_t feature = 0;
+  };
+
+  // The world of the problem is the camera of `origin`. `out`, empty, and `map` must outlive the
+  // builder.
+  MapProblemBuilder(const Map& map,
+                    const ImagingModel& imaging,
+                    LineWeighting weighting,
+                    KeyFrameId origin,
+                    MapProblem& out);
+
+  void AddPose(KeyFrameId id, bool fixed);
+  const std::vector<const Frame*>& frames() const { return frames_; }  // by pose index
+
+  // Of a landmark, ordered by keyframe. Valid until the next call.
+  const std::vector<View>& ViewsOf(const Observations& observations);
+
+  // With its views, where there are two.
+  void AddPoint(const MapPoint& point);
+  // Without views; returns its index.
+  int AddLine(const PluckerLine& in_world);
+  // The segment in the left image, and with_right also that in the right one where there is one.
+  void AddLineView(int line, const View& view, bool with_right);
+
+  // Index of the pose of a keyframe of the map; kNoPose where it has none.
+  static constexpr int kNoPose = -1;
+  int PoseOf(KeyFrameId id) const { return pose_of_[static_cast<std::size_t>(id.value)]; }
+
+ private:
+  const Features& FeaturesOf(const View& view) const {
+    return frames_[static_cast<std::size_t>(view.pose)]->features();
+  }
+
+  const Map& map_;
+  LineWeighting weighting_;
+  MapProblem& out_;
+  Rigid3 world_from_problem_;
+  std::vector<int> pose_of_;          // by keyframe
+  std::vector<const Frame*> frames_;  // by pose
+  std::vector<View> views_;           // last asked for
+};
+
+// Poses of the result in the world of the map, the fixed ones included.
+std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaResult& result);
+
+// The result as changes of the map: poses that were free, points, and the observations of points
+// that turned out to be outliers. Lines are up to the caller.
+MapEdit PosesAndPointsOf(const MapProblem& part, const BaResult& result);
+
+}  // namespace plumbline
