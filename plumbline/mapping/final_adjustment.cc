@@ -4,6 +4,7 @@
 
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
+#include "plumbline/optimization/pose_sigma.h"
 
 #include <cstddef>
 #include <map>
@@ -81,7 +82,9 @@ MapEdit AdjustWholeMap(const Map& map,
   }
   const MapProblem whole = MakeWholeMap(
       map, imaging, lines.weighting, FindWellSeenLines(map, imaging, options.line_map));
-  BaResult result = SolveLocalBa(whole.problem, options.ba, LineParametrization::kPlucker);
+  BaProblem problem = whole.problem;  // held poses are free in `whole`: a new scale is for all
+  BaResult result = SolveWithLoosePosesHeld(
+      problem, options.ba, LineParametrization::kPlucker, options.window.max_pose_sigma);
   if (result.termination == BaTermination::kNotFinite) return {};
   KeepScale(whole.problem, result);
   MapEdit edit = PosesAndPointsOf(whole, result);

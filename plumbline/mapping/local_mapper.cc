@@ -153,20 +153,11 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
 void LocalMapper::Adjust(Map& map, KeyFrameId id) {
   BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
   BaProblem& problem = window.problem;
-  const double max_sigma = options_.window.max_pose_sigma;
-  HoldLoosePoses(InitialState(problem), max_sigma, problem);
-  const auto solve = [&] {
-    BaResult solved = SolveLocalBa(problem, options_.ba, lines_.parametrization);
-    adjusted_lines_.count += problem.lines.size();
-    adjusted_lines_.bytes += solved.line_bytes;
-    return solved;
-  };
-  BaResult result = solve();
+  const BaResult result = SolveWithLoosePosesHeld(
+      problem, options_.ba, lines_.parametrization, options_.window.max_pose_sigma);
+  adjusted_lines_.count += problem.lines.size();
+  adjusted_lines_.bytes += result.line_bytes;
   if (result.termination == BaTermination::kNotFinite) return;
-  // Rejected observations may leave a pose loose that was fixed before.
-  if (HoldLoosePoses(result, max_sigma, problem)) {
-    result = solve();
-  }
   map.Apply(ToEdit(map, imaging_, window, result));
 }
 

@@ -21,7 +21,7 @@ struct MappingStep {
   double milliseconds = 0;
 };
 
-// What local bundle adjustment held in memory for its lines, summed over all solutions.
+// What local bundle adjustment held in memory for its lines, summed over all windows.
 struct AdjustedLines {
   std::size_t count = 0;
   std::size_t bytes = 0;

@@ -94,4 +94,16 @@ bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
   return any;
 }
 
+BaResult SolveWithLoosePosesHeld(BaProblem& problem,
+                                 const LocalBaOptions& options,
+                                 LineParametrization lines,
+                                 double limit) {
+  HoldLoosePoses(InitialState(problem), limit, problem);
+  BaResult result = SolveLocalBa(problem, options, lines);
+  if (result.termination == BaTermination::kNotFinite) return result;
+  // Rejected observations may leave a pose loose that was fixed before.
+  if (!HoldLoosePoses(result, limit, problem)) return result;
+  return SolveLocalBa(problem, options, lines);
+}
+
 }  // namespace plumbline

@@ -36,4 +36,11 @@ std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& s
 // were any. The caller solves again, from the problem's poses.
 bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem);
 
+// SolveLocalBa with those poses held that are loose before it, or by what it leaves of their
+// observations; they are marked as fixed in the problem.
+BaResult SolveWithLoosePosesHeld(BaProblem& problem,
+                                 const LocalBaOptions& options,
+                                 LineParametrization lines,
+                                 double limit);
+
 }  // namespace plumbline

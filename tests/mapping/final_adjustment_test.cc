@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/final_adjustment.h"
 
+#include "plumbline/mapping/line_map.h"
+
 #include "tests/support/true_map.h"
 #include <algorithm>
 #include <vector>
@@ -62,6 +64,23 @@ TEST(AdjustWholeMap, NeedsNoPoints) {
   const double before = WorstPose(scene.map);
   scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
   EXPECT_LT(WorstPose(scene.map), 0.7 * before);
+}
+
+// Parallel lines leave one direction of each keyframe open.
+TEST(AdjustWholeMap, LeavesKeyFramesInTheirPlacesThatNothingFixes) {
+  SyntheticWorld world = MakeSyntheticWorld(0, 150);
+  for (auto& line : world.lines) {
+    const Eigen::Vector3d middle = line.segment.Midpoint();
+    line.segment = {middle - Eigen::Vector3d(0, 0.5, 0), middle + Eigen::Vector3d(0, 0.5, 0)};
+  }
+  TrueMap scene = MovedMap(world);
+  const Map before = scene.map;
+  ASSERT_FALSE(MakeLineMap(before, world.Imaging(), {}).empty());
+  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    const Rigid3& old = before.Find(id)->frame.cam_from_world;
+    EXPECT_LT(LogSe3(keyframe.frame.cam_from_world * Inverse(old)).norm(), 1e-9) << id.value;
+  }
 }
 
 TEST(AdjustWholeMap, MovesALineLandmarkWithTheNewestKeyFrameThatShowsIt) {

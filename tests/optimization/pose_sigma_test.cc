@@ -95,6 +95,24 @@ TEST(HoldLoosePoses, CountsInliersOnly) {
   EXPECT_TRUE(problem.poses[1].fixed);
 }
 
+TEST(SolveWithLoosePosesHeld, MovesWhatIsFixedAndNothingElse) {
+  const auto solve = [](int seen, BaProblem& problem) {
+    problem = TwoViewsOfLines(seen);
+    problem.poses[0].fixed = true;
+    Rigid3& pose = problem.poses[1].cam_from_world;
+    pose = ExpSe3(Vector6d::Constant(0.003)) * pose;
+    return SolveWithLoosePosesHeld(problem, {}, LineParametrization::kPlucker, 0.01);
+  };
+  BaProblem problem;
+  const BaResult all = solve(24, problem);
+  const Rigid3 truth = TwoViewsOfLines(24).poses[1].cam_from_world;
+  EXPECT_LT(LogSe3(all.poses[1] * Inverse(truth)).norm(), 1e-4);
+  EXPECT_FALSE(problem.poses[1].fixed);
+  const BaResult parallel = solve(8, problem);
+  EXPECT_TRUE(problem.poses[1].fixed);
+  EXPECT_EQ(parallel.poses[1].translation, problem.poses[1].cam_from_world.translation);
+}
+
 TEST(SigmasOfPoses, ShrinkWithTheNumberOfObservations) {
   const BaProblem few = TwoViewsOfLines(14);
   const BaProblem many = TwoViewsOfLines(24);
