@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/match_refinement.h"
 
+#include "plumbline/geometry/se3.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -60,7 +62,7 @@ bool Normalize(Samples& samples) {
 struct Patch {
   Samples samples;
   Eigen::Matrix<double, Eigen::Dynamic, 2> gradient;
-  Eigen::Matrix2d tensor;  // of the gradients
+  Eigen::Matrix2d tensor;  // of the gradients, their mean taken off
 
   bool IsRound(double min_roundness) const {
     const Eigen::Vector2d values =
@@ -94,13 +96,73 @@ std::optional<Patch> PatchAround(const GrayImage& image,
   if (!Normalize(normalized)) return std::nullopt;
   patch.samples = normalized;
   patch.gradient /= length;
-  patch.gradient.rowwise() -= patch.gradient.colwise().mean().eval();
-  patch.tensor = patch.gradient.transpose() * patch.gradient;
+  const auto centred = (patch.gradient.rowwise() - patch.gradient.colwise().mean()).eval();
+  patch.tensor = centred.transpose() * centred;
   return patch;
 }
 
-// The place near `start` where the image looks like the patch.
-std::optional<Eigen::Vector2d> Align(const Patch& patch,
+// Derivatives of the normalized patch by a shift and by the columns of a linear map of its grid, in
+// units of its radius. Its own direction is taken out: contrast is not what moves.
+Eigen::Matrix<double, Eigen::Dynamic, 6> AffineDerivatives(const Patch& patch, int radius) {
+  Eigen::Matrix<double, Eigen::Dynamic, 6> J(patch.samples.size(), 6);
+  Eigen::Index row = 0;
+  for (int v = -radius; v <= radius; ++v) {
+    for (int u = -radius; u <= radius; ++u, ++row) {
+      const Eigen::RowVector2d gradient = patch.gradient.row(row);
+      J.row(row) << gradient, gradient * u / radius, gradient * v / radius;
+    }
+  }
+  J.rowwise() -= J.colwise().mean().eval();
+  const Eigen::Matrix<double, 1, 6> along = patch.samples.matrix().transpose() * J;
+  J -= patch.samples.matrix() * along;
+  return J;
+}
+
+// The place near `start`, found by shifts alone, where the image looks like the patch under an
+// affine map of its own near `axes`. The prior of the map has the weight of the residual: it holds
+// the map while the patch does not fit and where it says nothing.
+std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
+                                           const GrayImage& image,
+                                           const Eigen::Vector2d& start,
+                                           const Eigen::Matrix2d& axes,
+                                           const MatchRefinementOptions& options) {
+  constexpr double kConvergedMap = 0.05;  // of a step, in pixels at the patch's border
+  using Vector4 = Eigen::Vector4d;
+  const int r = options.radius;
+  const auto J = AffineDerivatives(patch, r);
+  const Matrix6d JJ = J.transpose() * J;
+  const Eigen::Matrix2d inverse_axes = axes.inverse();
+  Eigen::Vector2d px = start;
+  Eigen::Matrix2d map = Eigen::Matrix2d::Identity();
+  for (int i = 0; i < options.max_iterations; ++i) {
+    auto seen = Sample(image, px, axes * map, r);
+    if (!seen || !Normalize(*seen)) return std::nullopt;
+    const double correlation = (*seen * patch.samples).sum();
+    const Eigen::VectorXd residual = (*seen - patch.samples).matrix();
+    const double sigma = options.warp_sigma * r;
+    const double weight =
+        residual.squaredNorm() / static_cast<double>(residual.size()) / (sigma * sigma);
+    const Eigen::Matrix2d off = (map - Eigen::Matrix2d::Identity()) * r;
+    Matrix6d H = JJ;
+    H.diagonal().tail<4>().array() += weight;
+    Vector6d right = J.transpose() * residual;
+    right.tail<4>() += weight * Eigen::Map<const Vector4>(off.data());
+    const Vector6d step = H.ldlt().solve(right);
+    const Vector4 linear = step.tail<4>() / r;
+    const Eigen::Matrix2d change =
+        Eigen::Matrix2d::Identity() + Eigen::Map<const Eigen::Matrix2d>(linear.data());
+    map = map * change.inverse();
+    px -= axes * map * step.head<2>();
+    if (!((inverse_axes * (px - start)).norm() <= options.max_shift_px)) return std::nullopt;
+    if (step.head<2>().norm() > kConverged || step.tail<4>().norm() > kConvergedMap) continue;
+    if (correlation < options.min_correlation) return std::nullopt;
+    return px;
+  }
+  return std::nullopt;
+}
+
+// The place near `start` where the image looks like the patch under the map `axes`.
+std::optional<Eigen::Vector2d> AlignShift(const Patch& patch,
                                      const GrayImage& image,
                                      const Eigen::Vector2d& start,
                                      const Eigen::Matrix2d& axes,
@@ -137,7 +199,9 @@ Places RefinePlaces(const GrayImage& reference_image,
     const double step = std::pow(kOctave, reference[k].octave);
     const auto patch = PatchAround(reference_image, reference[k].px, step, options.radius);
     if (!patch || !patch->IsRound(options.min_roundness)) continue;
-    places[k] = Align(*patch, image, *guesses[k], step * linear, options);
+    const Eigen::Matrix2d axes = step * linear;
+    const auto shifted = AlignShift(*patch, image, *guesses[k], axes, options);
+    if (shifted) places[k] = AlignAffine(*patch, image, *shifted, axes, options);
   }
   return places;
 }

@@ -21,6 +21,9 @@ struct MatchRefinementOptions {
   // Smaller over larger eigenvalue of the patch's structure tensor; below, it is an edge and the
   // place along it is free.
   double min_roundness = 0.15;
+  // How far the affine map of a patch is expected to be from that of the whole image: standard
+  // deviation of each entry of their quotient.
+  double warp_sigma = 0.05;
 };
 
 // Where the later image shows exactly what the reference shows around a feature: the corners that a
@@ -29,13 +32,15 @@ struct MatchRefinementOptions {
 //
 // The patch around the feature of the reference, warped by `linear`, is shifted until it fits that
 // of the later image, brightness and contrast apart (Lucas and Kanade 1981, in the inverse form of
-// Baker and Matthews 2004: gradients are those of the patch).
+// Baker and Matthews 2004: gradients are those of the patch). From there its affine map is found
+// together with the shift, since surfaces turn, shrink and shear each in its own way. A corner says
+// little about some of the map: the prior `warp_sigma` is weighed against the residual left.
 //
 //   guesses  by feature of the reference, where the image should show it; nullopt: not looked for
 //   linear   derivative of the motion from reference to image pixels
 //   returns  by feature, the pixel in `image`; nullopt where the patch is an edge, leaves an image,
 //            ends too far from the guess or does not look the same there
-//   cost     some microseconds a feature
+//   cost     some ten microseconds a feature
 using Places = std::vector<std::optional<Eigen::Vector2d>>;
 Places RefinePlaces(const GrayImage& reference_image,
                     std::span<const PointFeature> reference,

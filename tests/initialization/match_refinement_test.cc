@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -41,11 +42,13 @@ std::optional<Eigen::Vector2d> Refine(const Scene& reference,
                                       const Scene& later,
                                       const Eigen::Vector2d& to,
                                       const Eigen::Matrix2d& linear = Eigen::Matrix2d::Identity(),
-                                      int octave = 0) {
+                                      int octave = 0,
+                                      const MatchRefinementOptions& options = {}) {
   PointFeature feature;
   feature.px = from;
   feature.octave = octave;
-  return RefinePlaces(Picture(reference), {{feature}}, Picture(later), {to}, linear).front();
+  return RefinePlaces(Picture(reference), {{feature}}, Picture(later), {to}, linear, options)
+      .front();
 }
 
 TEST(RefinePlaces, FindsTheShiftToAFractionOfAPixel) {
@@ -70,6 +73,28 @@ TEST(RefinePlaces, FollowsTurnScaleBrightnessAndContrast) {
     ASSERT_TRUE(place) << octave;
     EXPECT_LT((*place - kCentre).norm(), 0.05) << place->transpose();
   }
+}
+
+// A surface may turn otherwise than the image as a whole. By shifts alone the place of a corner is
+// half a pixel off, since parts of the patch on either side move apart.
+TEST(RefinePlaces, FollowsSurfacesThatTurnByThemselves) {
+  const Scene corner = [](const Eigen::Vector2d& p) {
+    const double inside = std::tanh(p.x() - 47) + std::tanh(p.y() - 47 - 0.2 * (p.x() - 47));
+    return 120 + 30 * inside + 10 * std::sin(0.8 * p.x());
+  };
+  Eigen::Matrix2d turn;
+  turn << 0.85, 0.04, -0.08, 1.06;
+  const Scene turned = [&](const Eigen::Vector2d& p) {
+    return corner(kCentre + turn.inverse() * (p - kCentre));
+  };
+  const auto error = [&](const MatchRefinementOptions& options) {
+    const Eigen::Vector2d guess = kCentre + Eigen::Vector2d(0.4, 0.3);
+    const auto place =
+        Refine(corner, kCentre, turned, guess, Eigen::Matrix2d::Identity(), 0, options);
+    return place ? (*place - kCentre).norm() : std::numeric_limits<double>::infinity();
+  };
+  EXPECT_LT(error({}), 0.12);
+  EXPECT_GT(error({.warp_sigma = 1e-6}), 0.3);
 }
 
 TEST(RefinePlaces, RejectsWhatSlidesAlongAnEdge) {
