@@ -82,6 +82,7 @@ void FrameWindow::SetReference(const InitializationFrame& frame) {
     if (followed[k]) places[k] = points[k].px;
   }
   flow_ = KltTracks(frame.image, std::move(places));
+  warps_.assign(points.size(), Eigen::Matrix2d::Identity());
 }
 
 int FrameWindow::Add(const InitializationFrame& frame) {
@@ -128,8 +129,8 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationF
     auto& guess = guesses[Index(match.a)];
     if (!guess) guess = frame.indexed->features.points[Index(match.b)].px;
   }
-  const Places refined =
-      RefinePlaces(*reference_->image, reference, *frame.image, guesses, matches.motion.linear());
+  const Places refined = RefinePlaces(
+      *reference_->image, reference, *frame.image, guesses, matches.motion.linear(), warps_);
   std::vector<Place> places(reference.size());
   for (std::size_t k = 0; k < refined.size(); ++k) {
     if (!refined[k]) continue;

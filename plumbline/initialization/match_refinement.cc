@@ -119,13 +119,15 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> AffineDerivatives(const Patch& patch, i
 }
 
 // The place near `start`, found by shifts alone, where the image looks like the patch under an
-// affine map of its own near `axes`. The prior of the map has the weight of the residual: it holds
-// the map while the patch does not fit and where it says nothing.
+// affine map of its own, `axes` times `warp`, which begins at what it is. The prior of the warp has
+// the weight of the residual: it holds the warp near one while the patch does not fit and where it
+// says nothing.
 std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
                                            const GrayImage& image,
                                            const Eigen::Vector2d& start,
                                            const Eigen::Matrix2d& axes,
-                                           const MatchRefinementOptions& options) {
+                                           const MatchRefinementOptions& options,
+                                           Eigen::Matrix2d& warp) {
   constexpr double kConvergedMap = 0.05;  // of a step, in pixels at the patch's border
   using Vector4 = Eigen::Vector4d;
   const int r = options.radius;
@@ -133,7 +135,7 @@ std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
   const Matrix6d JJ = J.transpose() * J;
   const Eigen::Matrix2d inverse_axes = axes.inverse();
   Eigen::Vector2d px = start;
-  Eigen::Matrix2d map = Eigen::Matrix2d::Identity();
+  Eigen::Matrix2d map = warp;
   for (int i = 0; i < options.max_iterations; ++i) {
     auto seen = Sample(image, px, axes * map, r);
     if (!seen || !Normalize(*seen)) return std::nullopt;
@@ -156,6 +158,7 @@ std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
     if (!((inverse_axes * (px - start)).norm() <= options.max_shift_px)) return std::nullopt;
     if (step.head<2>().norm() > kConverged || step.tail<4>().norm() > kConvergedMap) continue;
     if (correlation < options.min_correlation) return std::nullopt;
+    warp = map;
     return px;
   }
   return std::nullopt;
@@ -192,6 +195,7 @@ Places RefinePlaces(const GrayImage& reference_image,
                     const GrayImage& image,
                     const Places& guesses,
                     const Eigen::Matrix2d& linear,
+                    std::span<Eigen::Matrix2d> warps,
                     const MatchRefinementOptions& options) {
   Places places(guesses.size());
   for (std::size_t k = 0; k < guesses.size(); ++k) {
@@ -200,8 +204,9 @@ Places RefinePlaces(const GrayImage& reference_image,
     const auto patch = PatchAround(reference_image, reference[k].px, step, options.radius);
     if (!patch || !patch->IsRound(options.min_roundness)) continue;
     const Eigen::Matrix2d axes = step * linear;
-    const auto shifted = AlignShift(*patch, image, *guesses[k], axes, options);
-    if (shifted) places[k] = AlignAffine(*patch, image, *shifted, axes, options);
+    const auto shifted = AlignShift(*patch, image, *guesses[k], axes * warps[k], options);
+    if (shifted) places[k] = AlignAffine(*patch, image, *shifted, axes, options, warps[k]);
+    if (!places[k]) warps[k].setIdentity();
   }
   return places;
 }

@@ -38,6 +38,8 @@ struct MatchRefinementOptions {
 //
 //   guesses  by feature of the reference, where the image should show it; nullopt: not looked for
 //   linear   derivative of the motion from reference to image pixels
+//   warps    by feature, what the map of its patch is that of the image times: where the search
+//            begins, such as that of the frame before, and what was found
 //   returns  by feature, the pixel in `image`; nullopt where the patch is an edge, leaves an image,
 //            ends too far from the guess or does not look the same there
 //   cost     some ten microseconds a feature
@@ -47,6 +49,7 @@ Places RefinePlaces(const GrayImage& reference_image,
                     const GrayImage& image,
                     const Places& guesses,
                     const Eigen::Matrix2d& linear,
+                    std::span<Eigen::Matrix2d> warps,
                     const MatchRefinementOptions& options = {});
 
 }  // namespace plumbline

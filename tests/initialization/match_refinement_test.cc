@@ -47,7 +47,9 @@ std::optional<Eigen::Vector2d> Refine(const Scene& reference,
   PointFeature feature;
   feature.px = from;
   feature.octave = octave;
-  return RefinePlaces(Picture(reference), {{feature}}, Picture(later), {to}, linear, options)
+  Eigen::Matrix2d warp = Eigen::Matrix2d::Identity();
+  return RefinePlaces(
+             Picture(reference), {{feature}}, Picture(later), {to}, linear, {&warp, 1}, options)
       .front();
 }
 
@@ -95,6 +97,40 @@ TEST(RefinePlaces, FollowsSurfacesThatTurnByThemselves) {
   };
   EXPECT_LT(error({}), 0.12);
   EXPECT_GT(error({.warp_sigma = 1e-6}), 0.3);
+}
+
+// What turns far is followed through the images between, each search beginning where the last ended.
+TEST(RefinePlaces, GoesOnFromTheMapsOfTheFrameBefore) {
+  const auto turned = [](double part) {
+    Eigen::Matrix2d turn;
+    turn << 1 - 0.5 * part, 0.1 * part, -0.3 * part, 1 + 0.3 * part;
+    return [inverse = Eigen::Matrix2d(turn.inverse())](const Eigen::Vector2d& p) {
+      return Waves(kCentre + inverse * (p - kCentre));
+    };
+  };
+  PointFeature feature;
+  feature.px = kCentre;
+  const GrayImage reference = Picture(Waves);
+  const auto refine = [&](double part, Eigen::Matrix2d& warp) {
+    return RefinePlaces(reference,
+                        {{feature}},
+                        Picture(turned(part)),
+                        {kCentre},
+                        Eigen::Matrix2d::Identity(),
+                        {&warp, 1})
+        .front();
+  };
+  Eigen::Matrix2d at_once = Eigen::Matrix2d::Identity();
+  EXPECT_FALSE(refine(1, at_once));
+  EXPECT_EQ(at_once, Eigen::Matrix2d::Identity());
+  Eigen::Matrix2d warp = Eigen::Matrix2d::Identity();
+  for (const double part : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+    const auto place = refine(part, warp);
+    ASSERT_TRUE(place) << part;
+    EXPECT_LT((*place - kCentre).norm(), 0.1) << part << ": " << place->transpose();
+  }
+  EXPECT_NEAR(warp(0, 0), 0.5, 0.05);
+  EXPECT_NEAR(warp(1, 1), 1.3, 0.05);
 }
 
 TEST(RefinePlaces, RejectsWhatSlidesAlongAnEdge) {
