@@ -166,10 +166,10 @@ std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
 
 // The place near `start` where the image looks like the patch under the map `axes`.
 std::optional<Eigen::Vector2d> AlignShift(const Patch& patch,
-                                     const GrayImage& image,
-                                     const Eigen::Vector2d& start,
-                                     const Eigen::Matrix2d& axes,
-                                     const MatchRefinementOptions& options) {
+                                          const GrayImage& image,
+                                          const Eigen::Vector2d& start,
+                                          const Eigen::Matrix2d& axes,
+                                          const MatchRefinementOptions& options) {
   const Eigen::LDLT<Eigen::Matrix2d> tensor(patch.tensor);
   const Eigen::Matrix2d inverse_axes = axes.inverse();
   Eigen::Vector2d px = start;

@@ -3,6 +3,7 @@
 #include "plumbline/initialization/multi_view.h"
 
 #include "plumbline/base/median.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/initialization/line_evidence.h"
 #include "plumbline/initialization/window_adjustment.h"
@@ -54,16 +55,24 @@ double ParallaxDeg(const WindowTracks& tracks, const WindowSolution& solution) {
   return UpperMedian(std::move(angles)) / kDegree;
 }
 
+// What is done to each of several explanations is done to two at a time: a plane has two.
+constexpr int kThreads = 2;
+
 // All hypotheses carried through all frames.
 std::vector<Explanation> Explain(const WindowTracks& tracks,
                                  const std::vector<WindowHypothesis>& hypotheses,
                                  const WindowDecisionOptions& options) {
+  auto explained = ParallelMap<std::optional<Explanation>>(
+      static_cast<int>(hypotheses.size()), kThreads, [&](int i) -> std::optional<Explanation> {
+        const WindowHypothesis& hypothesis = hypotheses[static_cast<std::size_t>(i)];
+        auto solution = FactorizeWindow(tracks, hypothesis, options.factorization);
+        if (!solution) return std::nullopt;
+        const WindowFit fit = Evaluate(tracks, *solution, kMaxMeasurementChi2);
+        return Explanation{std::move(*solution), fit, fit.cost};
+      });
   std::vector<Explanation> explanations;
-  for (const WindowHypothesis& hypothesis : hypotheses) {
-    auto solution = FactorizeWindow(tracks, hypothesis, options.factorization);
-    if (!solution) continue;
-    const WindowFit fit = Evaluate(tracks, *solution, kMaxMeasurementChi2);
-    Insert({std::move(*solution), fit, fit.cost}, explanations);
+  for (auto& explanation : explained) {
+    if (explanation) Insert(std::move(*explanation), explanations);
   }
   return explanations;
 }
@@ -72,12 +81,12 @@ std::vector<Explanation> Explain(const WindowTracks& tracks,
 void AdjustAll(const WindowTracks& tracks, std::vector<Explanation>& explanations) {
   SortByCost(explanations);
   const double limit = kHopeless * explanations.front().cost;
+  std::erase_if(explanations, [limit](const Explanation& e) { return e.cost > limit; });
+  ParallelFor(static_cast<int>(explanations.size()), kThreads, [&](int i) {
+    Adjust(tracks, explanations[static_cast<std::size_t>(i)]);
+  });
   std::vector<Explanation> adjusted;
-  for (Explanation& e : explanations) {
-    if (e.cost > limit) break;
-    Adjust(tracks, e);
-    Insert(std::move(e), adjusted);
-  }
+  for (Explanation& e : explanations) Insert(std::move(e), adjusted);
   explanations = std::move(adjusted);
   SortByCost(explanations);
 }

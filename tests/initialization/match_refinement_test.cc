@@ -99,7 +99,8 @@ TEST(RefinePlaces, FollowsSurfacesThatTurnByThemselves) {
   EXPECT_GT(error({.warp_sigma = 1e-6}), 0.3);
 }
 
-// What turns far is followed through the images between, each search beginning where the last ended.
+// What turns far is followed through the images between, each search beginning where the last
+// ended.
 TEST(RefinePlaces, GoesOnFromTheMapsOfTheFrameBefore) {
   const auto turned = [](double part) {
     Eigen::Matrix2d turn;
