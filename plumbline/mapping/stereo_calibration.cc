@@ -24,6 +24,30 @@ constexpr double kHuber = 1.345;               // sigma
 constexpr double kMaxPredictionSigmaPx = 0.3;  // worse predictions tell nothing
 constexpr double kMaxDisplacementPx = 3;       // more is a wrong match
 constexpr std::size_t kMinViews = 3;
+// Root of the mean square that a correction must exceed: what is smaller may be the biases of
+// corners whose correlation windows show an edge in depth.
+constexpr double kBiasPx = 0.04;
+
+// Normal equations of the coefficients and, last, the error of the scale around one keyframe.
+struct Evidence {
+  Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
+  Eigen::Matrix<double, 7, 1> weighted = Eigen::Matrix<double, 7, 1>::Zero();
+
+  // A displacement measured at a place with these terms, where `surprise` of it is new.
+  void Add(const Vector6d& terms,
+           double predicted,
+           double displacement,
+           double surprise,
+           double variance) {
+    if (std::abs(surprise) > kMaxDisplacementPx) return;
+    const double sigma = std::sqrt(variance + kNoisePx * kNoisePx);
+    const double weight = std::min(1.0, kHuber * sigma / std::abs(surprise)) / (sigma * sigma);
+    Eigen::Matrix<double, 7, 1> row;
+    row << terms, predicted;
+    information += weight * row * row.transpose();
+    weighted += weight * displacement * row;
+  }
+};
 
 std::vector<PointView> LeftViews(const Map& map, const MapPoint& point) {
   std::vector<PointView> views;
@@ -44,6 +68,7 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
   constexpr double kMinParallax = 0.002;
   const StereoCorrection current = Estimate();
   const Frame& frame = keyframe.frame;
+  Evidence evidence;
   const Eigen::RowVector3d depth_row = frame.cam_from_world.rotation.toRotationMatrix().row(2);
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     const auto& disparity = frame.features().point_disparity[i];
@@ -58,33 +83,31 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
     const double variance = predicted * predicted * relative / (z * z);
     if (!(variance <= kMaxPredictionSigmaPx * kMaxPredictionSigmaPx)) continue;
     const Eigen::Vector2d px = frame.features().points[i].px - Eigen::Vector2d(disparity->px, 0);
-    const double applied = frame.indexed->correction.At(px);
-    Add(current, px, disparity->px + applied - predicted, variance);
+    const double displacement = disparity->px + frame.indexed->correction.At(px) - predicted;
+    evidence.Add(StereoCorrection::Terms(camera_, px),
+                 predicted,
+                 displacement,
+                 displacement - current.At(px),
+                 variance);
   }
+  if (evidence.information(6, 6) == 0) return;
+  const Vector6d coupling = evidence.information.col(6).head<6>() / evidence.information(6, 6);
+  const Matrix6d moments = evidence.information.topLeftCorner<6, 6>();
+  information_ += moments - coupling * evidence.information.row(6).head<6>();
+  weighted_ += evidence.weighted.head<6>() - coupling * evidence.weighted(6);
+  moments_ += moments;
 }
 
 StereoCorrection StereoCalibrator::Estimate() const {
-  if (information_(0, 0) == 0) return {};
+  if (moments_(0, 0) == 0) return {};
   const double prior_sigma_px = kPriorSigma * camera_.width;
   const Matrix6d prior = Matrix6d::Identity() / (prior_sigma_px * prior_sigma_px);
   Vector6d k = (information_ + prior).llt().solve(weighted_);
-  const Eigen::Matrix<double, 1, 5> mean_terms =
-      information_.block<1, 5>(0, 1) / information_(0, 0);
-  k(0) = -mean_terms.dot(k.tail<5>());
+  k(0) = -moments_.row(0).tail<5>().dot(k.tail<5>()) / moments_(0, 0);
+  const double square = k.dot(moments_ * k) / moments_(0, 0);
+  if (square <= kBiasPx * kBiasPx) return {};
+  k *= 1 - kBiasPx * kBiasPx / square;
   return {camera_, k};
-}
-
-void StereoCalibrator::Add(const StereoCorrection& current,
-                           const Eigen::Vector2d& px,
-                           double displacement,
-                           double variance) {
-  const double sigma = std::sqrt(variance + kNoisePx * kNoisePx);
-  const double surprise = std::abs(displacement - current.At(px));
-  if (surprise > kMaxDisplacementPx) return;
-  const double weight = std::min(1.0, kHuber * sigma / surprise) / (sigma * sigma);
-  const Vector6d terms = StereoCorrection::Terms(camera_, px);
-  information_ += weight * terms * terms.transpose();
-  weighted_ += weight * displacement * terms;
 }
 
 }  // namespace plumbline

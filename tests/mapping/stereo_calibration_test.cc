@@ -120,7 +120,32 @@ TEST(StereoCalibrator, FindsNothingWhereNothingIs) {
   for (int k = 0; k < 12; ++k) poses.push_back(PoseOnPath(8 * k));
   const TrueMap scene = MakeTrueMap(world, poses, {.noise = 0.5});
   const StereoCorrection estimate = Learn(world, scene.map);
-  for (const double x : {50.0, 300.0, 600.0}) EXPECT_NEAR(estimate.At({x, 200}), 0, 0.06);
+  EXPECT_EQ(estimate, StereoCorrection());
+}
+
+// A map that is too large says nothing about the images, though its disparities seem wrong most
+// where things are near.
+TEST(StereoCalibrator, LeavesTheScaleOfTheMapAlone) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 0);
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < 12; ++k) poses.push_back(PoseOnPath(8 * k));
+  const TrueMap scene = MakeTrueMap(world, poses, {.noise = 0.1});
+  Map scaled;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    KeyFrame copy = keyframe;
+    copy.frame.cam_from_world.translation *= 1.05;
+    copy.frame.points.assign(copy.frame.points.size(), PointId{});
+    copy.frame.lines.assign(copy.frame.lines.size(), LineId{});
+    scaled.Apply({edit::AddKeyFrame{copy}});
+  }
+  MapEdit landmarks;
+  for (const auto& [id, point] : scene.map.points()) {
+    MapPoint copy = point;
+    copy.position *= 1.05;
+    landmarks.push_back(edit::AddPoint{copy});
+  }
+  scaled.Apply(landmarks);
+  EXPECT_EQ(Learn(world, scaled), StereoCorrection());
 }
 
 TEST(StereoCalibrator, HasNoOpinionWithoutEvidence) {
