@@ -238,6 +238,7 @@ void ExtractLevel(const PyramidLevel& level,
                   const ValidRegion& valid,
                   std::size_t count,
                   const OrbOptions& options,
+                  double calibration_sigma_px,
                   std::vector<PointFeature>* result) {
   const double scale = level.scale.maxCoeff();
   std::vector<Corner> corners = DetectCorners(level.image, options);
@@ -261,7 +262,7 @@ void ExtractLevel(const PyramidLevel& level,
     places.push_back(px);
     PointFeature point;
     point.px = level.ToFull(px);
-    point.sigma_px = options.sigma_px * scale;
+    point.sigma_px = std::hypot(options.sigma_px * scale, calibration_sigma_px);
     point.angle = CentroidAngle(
         level.image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
     point.response = static_cast<double>(c.response);
@@ -285,6 +286,7 @@ std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
                                      const OrbOptions& options) {
   std::vector<PointFeature> result;
   if (pyramid.empty() || count <= 0) return result;
+  const double calibration_sigma_px = options.calibration_sigma * pyramid[0].image.width();
   double total = 0;
   for (const PyramidLevel& level : pyramid) total += 1 / level.scale.maxCoeff();
   // What a level cannot fill is left to the ones above it.
@@ -294,8 +296,13 @@ std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
     share += count / pyramid[octave].scale.maxCoeff() / total;
     wanted = static_cast<std::size_t>(std::lround(share));
     if (wanted <= result.size()) continue;
-    ExtractLevel(
-        pyramid[octave], static_cast<int>(octave), valid, wanted - result.size(), options, &result);
+    ExtractLevel(pyramid[octave],
+                 static_cast<int>(octave),
+                 valid,
+                 wanted - result.size(),
+                 options,
+                 calibration_sigma_px,
+                 &result);
   }
   return result;
 }

@@ -15,10 +15,13 @@ struct OrbOptions {
   int levels = 8;
   double scale_factor = 1.2;
   int fast_threshold = 20;     // grey levels
-  int fast_min_threshold = 7;  // used in cells where the first finds nothing
+  int fast_min_threshold = 4;  // used in cells where the first finds nothing
   int cell_px = 35;            // side of these cells on a level
   bool subpixel = true;
-  double sigma_px = 0.5;  // of a corner at octave 0
+  double sigma_px = 0.3;  // of a corner at octave 0
+  // What lenses and shutter that are not quite as the calibration says add to every corner,
+  // relative to the width of the image.
+  double calibration_sigma = 3.3e-4;
 };
 
 // Corners with binary descriptors, spread evenly over the image and the levels of its pyramid.
@@ -32,8 +35,9 @@ struct OrbOptions {
 //
 // `pyramid` must have been built with the levels and the factor of the options (BuildOrbPyramid).
 // Corners closer to an invalid pixel or to the border than the patch (20 level pixels) are left
-// out. Result: position and sigma (sigma_px * scale of the octave) in pixels of the full image,
-// ordered by octave, then as selected. Cost: about 6 ms for 752x480 and 1000 points.
+// out. Result: position and sigma (sigma_px * scale of the octave, and the calibration's) in pixels
+// of the full image, ordered by octave, then as selected. Cost: about 6 ms for 752x480 and 1000
+// points.
 std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
                                      const ValidRegion& valid,
                                      int count,
@@ -54,6 +58,12 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
   visit("cell_px", o.cell_px, "side of the cells with their own threshold [px]", Range{8, 500});
   visit("subpixel", o.subpixel, "refine corners below the pixel");
   visit("sigma_px", o.sigma_px, "deviation of a corner at octave 0 [px]", Range{0.05, 10});
+  visit(
+      "calibration_sigma",
+      o.calibration_sigma,
+      "deviation that the calibration of the camera adds to every corner, relative to the width of "
+      "the image",
+      Range{0, 0.01});
 }
 
 }  // namespace plumbline
