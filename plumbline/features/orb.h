@@ -21,7 +21,7 @@ struct OrbOptions {
   double sigma_px = 0.3;  // of a corner at octave 0
   // What lenses and shutter that are not quite as the calibration says add to every corner,
   // relative to the width of the image.
-  double calibration_sigma = 3.3e-4;
+  double calibration_sigma = 5e-4;
 };
 
 // Corners with binary descriptors, spread evenly over the image and the levels of its pyramid.

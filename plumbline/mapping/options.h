@@ -114,7 +114,7 @@ struct MappingOptions {
   BaWindowOptions window;
   LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4: 1.2 times the time, no better
   bool stereo_calibration = true;
-  int final_adjustment_keyframes = 800;
+  int final_adjustment_keyframes = 1000;
   LineMapOptions line_map;
 };
 
