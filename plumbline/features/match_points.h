@@ -38,8 +38,8 @@ struct StereoPointOptions {
   double ratio = 0.9;          // best / second best that is somewhere else; 1: no test
   double row_band_px = 2;      // allowed row difference, times the scale of the octave
   double min_depth_m = 0.25;   // gives the largest disparity
-  int window_px = 5;           // half width of the correlation window on the level image
-  int search_px = 5;           // half width of the correlation search on the level image
+  int window_px = 5;           // half width of the correlation window, finest level
+  int search_px = 5;           // half width of the correlation search, pixels of the level
   double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
   double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
   // Of every disparity, from the pair's calibration, relative to the width of the image: errors of
@@ -56,9 +56,11 @@ struct StereoView {
 //
 // Candidates share the row band and the octave +-1; the best by descriptor is refined by
 // correlation on the level image and a Gauss-Newton step for the sub-pixel shift, with the mean
-// brightness of the window free. sigma_px comes from the curvature and the residual of that
-// correlation. Matches whose residual is far above the median are dropped, and a right point that
-// would serve twice keeps the closer one. Disparities are 0 < d <= fx * baseline / min_depth.
+// brightness of the window free. Its pixels weigh the less the further they are from the corner,
+// and windows of coarse levels are smaller, against errors at depth edges. sigma_px comes from the
+// curvature and the residual of that correlation. Matches whose residual is far above the median
+// are dropped, and a right point that would serve twice keeps the closer one. Disparities are 0 < d
+// <= fx * baseline / min_depth.
 std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
                                                         const StereoView& left,
                                                         const StereoView& right,
@@ -86,7 +88,10 @@ void VisitFields(Visitor&& visit, StereoPointOptions& o) {
   visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
   visit("row_band_px", o.row_band_px, "allowed row difference at octave 0 [px]", Range{0.5, 20});
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
-  visit("window_px", o.window_px, "half width of the correlation window [px]", Range{2, 15});
+  visit("window_px",
+        o.window_px,
+        "half width of the correlation window of the finest level [px]",
+        Range{2, 15});
   visit("search_px", o.search_px, "half width of the correlation search [px]", Range{1, 20});
   visit("max_sad_factor",
         o.max_sad_factor,

@@ -135,16 +135,49 @@ struct Correlation {
   double residual = 0;  // mean absolute difference, grey levels
 };
 
-// One Gauss-Newton step for the shift along x with the mean brightness free.
-struct ShiftStep {
-  double delta = 0;
-  double curvature = 0;  // sum of squared derivatives
-  double squares = 0;    // sum of squared residuals
-  double absolute = 0;   // sum of their magnitudes
+// Weights of a window's pixels: a Gaussian, since what is far from the corner is more likely to be
+// at another depth. For the same reason the windows of coarse levels, which take in more of the
+// scene, have fewer pixels, by the square root of the level's scale.
+class CorrelationWindow {
+ public:
+  CorrelationWindow(int finest_half, double scale)
+      : half_(std::max(std::min(finest_half, kMinHalf),
+                       static_cast<int>(std::lround(finest_half / std::sqrt(scale))))) {
+    constexpr double kSigmaOverHalf = 0.5;
+    const double sigma = kSigmaOverHalf * half_;
+    std::size_t k = 0;
+    for (int dy = -half_; dy <= half_; ++dy) {
+      for (int dx = -half_; dx <= half_; ++dx, ++k) {
+        weight_[k] = static_cast<float>(std::exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma)));
+        total_ += weight_[k];
+      }
+    }
+  }
+
+  int half() const { return half_; }
+  float total() const { return total_; }
+  float operator[](std::size_t k) const { return weight_[k]; }
+
+ private:
+  static constexpr int kMinHalf = 3;
+
+  std::array<float, kMaxPatch> weight_;
+  int half_;
+  float total_ = 0;
 };
 
-std::optional<ShiftStep> StepAt(const Patch& left, const GrayImage& right, double x, int y) {
-  const int half = left.half;
+// One Gauss-Newton step for the shift along x with the mean brightness free. Sums over the window,
+// weighted.
+struct ShiftStep {
+  double delta = 0;
+  double curvature = 0;  // squared derivatives
+  double squares = 0;    // squared residuals
+  double absolute = 0;   // magnitudes of residuals
+};
+
+std::optional<ShiftStep> StepAt(
+    const Patch& left, const CorrelationWindow& window, const GrayImage& right, double x, int y) {
+  const int half = window.half();
   const int side = 2 * half + 1;
   const int x0 = static_cast<int>(std::floor(x));
   if (x0 < half + 1 || x0 + half + 2 >= right.width()) return std::nullopt;
@@ -163,44 +196,46 @@ std::optional<ShiftStep> StepAt(const Patch& left, const GrayImage& right, doubl
       const auto after = static_cast<float>(row[dx + 2]);
       residual[k] = left.value[k] - (a + f * (b - a));
       slope[k] = 0.5F * ((1 - f) * (b - before) + f * (after - a));
-      mean_r += residual[k];
-      mean_g += slope[k];
+      mean_r += window[k] * residual[k];
+      mean_g += window[k] * slope[k];
     }
   }
-  const auto count = static_cast<float>(k);
-  mean_r /= count;
-  mean_g /= count;
+  mean_r /= window.total();
+  mean_g /= window.total();
   ShiftStep step;
   double moment = 0;
   for (std::size_t i = 0; i < k; ++i) {
     const float r = residual[i] - mean_r;
     const float g = slope[i] - mean_g;
-    moment += static_cast<double>(r * g);
-    step.curvature += static_cast<double>(g * g);
-    step.squares += static_cast<double>(r * r);
-    step.absolute += static_cast<double>(std::abs(r));
+    const float wr = window[i] * r;
+    const float wg = window[i] * g;
+    moment += static_cast<double>(wr * g);
+    step.curvature += static_cast<double>(wg * g);
+    step.squares += static_cast<double>(wr * r);
+    step.absolute += static_cast<double>(std::abs(wr));
   }
-  if (step.curvature < 1e-3 * static_cast<double>(count)) return std::nullopt;
+  if (step.curvature < 1e-3 * static_cast<double>(window.total())) return std::nullopt;
   step.delta = moment / step.curvature;
   return step;
 }
 
-std::optional<Correlation> RefineShift(const Patch& left, const GrayImage& right, int x, int y) {
+std::optional<Correlation> RefineShift(
+    const Patch& left, const CorrelationWindow& window, const GrayImage& right, int x, int y) {
   double place = x;
   std::optional<ShiftStep> step;
   for (int iteration = 0; iteration < 6; ++iteration) {
-    step = StepAt(left, right, place, y);
+    step = StepAt(left, window, right, place, y);
     if (!step) return std::nullopt;
     place += step->delta;
     if (std::abs(place - x) > 1.5) return std::nullopt;
     if (std::abs(step->delta) < 0.01) break;
   }
-  const double count = (2 * left.half + 1) * (2 * left.half + 1);
+  const auto total = static_cast<double>(window.total());
   // Residuals of neighbours are correlated: about every fourth pixel tells something new.
   constexpr double kCorrelated = 4;
   return Correlation{place,
-                     std::sqrt(kCorrelated * step->squares / count / step->curvature),
-                     step->absolute / count};
+                     std::sqrt(kCorrelated * step->squares / total / step->curvature),
+                     step->absolute / total};
 }
 
 // Whole-pixel search along the row, then sub-pixel. nullopt at the end of the search range.
@@ -208,23 +243,24 @@ std::optional<Correlation> Correlate(const GrayImage& left,
                                      const Eigen::Vector2i& at,
                                      const GrayImage& right,
                                      int right_x,
-                                     const StereoPointOptions& options) {
+                                     const CorrelationWindow& window,
+                                     int search_px) {
   Patch reference;
-  if (!ReadPatch(left, at.x(), at.y(), options.window_px, &reference)) return std::nullopt;
+  if (!ReadPatch(left, at.x(), at.y(), window.half(), &reference)) return std::nullopt;
   int best_shift = 0;
   float best = 0;
   bool found = false;
   Patch other;
-  for (int shift = -options.search_px; shift <= options.search_px; ++shift) {
-    if (!ReadPatch(right, right_x + shift, at.y(), options.window_px, &other)) continue;
+  for (int shift = -search_px; shift <= search_px; ++shift) {
+    if (!ReadPatch(right, right_x + shift, at.y(), window.half(), &other)) continue;
     const float sum = SumOfDifferences(reference, other);
     if (found && sum >= best) continue;
     best = sum;
     best_shift = shift;
     found = true;
   }
-  if (!found || std::abs(best_shift) == options.search_px) return std::nullopt;
-  return RefineShift(reference, right, right_x + best_shift, at.y());
+  if (!found || std::abs(best_shift) == search_px) return std::nullopt;
+  return RefineShift(reference, window, right, right_x + best_shift, at.y());
 }
 
 // Index of the left point that each right point likes best, -1: none.
@@ -272,6 +308,10 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
   const StereoGate gate{
       left.pyramid, camera.DisparityFromDepth(options.min_depth_m), options.row_band_px};
   const double calibration_sigma_px = options.calibration_sigma * camera.width;
+  std::vector<CorrelationWindow> windows;
+  for (const PyramidLevel& level : left.pyramid) {
+    windows.emplace_back(options.window_px, level.scale.maxCoeff());
+  }
   const RowIndex rows(right.points);
   std::vector<Candidate> candidates(left.points.size());
   for (std::size_t i = 0; i < left.points.size(); ++i) {
@@ -289,8 +329,12 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
     const PyramidLevel& other = right.pyramid[octave];
     const Eigen::Vector2i at = level.FromFull(left.points[i].px).array().round().cast<int>();
     const double start = other.FromFull(right.points[j].px).x();
-    const std::optional<Correlation> found =
-        Correlate(level.image, at, other.image, static_cast<int>(std::lround(start)), options);
+    const std::optional<Correlation> found = Correlate(level.image,
+                                                       at,
+                                                       other.image,
+                                                       static_cast<int>(std::lround(start)),
+                                                       windows[octave],
+                                                       options.search_px);
     if (!found) continue;
     const double disparity = (at.x() - found->x) * level.scale.x();
     if (disparity <= 0 || disparity > gate.max_disparity) continue;

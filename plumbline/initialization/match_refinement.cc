@@ -129,10 +129,11 @@ std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
                                            const MatchRefinementOptions& options,
                                            Eigen::Matrix2d& warp) {
   constexpr double kConvergedMap = 0.05;  // of a step, in pixels at the patch's border
-  using Vector4 = Eigen::Vector4d;
   const int r = options.radius;
+  const double sigma = options.warp_sigma * r;
   const auto J = AffineDerivatives(patch, r);
   const Matrix6d JJ = J.transpose() * J;
+  const auto count = static_cast<double>(J.rows());
   const Eigen::Matrix2d inverse_axes = axes.inverse();
   Eigen::Vector2d px = start;
   Eigen::Matrix2d map = warp;
@@ -141,16 +142,14 @@ std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
     if (!seen || !Normalize(*seen)) return std::nullopt;
     const double correlation = (*seen * patch.samples).sum();
     const Eigen::VectorXd residual = (*seen - patch.samples).matrix();
-    const double sigma = options.warp_sigma * r;
-    const double weight =
-        residual.squaredNorm() / static_cast<double>(residual.size()) / (sigma * sigma);
+    const double weight = residual.squaredNorm() / (count * sigma * sigma);
     const Eigen::Matrix2d off = (map - Eigen::Matrix2d::Identity()) * r;
     Matrix6d H = JJ;
     H.diagonal().tail<4>().array() += weight;
     Vector6d right = J.transpose() * residual;
-    right.tail<4>() += weight * Eigen::Map<const Vector4>(off.data());
+    right.tail<4>() += weight * Eigen::Map<const Eigen::Vector4d>(off.data());
     const Vector6d step = H.ldlt().solve(right);
-    const Vector4 linear = step.tail<4>() / r;
+    const Eigen::Vector4d linear = step.tail<4>() / r;
     const Eigen::Matrix2d change =
         Eigen::Matrix2d::Identity() + Eigen::Map<const Eigen::Matrix2d>(linear.data());
     map = map * change.inverse();

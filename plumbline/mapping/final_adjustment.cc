@@ -7,11 +7,20 @@
 #include "plumbline/optimization/pose_sigma.h"
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <vector>
 
 namespace plumbline {
 namespace {
+
+// An adjustment gains from lines that are not good enough to be given out: what does not fit weighs
+// little there.
+constexpr LineMapOptions kAdjustedLines{.min_keyframes = 4,
+                                        .max_relative_sigma = 0.02,
+                                        .min_found_ratio = 0.25,
+                                        .max_mean_chi2 = std::numeric_limits<double>::infinity(),
+                                        .min_mean_length_px = 0};
 
 // The whole map, with the lines that are well seen, as a problem in the frame of its first
 // keyframe.
@@ -80,8 +89,8 @@ MapEdit AdjustWholeMap(const Map& map,
       count > static_cast<std::size_t>(options.final_adjustment_keyframes)) {
     return {};
   }
-  const MapProblem whole = MakeWholeMap(
-      map, imaging, lines.weighting, FindWellSeenLines(map, imaging, options.line_map));
+  const MapProblem whole =
+      MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
   BaProblem problem = whole.problem;  // held poses are free in `whole`: a new scale is for all
   BaResult result = SolveWithLoosePosesHeld(
       problem, options.ba, LineParametrization::kPlucker, options.window.max_pose_sigma);

@@ -3,7 +3,9 @@
 #include "plumbline/mapping/line_map.h"
 
 #include "plumbline/association/line_information.h"
+#include "plumbline/association/measurements.h"
 #include "plumbline/mapping/line_support.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -79,40 +81,72 @@ std::optional<LineInterval> KnownPart(const SupportedLine& line,
   return best;
 }
 
-// How many keyframes show a part of a line, and how many more have it in their image from no
-// further than the furthest of them: those beyond are likely to stand behind a wall.
+// What shows a part of a line.
 struct Sightings {
-  int shown = 0, expected = 0;
+  std::set<KeyFrameId> keyframes;
+  double furthest = 0;        // of the keyframes from the middle of the part
+  double mean_chi2 = 0;       // of the segments in the left images, by their own deviations
+  double mean_length_px = 0;  // of the same
 };
 
-Sightings CountSightings(const Map& map,
-                         const RectifiedCamera& camera,
-                         const SupportedLine& line,
-                         const LineInterval& part) {
-  constexpr double kMinOverlap = 0.25, kMinLengthPx = 30;
-  const Eigen::Vector3d middle = line.hypothesis.line.PointAt(0.5 * (part.start + part.end));
-  const auto distance = [&](const Frame& frame) { return (frame.cam_from_world * middle).norm(); };
-  std::set<KeyFrameId> shown;
-  double furthest = 0;
+double MiddleDistance(const Frame& frame, const Segment3& segment) {
+  return (frame.cam_from_world * (0.5 * (segment.start + segment.end))).norm();
+}
+
+// Infinite where the line is no line of the image.
+double Chi2(const RectifiedCamera& camera, const PluckerLine& line, const LineSupport& support) {
+  const Frame& frame = support.keyframe->frame;
+  const auto residual =
+      EvaluateLine(camera,
+                   frame.cam_from_world,
+                   ToOrthonormal(line),
+                   MeasureLeftLine(frame.features(), support.feature, LineWeighting::kCovariance));
+  return residual ? residual->r.squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
+Sightings FindSightings(const RectifiedCamera& camera,
+                        const SupportedLine& line,
+                        const LineInterval& part) {
+  constexpr double kMinOverlap = 0.25;
+  const Segment3 segment = SegmentOf(line.hypothesis.line, part);
+  Sightings found;
+  int segments = 0;
   for (const LineSupport& support : line.supports) {
     const Frame& frame = support.keyframe->frame;
-    const auto interval = TrimToSegment(camera,
-                                        frame.cam_from_world,
-                                        line.hypothesis.line,
-                                        frame.features().lines[support.feature].segment);
+    const Segment2& seen = frame.features().lines[support.feature].segment;
+    const auto interval = TrimToSegment(camera, frame.cam_from_world, line.hypothesis.line, seen);
     if (!interval || OverlapRatio(*interval, part) <= kMinOverlap) continue;
-    shown.insert(support.keyframe->id);
-    furthest = std::max(furthest, distance(frame));
+    found.keyframes.insert(support.keyframe->id);
+    found.furthest = std::max(found.furthest, MiddleDistance(frame, segment));
+    found.mean_chi2 += Chi2(camera, line.hypothesis.line, support);
+    found.mean_length_px += seen.Length();
+    ++segments;
   }
-  const Segment3 segment = SegmentOf(line.hypothesis.line, part);
-  Sightings count{static_cast<int>(shown.size()), 0};
+  if (segments > 0) {
+    found.mean_chi2 /= segments;
+    found.mean_length_px /= segments;
+  }
+  return found;
+}
+
+// Of the keyframes that have a part of a line in their image, from no further than the furthest
+// that shows it, the share that shows it: those beyond are likely to stand behind a wall.
+double FoundRatio(const Map& map,
+                  const RectifiedCamera& camera,
+                  const Segment3& segment,
+                  const Sightings& sightings) {
+  constexpr double kMinLengthPx = 30;
+  std::size_t expected = 0;
   for (const auto& [id, keyframe] : map.keyframes()) {
-    if (distance(keyframe.frame) > furthest) continue;
+    if (MiddleDistance(keyframe.frame, segment) > sightings.furthest) continue;
     const Rigid3& pose = keyframe.frame.cam_from_world;
     const auto projected = ProjectSegment(camera, {pose * segment.start, pose * segment.end});
-    count.expected += shown.contains(id) || (projected && projected->Length() >= kMinLengthPx);
+    expected +=
+        sightings.keyframes.contains(id) || (projected && projected->Length() >= kMinLengthPx);
   }
-  return count;
+  return expected > 0
+             ? static_cast<double>(sightings.keyframes.size()) / static_cast<double>(expected)
+             : 0;
 }
 
 // The pieces of a line that are good enough for the map.
@@ -124,17 +158,18 @@ std::vector<MappedLine> GoodPieces(const Map& map,
   for (const LineInterval& shown : line.parts) {
     const auto part = KnownPart(line, shown, options.max_relative_sigma);
     if (!part) continue;
-    const Sightings count = CountSightings(map, camera, line, *part);
-    if (count.shown < options.min_keyframes ||
-        count.shown < options.min_found_ratio * count.expected) {
+    const Segment3 segment = SegmentOf(line.hypothesis.line, *part);
+    const Sightings seen = FindSightings(camera, line, *part);
+    const int count = static_cast<int>(seen.keyframes.size());
+    if (count < options.min_keyframes || seen.mean_chi2 > options.max_mean_chi2 ||
+        seen.mean_length_px < options.min_mean_length_px ||
+        FoundRatio(map, camera, segment, seen) < options.min_found_ratio) {
       continue;
     }
     const auto sigma = [&](double t) {
       return SigmaAt(line.hypothesis.line, line.hypothesis.information, t);
     };
-    pieces.push_back({SegmentOf(line.hypothesis.line, *part),
-                      std::max(sigma(part->start), sigma(part->end)),
-                      count.shown});
+    pieces.push_back({segment, std::max(sigma(part->start), sigma(part->end)), count});
   }
   return pieces;
 }

@@ -7,9 +7,11 @@
 namespace plumbline {
 
 struct LineMapOptions {
-  int min_keyframes = 6;             // that show each point of a line
+  int min_keyframes = 4;             // that show each point of a line
   double max_relative_sigma = 0.02;  // of each point of a line, over its distance
   double min_found_ratio = 0.25;     // of the keyframes that have a line in their image
+  double max_mean_chi2 = 5;          // of the segments that show a line, two residuals each
+  double min_mean_length_px = 35;    // of the segments that show a line
 };
 
 template <class Visitor>
@@ -29,6 +31,15 @@ void VisitFields(Visitor&& visit, LineMapOptions& o) {
       "of the keyframes that have a line in their image, before it or behind something, the share "
       "that must show it",
       Range{0, 1});
+  visit("max_mean_chi2",
+        o.max_mean_chi2,
+        "largest mean of the chi2 of the segments that show a line; 2 where they are as far off as "
+        "their own deviations say",
+        Range{0.1, 1000});
+  visit("min_mean_length_px",
+        o.min_mean_length_px,
+        "smallest mean length of the segments that show a line, pixels",
+        Range{0, 1000});
 }
 
 }  // namespace plumbline

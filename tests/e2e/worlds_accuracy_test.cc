@@ -57,15 +57,15 @@ void Check(const WorldGate& gate) {
   EXPECT_GE(at_5_cm["precision"], gate.min_precision);
 }
 
-TEST(WorldsAccuracy, Room) { Check({"room", "", 0.006, 120, 0.5}); }
-TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.006, 72, 0.29}); }
+TEST(WorldsAccuracy, Room) { Check({"room", "", 0.006, 120, 0.7}); }
+TEST(WorldsAccuracy, LowTexture) { Check({"lowtexture", "", 0.006, 72, 0.48}); }
 TEST(WorldsAccuracy, RoomWithLinesOnly) {
   Check({"room", "--set features.points=false", 0.008, 0, 0});
 }
 TEST(WorldsAccuracy, LowTextureWithLinesOnly) {
   Check({"lowtexture", "--set features.points=false", 0.006, 0, 0});
 }
-TEST(WorldsAccuracy, Lateral) { Check({"lateral", "", 0.006, 30, 0.65}); }
+TEST(WorldsAccuracy, Lateral) { Check({"lateral", "", 0.006, 30, 0.85}); }
 TEST(WorldsAccuracy, Planar) { Check({"planar", "", 0.004, 0, 0}); }
 // Two walk past the camera, near, from frame 85 on.
 TEST(WorldsAccuracy, Dynamic) { Check({"dynamic", "", 0.015, 0, 0, 150}); }

@@ -136,6 +136,29 @@ TEST(LineMap, NeedsLinesThatAreFoundOftenEnough) {
             Length(MakeLineMap(scene.map, world.Imaging(), {})));
 }
 
+TEST(LineMap, NeedsLinesThatPassThroughTheirSegments) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const TrueMap scene = Scene(world);
+  LineMapOptions strict, lax;
+  strict.max_mean_chi2 = 0.1;
+  lax.max_mean_chi2 = 1000;
+  const double length = Length(MakeLineMap(scene.map, world.Imaging(), {}));
+  EXPECT_LT(Length(MakeLineMap(scene.map, world.Imaging(), strict)), 0.5 * length);
+  EXPECT_NEAR(Length(MakeLineMap(scene.map, world.Imaging(), lax)), length, 0.05 * length);
+}
+
+TEST(LineMap, NeedsLinesThatAreLongInTheImages) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const TrueMap scene = Scene(world);
+  LineMapOptions strict, none;
+  strict.min_mean_length_px = 120;
+  none.min_mean_length_px = 1000;
+  const double length = Length(MakeLineMap(scene.map, world.Imaging(), {}));
+  EXPECT_LT(Length(MakeLineMap(scene.map, world.Imaging(), strict)), 0.9 * length);
+  EXPECT_GT(Length(MakeLineMap(scene.map, world.Imaging(), strict)), 0);
+  EXPECT_EQ(Length(MakeLineMap(scene.map, world.Imaging(), none)), 0);
+}
+
 // At any scale: a map of one camera has its own unit.
 TEST(LineMap, DoesNotDependOnTheUnit) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 60);
