@@ -55,7 +55,11 @@ THIRD_PARTY = {
     "yaml-cpp/": r"(base|io)/\w+\.cc",
 }
 # Headers of the library that bring a heavy third-party header along: for .cc files only.
-HEAVY_HEADERS = {"plumbline/image/opencv_bridge.h", "plumbline/optimization/ceres_terms.h"}
+HEAVY_HEADERS = {
+    "plumbline/image/opencv_bridge.h",
+    "plumbline/optimization/ceres_manifolds.h",
+    "plumbline/optimization/ceres_terms.h",
+}
 
 INCLUDE = re.compile(r'\s*#\s*include\s+["<]([^">]+)[">]')
 MODULE = re.compile(r"plumbline_module\(\s*NAME\s+(\w+)(.*?)\)", re.DOTALL)

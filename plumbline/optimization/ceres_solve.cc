@@ -3,6 +3,7 @@
 #include "plumbline/optimization/ceres_solve.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/optimization/ceres_manifolds.h"
 #include "plumbline/optimization/ceres_terms.h"
 #include "plumbline/optimization/line_ends.h"
 

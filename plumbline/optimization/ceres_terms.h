@@ -8,93 +8,15 @@
 #include "plumbline/optimization/line_parametrization.h"
 #include "plumbline/optimization/problem.h"
 
-#include <algorithm>
 #include <memory>
 
 #include <ceres/cost_function.h>
-#include <ceres/manifold.h>
 
 // The residuals of this module as Ceres terms: the reference our own solvers are tested and
 // measured against. In a library of its own (plumbline::ceres_reference), so that nothing else
-// needs Ceres.
+// needs Ceres. Poses and lines move as ceres_manifolds.h says.
 
 namespace plumbline {
-
-// Rigid3 as seven numbers [qx qy qz qw tx ty tz]; Plus(x, delta) = exp(delta) x, delta = [w, v].
-class LeftRigid3Manifold : public ceres::Manifold {
- public:
-  int AmbientSize() const override { return 7; }
-  int TangentSize() const override { return 6; }
-  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
-  bool PlusJacobian(const double* x, double* jacobian) const override;
-  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
-  bool MinusJacobian(const double* x, double* jacobian) const override;
-};
-
-// OrthonormalLine as six numbers [qx qy qz qw w1 w2]; Plus is Retract().
-class OrthonormalLineManifold : public ceres::Manifold {
- public:
-  int AmbientSize() const override { return 6; }
-  int TangentSize() const override { return 4; }
-  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
-  bool PlusJacobian(const double* x, double* jacobian) const override;
-  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
-  bool MinusJacobian(const double* x, double* jacobian) const override;
-};
-
-// The same numbers; Plus is RetractLeft().
-class LeftOrthonormalLineManifold : public ceres::Manifold {
- public:
-  int AmbientSize() const override { return 6; }
-  int TangentSize() const override { return 4; }
-  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
-  bool PlusJacobian(const double* x, double* jacobian) const override;
-  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
-  bool MinusJacobian(const double* x, double* jacobian) const override;
-};
-
-// The manifold for terms that write derivatives with respect to the tangent into the first columns
-// of their Jacobian and zeros into the others: Ceres multiplies with [I; 0], instead of terms and
-// manifold computing two factors whose product is the tangent's derivative again.
-template <class Base>
-class TangentManifold final : public Base {
- public:
-  bool PlusJacobian(const double*, double* jacobian) const override {
-    return SetIdentity(this->TangentSize(), jacobian);
-  }
-  bool MinusJacobian(const double*, double* jacobian) const override {
-    return SetIdentity(this->AmbientSize(), jacobian);
-  }
-
- private:
-  // Row major, ones where row = column.
-  bool SetIdentity(int columns, double* jacobian) const {
-    std::fill_n(jacobian, this->AmbientSize() * this->TangentSize(), 0.0);
-    for (int i = 0; i < this->TangentSize(); ++i) jacobian[i * columns + i] = 1;
-    return true;
-  }
-};
-
-// TangentManifold<OrthonormalLineManifold> with RetractStraight() as Plus, as our own solver moves
-// lines. For solving only: Minus is the inverse to first order.
-class StraightLineManifold final : public ceres::Manifold {
- public:
-  int AmbientSize() const override { return 6; }
-  int TangentSize() const override { return 4; }
-  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
-  bool PlusJacobian(const double* x, double* jacobian) const override {
-    return tangent_.PlusJacobian(x, jacobian);
-  }
-  bool Minus(const double* y, const double* x, double* y_minus_x) const override {
-    return tangent_.Minus(y, x, y_minus_x);
-  }
-  bool MinusJacobian(const double* x, double* jacobian) const override {
-    return tangent_.MinusJacobian(x, jacobian);
-  }
-
- private:
-  TangentManifold<OrthonormalLineManifold> tangent_;
-};
 
 // Cost of one observation. Parameter blocks: pose (7) and point (3).
 std::unique_ptr<ceres::CostFunction> MakePointCost(const RectifiedCamera& camera,

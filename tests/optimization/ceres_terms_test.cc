@@ -2,106 +2,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_terms.h"
 
+#include "plumbline/optimization/ceres_manifolds.h"
 #include "plumbline/optimization/projected_ends.h"
 
+#include "tests/optimization/ceres_numbers.h"
 #include "tests/optimization/random_scene.h"
 #include <array>
 
-#include <ceres/manifold_test_utils.h>
 #include <gtest/gtest.h>
 
 namespace plumbline {
 namespace {
 
-using namespace ceres;  // NOLINT: the macro for manifolds uses unqualified names
+using Eigen::VectorXd;
 using plumbline::testing::AddNoise;
+using plumbline::testing::LineNumbers;
 using plumbline::testing::MeasureLine;
 using plumbline::testing::MeasurePoint;
+using plumbline::testing::PoseNumbers;
 using plumbline::testing::Random;
 using plumbline::testing::StereoCamera;
 
-Vector PoseNumbers(const Rigid3& pose) {
-  Vector x(7);
-  x << pose.rotation.coeffs(), pose.translation;
-  return x;
-}
-
-Vector LineNumbers(const OrthonormalLine& line) {
-  Vector x(6);
-  x << line.U.coeffs(), line.w;
-  return x;
-}
-
-OrthonormalLine RandomLine(Random& random) {
-  return ToOrthonormal(LineThroughPoints(random.NormalVector(2), random.NormalVector(2)));
-}
-
-// q and -q are one rotation; the invariants compare numbers, so y is written on the side of x.
-Vector OnTheSideOf(const Vector& x, Vector y) {
-  if (x.head<4>().dot(y.head<4>()) < 0) y.head<4>() *= -1;
-  return y;
-}
-
-TEST(LeftRigid3Manifold, ObeysTheInvariantsOfManifolds) {
-  Random random(1);
-  const LeftRigid3Manifold manifold;
-  for (int i = 0; i < 20; ++i) {
-    const Vector x = PoseNumbers(ExpSe3(random.Twist(1, 3)));
-    const Vector y = OnTheSideOf(x, PoseNumbers(ExpSe3(random.Twist(1, 3))));
-    const Vector delta = random.Twist(0.4, 1);
-    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-6);
-  }
-}
-
-TEST(LeftRigid3Manifold, PlusIsTheLeftPerturbation) {
-  Random random(2);
-  const Rigid3 pose = ExpSe3(random.Twist(1, 3));
-  const Vector6d delta = random.Twist(0.3, 1);
-  Vector out(7);
-  LeftRigid3Manifold().Plus(PoseNumbers(pose).data(), delta.data(), out.data());
-  EXPECT_LT((out - PoseNumbers(RetractLeft(pose, delta))).norm(), 1e-14);
-}
-
-TEST(OrthonormalLineManifold, ObeysTheInvariantsOfManifolds) {
-  Random random(3);
-  const OrthonormalLineManifold manifold;
-  for (int i = 0; i < 20; ++i) {
-    const Vector x = LineNumbers(RandomLine(random));
-    const Vector y = OnTheSideOf(x, LineNumbers(RandomLine(random)));
-    Vector delta(4);
-    delta << random.NormalVector(0.3), random.Normal(0.3);
-    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-6);
-  }
-}
+// As Ceres writes derivatives.
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Residuals and derivatives in the tangent space of a cost of pose and landmark.
-TEST(LeftOrthonormalLineManifold, ObeysTheInvariantsOfManifolds) {
-  Random random(7);
-  const LeftOrthonormalLineManifold manifold;
-  for (int i = 0; i < 20; ++i) {
-    const Vector x = LineNumbers(RandomLine(random));
-    const Vector y = OnTheSideOf(x, LineNumbers(RandomLine(random)));
-    Vector delta(4);
-    delta << random.NormalVector(0.3), random.Normal(0.3);
-    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-6);
-  }
-}
-
 struct Evaluation {
-  Vector r;
+  VectorXd r;
   Matrix J_pose, J_landmark;
 };
 
 Evaluation Evaluate(const ceres::CostFunction& cost,
-                    const Vector& pose,
-                    const Vector& landmark,
+                    const VectorXd& pose,
+                    const VectorXd& landmark,
                     const ceres::Manifold& pose_manifold,
                     const ceres::Manifold& landmark_manifold) {
   const int rows = cost.num_residuals();
   const auto size = static_cast<int>(landmark.size());
   Matrix J_pose(rows, 7);
   Matrix J_landmark(rows, size);
-  Evaluation out{Vector(rows), Matrix(rows, 6), Matrix(rows, landmark_manifold.TangentSize())};
+  Evaluation out{VectorXd(rows), Matrix(rows, 6), Matrix(rows, landmark_manifold.TangentSize())};
   const std::array<const double*, 2> x{pose.data(), landmark.data()};
   std::array<double*, 2> jacobians{J_pose.data(), J_landmark.data()};
   EXPECT_TRUE(cost.Evaluate(x.data(), out.r.data(), jacobians.data()));
@@ -125,7 +65,7 @@ TEST(CeresTerms, AnalyticDerivativesOfPointsAgreeWithAutomaticOnes) {
   const RectifiedCamera camera = StereoCamera();
   for (int i = 0; i < 20; ++i) {
     const Rigid3 pose = ExpSe3(random.Twist(0.5, 2));
-    const Vector point = Inverse(pose) * random.PointInView(camera);
+    const VectorXd point = Inverse(pose) * random.PointInView(camera);
     auto m = MeasurePoint(camera, pose, point, i % 2 == 0, 0.8);
     AddNoise(random, 3, m);
     const auto analytic = MakePointCost(camera, m, CeresDerivatives::kAnalytic);
@@ -159,7 +99,7 @@ TEST(CeresTerms, AnalyticDerivativesOfPluckerLinesAgreeWithAutomaticOnes) {
   const auto lines = LineParametrization::kPlucker;
   for (int i = 0; i < 20; ++i) {
     const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
-    const Vector line =
+    const VectorXd line =
         LineNumbers(ToOrthonormal(LineThroughPoints(s.segment.start, s.segment.end)));
     const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
     const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
@@ -175,7 +115,7 @@ TEST(CeresTerms, AnalyticDerivativesOfLeftPluckerLinesAgreeWithAutomaticOnes) {
   const auto lines = LineParametrization::kPluckerLeft;
   for (int i = 0; i < 20; ++i) {
     const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
-    const Vector line =
+    const VectorXd line =
         LineNumbers(ToOrthonormal(LineThroughPoints(s.segment.start, s.segment.end)));
     const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
     const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
@@ -210,7 +150,7 @@ TEST(CeresTerms, AnalyticDerivativesOfEndPointsAgreeWithAutomaticOnes) {
   const auto lines = LineParametrization::kEndpoints;
   for (int i = 0; i < 20; ++i) {
     const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
-    Vector ends(6);
+    VectorXd ends(6);
     ends << s.segment.start, s.segment.end;
     const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
     const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
