@@ -15,7 +15,9 @@ int main(int argc, char** argv) {
     if (auto frame = dataset->Read(i)) system.Process(*frame);
   }
   system.Finish();
-  for (const auto& pose : system.FinalTrajectory(plumbline::MapId{0})) {
+  const auto map = system.MainMap();
+  if (!map) return 1;
+  for (const auto& pose : system.FinalTrajectory(*map)) {
     std::cout << pose.stamp_ns << ' ' << pose.world_from_camera.translation.transpose() << '\n';
   }
 }

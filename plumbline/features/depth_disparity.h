@@ -50,7 +50,7 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, DepthDisparityOptions& o) {
   visit("min_depth_m", o.min_depth_m, "nearest depth used [m]", Range{0, 100});
   visit("max_depth_m", o.max_depth_m, "farthest depth used [m]", Range{0.1, 1000});
-  visit("depth_sigma_a", o.depth_sigma_a, "constant part of the depth noise [m]", Range{0, 1});
+  visit("depth_sigma_a", o.depth_sigma_a, "constant part of the depth noise [m]", Range{1e-6, 1});
   visit("depth_sigma_b", o.depth_sigma_b, "quadratic part of the depth noise [1/m]", Range{0, 1});
   visit("max_relative_step",
         o.max_relative_step,

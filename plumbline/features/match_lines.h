@@ -43,7 +43,7 @@ struct StereoLineOptions {
   double max_angle_deg = 30;
   double min_overlap = 0.5;     // common rows (columns for flat lines) / the shorter of the two
   double min_depth_m = 0.25;    // gives the largest disparity
-  double flat_angle_deg = 5;    // lines flatter than this against the rows give no depth
+  double flat_angle_deg = 5;    // lines flatter than this against the rows are matched across
   double max_row_error_px = 2;  // flat lines: distance across
 };
 
@@ -71,20 +71,6 @@ std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
                                                    double flat_angle_deg = 5);
 
 template <class Visitor>
-void VisitFields(Visitor&& visit, LineMatchOptions& o) {
-  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
-  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
-  visit("mutual", o.mutual, "require both to be each other's best match");
-  visit("max_angle_deg", o.max_angle_deg, "largest difference of directions [deg]", Range{0, 180});
-  visit("max_offset_px", o.max_offset_px, "largest distance across the line [px]", Range{0, 10000});
-  visit("max_shift_px",
-        o.max_shift_px,
-        "largest gap between the midpoints, 0: no test [px]",
-        Range{0, 10000});
-  visit("min_length_ratio", o.min_length_ratio, "smallest ratio of lengths", Range{0, 1});
-}
-
-template <class Visitor>
 void VisitFields(Visitor&& visit, StereoLineOptions& o) {
   visit("calibration_sigma",
         o.calibration_sigma,
@@ -98,7 +84,7 @@ void VisitFields(Visitor&& visit, StereoLineOptions& o) {
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
   visit("flat_angle_deg",
         o.flat_angle_deg,
-        "angle to the rows below which a line has no depth [deg]",
+        "angle to the rows below which a line is matched by its place across the rows [deg]",
         Range{0, 45});
   visit("max_row_error_px",
         o.max_row_error_px,

@@ -67,22 +67,6 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
                                                         const StereoPointOptions& options);
 
 template <class Visitor>
-void VisitFields(Visitor&& visit, PointMatchOptions& o) {
-  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
-  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
-  visit("mutual", o.mutual, "require both to be each other's best match");
-  visit("radius_px",
-        o.radius_px,
-        "half width of the search window, 0: whole image [px]",
-        Range{0, 10000});
-  visit("max_octave_step", o.max_octave_step, "largest difference of octaves", Range{0, 32});
-  visit("max_angle_deg",
-        o.max_angle_deg,
-        "largest difference of orientations, 0: no test [deg]",
-        Range{0, 180});
-}
-
-template <class Visitor>
 void VisitFields(Visitor&& visit, StereoPointOptions& o) {
   visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
   visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});

@@ -33,8 +33,6 @@ class FrameWindow {
   int Add(const InitializationFrame& frame);
   // Makes the frame halfway to the newest the reference and matches those after it anew.
   void MoveReference();
-  // Leaves out the newest frame.
-  void DropNewest() { frames_.pop_back(); }
 
   // `count` frames spread evenly since the reference, the newest last (first paper: the subsequent
   // frames, which at video rate have not moved yet). At most size().

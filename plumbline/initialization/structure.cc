@@ -8,6 +8,7 @@
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <array>
@@ -26,14 +27,6 @@ constexpr double kDepthMargin = 2;
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-// 95 % of chi2 (Wilson and Hilferty 1931; within 3 % from one degree of freedom on).
-double Chi2Limit(int degrees) {
-  if (degrees == 1) return 3.841;
-  const double part = 2.0 / (9 * degrees);
-  const double root = 1 - part + 1.6449 * std::sqrt(part);
-  return degrees * root * root * root;
-}
-
 const Features& FeaturesOf(const InitialView& view) { return view.frame.indexed->features; }
 
 std::optional<InitialPoint> BuildPoint(const RectifiedCamera& camera,
@@ -49,7 +42,7 @@ std::optional<InitialPoint> BuildPoint(const RectifiedCamera& camera,
   }
   const auto point =
       TriangulatePoint(camera, measured, {.min_parallax = options.min_parallax_deg * kDegree});
-  if (!point || point->chi2 > Chi2Limit(point->residuals - 3)) return std::nullopt;
+  if (!point || point->chi2 > Chi2Limit95(point->residuals - 3)) return std::nullopt;
   const PointEstimate in_camera = Transform(measured.front().cam_from_world, point->point);
   const double depth = in_camera.position.z();
   if (std::sqrt(in_camera.covariance(2, 2)) > options.max_relative_sigma * depth) {

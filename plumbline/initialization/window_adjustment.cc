@@ -14,9 +14,6 @@
 namespace plumbline {
 namespace {
 
-// The squared length of an error in two coordinates has its median at 2 ln 2 variances.
-constexpr double kMedianChi2 = 1.3863;
-
 double Chi2(const Rigid3& pose,
             const Eigen::Vector3d& point,
             const Eigen::Vector2d& seen,
@@ -61,13 +58,11 @@ bool IsSeen(const WindowTracks& tracks, std::size_t k) {
 
 WindowFit Evaluate(const WindowTracks& tracks, const WindowSolution& solution, double max_chi2) {
   WindowFit fit;
-  std::vector<double> errors;
   int parameters = static_cast<int>(6 * tracks.views.size()) - 1;
   const auto add = [&](double chi2) {
     fit.cost += std::min(chi2, max_chi2);
     ++fit.measurements;
     fit.inliers += chi2 < max_chi2 ? 1 : 0;
-    errors.push_back(chi2);
   };
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     if (!IsSeen(tracks, k)) continue;

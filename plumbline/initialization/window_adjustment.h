@@ -15,8 +15,8 @@ struct WindowFit {
   double cost = 0;
   int measurements = 0;  // that are summed, two coordinates each
   int inliers = 0;       // of them within max_chi2
-  // Of a measurement, in the standard deviation assumed: by the median of the errors, which are
-  // smaller than the noise since the parameters follow it.
+  // Of a measurement, in the standard deviation assumed: root of `cost` over the degrees of freedom
+  // that the parameters leave.
   double noise = 0;
 };
 

@@ -93,7 +93,7 @@ MapEdit AdjustWholeMap(const Map& map,
       MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
   BaProblem problem = whole.problem;  // held poses are free in `whole`: a new scale is for all
   BaResult result = SolveWithLoosePosesHeld(
-      problem, options.ba, LineParametrization::kPlucker, options.window.max_pose_sigma);
+      problem, options.ba, lines.parametrization, options.window.max_pose_sigma);
   if (result.termination == BaTermination::kNotFinite) return {};
   KeepScale(whole.problem, result);
   MapEdit edit = PosesAndPointsOf(whole, result);

@@ -81,6 +81,11 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   return times;
 }
 
+void LocalMapper::StartNewMap(Map& map) {
+  young_ = {};
+  map.Apply({edit::CorrectStereo{calibrator_.Estimate()}});
+}
+
 std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFrameId newest) {
   std::vector<MappingStep> times;
   Timed("take_in", times, [&] {

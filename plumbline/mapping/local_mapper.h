@@ -44,8 +44,9 @@ class LocalMapper {
   // Adjusts the whole of a map to which nothing will be added (AdjustWholeMap). Times as Add's.
   std::vector<MappingStep> Finish(Map& map) const;
 
-  // Forgets what belongs to the map worked on so far.
-  void StartNewMap() { young_ = {}; }
+  // Forgets what belongs to the map worked on so far; a new, empty map begins with what was learned
+  // of the camera.
+  void StartNewMap(Map& map);
 
   // Of all maps so far.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }

@@ -5,6 +5,7 @@
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <array>
@@ -118,7 +119,7 @@ class PairSearch {
     const std::array<PointView, 2> views{View(a_, i), View(b_, j)};
     const auto result = TriangulatePoint(
         camera_, views, {.min_parallax = options_.min_parallax_deg * std::numbers::pi / 180});
-    if (!result || result->chi2 > Chi2Limit(result->residuals - 3)) return std::nullopt;
+    if (!result || result->chi2 > Chi2Limit95(result->residuals - 3)) return std::nullopt;
     const Eigen::Vector3d& position = result->point.position;
     const double distance_a = (a_.cam_from_world * position).norm();
     const double distance_b = (b_.cam_from_world * position).norm();
@@ -133,9 +134,6 @@ class PairSearch {
     return {
         frame.cam_from_world, feature.px, feature.sigma_px, frame.features().point_disparity[i]};
   }
-
-  // 95 % of chi2 with 1, 2, 3 degrees of freedom.
-  static double Chi2Limit(int degrees) { return degrees <= 1 ? 3.84 : degrees == 2 ? 5.99 : 7.81; }
 
   const RectifiedCamera& camera_;
   const Frame& a_;

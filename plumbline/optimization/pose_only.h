@@ -43,16 +43,17 @@ void VisitFields(Visitor&& visit, PoseOnlyOptions& o) {
 
 struct PoseOnlyResult {
   Rigid3 cam_from_world;
-  // J^T W J of the inliers at the solution, for the left perturbation [rotation, translation].
+  // J^T W J of the inliers and the prior at the solution, for the left perturbation [rotation,
+  // translation].
   Matrix6d information = Matrix6d::Zero();
   std::vector<bool> point_inliers;  // one per PoseProblem::points
   std::vector<bool> line_inliers;   // one per PoseProblem::lines; equal within a group
   int inlier_points = 0;
   int inlier_line_groups = 0;
-  double cost = 0;     // half the sum of squared whitened residuals of the inliers
+  double cost = 0;     // half the sum of squared whitened residuals of inliers and prior
   int iterations = 0;  // over all rounds
-  // The last round met a tolerance, and the inliers fix all six degrees of freedom. When false, the
-  // pose is the best one found; it is finite if the input is.
+  // The last round met a tolerance, and inliers and prior fix all six degrees of freedom. When
+  // false, the pose is the best one found; it is finite if the input is.
   bool converged = false;
 };
 

@@ -111,7 +111,7 @@ std::vector<MappingStep> MappingStage::TakeTimes() {
 void MappingStage::WaitFor(std::int64_t task) {
   std::unique_lock lock(mutex_);
   if (mode_ == RunMode::kInline) {
-    while (Done() < task) DoNext(lock);
+    while (!failure_ && Done() < task) TryNext(lock);
   } else {
     task_done_.wait(lock, [&] { return failure_ != nullptr || Done() >= task; });
   }
@@ -124,15 +124,19 @@ void MappingStage::WorkUntilStopped() {
   while (true) {
     task_added_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
     if (stop_) return;
-    try {
-      DoNext(lock);
-    } catch (...) {  // rethrown in the tracker's thread
-      lock.lock();
-      failure_ = std::current_exception();
-      task_done_.notify_all();
-      return;
-    }
+    TryNext(lock);
     task_done_.notify_all();
+    if (failure_) return;
+  }
+}
+
+// What it throws is kept for WaitFor, which the tracker's thread calls.
+void MappingStage::TryNext(std::unique_lock<std::mutex>& lock) {
+  try {
+    DoNext(lock);
+  } catch (...) {
+    lock.lock();
+    failure_ = std::current_exception();
   }
 }
 
@@ -142,8 +146,8 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   tasks_.pop_front();
   lock.unlock();
   if (task.starts_map) {
-    mapper_.StartNewMap();
     maps_.emplace_back(MapId{static_cast<std::int64_t>(maps_.size())});
+    mapper_.StartNewMap(maps_.back());
   }
   Map& map = maps_.back();
   KeyFrameId newest;

@@ -87,6 +87,7 @@ class MappingStage {
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
   void CheckComplete() const;
+  void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);
   std::int64_t Done() const { return versions_.empty() ? 0 : versions_.back().task; }
 

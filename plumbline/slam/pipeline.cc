@@ -53,7 +53,7 @@ void Pipeline::Hand(Job job) {
   std::unique_lock lock(mutex_);
   if (mode_ == RunMode::kLockstep) {
     job_taken_.wait(lock, [&] { return failure_ || Waiting() < kMaxWaiting; });
-  } else if (Waiting() == kMaxWaiting) {
+  } else if (job.reason.empty() && Waiting() == kMaxWaiting) {
     DropOldest();
   }
   RethrowFailure();

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 
 #include <map>
+#include <string>
 #include <utility>
 
 namespace plumbline {
@@ -60,6 +61,10 @@ const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason
 const FrameRecord& System::Process(SensorFrame frame) { return Track(Measure(std::move(frame))); }
 
 const FrameRecord& System::Track(MeasuredFrame measured) {
+  if (!frames_.empty() && measured.stamp_ns <= frames_.back().stamp_ns) {
+    throw InputError("expected a frame after " + std::to_string(frames_.back().stamp_ns) +
+                     " ns, found one of " + std::to_string(measured.stamp_ns) + " ns");
+  }
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
   record.stamp_ns = measured.stamp_ns;
@@ -158,6 +163,7 @@ std::vector<StageTime> System::TakeMappingTimes() {
 
 void System::Finish() {
   mapping_.Finish();
+  line_maps_.clear();
   const std::vector<StageTime> times = TakeMappingTimes();
   if (!frames_.empty()) {
     frames_.back().times.insert(frames_.back().times.end(), times.begin(), times.end());

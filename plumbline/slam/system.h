@@ -69,7 +69,8 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  // Measure and Track. Throws InputError when an image has another size than the calibration says.
+  // Measure and Track. Throws InputError when an image has another size than the calibration says,
+  // or the frame is no later than the one before.
   const FrameRecord& Process(SensorFrame frame);
   // What can be done ahead, in another thread than the rest; see FrontEnd.
   MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}) const {

@@ -55,11 +55,12 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         o.min_unpredicted_inliers,
         "the same without a predicted pose to search from",
         Range{4, 1000});
-  visit("max_pose_sigma",
-        o.max_pose_sigma,
-        "deviation to which they must fix it: rotation [rad] and translation relative to the depth "
-        "of the scene",
-        Range{1e-6, 10});
+  visit(
+      "max_pose_sigma",
+      o.max_pose_sigma,
+      "deviation to which they, and the motion before, must fix it: rotation [rad] and translation "
+      "relative to the depth of the scene",
+      Range{1e-6, 10});
   visit("enough_pose_sigma",
         o.enough_pose_sigma,
         "the same, from which on no landmarks of more uncertain depth are searched",

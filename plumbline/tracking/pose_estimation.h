@@ -22,7 +22,7 @@ struct PoseEstimate {
   bool converged = false;
 
   int Inliers() const { return inlier_points + inlier_lines; }
-  // Enough inliers agree, and what they say fixes all six degrees of freedom.
+  // Enough inliers agree, and they and the prior fix all six degrees of freedom.
   bool Accepted(int min_inliers, double max_sigma) const {
     return Inliers() >= min_inliers && converged && sigma.AtMost(max_sigma);
   }

@@ -118,7 +118,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   frame.cam_from_world = first_cam_from_world_;
   scores_ = {};
   TrackingResult result;
-  result.keyframe = MakeKeyFrame(frame, KeyFrameId{}, KeyFrameReason::kNone);
+  result.keyframe = MakeKeyFrame(frame, KeyFrameId{});
   result.starts_map = true;
   result.cam_from_world = frame.cam_from_world;
   result.frame = frame;
@@ -167,14 +167,14 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   PosePrior predicted = Predict(last_pose, seconds);
   auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, association);
   if (!first) {
-    predicted.information.setZero();
+    predicted = PosePrior{last_pose};
     first = search_.FromAppearance(frame, *last_, snapshot, association, result.counts);
   }
   if (!first) {
     const int matches = result.counts.matched_points + result.counts.matched_lines;
     return Fail(std::move(frame),
-                matches < options_.min_inliers ? TrackingFailure::kTooFewMatches
-                                               : TrackingFailure::kTooFewInliers,
+                matches < options_.min_unpredicted_inliers ? TrackingFailure::kTooFewMatches
+                                                           : TrackingFailure::kTooFewInliers,
                 result.counts);
   }
   const bool odometry = options_.reference == TrackingReference::kLastFrame;
@@ -212,7 +212,7 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
     reason = DecideKeyFrame(situation, options_.keyframes);
   }
   if (reason != KeyFrameReason::kNone) {
-    result.keyframe = MakeKeyFrame(frame, snapshot.centre, reason);
+    result.keyframe = MakeKeyFrame(frame, snapshot.centre);
     result.reference = newest_keyframe_;
     result.cam_from_reference = Rigid3{};
   }
@@ -286,12 +286,12 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   return result;
 }
 
-NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame, KeyFrameId parent, KeyFrameReason reason) {
+NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame, KeyFrameId parent) {
   newest_keyframe_ = next_keyframe_;
   next_keyframe_ = KeyFrameId{next_keyframe_.value + 1};
   frames_since_keyframe_ = 0;
   if (trial_keyframes_ > 0) --trial_keyframes_;
-  return {{newest_keyframe_, parent, frame}, reason, std::exchange(scores_, {})};
+  return {{newest_keyframe_, parent, frame}, std::exchange(scores_, {})};
 }
 
 }  // namespace plumbline

@@ -47,7 +47,6 @@ TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int n
 
 struct NewKeyFrame {
   KeyFrame keyframe;
-  KeyFrameReason reason = KeyFrameReason::kNone;  // kNone: the first of a map
   TrackingScores scores;
 };
 
@@ -116,7 +115,7 @@ class Tracker {
                               const FrameAssociation& association,
                               const MapSnapshot& snapshot) const;
   TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
-  NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, KeyFrameReason reason);
+  NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent);
 
   TrackingOptions options_;
   PoseSearch search_;
