@@ -104,7 +104,6 @@ double NoiseOf(const std::vector<RayMatch>& matches, const RelativePoseHypothesi
   return std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
 }
 
-// The same matches with the noise that they turned out to have.
 // Of the depths of all points of the tracks; those without count as unknown.
 double MedianDepthSigma(const WindowCovariance& covariance) {
   std::vector<double> sigmas = covariance.relative_depth_sigmas;
