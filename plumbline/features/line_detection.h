@@ -28,7 +28,7 @@ struct LineDetectionOptions {
 };
 
 // Straight edges of an image, directed with the bright side on the left (see LineFeature), without
-// descriptors; at most `count`, longest and strongest first choice but spread over the image.
+// descriptors; at most `count`, the best by length and contrast, spread over the image.
 //
 // Segments as raw_segments.h finds them. Collinear pieces of like contrast sign are joined over
 // small gaps. Each segment is fitted again, robustly, to the sub-pixel maxima of the directional

@@ -20,11 +20,11 @@ struct SegmentDrawingLimits {
 // segments), strongest first. From an anchor the edge is followed both ways, one column (row, for
 // steep edges) at a time: the next edge point is the sub-pixel maximum of the gradient across the
 // line next to where the line fitted to the points so far predicts it. Points whose gradient is
-// turned by more than 22.5 degrees are missed; the walk ends after too many of those in a row,
-// where the edge bends, and at edges drawn before. The idea of fitting while drawing, with jumps
-// over gaps, is that of ELSED (Suarez et al., Pattern Recognition 127, 2022), of edge drawing that
-// of Topal and Akinlar (2012); searching along the predicted line instead of from pixel to pixel is
-// ours: docs/methods/line-front-end.md.
+// turned by more than 22.5 degrees or that belong to an edge drawn before are missed; the walk ends
+// where more are missed than a quarter of the points, or than 8, and where the edge bends. The idea
+// of fitting while drawing, with jumps over gaps, is that of ELSED (Suarez et al., Pattern
+// Recognition 127, 2022), of edge drawing that of Topal and Akinlar (2012); searching along the
+// predicted line instead of from pixel to pixel is ours: docs/methods/line-front-end.md.
 //
 // `gradient` should be that of a smoothed image (sigma about 1). Cost: about 1 ms for 752x480.
 std::vector<Segment2> DrawSegments(const GradientImage& gradient,

@@ -39,7 +39,7 @@ struct PointFeature {
 struct LineFeature {
   Segment2 segment;
   double sigma_px = 1;  // standard deviation of each end point across the line
-  double response = 0;  // mean gradient magnitude along the line
+  double response = 0;  // mean gradient across the line, grey levels per pixel
   int octave = 0;
   Descriptor descriptor{};
 };

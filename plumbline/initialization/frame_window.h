@@ -39,7 +39,7 @@ class FrameWindow {
   std::vector<int> Spread(int count) const;
 
   // What the frames show of the reference's points: at most `max_points` of them, spread over the
-  // image, those that most frames show first.
+  // image, those first that the newest frame shows, then those that most frames show.
   WindowTracks TracksOf(const std::vector<int>& frames, int max_points) const;
 
   // The same as features of views, the reference being view 0: points and lines seen at least

@@ -15,16 +15,16 @@ struct WindowFit {
   double cost = 0;
   int measurements = 0;  // that are summed, two coordinates each
   int inliers = 0;       // of them within max_chi2
-  // Of a measurement, in the standard deviation assumed: root of `cost` over the degrees of freedom
-  // that the parameters leave.
+  // Of a measurement, in the standard deviation assumed: the root mean square of the errors, each
+  // limited as in `cost`, over the degrees of freedom that the parameters leave.
   double noise = 0;
 };
 
 //   max_chi2  in variances as assumed
 WindowFit Evaluate(const WindowTracks& tracks, const WindowSolution& solution, double max_chi2);
 
-// A short joint bundle adjustment of all frames and points on the matches alone (interpolated
-// places are not measurements). The reference and, by damping, the unit stay.
+// A short joint bundle adjustment of all frames, points and lines that have a place on the matches
+// alone (interpolated places are not measurements). The reference and, by damping, the unit stay.
 WindowSolution AdjustWindow(const WindowTracks& tracks,
                             const WindowSolution& solution,
                             int max_iterations);

@@ -23,8 +23,9 @@ MapEdit RemoveWeakLandmarks(const Map& map,
                             const CleanupOptions& options,
                             YoungLandmarks& young);
 
-// Removes keyframes around `centre` nearly all of whose landmarks enough others show at the same or
-// a finer scale. The first keyframe, `centre` and the newest before it stay.
+// Removes one keyframe, or none: the first of those around `centre`, closest in covisibility,
+// nearly all of whose landmarks (of those that any other shows) enough others show, points at most
+// an octave coarser. The first keyframe, `centre` and the newest before it stay.
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
 
 }  // namespace plumbline

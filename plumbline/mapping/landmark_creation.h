@@ -27,8 +27,8 @@ MapEdit CreatePointsFromViews(const Map& map,
 
 // New lines from line features without landmark in the keyframe and in up to three of its closest
 // neighbours (section 3.3): n-view reconstruction, from two views where the views disagree or where
-// `reconstruction` says so, kept where the end points of every view lie on
-// the projected line (chi2 95 %) and the interpretation planes meet at a large enough angle.
+// `reconstruction` says so, kept where the end points of every view lie on the projected line (3
+// sigmas, TriangulateLine) and the interpretation planes meet at a large enough angle.
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,

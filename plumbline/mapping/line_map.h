@@ -31,10 +31,12 @@ struct WellSeenLine {
 // The landmarks serve tracking, which gains from weak ones; here they are hypotheses only. One
 // after the other, the one with most observations first: all segments of all keyframes that show
 // the line are found, whatever they were matched with (LineSupportSearch), the line goes through
-// them anew, and again, three times in all; its parts are those that enough keyframes show
-// (ShownParts) and that are known well enough. A line that is kept claims its segments, so that
-// what else was made of them finds no support: this merges duplicates, and the collinear pieces of
-// one line. docs/methods/line-map.md has the figures.
+// them anew, and again, three times in all. Of its parts, those that enough keyframes show
+// (ShownParts), the stretches are kept that are known well enough, that enough of the keyframes
+// show which have them in their image, and whose segments fit and are long enough (LineMapOptions).
+// A line of which anything is kept claims its segments, so that what else was made of them finds no
+// support: this merges duplicates, and the collinear pieces of one line. docs/methods/line-map.md
+// has the figures.
 //
 //   map     in one frame with its keyframes' poses; not changed
 //   result  in the order in which the lines were made

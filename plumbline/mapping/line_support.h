@@ -40,8 +40,9 @@ class LineSupportSearch {
   LineSupportSearch(const Map& map, const ImagingModel& imaging);
 
   // Segments that run as the line does (bright side on the same side), both ends within chi2 99 %
-  // of the projected line, by their own deviation, that of the poses and that of the line, and that
-  // overlap the interval by a quarter of the shorter of the two. Ordered by keyframe.
+  // of the projected line, by their own deviation, that of the poses and that of the line, and
+  // within 10 px of it, and that overlap the interval by a quarter of the shorter of the two.
+  // Ordered by keyframe.
   // O(features of the keyframes that have the line in their image).
   std::vector<LineSupport> Find(const LineHypothesis& hypothesis) const;
 

@@ -28,8 +28,8 @@ struct AdjustedLines {
 };
 
 // Takes keyframes into the map, one after the other: observations, landmarks from depth and from
-// several views, duplicates, local bundle adjustment, clean-up. Each step reads the map and returns
-// a MapEdit, applied here.
+// several views, duplicates, local bundle adjustment, calibration of the stereo pair, clean-up.
+// Each step reads the map and returns a MapEdit, applied here.
 class LocalMapper {
  public:
   LocalMapper(const ImagingModel& imaging, const LineOptions& lines, const MappingOptions& options);
@@ -38,10 +38,12 @@ class LocalMapper {
   std::vector<MappingStep> Add(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
 
   // Begins a map with several keyframes and their landmarks (an edit of the empty map), of which
-  // `newest` is the last: bundle adjustment of all of it, then as Add. Times as Add's.
+  // `newest` is the last: bundle adjustment of all of it, then new landmarks of `newest`. Times as
+  // Add's.
   std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
 
-  // Adjusts the whole of a map to which nothing will be added (AdjustWholeMap). Times as Add's.
+  // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap). Times as
+  // Add's.
   std::vector<MappingStep> Finish(Map& map) const;
 
   // Forgets what belongs to the map worked on so far; a new, empty map begins with what was learned

@@ -14,7 +14,7 @@ struct LandmarkCreationOptions {
   int min_depth_points = 100;               // ... but at least so many, the best known first ...
   double worst_relative_depth_sigma = 0.3;  // ... up to this
   double max_relative_line_depth_sigma = 0.107;  // of the ends of lines from one frame
-  int neighbours = 6;                            // keyframes searched for a second view
+  int neighbours = 6;                            // keyframes searched for a second view of a point
   double min_parallax_deg = 0.3;                 // between the two views of a new point
   int max_distance = 50;                         // Hamming, of 256 bits
   double ratio = 0.8;

@@ -39,8 +39,8 @@ enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints
 // What the decision depends on, of the frame just tracked.
 struct KeyFrameSituation {
   int frames_since_keyframe = 0;
-  int shared_landmarks = 0;     // points and lines of the map that it shows like the last keyframe
-  int reference_landmarks = 0;  // well observed ones that the last keyframe shows
+  int shared_landmarks = 0;     // of the following, those that it shows, too
+  int reference_landmarks = 0;  // well observed points and lines that the last keyframe shows
   int close_tracked = 0;        // points with good disparity that show a map point
   int close_untracked = 0;      // and that show none
   bool mapping_behind = false;  // live: mapping has not finished earlier keyframes

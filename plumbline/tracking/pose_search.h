@@ -38,7 +38,7 @@ class PoseSearch {
 
   // From the landmarks that the last frame showed, and points and lines of its depths, near where
   // `predicted` puts them; of more uncertain depths where the others do not fix the pose. nullopt
-  // where no pose is accepted or two thirds of the matches disagree.
+  // where no pose is accepted that at least a third of its matches agree with.
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const PosePrior& predicted,
                                              const LastFrame& last,
@@ -57,7 +57,7 @@ class PoseSearch {
                              FrameAssociation& association,
                              FrameCounts& counts) const;
   // Searches the rest of the snapshot from the first estimate; `expected` are the landmarks that
-  // should be visible from there.
+  // should be visible from there. Established landmarks are not outvoted.
   PoseEstimate WithLocalMap(const Frame& frame,
                             const PoseEstimate& first,
                             const PosePrior& prior,

@@ -32,7 +32,7 @@ enum class TrackingFailure {
   kTooFewFeatures,    // to start a map
   kTooFewMatches,     // landmarks found in the image
   kTooFewInliers,     // of them agree on a pose
-  kPoseNotObservable  // the inliers do not fix all six degrees of freedom
+  kPoseNotObservable  // the inliers do not fix the pose to tracking.max_pose_sigma
 };
 constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
   return std::array{std::pair{TrackingFailure::kNone, ""},
