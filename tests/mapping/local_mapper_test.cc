@@ -27,10 +27,19 @@ class MapperRun {
     KeyFrame keyframe{id,
                       KeyFrameId{id.value - 1},
                       MakeFrame(FrameId{path_frame}, ExpSe3(twist) * truth_[id], sensed)};
+    if (displaced_) Displace(keyframe.frame);
     sensed_[id] = sensed;
     Match(keyframe.frame, sensed);
     steps_ = mapper_.Add(map_, keyframe, {});
     map_.CheckInvariants();
+  }
+
+  // The right images of keyframes to come are displaced.
+  void DisplaceRightImages() { displaced_ = true; }
+  StereoCorrection CorrectionOfNewMap() {
+    Map map;
+    mapper_.StartNewMap(map);
+    return map.stereo_correction();
   }
 
   const Map& map() const { return map_; }
@@ -61,6 +70,14 @@ class MapperRun {
   }
 
  private:
+  void Displace(Frame& frame) const {
+    Vector6d k;
+    k << 0.2, 0.4, -0.3, -0.8, 0.3, 0.2;
+    auto displaced = std::make_shared<IndexedFeatures>(*frame.indexed);
+    Correct({world_.camera, k}, {}, displaced->features);
+    frame.indexed = displaced;
+  }
+
   std::set<std::size_t> TruthsOf(const MapPoint& point) const {
     std::set<std::size_t> truths;
     for (const auto& [keyframe, feature] : point.observations) {
@@ -101,6 +118,7 @@ class MapperRun {
   std::map<KeyFrameId, Rigid3> truth_;
   std::vector<double> given_error_;
   std::vector<MappingStep> steps_;
+  bool displaced_ = false;
 };
 
 TEST(LocalMapper, KeepsInvariantsAndImprovesPoses) {
@@ -111,6 +129,20 @@ TEST(LocalMapper, KeepsInvariantsAndImprovesPoses) {
   EXPECT_GT(run.map().points().size(), 200U);
   EXPECT_GT(run.map().lines().size(), 20U);
   EXPECT_GT(run.Purity(), 0.98);
+}
+
+TEST(LocalMapper, BeginsNewMapsWithWhatItLearnedOfTheRightImage) {
+  MapperRun run;
+  run.DisplaceRightImages();
+  EXPECT_EQ(run.CorrectionOfNewMap(), StereoCorrection());
+  for (int k = 0; k < 12; ++k) run.Add(8 * k, 0);
+  ASSERT_NE(run.map().stereo_correction(), StereoCorrection());
+  constexpr double kSmallestChangePx = 0.02;
+  const StereoCorrection begun = run.CorrectionOfNewMap();
+  for (const double x : {0.0, 300.0, 600.0}) {
+    const Eigen::Vector2d px(x, 0.5 * x);
+    EXPECT_NEAR(begun.At(px), run.map().stereo_correction().At(px), kSmallestChangePx);
+  }
 }
 
 TEST(LocalMapper, ReportsItsStepsInOrder) {

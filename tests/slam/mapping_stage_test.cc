@@ -26,7 +26,6 @@ NewKeyFrame KeyFrameAt(const SyntheticWorld& world, std::int64_t id, std::int64_
   return {{KeyFrameId{id},
            KeyFrameId{parent},
            MakeFrame(FrameId{id}, pose, Sense(world, pose, {}, rng))},
-          KeyFrameReason::kNone,
           {}};
 }
 

@@ -132,6 +132,17 @@ TEST_F(LiveTest, FramesThatCannotBeReadTakeNoPlaceInTheQueue) {
   EXPECT_EQ(reasons_, (std::vector<std::string>{"", "", "image_unreadable", ""}));
 }
 
+TEST_F(LiveTest, FramesThatCannotBeReadDropNoWaitingFrame) {
+  pipeline_->Feed(poster_.Frame(0));
+  WaitUntilBusy();
+  pipeline_->Feed(poster_.Frame(1));
+  pipeline_->Feed(poster_.Frame(2));
+  pipeline_->Skip(MovingPoster::StampNs(3), "image_unreadable");
+  Release();
+  pipeline_->Finish();
+  EXPECT_EQ(reasons_, (std::vector<std::string>{"", "", "", "image_unreadable"}));
+}
+
 TEST_F(LiveTest, EndsWithFramesWaiting) {
   pipeline_->Feed(poster_.Frame(0));
   WaitUntilBusy();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/system.h"
 
+#include "plumbline/base/error.h"
+
 #include "tests/support/moving_poster.h"
 #include <algorithm>
 #include <vector>
@@ -45,6 +47,13 @@ TEST(System, FollowsTheCamera) {
   const Trajectory keyframes = system->KeyFrameTrajectory(*map);
   EXPECT_EQ(keyframes.front().stamp_ns, MovingPoster::StampNs(0));
   system->maps().back().CheckInvariants();
+}
+
+TEST(System, RefusesFramesThatAreNoLaterThanTheLast) {
+  const auto system = RunPoster(3);
+  EXPECT_THROW(system->Process(MovingPoster().Frame(2)), InputError);
+  EXPECT_EQ(system->frames().size(), 3U);
+  EXPECT_EQ(system->Process(MovingPoster().Frame(3)).status, FrameStatus::kTracked);
 }
 
 TEST(System, TheWorldIsTheFirstKeyFramesCameraAsDelivered) {
