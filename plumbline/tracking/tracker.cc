@@ -126,7 +126,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   state_ = NextState(state_, true, 0, options_.new_map_after);
   result.state = state_;
   lost_frames_ = 0;
-  velocity_.setZero();
+  velocity_.reset();
   spread_.reset();
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
@@ -161,29 +161,20 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   ++frames_since_keyframe_;
   const Rigid3 last_pose = LastPose(snapshot);
   last_->frame.cam_from_world = last_pose;
-  FrameAssociation association;
-  TrackingResult result;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
-  PosePrior predicted = Predict(last_pose, seconds);
-  auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, association);
-  if (!first) {
-    predicted = PosePrior{last_pose};
-    first = search_.FromAppearance(frame, *last_, snapshot, association, result.counts);
-  }
-  if (!first) {
+  TrackingResult result;
+  std::optional<Attempt> attempt = FindPose(frame, Predict(last_pose, seconds), snapshot, result);
+  if (!attempt) {
     const int matches = result.counts.matched_points + result.counts.matched_lines;
     return Fail(std::move(frame),
                 matches < options_.min_unpredicted_inliers ? TrackingFailure::kTooFewMatches
                                                            : TrackingFailure::kTooFewInliers,
                 result.counts);
   }
+  FrameAssociation& association = attempt->association;
+  const PoseEstimate& pose = attempt->pose;
   const bool odometry = options_.reference == TrackingReference::kLastFrame;
-  ExpectedLandmarks expected;
-  const PoseEstimate pose =
-      odometry ? search_.WithLastFrame(frame, *first, predicted, association, result.counts)
-               : search_.WithLocalMap(
-                     frame, *first, predicted, snapshot, association, expected, result.counts);
-  Score(expected, association);
+  Score(attempt->expected, association);
   result.counts.inlier_points = pose.inlier_points;
   result.counts.inlier_lines = pose.inlier_lines;
   if (pose.Inliers() < options_.min_inliers) {
@@ -222,6 +213,47 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   return result;
 }
 
+// From where the frame is predicted; from appearance, too, where that fails or the motion is not
+// known: a guess of no motion finds what happens to lie there. What shows more of the map is right.
+std::optional<Tracker::Attempt> Tracker::FindPose(const Frame& frame,
+                                                  const PosePrior& predicted,
+                                                  const MapSnapshot& snapshot,
+                                                  TrackingResult& result) const {
+  std::optional<Attempt> best;
+  FrameAssociation found;
+  if (const auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, found)) {
+    best = Settle(frame, *first, predicted, snapshot, std::move(found));
+  }
+  if (!best || !velocity_) {
+    FrameCounts counts;
+    const PosePrior free{last_->frame.cam_from_world};
+    const auto first = search_.FromAppearance(frame, *last_, snapshot, found, counts);
+    if (!best) result.counts = counts;
+    if (first) {
+      Attempt other = Settle(frame, *first, free, snapshot, std::move(found));
+      if (!best || other.pose.Inliers() > best->pose.Inliers()) best = std::move(other);
+    }
+  }
+  if (best) result.counts = best->counts;
+  return best;
+}
+
+// With all that the map, or the last frame, has for the frame.
+Tracker::Attempt Tracker::Settle(const Frame& frame,
+                                 const PoseEstimate& first,
+                                 const PosePrior& prior,
+                                 const MapSnapshot& snapshot,
+                                 FrameAssociation found) const {
+  Attempt attempt{std::move(found), {}, {}, {}};
+  if (options_.reference == TrackingReference::kLastFrame) {
+    attempt.pose = search_.WithLastFrame(frame, first, prior, attempt.association, attempt.counts);
+  } else {
+    attempt.pose = search_.WithLocalMap(
+        frame, first, prior, snapshot, attempt.association, attempt.expected, attempt.counts);
+  }
+  return attempt;
+}
+
 // The last frame's pose, moved with its reference keyframe by what optimization has done since.
 Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
   const auto it = snapshot.cam_from_world.find(last_->reference);
@@ -232,7 +264,7 @@ Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
 // Constant velocity; it may change by motion_sigma a second, the translation in the unit of the
 // scene's depth. The last pose adds its own covariance.
 PosePrior Tracker::Predict(const Rigid3& last_pose, double seconds) const {
-  PosePrior prior{RetractLeft(last_pose, seconds * velocity_)};
+  PosePrior prior{velocity_ ? RetractLeft(last_pose, seconds * *velocity_) : last_pose};
   if (!spread_) return prior;
   Vector6d sigma = Vector6d::Constant(options_.motion_sigma * seconds * seconds);
   sigma.tail<3>() *= spread_->scene_depth;
@@ -276,7 +308,7 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   // A map that loses the camera right after its start was a bad one more often than not.
   const int patience = trial_keyframes_ > 0 ? 1 : options_.new_map_after;
   state_ = NextState(state_, false, lost_frames_, patience);
-  velocity_.setZero();
+  velocity_.reset();
   spread_.reset();
   TrackingResult result;
   result.state = state_;

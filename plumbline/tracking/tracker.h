@@ -107,6 +107,23 @@ class Tracker {
 
   TrackingResult StartMap(Frame frame);
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind);
+  // A pose of a frame and what it was found with.
+  struct Attempt {
+    FrameAssociation association;
+    ExpectedLandmarks expected;
+    FrameCounts counts;
+    PoseEstimate pose;
+  };
+
+  std::optional<Attempt> FindPose(const Frame& frame,
+                                  const PosePrior& predicted,
+                                  const MapSnapshot& snapshot,
+                                  TrackingResult& result) const;
+  Attempt Settle(const Frame& frame,
+                 const PoseEstimate& first,
+                 const PosePrior& prior,
+                 const MapSnapshot& snapshot,
+                 FrameAssociation found) const;
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
   // No information where the velocity is not known.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;
@@ -123,7 +140,8 @@ class Tracker {
   Rigid3 first_cam_from_world_;
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<Tracked> last_;
-  Vector6d velocity_ = Vector6d::Zero();  // left tangent of the camera motion, per second
+  // Left tangent of the camera motion, per second; nullopt where it is not known.
+  std::optional<Vector6d> velocity_;
   // How well the last pose is known, where the velocity is.
   struct Spread {
     Matrix6d covariance;
