@@ -66,9 +66,10 @@ struct LineEndDisparity {
 // right line. sigma_px is the across-line noise of both lines divided by the sine of the angle
 // between line and row. nullopt when that angle is below `flat_angle_deg` or a disparity is not
 // positive.
-std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
-                                                   const RightLine& right,
-                                                   double flat_angle_deg = 5);
+std::optional<LineEndDisparity> LineEndDisparities(
+    const LineFeature& left,
+    const RightLine& right,
+    double flat_angle_deg = StereoLineOptions{}.flat_angle_deg);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoLineOptions& o) {

@@ -11,9 +11,8 @@ namespace plumbline {
 
 // The explanations of a window by its points, adjusted to points and lines together.
 //
-//  - Lines are triangulated from the poses of each explanation and join its bundle adjustment.
-//  Their
-//    noise is that of their fit to the best one, at least `min_noise` of what is said.
+//  - Lines are triangulated from the poses of each explanation and join its bundle adjustment, with
+//    the noise of their fit to the best one, at least `min_noise` of what is said.
 //  - A line speaks for an explanation when it fits every view that shows it; the cost of an
 //    explanation is that of its points and of the lines that fit any of them. Wrong matches, which
 //    fit none, do not count.

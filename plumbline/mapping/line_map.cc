@@ -94,12 +94,14 @@ double MiddleDistance(const Frame& frame, const Segment3& segment) {
 }
 
 // Infinite where the line is no line of the image.
-double Chi2(const RectifiedCamera& camera, const PluckerLine& line, const LineSupport& support) {
+double Chi2(const RectifiedCamera& camera,
+            const OrthonormalLine& line,
+            const LineSupport& support) {
   const Frame& frame = support.keyframe->frame;
   const auto residual =
       EvaluateLine(camera,
                    frame.cam_from_world,
-                   ToOrthonormal(line),
+                   line,
                    MeasureLeftLine(frame.features(), support.feature, LineWeighting::kCovariance));
   return residual ? residual->r.squaredNorm() : std::numeric_limits<double>::infinity();
 }
@@ -109,6 +111,7 @@ Sightings FindSightings(const RectifiedCamera& camera,
                         const LineInterval& part) {
   constexpr double kMinOverlap = 0.25;
   const Segment3 segment = SegmentOf(line.hypothesis.line, part);
+  const OrthonormalLine orthonormal = ToOrthonormal(line.hypothesis.line);
   Sightings found;
   int segments = 0;
   for (const LineSupport& support : line.supports) {
@@ -118,7 +121,7 @@ Sightings FindSightings(const RectifiedCamera& camera,
     if (!interval || OverlapRatio(*interval, part) <= kMinOverlap) continue;
     found.keyframes.insert(support.keyframe->id);
     found.furthest = std::max(found.furthest, MiddleDistance(frame, segment));
-    found.mean_chi2 += Chi2(camera, line.hypothesis.line, support);
+    found.mean_chi2 += Chi2(camera, orthonormal, support);
     found.mean_length_px += seen.Length();
     ++segments;
   }

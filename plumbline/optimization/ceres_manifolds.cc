@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_manifolds.h"
 
-#include "plumbline/geometry/plucker.h"
-#include "plumbline/geometry/se3.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -14,26 +11,6 @@ namespace {
 template <int kRows, int kCols>
 using RowMajor =
     Eigen::Matrix<double, kRows, kCols, kCols == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-
-Rigid3 ReadPose(const double* x) {
-  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(x)).normalized(),
-          Eigen::Map<const Eigen::Vector3d>(x + 4)};
-}
-
-void WritePose(const Rigid3& pose, double* x) {
-  std::copy_n(pose.rotation.coeffs().data(), 4, x);
-  std::copy_n(pose.translation.data(), 3, x + 4);
-}
-
-OrthonormalLine ReadLine(const double* x) {
-  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(x)).normalized(),
-          Eigen::Map<const Eigen::Vector2d>(x + 4).normalized()};
-}
-
-void WriteLine(const OrthonormalLine& line, double* x) {
-  std::copy_n(line.U.coeffs().data(), 4, x);
-  std::copy_n(line.w.data(), 2, x + 4);
-}
 
 // Matrix of a -> q a for quaternions as [x y z w].
 Eigen::Matrix4d LeftProduct(const Eigen::Vector4d& q) {
@@ -55,26 +32,33 @@ Eigen::Matrix4d RightProduct(const Eigen::Vector4d& q) {
 
 Eigen::Vector4d Conjugate(const Eigen::Vector4d& q) { return {-q(0), -q(1), -q(2), q(3)}; }
 
-// d[w, v] / d[q, t] at the pose itself.
-RowMajor<6, 7> PoseMinusJacobian(const double* x) {
-  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);
-  const Eigen::Vector3d t = Eigen::Map<const Eigen::Vector3d>(x + 4);
-  const Eigen::Matrix<double, 3, 4> dw = 2 * RightProduct(Conjugate(q)).topRows<3>();
-  RowMajor<6, 7> J;
-  J << dw, Eigen::Matrix3d::Zero(), Skew(t) * dw, Eigen::Matrix3d::Identity();
-  return J;
-}
-
-RowMajor<4, 6> LineMinusJacobian(const double* x) {
-  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);
-  RowMajor<4, 6> J = RowMajor<4, 6>::Zero();
-  J.topLeftCorner<3, 4>() = 2 * LeftProduct(Conjugate(q)).topRows<3>();
-  J(3, 4) = -x[5];
-  J(3, 5) = x[4];
-  return J;
+// Matrix of a -> a q for rotations multiplied from the left, of a -> q a for those from the right.
+template <bool kLeft>
+Eigen::Matrix4d SideProduct(const Eigen::Vector4d& q) {
+  return kLeft ? RightProduct(q) : LeftProduct(q);
 }
 
 }  // namespace
+
+void WritePose(const Rigid3& pose, double* x) {
+  std::copy_n(pose.rotation.coeffs().data(), 4, x);
+  std::copy_n(pose.translation.data(), 3, x + 4);
+}
+
+Rigid3 ReadPose(const double* x) {
+  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(x)).normalized(),
+          Eigen::Map<const Eigen::Vector3d>(x + 4)};
+}
+
+void WriteLine(const OrthonormalLine& line, double* x) {
+  std::copy_n(line.U.coeffs().data(), 4, x);
+  std::copy_n(line.w.data(), 2, x + 4);
+}
+
+OrthonormalLine ReadLine(const double* x) {
+  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(x)).normalized(),
+          Eigen::Map<const Eigen::Vector2d>(x + 4).normalized()};
+}
 
 bool LeftRigid3Manifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
   WritePose(RetractLeft(ReadPose(x), Eigen::Map<const Vector6d>(delta)), x_plus_delta);
@@ -99,80 +83,59 @@ bool LeftRigid3Manifold::Minus(const double* y, const double* x, double* y_minus
 }
 
 bool LeftRigid3Manifold::MinusJacobian(const double* x, double* jacobian) const {
+  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);
+  const Eigen::Vector3d t = Eigen::Map<const Eigen::Vector3d>(x + 4);
+  const Eigen::Matrix<double, 3, 4> dw = 2 * RightProduct(Conjugate(q)).topRows<3>();
   Eigen::Map<RowMajor<6, 7>> J(jacobian);
-  J = PoseMinusJacobian(x);
+  J << dw, Eigen::Matrix3d::Zero(), Skew(t) * dw, Eigen::Matrix3d::Identity();
   return true;
 }
 
-bool OrthonormalLineManifold::Plus(const double* x,
-                                   const double* delta,
-                                   double* x_plus_delta) const {
-  WriteLine(Retract(ReadLine(x), Eigen::Map<const Eigen::Vector4d>(delta)), x_plus_delta);
+template <bool kLeft>
+bool LineManifold<kLeft>::Plus(const double* x, const double* delta, double* x_plus_delta) const {
+  const Eigen::Map<const Eigen::Vector4d> step(delta);
+  const OrthonormalLine line = ReadLine(x);
+  WriteLine(kLeft ? RetractLeft(line, step) : Retract(line, step), x_plus_delta);
   return true;
 }
+
+template <bool kLeft>
+bool LineManifold<kLeft>::PlusJacobian(const double* x, double* jacobian) const {
+  Eigen::Map<RowMajor<6, 4>> J(jacobian);
+  J.setZero();
+  J.template topLeftCorner<4, 3>() =
+      0.5 * SideProduct<kLeft>(Eigen::Map<const Eigen::Vector4d>(x)).template leftCols<3>();
+  J(4, 3) = -x[5];
+  J(5, 3) = x[4];
+  return true;
+}
+
+template <bool kLeft>
+bool LineManifold<kLeft>::Minus(const double* y, const double* x, double* y_minus_x) const {
+  const OrthonormalLine a = ReadLine(x);
+  const OrthonormalLine b = ReadLine(y);
+  Eigen::Map<Eigen::Vector4d> out(y_minus_x);
+  out.head<3>() = LogSo3(kLeft ? b.U * a.U.conjugate() : a.U.conjugate() * b.U);
+  out(3) = std::atan2(a.w.x() * b.w.y() - a.w.y() * b.w.x(), a.w.dot(b.w));
+  return true;
+}
+
+template <bool kLeft>
+bool LineManifold<kLeft>::MinusJacobian(const double* x, double* jacobian) const {
+  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);
+  Eigen::Map<RowMajor<4, 6>> J(jacobian);
+  J.setZero();
+  J.template topLeftCorner<3, 4>() = 2 * SideProduct<kLeft>(Conjugate(q)).template topRows<3>();
+  J(3, 4) = -x[5];
+  J(3, 5) = x[4];
+  return true;
+}
+
+template class LineManifold<false>;
+template class LineManifold<true>;
 
 bool StraightLineManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
   WriteLine(RetractStraight(ReadLine(x), Eigen::Map<const Eigen::Vector4d>(delta)), x_plus_delta);
-  return true;
-}
-
-bool OrthonormalLineManifold::PlusJacobian(const double* x, double* jacobian) const {
-  Eigen::Map<RowMajor<6, 4>> J(jacobian);
-  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);
-  J.setZero();
-  J.topLeftCorner<4, 3>() = 0.5 * LeftProduct(q).leftCols<3>();
-  J(4, 3) = -x[5];
-  J(5, 3) = x[4];
-  return true;
-}
-
-bool OrthonormalLineManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
-  const OrthonormalLine a = ReadLine(x);
-  const OrthonormalLine b = ReadLine(y);
-  Eigen::Map<Eigen::Vector4d> out(y_minus_x);
-  out.head<3>() = LogSo3(a.U.conjugate() * b.U);
-  out(3) = std::atan2(a.w.x() * b.w.y() - a.w.y() * b.w.x(), a.w.dot(b.w));
-  return true;
-}
-
-bool OrthonormalLineManifold::MinusJacobian(const double* x, double* jacobian) const {
-  Eigen::Map<RowMajor<4, 6>> J(jacobian);
-  J = LineMinusJacobian(x);
-  return true;
-}
-
-bool LeftOrthonormalLineManifold::Plus(const double* x,
-                                       const double* delta,
-                                       double* x_plus_delta) const {
-  WriteLine(RetractLeft(ReadLine(x), Eigen::Map<const Eigen::Vector4d>(delta)), x_plus_delta);
-  return true;
-}
-
-bool LeftOrthonormalLineManifold::PlusJacobian(const double* x, double* jacobian) const {
-  Eigen::Map<RowMajor<6, 4>> J(jacobian);
-  J.setZero();
-  J.topLeftCorner<4, 3>() = 0.5 * RightProduct(Eigen::Map<const Eigen::Vector4d>(x)).leftCols<3>();
-  J(4, 3) = -x[5];
-  J(5, 3) = x[4];
-  return true;
-}
-
-bool LeftOrthonormalLineManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
-  const OrthonormalLine a = ReadLine(x);
-  const OrthonormalLine b = ReadLine(y);
-  Eigen::Map<Eigen::Vector4d> out(y_minus_x);
-  out.head<3>() = LogSo3(b.U * a.U.conjugate());
-  out(3) = std::atan2(a.w.x() * b.w.y() - a.w.y() * b.w.x(), a.w.dot(b.w));
-  return true;
-}
-
-bool LeftOrthonormalLineManifold::MinusJacobian(const double* x, double* jacobian) const {
-  const Eigen::Vector4d q = Eigen::Map<const Eigen::Vector4d>(x);
-  Eigen::Map<RowMajor<4, 6>> J(jacobian);
-  J.setZero();
-  J.topLeftCorner<3, 4>() = 2 * RightProduct(Conjugate(q)).topRows<3>();
-  J(3, 4) = -x[5];
-  J(3, 5) = x[4];
   return true;
 }
 

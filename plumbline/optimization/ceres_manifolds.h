@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/se3.h"
+
 #include <algorithm>
 
 #include <ceres/manifold.h>
@@ -10,7 +13,14 @@
 
 namespace plumbline {
 
-// Rigid3 as seven numbers [qx qy qz qw tx ty tz]; Plus(x, delta) = exp(delta) x, delta = [w, v].
+// A pose is seven numbers [qx qy qz qw tx ty tz], a line six: [qx qy qz qw w1 w2]. Readers
+// normalize.
+void WritePose(const Rigid3& pose, double* x);
+Rigid3 ReadPose(const double* x);
+void WriteLine(const OrthonormalLine& line, double* x);
+OrthonormalLine ReadLine(const double* x);
+
+// Of poses: Plus(x, delta) = exp(delta) x, delta = [w, v].
 class LeftRigid3Manifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 7; }
@@ -21,8 +31,9 @@ class LeftRigid3Manifold : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
-// OrthonormalLine as six numbers [qx qy qz qw w1 w2]; Plus is Retract().
-class OrthonormalLineManifold : public ceres::Manifold {
+// Of lines: Plus is RetractLeft() or Retract().
+template <bool kLeft>
+class LineManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return 6; }
   int TangentSize() const override { return 4; }
@@ -32,16 +43,8 @@ class OrthonormalLineManifold : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
-// The same numbers; Plus is RetractLeft().
-class LeftOrthonormalLineManifold : public ceres::Manifold {
- public:
-  int AmbientSize() const override { return 6; }
-  int TangentSize() const override { return 4; }
-  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
-  bool PlusJacobian(const double* x, double* jacobian) const override;
-  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
-  bool MinusJacobian(const double* x, double* jacobian) const override;
-};
+using OrthonormalLineManifold = LineManifold<false>;
+using LeftOrthonormalLineManifold = LineManifold<true>;
 
 // The manifold for terms that write derivatives with respect to the tangent into the first columns
 // of their Jacobian and zeros into the others: Ceres multiplies with [I; 0], instead of terms and

@@ -38,27 +38,7 @@ ceres::Solver::Options CommonOptions(int max_iterations, double function_toleran
 using PoseBlock = std::array<double, 7>;
 using LineBlock = std::array<double, 6>;
 
-void Write(const Rigid3& pose, PoseBlock& x) {
-  std::copy_n(pose.rotation.coeffs().data(), 4, x.begin());
-  std::copy_n(pose.translation.data(), 3, x.begin() + 4);
-}
-
-Rigid3 ReadPose(const PoseBlock& x) {
-  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(x.data())).normalized(),
-          Eigen::Map<const Eigen::Vector3d>(x.data() + 4)};
-}
-
-void Write(const OrthonormalLine& line, LineBlock& x) {
-  std::copy_n(line.U.coeffs().data(), 4, x.begin());
-  std::copy_n(line.w.data(), 2, x.begin() + 4);
-}
-
-OrthonormalLine ReadLine(const LineBlock& x) {
-  return {Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(x.data())).normalized(),
-          Eigen::Map<const Eigen::Vector2d>(x.data() + 4).normalized()};
-}
-
-void Write(const Segment3& ends, LineBlock& x) {
+void WriteEnds(const Segment3& ends, LineBlock& x) {
   std::copy_n(ends.start.data(), 3, x.begin());
   std::copy_n(ends.end.data(), 3, x.begin() + 3);
 }
@@ -149,7 +129,7 @@ void CeresBa::AddBlocks() {
   constexpr int kPoses = 1;
   poses_.resize(problem_.poses.size());
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    Write(problem_.poses[i].cam_from_world, poses_[i]);
+    WritePose(problem_.poses[i].cam_from_world, poses_[i].data());
     terms_.AddParameterBlock(poses_[i].data(), 7, pose_manifold_.get());
     if (problem_.poses[i].fixed) terms_.SetParameterBlockConstant(poses_[i].data());
     order_->AddElementToGroup(poses_[i].data(), kPoses);
@@ -163,9 +143,9 @@ void CeresBa::AddBlocks() {
   lines_.resize(problem_.lines.size());
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (HasEnds()) {
-      Write(ends_[i], lines_[i]);
+      WriteEnds(ends_[i], lines_[i]);
     } else {
-      Write(problem_.lines[i], lines_[i]);
+      WriteLine(problem_.lines[i], lines_[i].data());
     }
     terms_.AddParameterBlock(lines_[i].data(), 6, line_manifold_.get());
     order_->AddElementToGroup(lines_[i].data(), kLandmarks);
@@ -211,14 +191,14 @@ CeresBaResult CeresBa::Solve() {
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &terms_, &summary);
   CeresBaResult result;
-  for (const auto& x : poses_) result.poses.push_back(ReadPose(x));
+  for (const auto& x : poses_) result.poses.push_back(ReadPose(x.data()));
   result.points = points_;
   if (HasEnds()) {
     std::vector<Segment3> moved;
     for (const auto& x : lines_) moved.push_back(ReadEnds(x));
     result.lines = LinesThroughEnds(problem_.lines, ends_, moved);
   } else {
-    for (const auto& x : lines_) result.lines.push_back(ReadLine(x));
+    for (const auto& x : lines_) result.lines.push_back(ReadLine(x.data()));
   }
   result.initial_cost = summary.initial_cost;
   result.final_cost = summary.final_cost;
@@ -239,7 +219,7 @@ class CeresPose {
     }
     point_used_.assign(point_costs_.size(), true);
     line_used_.assign(line_costs_.size(), true);
-    Write(problem.cam_from_world, pose_);
+    WritePose(problem.cam_from_world, pose_.data());
   }
 
   CeresPoseResult Solve(const CeresPoseOptions& options);
@@ -316,7 +296,7 @@ CeresPoseResult CeresPose::Solve(const CeresPoseOptions& options) {
     SolveRound(round < options.robust_rounds ? options.huber : HuberThresholds{}, options, result);
     Classify(result);
   }
-  result.cam_from_world = ReadPose(pose_);
+  result.cam_from_world = ReadPose(pose_.data());
   return result;
 }
 

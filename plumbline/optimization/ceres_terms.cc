@@ -16,10 +16,6 @@
 namespace plumbline {
 namespace {
 
-template <int kRows, int kCols>
-using RowMajor =
-    Eigen::Matrix<double, kRows, kCols, kCols == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-
 Eigen::Matrix3d Rotation(const double* pose) {
   return Eigen::Quaterniond(Eigen::Map<const Eigen::Vector4d>(pose)).toRotationMatrix();
 }
@@ -27,7 +23,7 @@ Eigen::Matrix3d Rotation(const double* pose) {
 // Writes the tangent's derivative in front of zeros.
 template <int kRows, int kColumns, class Derived>
 void WriteTangent(const Eigen::MatrixBase<Derived>& J, double* jacobian) {
-  Eigen::Map<RowMajor<kRows, kColumns>> out(jacobian);
+  Eigen::Map<Eigen::Matrix<double, kRows, kColumns, Eigen::RowMajor>> out(jacobian);
   constexpr int kTangent = Derived::ColsAtCompileTime;
   out.template leftCols<kTangent>() = J;
   out.template rightCols<kColumns - kTangent>().setZero();

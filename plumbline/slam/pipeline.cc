@@ -53,7 +53,7 @@ void Pipeline::Hand(Job job) {
   std::unique_lock lock(mutex_);
   if (mode_ == RunMode::kLockstep) {
     job_taken_.wait(lock, [&] { return failure_ || Waiting() < kMaxWaiting; });
-  } else if (job.reason.empty() && Waiting() == kMaxWaiting) {
+  } else if (job.HasFrame() && Waiting() == kMaxWaiting) {
     DropOldest();
   }
   RethrowFailure();
@@ -64,7 +64,7 @@ void Pipeline::Hand(Job job) {
 // Its place in the order of frames stays.
 void Pipeline::DropOldest() {
   const auto oldest =
-      std::find_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.reason.empty(); });
+      std::find_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.HasFrame(); });
   oldest->raw.reset();
   oldest->reason = kDropped;
 }
@@ -72,11 +72,11 @@ void Pipeline::DropOldest() {
 // Frames that somebody will have to work on.
 std::size_t Pipeline::Waiting() const {
   return static_cast<std::size_t>(
-      std::count_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.reason.empty(); }));
+      std::count_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.HasFrame(); }));
 }
 
 void Pipeline::Do(Job job) {
-  if (!job.reason.empty()) {
+  if (!job.HasFrame()) {
     observer_(system_.Skip(job.stamp_ns, job.reason), FrameView{});
     return;
   }

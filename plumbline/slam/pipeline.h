@@ -54,8 +54,10 @@ class Pipeline {
     std::int64_t stamp_ns = 0;
     std::optional<MeasuredFrame> measured;
     std::optional<SensorFrame> raw;
-    StageClock clock;  // of a raw frame, since its arrival
-    std::string reason;
+    StageClock clock;    // of a raw frame, since its arrival
+    std::string reason;  // why it has no frame to work on
+
+    bool HasFrame() const { return reason.empty(); }
   };
 
   void Hand(Job job);

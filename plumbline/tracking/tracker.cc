@@ -162,47 +162,49 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   const Rigid3 last_pose = LastPose(snapshot);
   last_->frame.cam_from_world = last_pose;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
-  TrackingResult result;
-  std::optional<Attempt> attempt = FindPose(frame, Predict(last_pose, seconds), snapshot, result);
+  FrameCounts counts;
+  std::optional<Attempt> attempt = FindPose(frame, Predict(last_pose, seconds), snapshot, counts);
   if (!attempt) {
-    const int matches = result.counts.matched_points + result.counts.matched_lines;
+    const int matches = counts.matched_points + counts.matched_lines;
     return Fail(std::move(frame),
                 matches < options_.min_unpredicted_inliers ? TrackingFailure::kTooFewMatches
                                                            : TrackingFailure::kTooFewInliers,
-                result.counts);
+                counts);
   }
-  FrameAssociation& association = attempt->association;
   const PoseEstimate& pose = attempt->pose;
-  const bool odometry = options_.reference == TrackingReference::kLastFrame;
-  Score(attempt->expected, association);
-  result.counts.inlier_points = pose.inlier_points;
-  result.counts.inlier_lines = pose.inlier_lines;
+  Score(attempt->expected, attempt->association);
+  counts.inlier_points = pose.inlier_points;
+  counts.inlier_lines = pose.inlier_lines;
   if (pose.Inliers() < options_.min_inliers) {
-    return Fail(std::move(frame), TrackingFailure::kTooFewInliers, result.counts);
+    return Fail(std::move(frame), TrackingFailure::kTooFewInliers, counts);
   }
   if (!search_.Accepted(pose)) {
-    return Fail(std::move(frame), TrackingFailure::kPoseNotObservable, result.counts);
+    return Fail(std::move(frame), TrackingFailure::kPoseNotObservable, counts);
   }
+  velocity_ = LogSe3(pose.cam_from_world * Inverse(last_pose)) / seconds;
+  spread_ = Spread{pose.information.inverse(), pose.scene_depth};
+  return Succeed(std::move(frame), std::move(*attempt), counts, snapshot, mapping_behind);
+}
 
-  frame.cam_from_world = pose.cam_from_world;
+TrackingResult Tracker::Succeed(Frame frame,
+                                Attempt attempt,
+                                const FrameCounts& counts,
+                                const MapSnapshot& snapshot,
+                                bool mapping_behind) {
+  FrameAssociation& association = attempt.association;
+  frame.cam_from_world = attempt.pose.cam_from_world;
   frame.points = IdsOfMatches<PointId>(association.matches.point_of_feature, association.points);
   frame.lines = IdsOfMatches<LineId>(association.matches.line_of_feature, association.lines);
-  velocity_ = LogSe3(frame.cam_from_world * Inverse(last_pose)) / seconds;
-  spread_ = Spread{pose.information.inverse(), pose.scene_depth};
   lost_frames_ = 0;
   state_ = NextState(state_, true, 0, options_.new_map_after);
+  TrackingResult result;
+  result.counts = counts;
   result.state = state_;
   result.cam_from_world = frame.cam_from_world;
   result.reference = snapshot.centre;
   result.cam_from_reference =
       frame.cam_from_world * Inverse(snapshot.cam_from_world.at(snapshot.centre));
-  KeyFrameReason reason = KeyFrameReason::kNone;
-  if (!odometry) {
-    KeyFrameSituation situation = Situation(frame, association, snapshot);
-    situation.mapping_behind = mapping_behind;
-    reason = DecideKeyFrame(situation, options_.keyframes);
-  }
-  if (reason != KeyFrameReason::kNone) {
+  if (WantsKeyFrame(frame, association, snapshot, mapping_behind)) {
     result.keyframe = MakeKeyFrame(frame, snapshot.centre);
     result.reference = newest_keyframe_;
     result.cam_from_reference = Rigid3{};
@@ -213,28 +215,36 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   return result;
 }
 
+bool Tracker::WantsKeyFrame(const Frame& frame,
+                            const FrameAssociation& association,
+                            const MapSnapshot& snapshot,
+                            bool mapping_behind) const {
+  if (options_.reference == TrackingReference::kLastFrame) return false;  // odometry has no map
+  KeyFrameSituation situation = Situation(frame, association, snapshot);
+  situation.mapping_behind = mapping_behind;
+  return DecideKeyFrame(situation, options_.keyframes) != KeyFrameReason::kNone;
+}
+
 // From where the frame is predicted; from appearance, too, where that fails or the motion is not
 // known: a guess of no motion finds what happens to lie there. What shows more of the map is right.
 std::optional<Tracker::Attempt> Tracker::FindPose(const Frame& frame,
                                                   const PosePrior& predicted,
                                                   const MapSnapshot& snapshot,
-                                                  TrackingResult& result) const {
+                                                  FrameCounts& counts) const {
   std::optional<Attempt> best;
   FrameAssociation found;
   if (const auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, found)) {
     best = Settle(frame, *first, predicted, snapshot, std::move(found));
   }
   if (!best || !velocity_) {
-    FrameCounts counts;
     const PosePrior free{last_->frame.cam_from_world};
     const auto first = search_.FromAppearance(frame, *last_, snapshot, found, counts);
-    if (!best) result.counts = counts;
     if (first) {
       Attempt other = Settle(frame, *first, free, snapshot, std::move(found));
       if (!best || other.pose.Inliers() > best->pose.Inliers()) best = std::move(other);
     }
   }
-  if (best) result.counts = best->counts;
+  if (best) counts = best->counts;
   return best;
 }
 

@@ -118,12 +118,21 @@ class Tracker {
   std::optional<Attempt> FindPose(const Frame& frame,
                                   const PosePrior& predicted,
                                   const MapSnapshot& snapshot,
-                                  TrackingResult& result) const;
+                                  FrameCounts& counts) const;
   Attempt Settle(const Frame& frame,
                  const PoseEstimate& first,
                  const PosePrior& prior,
                  const MapSnapshot& snapshot,
                  FrameAssociation found) const;
+  TrackingResult Succeed(Frame frame,
+                         Attempt attempt,
+                         const FrameCounts& counts,
+                         const MapSnapshot& snapshot,
+                         bool mapping_behind);
+  bool WantsKeyFrame(const Frame& frame,
+                     const FrameAssociation& association,
+                     const MapSnapshot& snapshot,
+                     bool mapping_behind) const;
   Rigid3 LastPose(const MapSnapshot& snapshot) const;
   // No information where the velocity is not known.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;

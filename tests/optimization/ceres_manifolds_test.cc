@@ -28,15 +28,32 @@ Vector OnTheSideOf(const Vector& x, Vector y) {
   return y;
 }
 
-TEST(LeftRigid3Manifold, ObeysTheInvariantsOfManifolds) {
-  Random random(1);
-  const LeftRigid3Manifold manifold;
+// `make` gives the numbers of a random element, `step` a random tangent vector.
+template <class Manifold, class Make, class Step>
+void ExpectInvariants(const Make& make, const Step& step) {
+  const Manifold manifold;
   for (int i = 0; i < 20; ++i) {
-    const Vector x = PoseNumbers(ExpSe3(random.Twist(1, 3)));
-    const Vector y = OnTheSideOf(x, PoseNumbers(ExpSe3(random.Twist(1, 3))));
-    const Vector delta = random.Twist(0.4, 1);
+    const Vector x = make();
+    const Vector y = OnTheSideOf(x, make());
+    const Vector delta = step();
     EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-6);
   }
+}
+
+template <class Manifold>
+void ExpectInvariantsOfLines(Random& random) {
+  ExpectInvariants<Manifold>([&] { return LineNumbers(RandomLine(random)); },
+                             [&]() -> Vector {
+                               Vector delta(4);
+                               delta << random.NormalVector(0.3), random.Normal(0.3);
+                               return delta;
+                             });
+}
+
+TEST(LeftRigid3Manifold, ObeysTheInvariantsOfManifolds) {
+  Random random(1);
+  ExpectInvariants<LeftRigid3Manifold>([&] { return PoseNumbers(ExpSe3(random.Twist(1, 3))); },
+                                       [&]() -> Vector { return random.Twist(0.4, 1); });
 }
 
 TEST(LeftRigid3Manifold, PlusIsTheLeftPerturbation) {
@@ -50,26 +67,12 @@ TEST(LeftRigid3Manifold, PlusIsTheLeftPerturbation) {
 
 TEST(OrthonormalLineManifold, ObeysTheInvariantsOfManifolds) {
   Random random(3);
-  const OrthonormalLineManifold manifold;
-  for (int i = 0; i < 20; ++i) {
-    const Vector x = LineNumbers(RandomLine(random));
-    const Vector y = OnTheSideOf(x, LineNumbers(RandomLine(random)));
-    Vector delta(4);
-    delta << random.NormalVector(0.3), random.Normal(0.3);
-    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-6);
-  }
+  ExpectInvariantsOfLines<OrthonormalLineManifold>(random);
 }
 
 TEST(LeftOrthonormalLineManifold, ObeysTheInvariantsOfManifolds) {
   Random random(7);
-  const LeftOrthonormalLineManifold manifold;
-  for (int i = 0; i < 20; ++i) {
-    const Vector x = LineNumbers(RandomLine(random));
-    const Vector y = OnTheSideOf(x, LineNumbers(RandomLine(random)));
-    Vector delta(4);
-    delta << random.NormalVector(0.3), random.Normal(0.3);
-    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-6);
-  }
+  ExpectInvariantsOfLines<LeftOrthonormalLineManifold>(random);
 }
 
 }  // namespace

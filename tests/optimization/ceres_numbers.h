@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/plucker.h"
-#include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/ceres_manifolds.h"
 
 #include <Eigen/Core>
 
@@ -13,13 +12,13 @@ namespace plumbline::testing {
 
 inline Eigen::VectorXd PoseNumbers(const Rigid3& pose) {
   Eigen::VectorXd x(7);
-  x << pose.rotation.coeffs(), pose.translation;
+  WritePose(pose, x.data());
   return x;
 }
 
 inline Eigen::VectorXd LineNumbers(const OrthonormalLine& line) {
   Eigen::VectorXd x(6);
-  x << line.U.coeffs(), line.w;
+  WriteLine(line, x.data());
   return x;
 }
 
