@@ -97,6 +97,13 @@ void PutBackKind(const std::vector<int>& from, std::vector<int>& to) {
   }
 }
 
+template <class Candidate>
+int CountOfMap(const std::vector<Candidate>& candidates, const std::vector<int>& matches) {
+  return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](int match) {
+    return match >= 0 && candidates[static_cast<std::size_t>(match)].id.valid();
+  }));
+}
+
 }  // namespace
 
 FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot) {
@@ -110,6 +117,11 @@ void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to
   CopyKind(
       from.points, from.matches.point_of_feature, of_map, to.points, to.matches.point_of_feature);
   CopyKind(from.lines, from.matches.line_of_feature, of_map, to.lines, to.matches.line_of_feature);
+}
+
+int MatchesOfMap(const FrameAssociation& association) {
+  return CountOfMap(association.points, association.matches.point_of_feature) +
+         CountOfMap(association.lines, association.matches.line_of_feature);
 }
 
 int FrameMatches::Points() const { return CountMatches(point_of_feature); }

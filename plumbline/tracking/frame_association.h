@@ -51,6 +51,9 @@ struct FrameAssociation {
 // The matches of a frame of the map, with landmarks that are in the snapshot.
 FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot);
 
+// Matches with landmarks of the map.
+int MatchesOfMap(const FrameAssociation& association);
+
 // Copies the matches with landmarks of the map (or only the others) of features that have none in
 // `to` yet.
 void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to);

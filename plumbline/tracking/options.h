@@ -24,6 +24,8 @@ struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
   int min_inliers = 4;               // points + lines a pose near the predicted one needs ...
   int min_unpredicted_inliers = 10;  // ... and one without prediction
+  int sure_inliers = 50;             // points + lines; with fewer ...
+  double min_inlier_ratio = 0.4;     // ... this part of the matched points must be inliers
   double max_pose_sigma = 0.02;      // and to which they must fix it (PoseSigma)
   double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
   double guess_pose_sigma = 0.01;    // up to which lines at the depth of the scene are not tried
@@ -55,6 +57,14 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         o.min_unpredicted_inliers,
         "the same without a predicted pose to search from",
         Range{4, 1000});
+  visit("sure_inliers",
+        o.sure_inliers,
+        "points + lines that agree with a pose, from which on any part of the matches may disagree",
+        Range{0, 100000});
+  visit("min_inlier_ratio",
+        o.min_inlier_ratio,
+        "part of the matched points that must agree with a pose of fewer",
+        Range{0, 1});
   visit(
       "max_pose_sigma",
       o.max_pose_sigma,

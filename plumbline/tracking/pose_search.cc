@@ -5,6 +5,7 @@
 #include "plumbline/association/landmark_from_frame.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
+#include "plumbline/solvers/absolute_pose.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -33,6 +34,17 @@ auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSn
   if (match < 0) return nullptr;
   const auto id = candidates[static_cast<std::size_t>(match)].id;
   return id.valid() ? snapshot.Find(id) : nullptr;
+}
+
+std::vector<PointInImage> MatchedPoints(const Frame& frame, const FrameAssociation& association) {
+  std::vector<PointInImage> result;
+  for (std::size_t i = 0; i < frame.points.size(); ++i) {
+    const int match = association.matches.point_of_feature[i];
+    if (match < 0) continue;
+    result.push_back({association.points[static_cast<std::size_t>(match)].model.position,
+                      frame.features().points[i].px});
+  }
+  return result;
 }
 
 }  // namespace
@@ -135,27 +147,48 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
 std::optional<CandidatePoint> PoseSearch::PointOf(const Frame& frame,
                                                   std::size_t feature,
                                                   const MapSnapshot& snapshot) const {
-  if (options_.reference == TrackingReference::kLastFrame) {
-    const double sigma = options_.worst_relative_depth_sigma;
-    const auto point = PointFromFrame(imaging_.camera, frame, feature, sigma);
-    return point ? std::optional(CandidatePoint{PointId{}, *point}) : std::nullopt;
-  }
   const PointId id = frame.points[feature];
-  const SnapshotPoint* point = id.valid() ? snapshot.Find(id) : nullptr;
-  return point != nullptr ? std::optional(CandidatePoint{id, *point}) : std::nullopt;
+  const SnapshotPoint* known = id.valid() ? snapshot.Find(id) : nullptr;
+  if (known != nullptr) return CandidatePoint{id, *known};
+  const double sigma = options_.worst_relative_depth_sigma;
+  const auto point = PointFromFrame(imaging_.camera, frame, feature, sigma);
+  return point ? std::optional(CandidatePoint{PointId{}, *point}) : std::nullopt;
 }
 
 std::optional<CandidateLine> PoseSearch::LineOf(const Frame& frame,
                                                 std::size_t feature,
                                                 const MapSnapshot& snapshot) const {
-  if (options_.reference == TrackingReference::kLastFrame) {
-    const double sigma = options_.worst_relative_depth_sigma;
-    const auto line = LineFromFrame(imaging_.camera, frame, feature, sigma);
-    return line ? std::optional(CandidateLine{LineId{}, *line}) : std::nullopt;
-  }
   const LineId id = frame.lines[feature];
-  const SnapshotLine* line = id.valid() ? snapshot.Find(id) : nullptr;
-  return line != nullptr ? std::optional(CandidateLine{id, *line}) : std::nullopt;
+  const SnapshotLine* known = id.valid() ? snapshot.Find(id) : nullptr;
+  if (known != nullptr) return CandidateLine{id, *known};
+  const double sigma = options_.worst_relative_depth_sigma;
+  const auto line = LineFromFrame(imaging_.camera, frame, feature, sigma);
+  return line ? std::optional(CandidateLine{LineId{}, *line}) : std::nullopt;
+}
+
+FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
+                                             const Frame& reference,
+                                             const MapSnapshot& snapshot) const {
+  FrameAssociation result(frame.points.size(), frame.lines.size());
+  const auto point_matches = MatchPoints(
+      reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
+  for (const PointMatch& match : point_matches) {
+    const auto point = PointOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    if (!point) continue;
+    result.matches.point_of_feature[static_cast<std::size_t>(match.b)] =
+        static_cast<int>(result.points.size());
+    result.points.push_back(*point);
+  }
+  const auto line_matches =
+      MatchLines(reference.features().lines, frame.features().lines, LineMatchOptions{});
+  for (const LineMatch& match : line_matches) {
+    const auto line = LineOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    if (!line) continue;
+    result.matches.line_of_feature[static_cast<std::size_t>(match.b)] =
+        static_cast<int>(result.lines.size());
+    result.lines.push_back(*line);
+  }
+  return result;
 }
 
 std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
@@ -163,32 +196,23 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
                                                        const MapSnapshot& snapshot,
                                                        FrameAssociation& association,
                                                        FrameCounts& counts) const {
-  association = FrameAssociation(frame.points.size(), frame.lines.size());
+  constexpr double kMaxErrorPx = 4;
+  constexpr double kGate = 3;  // the pose that the vote gives is not the final one
   const bool odometry = options_.reference == TrackingReference::kLastFrame;
-  const Frame& reference = odometry ? last.frame : snapshot.reference->frame;
-  const auto point_matches = MatchPoints(
-      reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
-  for (const PointMatch& match : point_matches) {
-    const auto point = PointOf(reference, static_cast<std::size_t>(match.a), snapshot);
-    if (!point) continue;
-    association.matches.point_of_feature[static_cast<std::size_t>(match.b)] =
-        static_cast<int>(association.points.size());
-    association.points.push_back(*point);
-  }
-  const auto line_matches =
-      MatchLines(reference.features().lines, frame.features().lines, LineMatchOptions{});
-  for (const LineMatch& match : line_matches) {
-    const auto line = LineOf(reference, static_cast<std::size_t>(match.a), snapshot);
-    if (!line) continue;
-    association.matches.line_of_feature[static_cast<std::size_t>(match.b)] =
-        static_cast<int>(association.lines.size());
-    association.lines.push_back(*line);
-  }
+  association = MatchAppearance(frame, odometry ? last.frame : snapshot.reference->frame, snapshot);
   counts.matched_points = association.matches.Points();
   counts.matched_lines = association.matches.Lines();
+  Rigid3 initial = last.frame.cam_from_world;
+  const auto voted =
+      PoseFromPoints(imaging_.camera, MatchedPoints(frame, association), kMaxErrorPx);
+  if (voted) {
+    initial = *voted;
+    const double gate = kGate * options_.pose.gate_scale;
+    DropDisagreeing(imaging_.camera, frame.features(), initial, lines_, gate, association);
+  }
   const int needed = options_.min_unpredicted_inliers;
-  if (counts.matched_points + counts.matched_lines < needed) return std::nullopt;
-  const PoseEstimate estimate = Estimate(frame, last.frame.cam_from_world, {}, association);
+  if (association.matches.All() < needed) return std::nullopt;
+  const PoseEstimate estimate = Estimate(frame, initial, {}, association);
   if (!estimate.Accepted(needed, options_.max_pose_sigma)) return std::nullopt;
   return estimate;
 }

@@ -44,7 +44,8 @@ class PoseSearch {
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association) const;
-  // By the descriptors of the newest keyframe (of the last frame with odometry).
+  // By the descriptors of the newest keyframe (of the last frame with odometry): from the pose that
+  // most points agree with, where they do.
   std::optional<PoseEstimate> FromAppearance(const Frame& frame,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
@@ -69,6 +70,13 @@ class PoseSearch {
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);
   }
+  // Not false when few agree with it and most points disagree. Of lines, which are easily taken for
+  // their neighbours, many disagree with right poses, too.
+  bool Agreed(const PoseEstimate& pose, const FrameCounts& counts) const {
+    constexpr int kFewPoints = 10;  // tell nothing
+    return pose.Inliers() >= options_.sure_inliers || counts.matched_points < kFewPoints ||
+           pose.inlier_points >= options_.min_inlier_ratio * counts.matched_points;
+  }
 
  private:
   // Which new landmarks are made from the last frame's depths: those that it knows well, also those
@@ -88,14 +96,16 @@ class PoseSearch {
                                          const MapSnapshot& snapshot,
                                          const LastSearch& how,
                                          FrameAssociation& association) const;
-  // What a feature of the frame to match by appearance shows: of the map, or, with odometry, made
-  // from its depth.
+  // What a feature of the frame to match by appearance shows: of the map, or made from its depth.
   std::optional<CandidatePoint> PointOf(const Frame& frame,
                                         std::size_t feature,
                                         const MapSnapshot& snapshot) const;
   std::optional<CandidateLine> LineOf(const Frame& frame,
                                       std::size_t feature,
                                       const MapSnapshot& snapshot) const;
+  FrameAssociation MatchAppearance(const Frame& frame,
+                                   const Frame& reference,
+                                   const MapSnapshot& snapshot) const;
   // Things that move make new landmarks all the time; near the camera, whose disparities say most,
   // they outvote walls that have been known for long. Where the pose from all matches loses some of
   // the established landmarks, which fix the pose without the others and agree among themselves,

@@ -175,7 +175,7 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   Score(attempt->expected, attempt->association);
   counts.inlier_points = pose.inlier_points;
   counts.inlier_lines = pose.inlier_lines;
-  if (pose.Inliers() < options_.min_inliers) {
+  if (pose.Inliers() < options_.min_inliers || !search_.Agreed(pose, counts)) {
     return Fail(std::move(frame), TrackingFailure::kTooFewInliers, counts);
   }
   if (!search_.Accepted(pose)) {
@@ -225,8 +225,9 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
   return DecideKeyFrame(situation, options_.keyframes) != KeyFrameReason::kNone;
 }
 
-// From where the frame is predicted; from appearance, too, where that fails or the motion is not
-// known: a guess of no motion finds what happens to lie there. What shows more of the map is right.
+// From where the frame is predicted. From appearance, too, where that fails, or the motion is not
+// known (a guess of no motion finds what happens to lie there), or much less is found than in the
+// frame before (an unexpected motion). What shows more of the map is right.
 std::optional<Tracker::Attempt> Tracker::FindPose(const Frame& frame,
                                                   const PosePrior& predicted,
                                                   const MapSnapshot& snapshot,
@@ -236,16 +237,27 @@ std::optional<Tracker::Attempt> Tracker::FindPose(const Frame& frame,
   if (const auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, found)) {
     best = Settle(frame, *first, predicted, snapshot, std::move(found));
   }
-  if (!best || !velocity_) {
+  if (!best || !velocity_ || IsWeak(*best)) {
     const PosePrior free{last_->frame.cam_from_world};
     const auto first = search_.FromAppearance(frame, *last_, snapshot, found, counts);
     if (first) {
       Attempt other = Settle(frame, *first, free, snapshot, std::move(found));
-      if (!best || other.pose.Inliers() > best->pose.Inliers()) best = std::move(other);
+      if (!best || Shown(other.association) > Shown(best->association)) best = std::move(other);
     }
   }
   if (best) counts = best->counts;
   return best;
+}
+
+bool Tracker::IsWeak(const Attempt& attempt) const {
+  constexpr double kMuchLess = 0.5;
+  return !search_.Agreed(attempt.pose, attempt.counts) ||
+         Shown(attempt.association) < kMuchLess * Shown(last_->association);
+}
+
+int Tracker::Shown(const FrameAssociation& association) const {
+  return options_.reference == TrackingReference::kLastFrame ? association.matches.All()
+                                                             : MatchesOfMap(association);
 }
 
 // With all that the map, or the last frame, has for the frame.

@@ -119,6 +119,9 @@ class Tracker {
                                   const PosePrior& predicted,
                                   const MapSnapshot& snapshot,
                                   FrameCounts& counts) const;
+  bool IsWeak(const Attempt& attempt) const;
+  // Matches with what is tracked against: made on the spot, things that move have many, too.
+  int Shown(const FrameAssociation& association) const;
   Attempt Settle(const Frame& frame,
                  const PoseEstimate& first,
                  const PosePrior& prior,

@@ -24,6 +24,8 @@ void Check(const Gate& gate) {
 TEST(Accuracy, MachineHallStereo) { Check(kMachineHall); }
 TEST(Accuracy, FloorRgbd) { Check(kFloor); }
 TEST(Accuracy, RoadStereo) { Check(kRoad); }
+TEST(Accuracy, RoadDrivingStereo) { Check(kRoadDriving); }
+TEST(Accuracy, MachineHallFastStereo) { Check(kMachineHallFast); }
 TEST(Accuracy, MachineHallMono) { Check(kMachineHallMono); }
 TEST(Accuracy, FloorMono) { Check(kFloorMono); }
 TEST(Accuracy, OfficeMono) { Check(kOfficeMono); }

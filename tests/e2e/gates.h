@@ -22,6 +22,10 @@ inline constexpr double kLiveFactor = 1.2;
 inline constexpr Gate kMachineHall{"euroc/MH_01_easy_first250", "", 249, 1, 0.005};
 inline constexpr Gate kFloor{"tum/rgbd_dataset_freiburg1_floor_first90", "", 90, 0, 0.005};
 inline constexpr Gate kRoad{"kitti/06_first51", "", 51, 0, 0.035};
+// Motions that nothing foretells: the car drives already in the first frame; every third image
+// alone.
+inline constexpr Gate kRoadDriving{"kitti/06_first51", "--from 5", 46, 0, 0.03};
+inline constexpr Gate kMachineHallFast{"euroc/MH_01_easy_first250", "--stride 3", 84, 0, 0.0055};
 // One camera: the errors are after alignment with a free scale.
 inline constexpr Gate kMachineHallMono{
     "euroc/MH_01_easy_first250", "--sensor mono", 250, 0, 0.0055};

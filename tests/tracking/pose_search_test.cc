@@ -66,20 +66,51 @@ TEST(PoseSearch, FindsNoPoseWhereNothingIsToBeSeen) {
   EXPECT_FALSE(pose);
 }
 
-// Of the map, which has nothing here, or with odometry of the last frame.
+// Of the newest keyframe, or with odometry of the last frame.
 TEST(PoseSearch, FindsByAppearanceWhatNoPredictionLeadsTo) {
   constexpr int kFarAway = 15;
+  for (const auto reference : {TrackingReference::kLocalMap, TrackingReference::kLastFrame}) {
+    Scene scene;
+    scene.options.reference = reference;
+    const Frame frame = FrameAt(scene.world, kFarAway);
+    FrameCounts counts;
+    const auto pose =
+        scene.Search().FromAppearance(frame, scene.last, scene.snapshot, scene.association, counts);
+    ExpectPose(pose, PoseOnPath(kFarAway));
+    EXPECT_GT(counts.matched_points, 50);
+  }
+}
+
+TEST(PoseSearch, FindsByAppearanceThoughMostMatchesAreWrong) {
+  constexpr int kFarAway = 15;
   Scene scene;
-  const Frame frame = FrameAt(scene.world, kFarAway);
+  const Frame seen = FrameAt(scene.world, kFarAway);
+  Features features = seen.features();
+  Rng rng(4, "wrong_matches");
+  for (std::size_t i = 0; i < features.points.size(); ++i) {
+    if (i % 5 < 3) features.points[i].px = {rng.Uniform(0, 751), rng.Uniform(0, 479)};
+  }
+  Frame frame = seen;
+  frame.indexed = IndexFeatures(scene.world.camera, features);
   FrameCounts counts;
-  EXPECT_FALSE(
-      scene.Search().FromAppearance(frame, scene.last, scene.snapshot, scene.association, counts));
-  EXPECT_EQ(counts.matched_points, 0);
-  scene.options.reference = TrackingReference::kLastFrame;
   const auto pose =
       scene.Search().FromAppearance(frame, scene.last, scene.snapshot, scene.association, counts);
-  ExpectPose(pose, PoseOnPath(kFarAway));
-  EXPECT_GT(counts.matched_points, 50);
+  ASSERT_TRUE(pose);
+  EXPECT_LT(CentreDistance(pose->cam_from_world, PoseOnPath(kFarAway)), 0.03);
+  EXPECT_LT(2 * pose->inlier_points, counts.matched_points);
+}
+
+TEST(PoseSearch, APoseOfFewNeedsAPartOfTheMatchedPoints) {
+  const PoseSearch search = Scene().Search();
+  PoseEstimate pose;
+  pose.inlier_points = 12;
+  pose.inlier_lines = 10;
+  EXPECT_TRUE(search.Agreed(pose, {.matched_points = 30, .matched_lines = 50}));
+  EXPECT_FALSE(search.Agreed(pose, {.matched_points = 31, .matched_lines = 10}));
+  pose.inlier_lines = 40;  // of many
+  EXPECT_TRUE(search.Agreed(pose, {.matched_points = 1000, .matched_lines = 100}));
+  pose.inlier_points = 0;  // lines only
+  EXPECT_TRUE(search.Agreed(pose, {.matched_points = 0, .matched_lines = 100}));
 }
 
 TEST(PoseSearch, FindsMoreOfTheLastFrameFromAFirstPose) {

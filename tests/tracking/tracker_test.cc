@@ -242,6 +242,42 @@ TEST(Tracker, RecoversWhereItLooksLikeTheLastKeyFrame) {
   EXPECT_LT(CentreDistance(*result.cam_from_world, away), 0.03);
 }
 
+// Sideways, so that what repeats on a wall of 4 m lies where its neighbour was.
+constexpr double kPeriod = 0.3;
+
+SyntheticWorld WallWithAPattern() {
+  SyntheticWorld world = MakeSyntheticWorld(500, 0);
+  Rng rng(5, "pattern");
+  for (int row = -2; row <= 2; ++row) {
+    const Descriptor descriptor = RandomDescriptor(rng);
+    for (int column = -8; column <= 8; ++column) {
+      world.points.push_back({{kPeriod * column, 0.25 * row, 4}, descriptor});
+    }
+  }
+  return world;
+}
+
+Rigid3 MovedSideways(double x) { return {Eigen::Quaterniond::Identity(), {-x, 0, 0}}; }
+
+TEST(Tracker, TakesNoPatternForTheSameBeforeItKnowsTheMotion) {
+  SyntheticRun run(WallWithAPattern());
+  run.Step(MovedSideways(0), kPointsOnly);
+  const TrackingResult result = run.Step(MovedSideways(kPeriod), kPointsOnly);
+  ASSERT_TRUE(result.cam_from_world);
+  EXPECT_LT(CentreDistance(*result.cam_from_world, MovedSideways(kPeriod)), 0.03);
+}
+
+TEST(Tracker, TakesNoPatternForTheSameAfterASuddenMotion) {
+  constexpr double kStep = 0.01;
+  constexpr int kSteps = 10;
+  SyntheticRun run(WallWithAPattern());
+  for (int i = 0; i < kSteps; ++i) run.Step(MovedSideways(kStep * i), kPointsOnly);
+  const Rigid3 there = MovedSideways(kStep * kSteps + kPeriod);
+  const TrackingResult result = run.Step(there, kPointsOnly);
+  ASSERT_TRUE(result.cam_from_world);
+  EXPECT_LT(CentreDistance(*result.cam_from_world, there), 0.03);
+}
+
 TEST(Tracker, StartsANewMapAfterTooManyLostFrames) {
   SlamOptions options = SyntheticRun::InlineOptions();
   options.tracking.new_map_after = 4;

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/se3.h"
+
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+struct PointInImage {
+  Eigen::Vector3d world;
+  Eigen::Vector2d px;
+};
+
+// The pose (cam_from_world) that most points agree with: RANSAC over three points (AP3P: Ke and
+// Roumeliotis, CVPR 2017) in at most 300 rounds, then refined with those that agree (OpenCV). A
+// point agrees when it projects within max_error_px of its pixel. Same input, same pose.
+//
+// nullopt with fewer than 6 points, or when fewer than 6 agree. Below a millisecond for 100 points.
+std::optional<Rigid3> PoseFromPoints(const RectifiedCamera& camera,
+                                     const std::vector<PointInImage>& points,
+                                     double max_error_px);
+
+}  // namespace plumbline
