@@ -31,7 +31,9 @@ CommandSyntax Syntax() {
       "TUM\nform, EuRoC csv or KITTI poses, or the folder of a data set that has it. Where that "
       "folder has\nlines.csv and the run lines.obj, the maps of lines are compared, too.",
       {"REFERENCE", "ESTIMATE"},
-      {{"--align", "none|se3|sim3", "what is aligned before positions are compared (se3)"},
+      {{"--align",
+        "none|se3|sim3",
+        "what is aligned before positions are compared (se3; sim3 for the run of a single camera)"},
        {"--delta", "3s|1f", "window of RPE and ROE, seconds or frames (3s)"},
        {"--associate", "interpolate|nearest", "how poses of the reference are found (interpolate)"},
        {"--reference-frame",
@@ -69,11 +71,15 @@ RelativeWindow ParseWindow(const std::string& text) {
   throw InputError("--delta: expected seconds such as 3s or frames such as 1f, found " + text);
 }
 
-TrajectoryErrorOptions ErrorOptions(const CommandLine& line, TrajectoryFormat format) {
+TrajectoryErrorOptions ErrorOptions(const CommandLine& line,
+                                    TrajectoryFormat format,
+                                    const std::filesystem::path& estimate) {
   constexpr std::int64_t kKittiGapNs = 250'000'000;  // its frames are 0.1 s apart
   TrajectoryErrorOptions options;
   if (const auto text = line.Value("--align")) {
     options.alignment = ParseChoice<TrajectoryAlignment>("--align", *text);
+  } else if (IsMonocularRun(estimate)) {
+    options.alignment = TrajectoryAlignment::kSim3;
   }
   if (const auto text = line.Value("--associate")) {
     options.association = ParseChoice<TrajectoryAssociation>("--associate", *text);
@@ -162,7 +168,7 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   if (line.Has("--mirror-y")) evaluation.reference.poses = MirroredY(evaluation.reference.poses);
   const std::filesystem::path estimate_file = EstimateFile(line.Positional(1));
   const Trajectory estimate = ReadTrajectory(estimate_file).poses;
-  evaluation.options = ErrorOptions(line, evaluation.reference.format);
+  evaluation.options = ErrorOptions(line, evaluation.reference.format, estimate_file);
   const auto error = CompareTrajectories(evaluation.reference.poses, estimate, evaluation.options);
   if (!error) FailNoOverlap(evaluation.reference.poses, estimate);
   evaluation.error = *error;

@@ -7,7 +7,10 @@
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/text_rows.h"
 
+#include <fstream>
 #include <system_error>
+
+#include <nlohmann/json.hpp>
 
 namespace plumbline {
 namespace {
@@ -82,6 +85,13 @@ ReferenceTrajectory LoadReference(const fs::path& path, std::optional<ReferenceF
 
 std::optional<std::size_t> FramesOfRun(const fs::path& trajectory) {
   return RowsWithNumbers(fs::absolute(trajectory).parent_path() / "frames.csv", ',');
+}
+
+bool IsMonocularRun(const fs::path& trajectory) {
+  const fs::path summary = fs::absolute(trajectory).parent_path() / "summary.json";
+  std::ifstream file(summary);
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() && json.contains("sensor") && json["sensor"] == "mono";
 }
 
 }  // namespace plumbline

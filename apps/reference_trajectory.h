@@ -41,4 +41,8 @@ ReferenceTrajectory LoadReference(const std::filesystem::path& path,
 // Number of frames a run was given, from the frames.csv beside its trajectory; nullopt without one.
 std::optional<std::size_t> FramesOfRun(const std::filesystem::path& trajectory);
 
+// Whether the summary.json beside a trajectory says that it is that of a single camera, whose scale
+// is free; false without one.
+bool IsMonocularRun(const std::filesystem::path& trajectory);
+
 }  // namespace plumbline

@@ -95,6 +95,18 @@ TEST(Reference, FramesOfARunAreThoseOfItsTable) {
   EXPECT_EQ(FramesOfRun(trajectory), 2U);
 }
 
+TEST(Evaluate, KnowsTheRunOfASingleCamera) {
+  const ScratchFolder folder;
+  const auto trajectory = folder.Write("trajectory.txt", kTum);
+  EXPECT_FALSE(IsMonocularRun(trajectory));
+  for (const std::string other : {"{\"sensor\": \"stereo\"}", "{\"sensor\": 1}", "[]", "no json"}) {
+    folder.Write("summary.json", other);
+    EXPECT_FALSE(IsMonocularRun(trajectory)) << other;
+  }
+  folder.Write("summary.json", "{\"sensor\": \"mono\"}");
+  EXPECT_TRUE(IsMonocularRun(trajectory));
+}
+
 TEST(Evaluate, WritesTableJsonAndFigures) {
   const ScratchFolder folder;
   const auto sequence = WriteEuroc(folder);
