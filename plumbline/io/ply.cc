@@ -32,7 +32,8 @@ void WritePly(const std::filesystem::path& path,
               std::span<const Eigen::Vector3d> points,
               std::span<const Segment3> segments) {
   std::string out = fmt::format(
-      "ply\nformat ascii 1.0\ncomment Plumbline map, metres\nelement vertex {}\n"
+      "ply\nformat ascii 1.0\ncomment Plumbline map, metres (of a single camera: units of its "
+      "own)\nelement vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\n"
       "element edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n",
@@ -53,7 +54,7 @@ void WritePly(const std::filesystem::path& path,
 }
 
 void WriteObjLines(const std::filesystem::path& path, std::span<const Segment3> segments) {
-  std::string out = "# Plumbline line segments, metres\n";
+  std::string out = "# Plumbline line segments, metres (of a single camera: units of its own)\n";
   for (const Segment3& segment : segments) {
     out += fmt::format("v {}\nv {}\n", Position(segment.start), Position(segment.end));
   }

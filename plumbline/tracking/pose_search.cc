@@ -240,7 +240,7 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
   const FrameMatches young = TakeOutYoung(snapshot, views, association);
   if (young.All() == 0) return Estimate(frame, initial, prior, association);
   const FrameMatches established = std::exchange(association.matches, offered);
-  const PoseEstimate of_all = Estimate(frame, initial, prior, association);
+  PoseEstimate of_all = Estimate(frame, initial, prior, association);
   const FrameMatches all = std::exchange(association.matches, established);
   const PoseEstimate of_established = Estimate(frame, initial, prior, association);
   if (!Accepted(of_established) || !of_established.sigma.AtMost(options_.enough_pose_sigma) ||

@@ -16,7 +16,8 @@ TEST(WritePly, WritesPointsThenSegmentsAsEdges) {
   const std::vector<Segment3> segments = {{{0, 0, -1e-9}, {1, 1, 1}}};
   WritePly(folder / "m.ply", points, segments);
   EXPECT_EQ(Contents(folder / "m.ply"),
-            "ply\nformat ascii 1.0\ncomment Plumbline map, metres\nelement vertex 3\n"
+            "ply\nformat ascii 1.0\ncomment Plumbline map, metres (of a single camera: units of "
+            "its own)\nelement vertex 3\n"
             "property float x\nproperty float y\nproperty float z\n"
             "property uchar red\nproperty uchar green\nproperty uchar blue\n"
             "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
@@ -31,7 +32,7 @@ TEST(WriteObjLines, CountsVerticesFromOne) {
   const std::vector<Segment3> segments = {{{0, 0, 0}, {1, 0, 0}}, {{0, 2, 0}, {0, 0, 3}}};
   WriteObjLines(folder / "l.obj", segments);
   EXPECT_EQ(Contents(folder / "l.obj"),
-            "# Plumbline line segments, metres\n"
+            "# Plumbline line segments, metres (of a single camera: units of its own)\n"
             "v 0.000000 0.000000 0.000000\nv 1.000000 0.000000 0.000000\n"
             "v 0.000000 2.000000 0.000000\nv 0.000000 0.000000 3.000000\n"
             "l 1 2\nl 3 4\n");
