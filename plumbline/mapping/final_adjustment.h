@@ -12,11 +12,11 @@ namespace plumbline {
 // All keyframes and points of a finished map adjusted together with lines that four keyframes or
 // more show (FindWellSeenLines, whatever mapping.line_map asks of those given out): each of these
 // is one landmark with all segments that show it, where tracking had several that end where its
-// search ended. This ties keyframes together that share no line landmark. Lines have four
-// parameters and the residual of eq. 13 here, whatever lines.parametrization and lines.residual
-// say, and are not held parallel. The first keyframe stays where it is, and so do those that the
-// points and well seen lines do not fix to mapping.window.max_pose_sigma; with a single camera the
-// length of the path as long as it is; line landmarks move with a keyframe that shows them.
+// search ended. This ties keyframes together that share no line landmark. Lines have the
+// residual of eq. 13 here, whatever lines.residual says, and are not held parallel. The first
+// keyframe stays where it is, and so do those that the points and well seen lines do not fix to
+// mapping.window.max_pose_sigma; with a single camera the length of the path as long as it is; line
+// landmarks move with a keyframe that shows them.
 //
 // Nothing for a map of less than three keyframes, or more than
 // mapping.final_adjustment_keyframes. Cost: FindWellSeenLines, and bundle adjustment of the whole

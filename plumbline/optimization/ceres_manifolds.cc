@@ -9,8 +9,7 @@ namespace plumbline {
 namespace {
 
 template <int kRows, int kCols>
-using RowMajor =
-    Eigen::Matrix<double, kRows, kCols, kCols == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+using RowMajor = Eigen::Matrix<double, kRows, kCols, Eigen::RowMajor>;
 
 // Matrix of a -> q a for quaternions as [x y z w].
 Eigen::Matrix4d LeftProduct(const Eigen::Vector4d& q) {

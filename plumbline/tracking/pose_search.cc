@@ -26,14 +26,19 @@ void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& can
   }
 }
 
+// The landmark of the map; nullptr for an invalid id and one that is not in the snapshot (any
+// more).
+template <class Id>
+auto InSnapshot(Id id, const MapSnapshot& snapshot) -> decltype(snapshot.Find(id)) {
+  return id.valid() ? snapshot.Find(id) : nullptr;
+}
+
 // The landmark of the map that a feature of the last frame showed; nullptr when it is not in the
 // snapshot (any more): removed, merged into another, or never in the map.
 template <class Candidate>
 auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSnapshot& snapshot)
     -> decltype(snapshot.Find(Candidate{}.id)) {
-  if (match < 0) return nullptr;
-  const auto id = candidates[static_cast<std::size_t>(match)].id;
-  return id.valid() ? snapshot.Find(id) : nullptr;
+  return match < 0 ? nullptr : InSnapshot(candidates[static_cast<std::size_t>(match)].id, snapshot);
 }
 
 std::vector<PointInImage> MatchedPoints(const Frame& frame, const FrameAssociation& association) {
@@ -69,19 +74,14 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
   const FrameAssociation& before = last.association;
   for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
     const auto* known = InSnapshot(before.points, before.matches.point_of_feature[i], snapshot);
-    if (known != nullptr) {
-      result.points.push_back({known->id, *known});
-    } else if (const auto point = PointFromFrame(imaging_.camera, last.frame, i, point_sigma)) {
-      result.points.push_back({PointId{}, *point});
-    }
+    const auto point = PointOf(known, last.frame, i, point_sigma);
+    if (point) result.points.push_back(*point);
   }
   const auto scene = depths == Depths::kGuessed ? SceneDisparity(last.frame) : std::nullopt;
   for (std::size_t i = 0; i < last.frame.lines.size(); ++i) {
     const auto* known = InSnapshot(before.lines, before.matches.line_of_feature[i], snapshot);
-    if (known != nullptr) {
-      result.lines.push_back({known->id, *known});
-    } else if (const auto line = LineFromFrame(imaging_.camera, last.frame, i, line_sigma)) {
-      result.lines.push_back({LineId{}, *line});
+    if (const auto line = LineOf(known, last.frame, i, line_sigma)) {
+      result.lines.push_back(*line);
     } else if (scene) {
       result.lines.push_back({LineId{}, LineAtSceneDepth(imaging_.camera, last.frame, i, *scene)});
     }
@@ -144,36 +144,34 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
   return best;
 }
 
-std::optional<CandidatePoint> PoseSearch::PointOf(const Frame& frame,
+std::optional<CandidatePoint> PoseSearch::PointOf(const SnapshotPoint* known,
+                                                  const Frame& frame,
                                                   std::size_t feature,
-                                                  const MapSnapshot& snapshot) const {
-  const PointId id = frame.points[feature];
-  const SnapshotPoint* known = id.valid() ? snapshot.Find(id) : nullptr;
-  if (known != nullptr) return CandidatePoint{id, *known};
-  const double sigma = options_.worst_relative_depth_sigma;
-  const auto point = PointFromFrame(imaging_.camera, frame, feature, sigma);
+                                                  double max_relative_sigma) const {
+  if (known != nullptr) return CandidatePoint{known->id, *known};
+  const auto point = PointFromFrame(imaging_.camera, frame, feature, max_relative_sigma);
   return point ? std::optional(CandidatePoint{PointId{}, *point}) : std::nullopt;
 }
 
-std::optional<CandidateLine> PoseSearch::LineOf(const Frame& frame,
+std::optional<CandidateLine> PoseSearch::LineOf(const SnapshotLine* known,
+                                                const Frame& frame,
                                                 std::size_t feature,
-                                                const MapSnapshot& snapshot) const {
-  const LineId id = frame.lines[feature];
-  const SnapshotLine* known = id.valid() ? snapshot.Find(id) : nullptr;
-  if (known != nullptr) return CandidateLine{id, *known};
-  const double sigma = options_.worst_relative_depth_sigma;
-  const auto line = LineFromFrame(imaging_.camera, frame, feature, sigma);
+                                                double max_relative_sigma) const {
+  if (known != nullptr) return CandidateLine{known->id, *known};
+  const auto line = LineFromFrame(imaging_.camera, frame, feature, max_relative_sigma);
   return line ? std::optional(CandidateLine{LineId{}, *line}) : std::nullopt;
 }
 
 FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
                                              const Frame& reference,
                                              const MapSnapshot& snapshot) const {
+  const double sigma = options_.worst_relative_depth_sigma;
   FrameAssociation result(frame.points.size(), frame.lines.size());
   const auto point_matches = MatchPoints(
       reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
   for (const PointMatch& match : point_matches) {
-    const auto point = PointOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    const auto a = static_cast<std::size_t>(match.a);
+    const auto point = PointOf(InSnapshot(reference.points[a], snapshot), reference, a, sigma);
     if (!point) continue;
     result.matches.point_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(result.points.size());
@@ -182,7 +180,8 @@ FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
   const auto line_matches =
       MatchLines(reference.features().lines, frame.features().lines, LineMatchOptions{});
   for (const LineMatch& match : line_matches) {
-    const auto line = LineOf(reference, static_cast<std::size_t>(match.a), snapshot);
+    const auto a = static_cast<std::size_t>(match.a);
+    const auto line = LineOf(InSnapshot(reference.lines[a], snapshot), reference, a, sigma);
     if (!line) continue;
     result.matches.line_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(result.lines.size());

@@ -70,7 +70,7 @@ class PoseSearch {
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);
   }
-  // Not false when few agree with it and most points disagree. Of lines, which are easily taken for
+  // False when few agree with it and most points disagree. Of lines, which are easily taken for
   // their neighbours, many disagree with right poses, too.
   bool Agreed(const PoseEstimate& pose, const FrameCounts& counts) const {
     constexpr int kFewPoints = 10;  // tell nothing
@@ -96,13 +96,15 @@ class PoseSearch {
                                          const MapSnapshot& snapshot,
                                          const LastSearch& how,
                                          FrameAssociation& association) const;
-  // What a feature of the frame to match by appearance shows: of the map, or made from its depth.
-  std::optional<CandidatePoint> PointOf(const Frame& frame,
+  // What a feature of an earlier frame shows: of the map (not nullptr), or made from its depth.
+  std::optional<CandidatePoint> PointOf(const SnapshotPoint* known,
+                                        const Frame& frame,
                                         std::size_t feature,
-                                        const MapSnapshot& snapshot) const;
-  std::optional<CandidateLine> LineOf(const Frame& frame,
+                                        double max_relative_sigma) const;
+  std::optional<CandidateLine> LineOf(const SnapshotLine* known,
+                                      const Frame& frame,
                                       std::size_t feature,
-                                      const MapSnapshot& snapshot) const;
+                                      double max_relative_sigma) const;
   FrameAssociation MatchAppearance(const Frame& frame,
                                    const Frame& reference,
                                    const MapSnapshot& snapshot) const;
