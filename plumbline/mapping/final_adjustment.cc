@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -77,6 +78,21 @@ void KeepScale(const BaProblem& problem, BaResult& result) {
   for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
+// Solves until no two keyframes that follow each other are torn apart; nullopt where it comes to no
+// end of that, or the numbers are not finite. Poses that are held are marked in the problem.
+std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
+                                        const LineOptions& lines,
+                                        const MappingOptions& options) {
+  constexpr int kAttempts = 4;
+  const double limit = options.window.max_pose_sigma;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    BaResult result = SolveWithLoosePosesHeld(problem, options.ba, lines.parametrization, limit);
+    if (result.termination == BaTermination::kNotFinite) return std::nullopt;
+    if (!HoldTornPoses(result, limit, problem)) return result;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 MapEdit AdjustWholeMap(const Map& map,
@@ -92,12 +108,11 @@ MapEdit AdjustWholeMap(const Map& map,
   const MapProblem whole =
       MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
   BaProblem problem = whole.problem;  // held poses are free in `whole`: a new scale is for all
-  BaResult result = SolveWithLoosePosesHeld(
-      problem, options.ba, lines.parametrization, options.window.max_pose_sigma);
-  if (result.termination == BaTermination::kNotFinite) return {};
-  KeepScale(whole.problem, result);
-  MapEdit edit = PosesAndPointsOf(whole, result);
-  MoveLines(map, PosesByKeyFrame(whole, result), edit);
+  std::optional<BaResult> result = SolveInOnePiece(problem, lines, options);
+  if (!result) return {};
+  KeepScale(whole.problem, *result);
+  MapEdit edit = PosesAndPointsOf(whole, *result);
+  MoveLines(map, PosesByKeyFrame(whole, *result), edit);
   return edit;
 }
 

@@ -58,17 +58,18 @@ void AddLines(const BaProblem& problem, const BaResult& state, std::vector<Sums>
 
 PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (!(scene_depth > 0)) return {kInfinity, kInfinity};
+  if (!(scene_depth > 0)) return {kInfinity, kInfinity, 0};
   Vector6d unit = Vector6d::Ones();
   unit.tail<3>().setConstant(scene_depth);
   const Matrix6d scaled = unit.asDiagonal() * information * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
   const Vector6d& values = eigen.eigenvalues();
-  if (!(values(0) > 1e-12 * values(5))) return {kInfinity, kInfinity};
+  if (!(values(0) > 1e-12 * values(5))) return {kInfinity, kInfinity, scene_depth};
   const Matrix6d covariance =
       eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
   return {LargestSigma(covariance.topLeftCorner<3, 3>()),
-          LargestSigma(covariance.bottomRightCorner<3, 3>())};
+          LargestSigma(covariance.bottomRightCorner<3, 3>()),
+          scene_depth};
 }
 
 std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state) {
@@ -89,6 +90,25 @@ bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
   for (std::size_t i = 0; i < sigmas.size(); ++i) {
     if (problem.poses[i].fixed || sigmas[i].AtMost(limit)) continue;
     problem.poses[i].fixed = true;
+    any = true;
+  }
+  return any;
+}
+
+bool HoldTornPoses(const BaResult& solution, double limit, BaProblem& problem) {
+  const std::vector<PoseSigma> sigmas = SigmasOfPoses(problem, InitialState(problem));
+  bool any = false;
+  for (std::size_t i = 1; i < problem.poses.size(); ++i) {
+    auto& before = problem.poses[i - 1];
+    auto& pose = problem.poses[i];
+    if (before.fixed && pose.fixed) continue;
+    const Vector6d change = LogSe3(solution.poses[i] * Inverse(solution.poses[i - 1]) *
+                                   Inverse(pose.cam_from_world * Inverse(before.cam_from_world)));
+    if (change.head<3>().norm() <= limit &&
+        change.tail<3>().norm() <= limit * sigmas[i].scene_depth) {
+      continue;
+    }
+    before.fixed = pose.fixed = true;
     any = true;
   }
   return any;

@@ -15,6 +15,7 @@ namespace plumbline {
 struct PoseSigma {
   double rotation = 0;     // radians
   double translation = 0;  // relative to the depth of the scene
+  double scene_depth = 0;  // median of the landmarks; 0: there are none
 
   // Both at most `limit`: the number counts of inliers cannot give. A hundred parallel lines leave
   // the pose open, six in three directions fix it.
@@ -35,6 +36,12 @@ std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& s
 // them fit the few observations they have is cheap, and takes them anywhere. Returns whether there
 // were any. The caller solves again, from the problem's poses.
 bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem);
+
+// Marks as fixed the poses of the problem that follow each other and that the solution moves
+// against one another by more than `limit` (radians, and the scene's depth): what ties their parts
+// of the map leaves a direction open (lines along a road), though the landmarks of each fix its
+// pose. Returns whether there were any that were not fixed yet.
+bool HoldTornPoses(const BaResult& solution, double limit, BaProblem& problem);
 
 // SolveLocalBa with those poses held that are loose before it, or by what it leaves of their
 // observations; they are marked as fixed in the problem.

@@ -83,6 +83,32 @@ TEST(AdjustWholeMap, LeavesKeyFramesInTheirPlacesThatNothingFixes) {
   }
 }
 
+// Points fix each half of the keyframes by itself; only vertical lines tie one to the other.
+TEST(AdjustWholeMap, KeepsHalvesTogetherThatParallelLinesTie) {
+  SyntheticWorld world = MakeSyntheticWorld(150, 100);
+  for (auto& line : world.lines) {
+    const Eigen::Vector3d middle = line.segment.Midpoint();
+    line.segment = {middle - Eigen::Vector3d(0, 0.5, 0), middle + Eigen::Vector3d(0, 0.5, 0)};
+  }
+  TrueMap scene = MovedMap(world);
+  MapEdit edit;
+  for (const auto& [id, point] : scene.map.points()) {
+    for (const auto& [keyframe, feature] : point.observations) {
+      if ((keyframe.value < kKeyFrames / 2) != (id.value % 2 == 0)) {
+        edit.push_back(edit::RemovePointObservation{id, keyframe});
+      }
+    }
+  }
+  scene.map.Apply(edit);
+  const Map before = scene.map;
+  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  const auto motion = [](const Map& map) {
+    return map.Find(KeyFrameId{5})->frame.cam_from_world *
+           Inverse(map.Find(KeyFrameId{4})->frame.cam_from_world);
+  };
+  EXPECT_LT(LogSe3(motion(scene.map) * Inverse(motion(before))).norm(), 0.02);
+}
+
 TEST(AdjustWholeMap, MovesALineLandmarkWithTheNewestKeyFrameThatShowsIt) {
   const SyntheticWorld world = MakeSyntheticWorld(150, 100);
   TrueMap scene = MovedMap(world);

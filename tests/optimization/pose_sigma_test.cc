@@ -113,6 +113,41 @@ TEST(SolveWithLoosePosesHeld, MovesWhatIsFixedAndNothingElse) {
   EXPECT_EQ(parallel.poses[1].translation, problem.poses[1].cam_from_world.translation);
 }
 
+// Five poses; the solution takes the last two somewhere else together.
+TEST(HoldTornPoses, HoldsBothSidesOfATear) {
+  BaProblem problem = TwoViewsOfLines(24);
+  problem.poses.resize(5, problem.poses[1]);
+  for (int pose = 2; pose < 5; ++pose) {
+    for (std::size_t k = 0; k < 96; ++k) {
+      auto o = problem.line_observations[k];
+      if (o.pose != 1) continue;
+      o.pose = pose;
+      problem.line_observations.push_back(o);
+    }
+  }
+  const auto held = [&](double slide) {
+    BaProblem copy = problem;
+    BaResult solution = InitialState(problem);
+    for (std::size_t i = 3; i < 5; ++i) solution.poses[i].translation.z() += slide;
+    const bool any = HoldTornPoses(solution, 0.01, copy);
+    EXPECT_EQ(HoldTornPoses(solution, 0.01, copy), false) << "held already";
+    std::vector<int> fixed;
+    for (std::size_t i = 0; i < 5; ++i) {
+      if (copy.poses[i].fixed) fixed.push_back(static_cast<int>(i));
+    }
+    EXPECT_EQ(any, !fixed.empty());
+    return fixed;
+  };
+  const double depth = SigmasOfPoses(problem, InitialState(problem))[3].scene_depth;
+  EXPECT_NEAR(depth, 4.7, 0.5);
+  EXPECT_EQ(held(0.009 * depth), std::vector<int>{});
+  EXPECT_EQ(held(0.011 * depth), (std::vector<int>{2, 3}));
+  BaResult turned = InitialState(problem);
+  turned.poses[4] = ExpSe3((Vector6d() << 0, 0, 0.011, 0, 0, 0).finished()) * turned.poses[4];
+  EXPECT_TRUE(HoldTornPoses(turned, 0.01, problem));
+  EXPECT_TRUE(problem.poses[3].fixed && problem.poses[4].fixed);
+}
+
 TEST(SigmasOfPoses, ShrinkWithTheNumberOfObservations) {
   const BaProblem few = TwoViewsOfLines(14);
   const BaProblem many = TwoViewsOfLines(24);
