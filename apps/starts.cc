@@ -44,6 +44,9 @@ CommandSyntax Syntax() {
            {"--every", "N", "from one start to the next, frames (5)"},
            {"--start", "N", "only the start at this frame; may be repeated"},
            {"--seconds", "N", "of video until there must be a map (2)"},
+           {"--patience",
+            "N",
+            "seconds of video until an attempt is given up; a map after --seconds is late (6)"},
            {"--least-parallax",
             "DEG",
             "a map from less true parallax is wrong however small its errors are (0)"},
@@ -92,6 +95,7 @@ double ReadNumber(const CommandLine& line, const std::string& option) {
 StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
   StartPlan plan;
   plan.seconds = line.Count("--seconds", 2, 1);
+  plan.patience = line.Count("--patience", 6, 1);
   plan.limits.parallax_deg = ReadNumber(line, "--least-parallax");
   const int from = line.Count("--from", 0, 0);
   plan.frames = EveryStart(dataset.size(), from, line.Count("--every", 5, 1));
@@ -148,11 +152,12 @@ void PrintResult(const StartResults& results, const Setup& setup) {
     return found == figures.end() ? std::string("unknown") : fmt::format("{:.4g}", found->second);
   };
   std::cout << fmt::format(
-      "{} starts, {} possible: {} % right, {} wait; {} wrong of all; {} frames to a map\n"
+      "{} starts, {} possible: {} % right, {} late, {} wait; {} wrong of all; {} frames to a map\n"
       "results in {}\n",
       figure("starts"),
       figure("possible"),
       figure("success"),
+      figure("late"),
       figure("waiting"),
       figure("wrong"),
       figure("map_frames"),

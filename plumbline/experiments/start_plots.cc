@@ -57,7 +57,7 @@ std::vector<CurvePanel> PanelsOfPools(
 }
 
 Figure TimePlot(const Plan& plan, const StartsByJob& starts) {
-  constexpr double kEnd = 2;  // seconds
+  constexpr double kEnd = 6;  // seconds
   const CurvePanel blank{
       "", "seconds of video", "possible starts with a right map [%]", {}, false, kEnd, kPercent};
   return CurvePlot(PanelsOfPools(plan, starts, blank, [](const Records& records) {
@@ -66,7 +66,9 @@ Figure TimePlot(const Plan& plan, const StartsByJob& starts) {
     for (const StartRecord& record : records) {
       if (!IsPossible(record).value_or(false)) continue;
       ++possible;
-      if (record.outcome == StartOutcome::kRight) seconds.push_back(record.map->seconds);
+      if (record.outcome == StartOutcome::kRight || record.outcome == StartOutcome::kLate) {
+        seconds.push_back(record.map->seconds);
+      }
     }
     return Cumulative(std::move(seconds), possible, kEnd);
   }));

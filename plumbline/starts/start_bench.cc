@@ -5,6 +5,7 @@
 #include "plumbline/slam/front_end.h"
 #include "plumbline/starts/sequence_truth.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -51,14 +52,17 @@ std::vector<int> EveryStart(std::size_t frames, int from, int every) {
   return starts;
 }
 
-StartRange RangeOf(const Dataset& dataset, int first, double seconds) {
+StartRange RangeOf(const Dataset& dataset, int first, double seconds, double patience) {
   const auto begin = static_cast<std::size_t>(first);
-  std::size_t end = begin;
-  while (end < dataset.size() &&
-         1e-9 * static_cast<double>(dataset.stamp_ns(end) - dataset.stamp_ns(begin)) <= seconds) {
-    ++end;
-  }
-  return {first, static_cast<int>(end)};
+  const auto end_of = [&](double limit) {
+    std::size_t end = begin;
+    while (end < dataset.size() &&
+           1e-9 * static_cast<double>(dataset.stamp_ns(end) - dataset.stamp_ns(begin)) <= limit) {
+      ++end;
+    }
+    return static_cast<int>(end);
+  };
+  return {first, end_of(seconds), end_of(std::max(seconds, patience))};
 }
 
 StartResults RunStarts(const Dataset& mono,
@@ -77,8 +81,8 @@ StartResults RunStarts(const Dataset& mono,
   for (const int first : plan.frames) {
     measured.ForgetBefore(first);
     const auto initializer = make_initializer(imaging);
-    results.records.push_back(
-        TryStart(RangeOf(mono, first, plan.seconds), task, *initializer, results.add_ms));
+    results.records.push_back(TryStart(
+        RangeOf(mono, first, plan.seconds, plan.patience), task, *initializer, results.add_ms));
     if (progress && !progress(results.records.size())) break;
   }
   return results;

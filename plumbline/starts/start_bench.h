@@ -33,7 +33,8 @@ void VisitFields(Visitor&& visit, StartOptions& o) {
 // Which starts are tried, and when they are right.
 struct StartPlan {
   std::vector<int> frames;  // first frames, ascending
-  double seconds = 2;       // of video, until there must be a map
+  double seconds = 2;       // of video until there must be a map
+  double patience = 6;      // of video until the initializer is given up, at least `seconds`
   StartLimits limits;
   std::optional<Trajectory> poses = std::nullopt;                          // as of SequenceTruth
   std::function<void(const StartRecord&, const InitialMap&)> on_map = {};  // as of StartTask
@@ -42,8 +43,9 @@ struct StartPlan {
 // Every `every`-th frame from `from` on that has another frame behind it.
 std::vector<int> EveryStart(std::size_t frames, int from, int every);
 
-// The frames from `first` on that were taken at most `seconds` later.
-StartRange RangeOf(const Dataset& dataset, int first, double seconds);
+// The frames from `first` on that were taken at most `patience` later; in time are those taken at
+// most `seconds` later.
+StartRange RangeOf(const Dataset& dataset, int first, double seconds, double patience);
 
 // Makes an initializer without frames.
 using InitializerFactory = std::function<std::unique_ptr<Initializer>(const ImagingModel&)>;

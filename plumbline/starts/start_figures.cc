@@ -13,7 +13,7 @@ using Figures = std::map<std::string, double, std::less<>>;
 constexpr double kPercent = 100;
 
 void AddCounts(std::span<const StartRecord> records, Figures& figures) {
-  double possible = 0, known = 0, success = 0, waiting = 0, wrong = 0, accepted = 0;
+  double possible = 0, known = 0, success = 0, late = 0, waiting = 0, wrong = 0, accepted = 0;
   for (const StartRecord& record : records) {
     const auto is_possible = IsPossible(record);
     known += is_possible.has_value();
@@ -22,6 +22,7 @@ void AddCounts(std::span<const StartRecord> records, Figures& figures) {
     if (!is_possible.value_or(false)) continue;
     ++possible;
     success += record.outcome == StartOutcome::kRight;
+    late += record.outcome == StartOutcome::kLate;
     waiting += record.outcome == StartOutcome::kWaiting;
   }
   const auto all = static_cast<double>(records.size());
@@ -31,9 +32,15 @@ void AddCounts(std::span<const StartRecord> records, Figures& figures) {
     figures["wrong_rate"] = kPercent * wrong / all;
     figures["accepted"] = kPercent * accepted / all;
   }
-  if (known > 0) figures["possible"] = possible;
-  if (known > 0) figures["waiting"] = waiting;
-  if (possible > 0) figures["success"] = kPercent * success / possible;
+  if (known > 0) {
+    figures["possible"] = possible;
+    figures["late"] = late;
+    figures["waiting"] = waiting;
+  }
+  if (possible > 0) {
+    figures["success"] = kPercent * success / possible;
+    figures["success_in_the_end"] = kPercent * (success + late) / possible;
+  }
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ std::optional<bool> IsPossible(const StartRecord& record);
 // `success` without any possible start.
 //
 //   starts, possible, wrong          how many; wrong among all starts
-//   waiting                          possible ones without a map
-//   success                          right ones of the possible, percent
+//   late, waiting                    possible ones with a right map after the time, and without a
+//   map success, success_in_the_end      right ones of the possible, percent; and with late ones
 //   wrong_rate, accepted             wrong ones, and those with a map, of all, percent
 //   map_frames, map_seconds          until there is a map: median, and with _p95 95th percentile
 //   map_parallax                     true median parallax of the maps, degrees, median

@@ -15,12 +15,14 @@ namespace plumbline {
 // What came of an attempt to start a monocular map at a frame.
 enum class StartOutcome {
   kRight,     // a map within all limits
-  kWrong,     // a map beyond one of them
+  kLate,      // the same, but after the time
+  kWrong,     // a map beyond one of them, at any time
   kWaiting,   // no map
   kUnjudged,  // a map, but the true poses are not known
 };
 constexpr auto EnumNames(std::type_identity<StartOutcome>) {
   return std::array{std::pair{StartOutcome::kRight, "right"},
+                    std::pair{StartOutcome::kLate, "late"},
                     std::pair{StartOutcome::kWrong, "wrong"},
                     std::pair{StartOutcome::kWaiting, "waiting"},
                     std::pair{StartOutcome::kUnjudged, "unjudged"}};

@@ -33,7 +33,7 @@ std::optional<double> GreatestParallaxDeg(const StartRange& range,
   if (depth == nullptr) return std::nullopt;
   const auto points = depth->Samples();
   std::optional<double> greatest;
-  for (int frame = range.begin + 1; frame < range.end; ++frame) {
+  for (int frame = range.begin + 1; frame < range.in_time; ++frame) {
     const auto motion = TrueMotion(truth, range.begin, frame);
     if (!motion) continue;
     greatest = std::max(greatest.value_or(0), MedianParallaxDeg(points, *motion, camera));
@@ -61,12 +61,12 @@ StartMap DescribeMap(const InitializationResult& result,
   return map;
 }
 
-void Judge(const StartLimits& limits, StartRecord& record) {
+void Judge(const StartLimits& limits, bool in_time, StartRecord& record) {
   record.reason = ExceededLimits(*record.map, limits);
   if (!record.reason.empty()) {
     record.outcome = StartOutcome::kWrong;
   } else if (record.map->errors.rotation_deg) {
-    record.outcome = StartOutcome::kRight;
+    record.outcome = in_time ? StartOutcome::kRight : StartOutcome::kLate;
   } else {
     record.outcome = StartOutcome::kUnjudged;
   }
@@ -96,7 +96,7 @@ StartRecord TryStart(const StartRange& range,
     record.map = DescribeMap(result, task.truth, task.camera);
     record.map->frames = record.offered;
     record.map->seconds = 1e-9 * static_cast<double>(frame->stamp_ns - *first_stamp_ns);
-    Judge(task.limits, record);
+    Judge(task.limits, index < range.in_time, record);
     if (task.on_map) task.on_map(record, *result.map);
     break;
   }

@@ -18,9 +18,10 @@ namespace plumbline {
 // are the numbers of the frames.
 using StartFrames = std::function<std::optional<InitializationFrame>(int frame)>;
 
-// Frames begin, ..., end - 1 are offered until there is a map.
+// Frames begin, ..., end - 1 are offered until there is a map. A start is judged possible by those
+// before `in_time`, and one that gives its map later is late.
 struct StartRange {
-  int begin = 0, end = 0;
+  int begin = 0, in_time = 0, end = 0;
 };
 
 // What all starts of a sequence have in common.

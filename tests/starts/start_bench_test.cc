@@ -43,9 +43,13 @@ TEST(StartBench, StartsAtEveryFewFramesThatHaveOneBehind) {
 TEST(StartBench, ATimeOfVideoEndsWithTheSequence) {
   const ScratchFolder folder;
   const auto dataset = OpenDataset(WritePosterSequence(folder, 12), {.sensor = SensorKind::kMono});
-  EXPECT_EQ(RangeOf(*dataset, 2, 0.3).begin, 2);
-  EXPECT_EQ(RangeOf(*dataset, 2, 0.3001).end, 9) << "every 50 ms; 2 and six more";
-  EXPECT_EQ(RangeOf(*dataset, 8, 2).end, 12);
+  const StartRange range = RangeOf(*dataset, 2, 0.2001, 0.3001);
+  EXPECT_EQ(range.begin, 2);
+  EXPECT_EQ(range.in_time, 7) << "every 50 ms; 2 and four more";
+  EXPECT_EQ(range.end, 9) << "two more";
+  EXPECT_EQ(RangeOf(*dataset, 8, 2, 6).end, 12);
+  EXPECT_EQ(RangeOf(*dataset, 8, 2, 6).in_time, 12);
+  EXPECT_EQ(RangeOf(*dataset, 2, 0.3001, 0.1).end, 9) << "never before the time";
 }
 
 TEST(StartBench, MeasuresEachFrameOnce) {

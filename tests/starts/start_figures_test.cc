@@ -30,15 +30,19 @@ TEST(StartFigures, CountAgainstWhatIsPossible) {
                                             Start(kWaiting, 0.1),
                                             Start(kWrong, 3, 0.9),
                                             Start(kWrong, 0.1, 0.7),
+                                            Start(kLate, 2.5, 0.3),
+                                            Start(kLate, 1.5, 0.3),  // not asked for
                                             Start(kRight, std::nullopt, 0.4)};
   const auto figures = FiguresOf(records);
-  EXPECT_EQ(figures.at("starts"), 8);
-  EXPECT_EQ(figures.at("possible"), 4);
-  EXPECT_EQ(figures.at("success"), 50);
+  EXPECT_EQ(figures.at("starts"), 10);
+  EXPECT_EQ(figures.at("possible"), 5);
+  EXPECT_EQ(figures.at("success"), 40);
+  EXPECT_EQ(figures.at("success_in_the_end"), 60);
+  EXPECT_EQ(figures.at("late"), 1);
   EXPECT_EQ(figures.at("waiting"), 1);
   EXPECT_EQ(figures.at("wrong"), 2);
-  EXPECT_EQ(figures.at("wrong_rate"), 25);
-  EXPECT_EQ(figures.at("accepted"), 75);
+  EXPECT_EQ(figures.at("wrong_rate"), 20);
+  EXPECT_EQ(figures.at("accepted"), 80);
   EXPECT_EQ(figures.at("rotation_error"), 0.3);
   EXPECT_EQ(figures.at("rotation_error_p95"), 0.9);
   EXPECT_EQ(figures.at("map_seconds"), 3);

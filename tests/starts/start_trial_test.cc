@@ -12,7 +12,8 @@ namespace {
 StartRecord Try(Initializer& initializer,
                 const StartTruth& truth,
                 const StartLimits& limits = {},
-                std::vector<double>* times = nullptr) {
+                std::vector<double>* times = nullptr,
+                int in_time = 12) {
   const StartFrames frames = BlankFrame;
   int maps = 0;
   const StartTask task{
@@ -20,7 +21,7 @@ StartRecord Try(Initializer& initializer,
         maps += !map.views.empty();
       }};
   std::vector<double> milliseconds;
-  const StartRecord record = TryStart({1, 12}, task, initializer, milliseconds);
+  const StartRecord record = TryStart({1, in_time, 12}, task, initializer, milliseconds);
   EXPECT_EQ(maps, record.map ? 1 : 0);
   if (times != nullptr) *times = milliseconds;
   return record;
@@ -75,6 +76,33 @@ TEST(StartTrial, WithoutAMapTheLastReasonIsKept) {
   EXPECT_EQ(record.reason, "too_little_parallax");
   EXPECT_EQ(record.offered, 10);
   EXPECT_FALSE(record.map);
+}
+
+TEST(StartTrial, ARightMapAfterTheTimeIsLate) {
+  const SidewaysTruth truth;
+  const auto outcome = [&](int in_time) {
+    FakeInitializer initializer(7, truth.Map(1, 7, 3));
+    return Try(initializer, truth, {}, nullptr, in_time).outcome;
+  };
+  EXPECT_EQ(outcome(8), StartOutcome::kRight);
+  EXPECT_EQ(outcome(7), StartOutcome::kLate);
+}
+
+TEST(StartTrial, AWrongMapAfterTheTimeIsWrong) {
+  const SidewaysTruth truth;
+  InitialMap map = truth.Map(1, 7, 1);
+  map.views.back().cam_from_world.translation *= -1;
+  FakeInitializer initializer(7, map);
+  EXPECT_EQ(Try(initializer, truth, {}, nullptr, 4).outcome, StartOutcome::kWrong);
+}
+
+TEST(StartTrial, WhatIsPossibleCountsFramesInTimeOnly) {
+  const SidewaysTruth truth;
+  const auto greatest = [&](int in_time) {
+    FakeInitializer initializer(std::nullopt, {});
+    return *Try(initializer, truth, {}, nullptr, in_time).greatest_parallax_deg;
+  };
+  EXPECT_LT(greatest(5), 0.6 * greatest(12));
 }
 
 TEST(StartTrial, AMapOfAStillCameraIsWrongWhereParallaxIsAskedFor) {
