@@ -4,6 +4,7 @@
 #include "plumbline/image/box_filter.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/reversed_dataset.h"
 #include "plumbline/report/html_report.h"
 #include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
@@ -23,6 +24,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,6 +51,7 @@ CommandSyntax Syntax() {
            {"--from", "N", "first frame (default 0)"},
            {"--to", "N", "end before this frame (default: the end)"},
            {"--stride", "N", "every N-th frame (default 1)"},
+           {"--reverse", "", "play these frames from the last to the first"},
            {"--blur", "N", "N x N box filter on every input image"},
            {"--mode", "inline|lockstep|live", "how the stages run; same as --set slam.mode"},
            {"--seed", "N", "of everything random; same as --set slam.seed"},
@@ -103,6 +106,23 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   if (format && *format != "auto") options.format = ParseChoice<DatasetFormat>("--format", *format);
   options.camera = line.Value("--camera");
   return options;
+}
+
+// What is fed, by index in the data set.
+struct Input {
+  std::unique_ptr<Dataset> dataset;
+  std::vector<std::size_t> frames;
+};
+
+Input OpenInput(const CommandLine& line) {
+  Input input;
+  input.dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
+  input.frames = ChooseFrames(line, *input.dataset);
+  if (!line.Has("--reverse")) return input;
+  input.dataset = PlayedBackwards(std::move(input.dataset), std::move(input.frames));
+  input.frames.resize(input.dataset->size());
+  std::iota(input.frames.begin(), input.frames.end(), std::size_t{0});
+  return input;
 }
 
 // Every image of the frame through the box filter of --blur (0: as it is). Depth stays.
@@ -263,8 +283,7 @@ int RunCommand(std::span<const std::string> arguments) {
   }
   const auto start = Clock::now();
   const RunSetup setup = ReadSetup(line);
-  const auto dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
-  const std::vector<std::size_t> frames = ChooseFrames(line, *dataset);
+  const auto [dataset, frames] = OpenInput(line);
   MakeFolder(setup.folder);
   RemoveEarlierRun(setup.folder);
   WriteFileAtomically(setup.folder / "options.yaml", setup.options_yaml);
@@ -278,7 +297,7 @@ int RunCommand(std::span<const std::string> arguments) {
   const Progressed progressed = ProcessFrames(*dataset, frames, setup, system, views);
 
   const auto samples = views.Write(setup.folder);
-  WriteRunFiles(system, setup.folder);
+  WriteRunFiles(system, setup.folder, dataset->info().time_mirror_ns);
   ResourceUse resources = MeasureResources();
   resources.first_pose_seconds = progressed.first_pose_seconds;
   resources.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();

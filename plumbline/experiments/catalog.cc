@@ -241,6 +241,38 @@ Experiment CuttingExperiment() {
   return experiment;
 }
 
+// Recorded sequences in ways on which nothing was tuned.
+Experiment RobustnessExperiment() {
+  Experiment experiment;
+  experiment.name = "robustness";
+  experiment.help = "recordings as they are, played backwards, with fewer images, and blurred";
+  experiment.sequences = {{"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}};
+  experiment.variants = {{"as_recorded", {}},
+                         {"reversed", {}, {"--reverse"}},
+                         {"every_2nd", {}, {"--stride", "2"}},
+                         {"every_3rd", {}, {"--stride", "3"}},
+                         {"every_4th", {}, {"--stride", "4"}},
+                         {"every_5th", {}, {"--stride", "5"}},
+                         {"blurred", {}, {"--blur", "5"}}};
+  experiment.metrics = {
+      "ate", "ate_causal", "rpe_rmse", "coverage", "lost", "initializing", "maps", "keyframes"};
+  experiment.plots = {"ate", "coverage"};
+  experiment.reference = "as_recorded";
+  return experiment;
+}
+
+// The same with the left camera alone. ICL-NUIM has no other and is in the experiment above.
+Experiment MonocularRobustnessExperiment() {
+  Experiment experiment = RobustnessExperiment();
+  experiment.name = "robustness_mono";
+  experiment.help = "recordings in the same ways, from the left camera alone";
+  experiment.sequences = {{"euroc/*"}, {"kitti/*"}, {"tum/*"}};
+  for (Variant& variant : experiment.variants) {
+    variant.arguments.insert(variant.arguments.end(), {"--sensor", "mono"});
+  }
+  return experiment;
+}
+
 }  // namespace
 
 std::span<const Experiment> Experiments() {
@@ -260,6 +292,8 @@ std::span<const Experiment> Experiments() {
       LineExperiment(),
       MonocularLineExperiment(),
       CuttingExperiment(),
+      RobustnessExperiment(),
+      MonocularRobustnessExperiment(),
       StartExperiment(
           "initialization",
           "how often, how soon and how well a monocular map begins, by several methods",

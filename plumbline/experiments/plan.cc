@@ -59,13 +59,29 @@ bool IsChosen(const std::string& name, const std::vector<std::string>& only) {
          });
 }
 
+// Run k leaves out the k - 1 frames that are played first; where the sequence is played backwards
+// these are its last ones.
+std::vector<std::string> PlayedFrames(const ExperimentSequence& sequence,
+                                      const Variant& variant,
+                                      int run) {
+  const auto& arguments = variant.arguments;
+  const bool reversed =
+      std::find(arguments.begin(), arguments.end(), "--reverse") != arguments.end();
+  const auto left_out = static_cast<std::size_t>(run - 1);
+  if (reversed && left_out > 0 && sequence.frames > left_out) {
+    return {"--to", std::to_string(sequence.frames - left_out)};
+  }
+  return {"--from", std::to_string(left_out)};
+}
+
 Job MakeJob(const ExperimentSequence& sequence,
             const Variant& variant,
             int run,
             RunCommandKind command,
             const PlanRequest& request) {
-  std::vector<std::string> arguments = {
-      "--seed", std::to_string(run), "--from", std::to_string(run - 1)};
+  std::vector<std::string> arguments = {"--seed", std::to_string(run)};
+  const std::vector<std::string> frames = PlayedFrames(sequence, variant, run);
+  arguments.insert(arguments.end(), frames.begin(), frames.end());
   arguments.insert(arguments.end(), sequence.arguments.begin(), sequence.arguments.end());
   arguments.insert(arguments.end(), variant.arguments.begin(), variant.arguments.end());
   for (const auto* settings : {&request.settings, &variant.settings}) {

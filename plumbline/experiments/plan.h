@@ -16,9 +16,9 @@ namespace plumbline {
 // One run of one variant on one sequence, by a program of its own.
 struct Job {
   std::size_t sequence = 0, variant = 0;  // in the plan
-  int run = 1;                            // run k has seed k and starts at frame k - 1
-  std::vector<std::string> command;       // the arguments of the program: "run", PATH, ...
-  std::filesystem::path folder;           // OUT/runs/<sequence>/<variant>/<run>
+  int run = 1;  // run k has seed k and leaves out the k - 1 frames played first
+  std::vector<std::string> command;  // the arguments of the program: "run", PATH, ...
+  std::filesystem::path folder;      // OUT/runs/<sequence>/<variant>/<run>
   // All that the result depends on, as text: program, sequence, arguments. A job is done while the
   // folder holds the result of the same key.
   std::string key;

@@ -51,6 +51,12 @@ std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
   return static_cast<std::size_t>(nearest - trajectory.begin());
 }
 
+Trajectory TimeReversed(Trajectory trajectory, std::int64_t mirror_ns) {
+  std::ranges::reverse(trajectory);
+  for (StampedPose& pose : trajectory) pose.stamp_ns = mirror_ns - pose.stamp_ns;
+  return trajectory;
+}
+
 double PathLength(const Trajectory& trajectory) {
   double length = 0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {

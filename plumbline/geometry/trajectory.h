@@ -34,6 +34,10 @@ std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
                                         std::int64_t stamp_ns,
                                         std::int64_t max_difference_ns);
 
+// The same poses with time running backwards: a pose at t comes at mirror_ns - t. Twice is the
+// trajectory itself.
+Trajectory TimeReversed(Trajectory trajectory, std::int64_t mirror_ns);
+
 // Sum of the distances between successive positions, metres.
 double PathLength(const Trajectory& trajectory);
 

@@ -63,6 +63,9 @@ struct DatasetInfo {
   bool has_calibration = true;              // false only with DatasetOptions::allow_missing_camera
   std::optional<GroundTruth> ground_truth;  // nullopt: none is delivered
   std::vector<std::string> notes;           // what is missing or left out, one sentence each
+  // Set where the frames are played backwards (reversed_dataset.h): what was recorded at t has the
+  // stamp time_mirror_ns - t here.
+  std::optional<std::int64_t> time_mirror_ns;
 };
 
 // A recorded sequence: frames in time order, read on demand.

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
+#include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dxf.h"
 #include "plumbline/io/map_io.h"
@@ -20,7 +21,20 @@
 namespace plumbline {
 namespace {
 
-void WriteTrajectories(const System& system, const std::filesystem::path& folder) {
+using TimeMirror = std::optional<std::int64_t>;  // DatasetInfo::time_mirror_ns
+
+std::vector<FrameRecord> AsRecorded(std::vector<FrameRecord> frames, TimeMirror mirror_ns) {
+  if (!mirror_ns) return frames;
+  for (FrameRecord& frame : frames) frame.stamp_ns = *mirror_ns - frame.stamp_ns;
+  return frames;
+}
+
+void WriteTrajectories(const System& system,
+                       const std::filesystem::path& folder,
+                       TimeMirror mirror_ns) {
+  const auto write = [&](const std::string& name, const Trajectory& played) {
+    WriteTum(folder / name, mirror_ns ? TimeReversed(played, *mirror_ns) : played);
+  };
   const auto main = system.MainMap();
   if (!main) {
     for (const char* name : {"trajectory.txt", "trajectory_causal.txt", "keyframes.txt"}) {
@@ -30,9 +44,9 @@ void WriteTrajectories(const System& system, const std::filesystem::path& folder
   }
   for (const Map& map : system.maps()) {
     const std::string suffix = map.id() == *main ? "" : fmt::format("_map{}", map.id().value);
-    WriteTum(folder / ("trajectory" + suffix + ".txt"), system.FinalTrajectory(map.id()));
-    WriteTum(folder / ("trajectory_causal" + suffix + ".txt"), system.CausalTrajectory(map.id()));
-    WriteTum(folder / ("keyframes" + suffix + ".txt"), system.KeyFrameTrajectory(map.id()));
+    write("trajectory" + suffix + ".txt", system.FinalTrajectory(map.id()));
+    write("trajectory_causal" + suffix + ".txt", system.CausalTrajectory(map.id()));
+    write("keyframes" + suffix + ".txt", system.KeyFrameTrajectory(map.id()));
   }
 }
 
@@ -100,11 +114,14 @@ std::string FormatFrames(const std::vector<FrameRecord>& frames) {
   return text;
 }
 
-void WriteRunFiles(const System& system, const std::filesystem::path& folder) {
-  WriteTrajectories(system, folder);
-  WriteFileAtomically(folder / "frames.csv", FormatFrames(system.frames()));
-  WriteFileAtomically(folder / "timing.csv", FormatTimingCsv(system.frames()));
-  WriteFileAtomically(folder / "timing.json", FormatTimingJson(system.frames()));
+void WriteRunFiles(const System& system,
+                   const std::filesystem::path& folder,
+                   std::optional<std::int64_t> time_mirror_ns) {
+  WriteTrajectories(system, folder, time_mirror_ns);
+  const std::vector<FrameRecord> frames = AsRecorded(system.frames(), time_mirror_ns);
+  WriteFileAtomically(folder / "frames.csv", FormatFrames(frames));
+  WriteFileAtomically(folder / "timing.csv", FormatTimingCsv(frames));
+  WriteFileAtomically(folder / "timing.json", FormatTimingJson(frames));
   WriteMap(system, folder);
 }
 

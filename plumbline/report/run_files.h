@@ -5,8 +5,11 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/slam/system.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace plumbline {
 
@@ -22,6 +25,13 @@ void RemoveEarlierRun(const std::filesystem::path& folder);
 // as *_map<k>.txt), frames.csv, timing.csv, timing.json, map.plb (all landmarks), map.ply,
 // lines.obj and lines.dxf (the line map, System::LineMap). Each file is written whole or not at
 // all. Throws InputError when a file cannot be written.
-void WriteRunFiles(const System& system, const std::filesystem::path& folder);
+//
+// time_mirror_ns is DatasetInfo::time_mirror_ns: after a run backwards a frame has the stamp of its
+// recording in all text files, so that they compare with the data's own ground truth. Trajectories
+// are in the order of these stamps, rows of frames in the order played. map.plb keeps the stamps
+// as played.
+void WriteRunFiles(const System& system,
+                   const std::filesystem::path& folder,
+                   std::optional<std::int64_t> time_mirror_ns = std::nullopt);
 
 }  // namespace plumbline

@@ -14,13 +14,17 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace plumbline {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Pair;
 
 TEST(Catalog, EveryEntryNamesOnlyWhatThereIs) {
   std::set<std::string> names;
@@ -90,6 +94,31 @@ TEST(Catalog, CuttingHasEverySettingOfThePaperTwiceSharpAndBlurred) {
           EXPECT_EQ(variants[name]->arguments.empty(), end.empty());
         }
       }
+    }
+  }
+}
+
+TEST(Catalog, RobustnessComparesEveryWayToPlayARecordingWithTheRecordingItself) {
+  for (const std::string name : {"robustness", "robustness_mono"}) {
+    const Experiment& experiment = FindExperiment(name);
+    EXPECT_EQ(experiment.reference, "as_recorded");
+    std::map<std::string, std::string> arguments;
+    for (const Variant& variant : experiment.variants) {
+      EXPECT_TRUE(variant.settings.empty()) << "the defaults are to hold: " << variant.name;
+      arguments[variant.name] = fmt::format("{}", fmt::join(variant.arguments, " "));
+    }
+    const std::string mono = name == "robustness" ? "" : "--sensor mono";
+    const std::string end = mono.empty() ? "" : " " + mono;
+    EXPECT_THAT(arguments,
+                ElementsAre(Pair("as_recorded", mono),
+                            Pair("blurred", "--blur 5" + end),
+                            Pair("every_2nd", "--stride 2" + end),
+                            Pair("every_3rd", "--stride 3" + end),
+                            Pair("every_4th", "--stride 4" + end),
+                            Pair("every_5th", "--stride 5" + end),
+                            Pair("reversed", "--reverse" + end)));
+    for (const SequenceChoice& choice : experiment.sequences) {
+      EXPECT_FALSE(choice.pattern.starts_with("worlds/")) << "recorded only: " << choice.pattern;
     }
   }
 }

@@ -63,6 +63,24 @@ TEST(Plan, RunKHasSeedKAndBeginsAtFrameKMinusOne) {
                           "features.lines=false"));
 }
 
+TEST(Plan, RunKLeavesOutTheLastFramesOfASequencePlayedBackwards) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");  // of three frames
+  Experiment experiment = TwoVariants();
+  experiment.variants[0].arguments = {"--reverse"};
+  experiment.runs = 4;
+  const Plan plan = MakePlan(experiment, RequestIn(folder));
+  const auto frames = [&](std::size_t job) {
+    const std::vector<std::string>& command = plan.jobs.at(job).command;
+    return command.at(7) + " " + command.at(8);
+  };
+  EXPECT_EQ(frames(0), "--from 0");
+  EXPECT_EQ(frames(1), "--to 2");
+  EXPECT_EQ(frames(2), "--to 1");
+  EXPECT_EQ(frames(3), "--from 3") << "nothing is left: the run is to say so";
+  EXPECT_EQ(frames(5), "--from 1") << "another variant plays forward";
+}
+
 TEST(Plan, KeysFollowAllThatTheResultDependsOn) {
   const ScratchFolder folder;
   const std::string key = PlanOfTwo(folder).jobs[0].key;

@@ -69,5 +69,28 @@ TEST(FirstOutOfOrder, NamesTheFirstStampThatDoesNotRise) {
   EXPECT_EQ(FirstOutOfOrder(trajectory), 2U);
 }
 
+TEST(TimeReversed, MirrorsStampsAndKeepsEachPoseWithItsStamp) {
+  const Trajectory reversed = TimeReversed(ThreePoses(), 600 * kMs);
+  EXPECT_FALSE(FirstOutOfOrder(reversed));
+  ASSERT_EQ(reversed.size(), 3U);
+  EXPECT_EQ(reversed[0].stamp_ns, 100 * kMs);
+  EXPECT_EQ(reversed[1].stamp_ns, 400 * kMs);
+  EXPECT_EQ(reversed[2].stamp_ns, 500 * kMs);
+  EXPECT_EQ(reversed[0].world_from_camera.translation, Eigen::Vector3d(1, 2, 0));
+  EXPECT_EQ(reversed[1].world_from_camera.translation, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(reversed[2].world_from_camera.translation, Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(TimeReversed, TwiceIsTheTrajectoryItself) {
+  const Trajectory trajectory = ThreePoses();
+  const Trajectory twice = TimeReversed(TimeReversed(trajectory, 17), 17);
+  ASSERT_EQ(twice.size(), trajectory.size());
+  for (std::size_t i = 0; i < twice.size(); ++i) {
+    EXPECT_EQ(twice[i].stamp_ns, trajectory[i].stamp_ns);
+    EXPECT_EQ(twice[i].world_from_camera.translation, trajectory[i].world_from_camera.translation);
+  }
+  EXPECT_TRUE(TimeReversed({}, 17).empty());
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -3,6 +3,7 @@
 #include "plumbline/io/video.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/io/reversed_dataset.h"
 
 #include "tests/io/scratch_folder.h"
 #include <cmath>
@@ -96,6 +97,16 @@ TEST(Video, RefusesWhatDoesNotFit) {
   folder.Write("camera.yaml", kCamera);
   EXPECT_THAT(OpeningSays(folder.Write("text.avi", "no video"), {}),
               HasSubstr("cannot be decoded"));
+}
+
+TEST(Video, IsNotPlayedBackwards) {
+  const ScratchFolder folder;
+  const fs::path path = WriteVideo(folder);
+  folder.Write("camera.yaml", kCamera);
+  EXPECT_THAT(MessageOf([&] {
+                PlayedBackwards(OpenDataset(path, {}), {0, 1});
+              }),
+              HasSubstr("clip.avi: expected image files to play backwards, found a video"));
 }
 
 TEST(Video, EndsWhereTheFileWasCutShort) {
