@@ -53,7 +53,6 @@ std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
   const KeyFrame* reference = map.Find(centre);
   PLUMBLINE_CHECK(reference != nullptr, "snapshot around a keyframe that is not in the map");
   auto snapshot = std::make_shared<MapSnapshot>();
-  snapshot->version = map.version();
   snapshot->centre = centre;
   snapshot->stereo_correction = map.stereo_correction();
   snapshot->reference = std::make_shared<const KeyFrame>(*reference);

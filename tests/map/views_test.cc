@@ -62,7 +62,6 @@ TEST(Covisible, OrdersByCountThenNewestFirst) {
 TEST(Snapshot, HoldsAllLandmarksOfItsKeyFramesSortedById) {
   const Map map = SharingChain(6, 8, 4);
   const auto snapshot = TakeSnapshot(map, KeyFrameId{5}, 40);
-  EXPECT_EQ(snapshot->version, map.version());
   EXPECT_EQ(snapshot->centre, KeyFrameId{5});
   EXPECT_EQ(snapshot->reference->id, KeyFrameId{5});
   // 5 sees 4, and 4 sees 3: neighbours and theirs.
