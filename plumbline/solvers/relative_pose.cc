@@ -194,11 +194,6 @@ std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMat
   return list.Take();
 }
 
-RelativePoseHypothesis RefineRelativePose(std::span<const RayMatch> matches, const Rigid3& start) {
-  const Rigid3 unit{start.rotation, start.translation.normalized()};
-  return Judge(matches, RefinePose(matches, unit));
-}
-
 RelativePoseHypothesis EstimateTranslation(std::span<const RayMatch> matches,
                                            const Eigen::Quaterniond& b_from_a,
                                            const RelativePoseOptions& options,

@@ -62,12 +62,5 @@ TEST(PathLength, SumsTheSteps) {
   EXPECT_EQ(PathLength({}), 0);
 }
 
-TEST(FirstOutOfOrder, NamesTheFirstStampThatDoesNotRise) {
-  Trajectory trajectory = ThreePoses();
-  EXPECT_EQ(FirstOutOfOrder(trajectory), std::nullopt);
-  trajectory[2].stamp_ns = 200 * kMs;
-  EXPECT_EQ(FirstOutOfOrder(trajectory), 2U);
-}
-
 }  // namespace
 }  // namespace plumbline

@@ -142,16 +142,6 @@ TEST(EstimateRelativePoses, TooFewMatchesGiveNothing) {
   EXPECT_TRUE(Estimate({}, RelativePoseMethod::kEightPoint).empty());
 }
 
-TEST(RefineRelativePose, GivesThePoseOfTheNoiseLimit) {
-  const TwoViewScene scene = MakeTwoViewScene(3, {});
-  Rigid3 start = scene.b_from_a;
-  start.translation *= 3;
-  const RelativePoseHypothesis h = RefineRelativePose(scene.matches, start);
-  EXPECT_TRUE(IsRight(h, scene, 3 * kDegree));
-  EXPECT_GT(h.in_front, 270);
-  EXPECT_NEAR(h.inliers, 285, 15);
-}
-
 TEST(EstimateTranslation, FindsDirectionAndSign) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const TwoViewScene scene = MakeTwoViewScene(seed, {.outliers = 0.3});
