@@ -35,10 +35,13 @@ struct MapSnapshot {
   const SnapshotLine* Find(LineId id) const;
 };
 
+// Keyframes whose landmarks a frame is tracked against.
+inline constexpr int kSnapshotKeyFrames = 40;
+
 // Copies the landmarks seen by `centre`, by its covisible keyframes and by their closest
 // neighbours, at most max_keyframes keyframes in all. Order of a megabyte.
 std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
                                                 KeyFrameId centre,
-                                                int max_keyframes);
+                                                int max_keyframes = kSnapshotKeyFrames);
 
 }  // namespace plumbline
