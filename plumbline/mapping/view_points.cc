@@ -181,11 +181,7 @@ MapEdit CreatePointsFromViews(const Map& map,
   for (std::size_t i = 0; i < done.size(); ++i) done[i] = frame.points[i].valid();
   MapEdit edit;
   PointId next = map.NextPointId();
-  auto neighbours = Covisible(map, id, 10);
-  if (static_cast<int>(neighbours.size()) > options.neighbours) {
-    neighbours.resize(static_cast<std::size_t>(options.neighbours));
-  }
-  for (const auto& neighbour : neighbours) {
+  for (const auto& neighbour : ClosestCovisible(map, id, options.neighbours)) {
     const Frame& other = map.Find(neighbour.id)->frame;
     PairSearch search(imaging.camera, frame, other, *median_depth, options);
     std::vector<bool> taken(other.points.size(), false);
