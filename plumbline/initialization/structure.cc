@@ -3,12 +3,12 @@
 #include "plumbline/initialization/structure.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/local_ba.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/landmark_creation.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/pose_only.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/pose_terms.h"
 #include "plumbline/optimization/robust_loss.h"
