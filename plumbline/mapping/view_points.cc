@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/median.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/map/covisibility.h"
@@ -145,16 +146,14 @@ class PairSearch {
   std::vector<int> near_;
 };
 
-// Of the points that a keyframe shows; nullopt where it shows none.
+// Of the points that a keyframe shows; nullopt where it shows none, or most lie behind it.
 std::optional<double> MedianDepth(const Map& map, const Frame& frame) {
   std::vector<double> depths;
   for (const PointId id : frame.points) {
     if (id.valid()) depths.push_back((frame.cam_from_world * map.Find(id)->position).z());
   }
-  if (depths.empty()) return std::nullopt;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle > 0 ? std::optional(*middle) : std::nullopt;
+  const double median = UpperMedian(depths);
+  return median > 0 ? std::optional(median) : std::nullopt;
 }
 
 MapPoint NewPoint(const Frame& frame, std::size_t i, const Eigen::Vector3d& position) {

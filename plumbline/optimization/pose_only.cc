@@ -3,13 +3,14 @@
 #include "plumbline/optimization/pose_only.h"
 
 #include "plumbline/base/chi2.h"
-#include "plumbline/base/error.h"
+#include "plumbline/base/median.h"
 #include "plumbline/optimization/pose_terms.h"
 #include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -257,10 +258,7 @@ double PoseSolver::MedianNorm() {
   scratch_.clear();
   scratch_.insert(scratch_.end(), point_chi2_.begin(), point_chi2_.end());
   scratch_.insert(scratch_.end(), line_chi2_.begin(), line_chi2_.end());
-  if (scratch_.empty()) return 0;
-  const auto middle = scratch_.begin() + static_cast<std::ptrdiff_t>(scratch_.size() / 2);
-  std::nth_element(scratch_.begin(), middle, scratch_.end());
-  return std::sqrt(std::min(*middle, kInvalidChi2));
+  return std::sqrt(std::min(UpperMedian(std::span<double>(scratch_)), kInvalidChi2));
 }
 
 void PoseSolver::OptimizeCoarse() {
