@@ -28,7 +28,8 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, ProjectionSearchOptions& o) {
   visit("point_radius_px", o.point_radius_px, "search radius of a point [px]", Range{0.5, 200});
   visit("point_max_distance", o.point_max_distance, "largest Hamming distance", Range{0, 256});
-  visit("point_ratio", o.point_ratio, "largest ratio of best to second best", Range{0.1, 1});
+  visit(
+      "point_ratio", o.point_ratio, "largest ratio of best to second best distance", Range{0.1, 1});
   visit("max_view_angle_deg", o.max_view_angle_deg, "largest change of view [deg]", Range{1, 180});
   visit("line_offset_px", o.line_offset_px, "search distance across a line [px]", Range{0.5, 200});
   visit("line_angle_deg", o.line_angle_deg, "largest angle to the prediction [deg]", Range{1, 90});

@@ -8,7 +8,6 @@
 namespace plumbline {
 
 double JointObjective::operator()(const Eigen::VectorXd& ratios, Eigen::VectorXd& gradient) const {
-  ++evaluations_;
   std::vector<LineCut> cuts(problem_.lines.size());
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const auto k = 2 * static_cast<Eigen::Index>(i);

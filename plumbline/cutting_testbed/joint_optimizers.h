@@ -39,7 +39,7 @@ constexpr auto EnumNames(std::type_identity<JointOptimizer>) {
 
 inline constexpr int kMaxJointEvaluations = 2000;
 
-// log det by the 2n ratios of the lines, with its gradient. Counts its calls.
+// log det by the 2n ratios of the lines, with its gradient.
 class JointObjective {
  public:
   JointObjective(const CuttingProblem& problem, CuttingInformation information)
@@ -48,12 +48,10 @@ class JointObjective {
   double operator()(const Eigen::VectorXd& ratios, Eigen::VectorXd& gradient) const;
   Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(problem_.lines.size()); }
   Eigen::VectorXd FullLength() const;
-  int evaluations() const { return evaluations_; }
 
  private:
   const CuttingProblem& problem_;
   CuttingInformation information_;
-  mutable int evaluations_ = 0;
 };
 
 Eigen::VectorXd RatiosOf(const std::vector<LineCut>& cuts);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
+#include "plumbline/base/median.h"
 #include "plumbline/features/match_points.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 
 namespace plumbline {
 namespace {
@@ -283,14 +285,12 @@ void DropPoorResiduals(const std::vector<double>& residuals,
                        double factor,
                        std::vector<std::optional<Disparity>>* disparities) {
   constexpr double kAlwaysGood = 3;  // grey levels
-  std::vector<double> sorted;
+  std::vector<double> found;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if ((*disparities)[i]) sorted.push_back(residuals[i]);
+    if ((*disparities)[i]) found.push_back(residuals[i]);
   }
-  if (sorted.empty()) return;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = std::max(kAlwaysGood, factor * *middle);
+  if (found.empty()) return;
+  const double limit = std::max(kAlwaysGood, factor * UpperMedian(std::span<double>(found)));
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (residuals[i] > limit) (*disparities)[i].reset();
   }

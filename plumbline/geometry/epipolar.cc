@@ -2,24 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/epipolar.h"
 
-#include <cmath>
-
 namespace plumbline {
-namespace {
-
-// Where an image line cuts the line of a segment.
-std::optional<Eigen::Vector2d> CutOf(const Eigen::Vector3d& line,
-                                     const Segment2& segment,
-                                     double min_angle) {
-  const Eigen::Vector2d normal = line.head<2>();
-  const Eigen::Vector2d direction = segment.Direction();
-  const double sine = normal.dot(direction);
-  if (!(std::abs(sine) > std::sin(min_angle) * normal.norm())) return std::nullopt;
-  const double along = -line.dot(segment.start.homogeneous()) / sine;
-  return segment.start + along * direction;
-}
-
-}  // namespace
 
 Eigen::Matrix3d FundamentalMatrix(const RectifiedCamera& camera, const Rigid3& b_from_a) {
   Eigen::Matrix3d K_inverse;
@@ -37,17 +20,6 @@ std::optional<double> SquaredSampsonDistance(const Eigen::Matrix3d& fundamental,
   const double gradient = line_in_b.head<2>().squaredNorm() + line_in_a.head<2>().squaredNorm();
   if (!(gradient > 0)) return std::nullopt;
   return error * error / gradient;
-}
-
-std::optional<double> EpipolarOverlap(const Eigen::Matrix3d& fundamental,
-                                      const Segment2& segment_a,
-                                      const Segment2& segment_b,
-                                      double min_angle) {
-  if (!(segment_a.Length() > 0) || !(segment_b.Length() > 0)) return std::nullopt;
-  const auto start = CutOf(fundamental * segment_a.start.homogeneous(), segment_b, min_angle);
-  const auto end = CutOf(fundamental * segment_a.end.homogeneous(), segment_b, min_angle);
-  if (!start || !end) return std::nullopt;
-  return OverlapRatio(segment_b, {*start, *end});
 }
 
 }  // namespace plumbline

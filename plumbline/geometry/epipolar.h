@@ -4,7 +4,6 @@
 
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/geometry/segment.h"
 
 #include <optional>
 
@@ -28,17 +27,5 @@ Eigen::Matrix3d FundamentalMatrix(const RectifiedCamera& camera, const Rigid3& b
 std::optional<double> SquaredSampsonDistance(const Eigen::Matrix3d& fundamental,
                                              const Eigen::Vector2d& px_a,
                                              const Eigen::Vector2d& px_b);
-
-// How far two segments can show the same piece of a line: the epipolar lines of the ends of
-// `segment_a` cut the line of `segment_b`; overlap of the two pieces there, over the shorter of
-// them, in [0, 1].
-//
-//   min_angle  radians; nullopt where an epipolar line meets segment_b at less, since the cut is
-//   then
-//              not determined, and where a segment has no length
-std::optional<double> EpipolarOverlap(const Eigen::Matrix3d& fundamental,
-                                      const Segment2& segment_a,
-                                      const Segment2& segment_b,
-                                      double min_angle = 0.05);
 
 }  // namespace plumbline

@@ -15,30 +15,8 @@
 namespace plumbline {
 namespace {
 
-using Matrix46 = Eigen::Matrix<double, 4, 6>;
-
 // Share of the moment, |m| / sqrt(|m|^2 + |d|^2), below which a line counts as through the origin.
 constexpr double kThroughOrigin = 1e-9;
-
-// Left inverse of HomogeneousJacobian: its columns are orthogonal, with these squared lengths.
-Matrix46 HomogeneousJacobianInverse(const OrthonormalLine& line) {
-  const double w1 = line.w.x();
-  const double w2 = line.w.y();
-  const Eigen::Vector4d scale(1 / (w2 * w2), 1 / (w1 * w1), 1, 1);
-  return scale.asDiagonal() * HomogeneousJacobian(line).transpose();
-}
-
-double HomogeneousLength(const PluckerLine& line) { return std::hypot(line.moment.norm(), 1.0); }
-
-// (m, d) of b from (m, d) of a, eq. 9.
-Matrix6d LineMotion(const Rigid3& b_from_a) {
-  const Eigen::Matrix3d R = b_from_a.rotation.toRotationMatrix();
-  Matrix6d H = Matrix6d::Zero();
-  H.topLeftCorner<3, 3>() = R;
-  H.bottomRightCorner<3, 3>() = R;
-  H.topRightCorner<3, 3>() = Skew(b_from_a.translation) * R;
-  return H;
-}
 
 struct NormalEquations {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
@@ -166,17 +144,6 @@ std::optional<PluckerLine> DirectAsFirst(const RectifiedCamera& camera,
 
 }  // namespace
 
-std::optional<LineEstimate> Transform(const Rigid3& b_from_a, const LineEstimate& line_in_a) {
-  const PluckerLine line = Transform(b_from_a, line_in_a.line);
-  const OrthonormalLine a = ToOrthonormal(line_in_a.line);
-  const OrthonormalLine b = ToOrthonormal(line);
-  if (!(b.w.x() > kThroughOrigin)) return std::nullopt;
-  const double scale = HomogeneousLength(line_in_a.line) / HomogeneousLength(line);
-  const Eigen::Matrix4d J =
-      scale * HomogeneousJacobianInverse(b) * LineMotion(b_from_a) * HomogeneousJacobian(a);
-  return LineEstimate{line, J * line_in_a.covariance * J.transpose()};
-}
-
 std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera,
                                                    const LineView& view) {
   if (!(view.segment.Length() > 0)) return std::nullopt;
@@ -222,40 +189,9 @@ Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
   if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-15)) return kSingular;
   TriangulatedLine result;
   result.estimate = {line, factor.solve(Eigen::Matrix4d::Identity())};
-  result.plane_angle = pair.angle;
   result.chi2 = equations.chi2;
   result.residuals = static_cast<int>(2 * views.size());
   return result;
-}
-
-Expected<TriangulatedLine, LineTriangulationFailure> TriangulateStereoLine(
-    const RectifiedCamera& camera,
-    const Segment2& left,
-    double left_sigma_px,
-    const Segment2& right,
-    double right_sigma_px,
-    const LineTriangulationOptions& options) {
-  const std::array<LineView, 2> views = {
-      LineView{{}, left, left_sigma_px},
-      LineView{RightCamera(camera, Rigid3{}), right, right_sigma_px}};
-  return TriangulateLine(camera, views, options);
-}
-
-std::optional<LineEstimate> LineFromEndPoints(const PointEstimate& a, const PointEstimate& b) {
-  const double distance = (b.position - a.position).norm();
-  if (!(distance > 0)) return std::nullopt;
-  const PluckerLine line = LineThroughPoints(a.position, b.position);
-  const OrthonormalLine orthonormal = ToOrthonormal(line);
-  if (!(orthonormal.w.x() > kThroughOrigin)) return std::nullopt;
-  // (m, d) = (a x b, b - a) up to a common scale, to which the left inverse is blind.
-  const double scale = 1 / (distance * HomogeneousLength(line));
-  const Matrix46 inverse = scale * HomogeneousJacobianInverse(orthonormal);
-  const Eigen::Matrix<double, 4, 3> J_a =
-      -inverse.leftCols<3>() * Skew(b.position) - inverse.rightCols<3>();
-  const Eigen::Matrix<double, 4, 3> J_b =
-      inverse.leftCols<3>() * Skew(a.position) + inverse.rightCols<3>();
-  return LineEstimate{line,
-                      J_a * a.covariance * J_a.transpose() + J_b * b.covariance * J_b.transpose()};
 }
 
 }  // namespace plumbline

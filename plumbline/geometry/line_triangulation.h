@@ -7,7 +7,6 @@
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
-#include "plumbline/geometry/triangulation.h"
 
 #include <optional>
 #include <span>
@@ -23,10 +22,6 @@ struct LineEstimate {
   PluckerLine line;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
 };
-
-// The line in another frame, covariance to first order. nullopt when it goes through the origin
-// there.
-std::optional<LineEstimate> Transform(const Rigid3& b_from_a, const LineEstimate& line_in_a);
 
 // A segment seen by one camera.
 struct LineView {
@@ -79,10 +74,9 @@ enum class LineTriangulationFailure {
 };
 
 struct TriangulatedLine {
-  LineEstimate estimate;   // in the world, directed as the first view's segment
-  double plane_angle = 0;  // largest angle between two interpretation planes, radians in [0, pi/2]
-  double chi2 = 0;         // sum of squared end point distances over their variances
-  int residuals = 0;       // number of them; chi2 has residuals - 4 degrees of freedom
+  LineEstimate estimate;  // in the world, directed as the first view's segment
+  double chi2 = 0;        // sum of squared end point distances over their variances
+  int residuals = 0;      // number of them; chi2 has residuals - 4 degrees of freedom
 };
 
 // A line from its segments in two or more views.
@@ -99,19 +93,5 @@ Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
     const RectifiedCamera& camera,
     std::span<const LineView> views,
     const LineTriangulationOptions& options = {});
-
-// The same for the segments of one rectified pair, in the left camera frame. Fails
-// (kParallelPlanes) for image lines close to the rows.
-Expected<TriangulatedLine, LineTriangulationFailure> TriangulateStereoLine(
-    const RectifiedCamera& camera,
-    const Segment2& left,
-    double left_sigma_px,
-    const Segment2& right,
-    double right_sigma_px,
-    const LineTriangulationOptions& options = {});
-
-// The line from a to b, its covariance propagated from those of the (independent) points. nullopt
-// for coincident points and where the line goes through the origin.
-std::optional<LineEstimate> LineFromEndPoints(const PointEstimate& a, const PointEstimate& b);
 
 }  // namespace plumbline

@@ -14,13 +14,6 @@ Trajectory::const_iterator LowerBound(const Trajectory& trajectory, std::int64_t
 
 }  // namespace
 
-std::optional<std::size_t> FirstOutOfOrder(const Trajectory& trajectory) {
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    if (trajectory[i].stamp_ns <= trajectory[i - 1].stamp_ns) return i;
-  }
-  return std::nullopt;
-}
-
 std::optional<Rigid3> InterpolateAt(const Trajectory& trajectory,
                                     std::int64_t stamp_ns,
                                     std::int64_t max_gap_ns) {

@@ -18,9 +18,6 @@ struct StampedPose {
 // Poses of one camera, stamps strictly ascending.
 using Trajectory = std::vector<StampedPose>;
 
-// Index of the first pose with a stamp that is not above its predecessor's; nullopt when in order.
-std::optional<std::size_t> FirstOutOfOrder(const Trajectory& trajectory);
-
 // Pose at a stamp: linear in position, slerp in orientation between the two neighbours. nullopt
 // outside the trajectory's time and where the neighbours are more than max_gap_ns apart; a stamp
 // that the trajectory contains is always answered. O(log n).

@@ -105,22 +105,6 @@ std::optional<NormalEquations> Linearize(const RectifiedCamera& camera,
 
 }  // namespace
 
-std::optional<PointEstimate> PointFromDisparity(const RectifiedCamera& camera,
-                                                const Eigen::Vector2d& px,
-                                                double sigma_px,
-                                                const Disparity& disparity) {
-  if (!(disparity.px > 0) || !(camera.baseline > 0)) return std::nullopt;
-  const Eigen::Vector3d ray = camera.Unproject(px);
-  const double z = camera.DepthFromDisparity(disparity.px);
-  // d(point)/d(u, v, disparity).
-  Eigen::Matrix3d J;
-  J << z / camera.fx, 0, 0, 0, z / camera.fy, 0, 0, 0, 0;
-  J.col(2) = -z / disparity.px * ray;
-  const Eigen::Vector3d variances(
-      sigma_px * sigma_px, sigma_px * sigma_px, disparity.sigma_px * disparity.sigma_px);
-  return PointEstimate{z * ray, J * variances.asDiagonal() * J.transpose()};
-}
-
 PointEstimate Transform(const Rigid3& b_from_a, const PointEstimate& point_in_a) {
   const Eigen::Matrix3d R = b_from_a.rotation.toRotationMatrix();
   return {b_from_a * point_in_a.position, R * point_in_a.covariance * R.transpose()};

@@ -19,15 +19,6 @@ struct PointEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2
 };
 
-// A point from a pixel of the left camera and its disparity, in the left camera frame.
-//
-// The errors of pixel (each coordinate sigma_px) and disparity are taken as independent and
-// propagated to first order. nullopt for a disparity or baseline that is not positive.
-std::optional<PointEstimate> PointFromDisparity(const RectifiedCamera& camera,
-                                                const Eigen::Vector2d& px,
-                                                double sigma_px,
-                                                const Disparity& disparity);
-
 // The point in another frame.
 PointEstimate Transform(const Rigid3& b_from_a, const PointEstimate& point_in_a);
 

@@ -82,6 +82,11 @@ struct InitializationResult {
   int matches = 0;                                      // of points with the reference frame
   double parallax_deg = 0;                              // median, after rotation; 0 where unknown
   std::optional<InitialMap> map;
+
+  // No map yet, and why.
+  static InitializationResult Wait(InitializationWait reason) {
+    return {.wait = reason, .map = std::nullopt};
+  }
 };
 
 // Starts a monocular map from a sequence of frames: offer frames in order until one gives a map.

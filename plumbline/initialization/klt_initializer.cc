@@ -66,12 +66,6 @@ std::optional<Rank1Solution> Factorize(const WindowTracks& tracks, const Poses& 
   return FactorizeRank1(tracks.reference.points, views);
 }
 
-InitializationResult Wait(InitializationWait reason) {
-  InitializationResult result;
-  result.wait = reason;
-  return result;
-}
-
 }  // namespace
 
 KltInitializer::KltInitializer(const ImagingModel& imaging,
@@ -98,9 +92,9 @@ InitializationResult KltInitializer::Add(const InitializationFrame& frame) {
   PLUMBLINE_CHECK(frame.image != nullptr, "optical flow needs the image");
   const bool enough = static_cast<int>(frame.indexed->features.points.size()) >= kMinFeatures;
   if (!reference_) {
-    if (!enough) return Wait(kTooFewFeatures);
+    if (!enough) return InitializationResult::Wait(kTooFewFeatures);
     Start(frame);
-    return Wait(kTooFewFrames);
+    return InitializationResult::Wait(kTooFewFrames);
   }
   tracks_.Follow(frame.image);
   InitializationResult result;
@@ -111,7 +105,7 @@ InitializationResult KltInitializer::Add(const InitializationFrame& frame) {
     if (frames_.size() == kMaxFrames) frames_.erase(frames_.begin());
     frames_.push_back({frame, tracks_.places()});
     const bool window = static_cast<int>(frames_.size()) >= options_.frames;
-    result = window ? Attempt() : Wait(kTooFewFrames);
+    result = window ? Attempt() : InitializationResult::Wait(kTooFewFrames);
   }
   result.matches = tracks_.alive();
   return result;
@@ -150,7 +144,7 @@ InitializationResult KltInitializer::Attempt() {
   const WindowTracks tracks = TracksOf(frames);
   Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frames_.back().frame.id.value));
   const auto poses = RelativePoses(tracks, rng);
-  if (!poses) return Wait(kInaccurate);
+  if (!poses) return InitializationResult::Wait(kInaccurate);
   InitializationResult result;
   result.parallax_deg = poses->parallax_deg;
   result.wait = kTooLittleParallax;

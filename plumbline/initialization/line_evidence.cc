@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/line_evidence.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/triangulation.h"
@@ -55,7 +56,7 @@ std::vector<WindowSolution> Probes(const WindowTracks& tracks,
                                    const Explanation& explanation,
                                    double angle) {
   const WindowSolution& solution = explanation.solution;
-  const auto covariance = ComputeWindowCovariance(tracks, solution, 1, kMaxMeasurementChi2);
+  const auto covariance = ComputeWindowCovariance(tracks, solution, 1, kChi2TwoDof99);
   if (!covariance) return {};
   const Rigid3& newest = solution.cam_from_reference.back();
   const double length = newest.translation.norm();
@@ -90,7 +91,7 @@ void CountLines(const WindowTracks& tracks, std::vector<Explanation>& explanatio
   std::vector<std::vector<LineFit>> fits;
   std::vector<bool> counts(tracks.lines.size(), false);
   for (const Explanation& e : explanations) {
-    fits.push_back(EvaluateLines(tracks, e.solution, kMaxMeasurementChi2));
+    fits.push_back(EvaluateLines(tracks, e.solution, kChi2TwoDof99));
     for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = counts[k] || fits.back()[k].fits;
   }
   for (std::size_t j = 0; j < explanations.size(); ++j) {
@@ -118,7 +119,7 @@ std::vector<Explanation> ExplainWithLines(WindowTracks& tracks,
                                           double min_noise) {
   WindowSolution& best = explanations.front().solution;
   best.lines = TriangulateLines(tracks, best);
-  const double noise = LineNoiseOf(EvaluateLines(tracks, best, kMaxMeasurementChi2));
+  const double noise = LineNoiseOf(EvaluateLines(tracks, best, kChi2TwoDof99));
   ScaleSigmas(std::max(min_noise, noise), tracks.lines);
   for (Explanation& e : explanations) AdjustWithLines(tracks, e);
   CountLines(tracks, explanations);

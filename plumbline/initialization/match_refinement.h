@@ -16,7 +16,8 @@ namespace plumbline {
 struct MatchRefinementOptions {
   int radius = 5;  // of the patch, in pixels of the feature's octave
   int max_iterations = 15;
-  // By shifts alone from the guess, and with the affine map from there; pixels of the octave.
+  // Of each of the two steps from where it begins: shifts alone begin at the guess, the affine map
+  // where these end. Pixels of the octave.
   double max_shift_px = 1.5;
   double min_correlation = 0.8;  // of the patches, normalized, in the end
   // Smaller over larger eigenvalue of the patch's structure tensor; below, it is an edge and the

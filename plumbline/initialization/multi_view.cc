@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/multi_view.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/median.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/geometry/basis_across.h"
@@ -67,7 +68,7 @@ std::vector<Explanation> Explain(const WindowTracks& tracks,
         const WindowHypothesis& hypothesis = hypotheses[static_cast<std::size_t>(i)];
         auto solution = FactorizeWindow(tracks, hypothesis, options.factorization);
         if (!solution) return std::nullopt;
-        const WindowFit fit = Evaluate(tracks, *solution, kMaxMeasurementChi2);
+        const WindowFit fit = Evaluate(tracks, *solution, kChi2TwoDof99);
         return Explanation{std::move(*solution), fit, fit.cost};
       });
   std::vector<Explanation> explanations;
@@ -121,7 +122,7 @@ InitializationWait Accuracy(const WindowTracks& tracks,
   const auto covariance = ComputeWindowCovariance(tracks,
                                                   explanation.solution,
                                                   noise,
-                                                  kMaxMeasurementChi2 / (noise * noise),
+                                                  kChi2TwoDof99 / (noise * noise),
                                                   std::max(kLeastNoise, explanation.line_noise));
   if (!covariance) return InitializationWait::kTooLittleParallax;
   const double depth = MedianDepthSigma(*covariance);

@@ -17,12 +17,6 @@ constexpr int kDecisionPoints = 200;
 constexpr double kDiedOut = 0.3;
 constexpr int kMinPoints = 30;  // of a map
 
-InitializationResult Wait(InitializationWait reason) {
-  InitializationResult result;
-  result.wait = reason;
-  return result;
-}
-
 }  // namespace
 
 Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
@@ -47,11 +41,11 @@ void Rank1Initializer::Reset() {
 InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   using enum InitializationWait;
   if (static_cast<int>(frame.indexed->features.points.size()) < kMinFeatures) {
-    return Wait(kTooFewFeatures);
+    return InitializationResult::Wait(kTooFewFeatures);
   }
   if (window_.empty()) {
     window_.Add(frame);
-    return Wait(kTooFewFrames);
+    return InitializationResult::Wait(kTooFewFrames);
   }
   InitializationResult result;
   result.matches = window_.Add(frame);

@@ -3,12 +3,12 @@
 #include "plumbline/initialization/structure.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/local_ba.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <array>
@@ -219,22 +219,16 @@ void Scale(double factor, InitialMap& map) {
   }
 }
 
-StructureFit AdjustStructure(const RectifiedCamera& camera, InitialMap& map) {
+void AdjustStructure(const RectifiedCamera& camera, InitialMap& map) {
   const BaProblem problem = MakeProblem(camera, map);
   // To the end: what the map is accepted by is the accuracy of this solution.
   LocalBaOptions options;
   options.max_iterations = 30;
   options.function_tolerance = 1e-6;
   const BaResult result = SolveLocalBa(problem, options);
-  StructureFit fit;
-  fit.observations = static_cast<int>(result.point_inliers.size());
-  fit.inliers =
-      static_cast<int>(std::count(result.point_inliers.begin(), result.point_inliers.end(), true));
-  fit.median_chi2 = UpperMedian(result.point_chi2);
   TakeOver(camera, result, map);
   const double depth = MedianDepth(map);
   if (depth > 0) Scale(1 / depth, map);
-  return fit;
 }
 
 }  // namespace plumbline

@@ -43,19 +43,12 @@ double MedianDepth(const InitialMap& map);
 // Scales the map (poses, points, lines) by a factor about the world's origin.
 void Scale(double factor, InitialMap& map);
 
-// What a bundle adjustment of the whole map found.
-struct StructureFit {
-  int observations = 0;    // of points, before
-  int inliers = 0;         // of them, after
-  double median_chi2 = 0;  // of the points' observations (two degrees of freedom)
-};
-
 // Adjusts all poses but the first, all points and lines to all observations, drops observations
 // that do not fit (chi2 at 95 %) and landmarks that are left with fewer than two, and makes the
 // median depth in the first view 1.
 //
 //   map   not empty; the first view's camera is the world
 //   cost  some milliseconds for three views and 300 points
-StructureFit AdjustStructure(const RectifiedCamera& camera, InitialMap& map);
+void AdjustStructure(const RectifiedCamera& camera, InitialMap& map);
 
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/two_view.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/initialization/structure.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
@@ -34,7 +35,7 @@ constexpr int kSamples = 200;
 // bring the homography to 0.45 and no further, since it answers for two coordinates of a point.
 constexpr double kScoreSigma = 2;
 
-double Gain(double chi2, double limit) { return chi2 < limit ? kChi2TwoDof - chi2 : 0; }
+double Gain(double chi2, double limit) { return chi2 < limit ? kChi2TwoDof95 - chi2 : 0; }
 
 // Squared distance of a point from an image line, over the variance of a coordinate.
 double LineChi2(const Eigen::Vector3d& line, const Eigen::Vector2d& point, double sigma) {
@@ -43,13 +44,13 @@ double LineChi2(const Eigen::Vector3d& line, const Eigen::Vector2d& point, doubl
 }
 
 double PointChi2(const Eigen::Vector3d& mapped, const Eigen::Vector2d& point, double sigma) {
-  if (mapped.z() == 0) return 2 * kChi2TwoDof;
+  if (mapped.z() == 0) return 2 * kChi2TwoDof95;
   return (mapped.head<2>() / mapped.z() - point).squaredNorm() / (sigma * sigma);
 }
 
 bool ExplainedByModel(const Eigen::Matrix3d& model, TwoViewModel kind, const RayMatch& match) {
-  return kind == TwoViewModel::kEssential ? SampsonChi2(model, match) < kChi2OneDof
-                                          : SquaredTransferError(model, match) < kChi2TwoDof;
+  return kind == TwoViewModel::kEssential ? SampsonChi2(model, match) < kChi2OneDof95
+                                          : SquaredTransferError(model, match) < kChi2TwoDof95;
 }
 
 std::vector<RayMatch> Inliers(const Eigen::Matrix3d& model,
@@ -79,7 +80,7 @@ std::vector<Rigid3> MotionsOf(const Eigen::Matrix3d& model, TwoViewModel kind) {
 }
 
 bool IsGood(const Rigid3& pose, const Eigen::Matrix3d& essential, const RayMatch& match) {
-  return SampsonChi2(essential, match) < kChi2OneDof && IsInFront(pose, match);
+  return SampsonChi2(essential, match) < kChi2OneDof95 && IsInFront(pose, match);
 }
 
 struct MotionVote {
@@ -134,9 +135,9 @@ double EpipolarScore(const Eigen::Matrix3d& essential, std::span<const RayMatch>
   double score = 0;
   for (const RayMatch& m : matches) {
     score +=
-        Gain(LineChi2(essential * m.a.homogeneous(), m.b, kScoreSigma * m.sigma_b), kChi2OneDof);
+        Gain(LineChi2(essential * m.a.homogeneous(), m.b, kScoreSigma * m.sigma_b), kChi2OneDof95);
     score += Gain(LineChi2(essential.transpose() * m.b.homogeneous(), m.a, kScoreSigma * m.sigma_a),
-                  kChi2OneDof);
+                  kChi2OneDof95);
   }
   return score;
 }
@@ -145,10 +146,10 @@ double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch
   const Eigen::Matrix3d inverse = homography.inverse();
   double score = 0;
   for (const RayMatch& m : matches) {
+    score += Gain(PointChi2(homography * m.a.homogeneous(), m.b, kScoreSigma * m.sigma_b),
+                  kChi2TwoDof95);
     score +=
-        Gain(PointChi2(homography * m.a.homogeneous(), m.b, kScoreSigma * m.sigma_b), kChi2TwoDof);
-    score +=
-        Gain(PointChi2(inverse * m.b.homogeneous(), m.a, kScoreSigma * m.sigma_a), kChi2TwoDof);
+        Gain(PointChi2(inverse * m.b.homogeneous(), m.a, kScoreSigma * m.sigma_a), kChi2TwoDof95);
   }
   return score;
 }

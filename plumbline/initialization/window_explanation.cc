@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/window_explanation.h"
 
+#include "plumbline/base/chi2.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -39,7 +41,7 @@ void SortByCost(std::vector<Explanation>& explanations) {
 void Adjust(const WindowTracks& tracks, Explanation& explanation) {
   constexpr int kIterations = 6;
   explanation.solution = AdjustWindow(tracks, explanation.solution, kIterations);
-  explanation.fit = Evaluate(tracks, explanation.solution, kMaxMeasurementChi2);
+  explanation.fit = Evaluate(tracks, explanation.solution, kChi2TwoDof99);
   explanation.cost = explanation.fit.cost;
 }
 

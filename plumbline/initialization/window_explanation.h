@@ -10,8 +10,6 @@
 
 namespace plumbline {
 
-// Of a measurement in variances: 99 % of two degrees of freedom.
-inline constexpr double kMaxMeasurementChi2 = 9.21;
 // Solutions nearer to each other than this, radians, are the same.
 inline constexpr double kSameRotation = 0.3 * std::numbers::pi / 180;
 inline constexpr double kSameDirection = 3 * std::numbers::pi / 180;

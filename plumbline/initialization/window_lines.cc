@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/window_lines.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/optimization/residuals.h"
 
@@ -11,8 +12,6 @@
 
 namespace plumbline {
 namespace {
-
-constexpr double kMaxChi2 = 9.21;
 
 double Chi2(const Rigid3& pose, const OrthonormalLine& line, const LineMeasurement& measured) {
   const auto residual = EvaluateLine(kIdealCamera, pose, line, measured);
@@ -79,7 +78,7 @@ std::vector<LineFit> EvaluateLines(const WindowTracks& tracks,
 }
 
 std::vector<std::size_t> LinesThatFit(const WindowTracks& tracks, const WindowSolution& solution) {
-  const std::vector<LineFit> fits = EvaluateLines(tracks, solution, kMaxChi2);
+  const std::vector<LineFit> fits = EvaluateLines(tracks, solution, kChi2TwoDof99);
   std::vector<std::size_t> fitting;
   for (std::size_t k = 0; k < fits.size(); ++k) {
     if (fits[k].fits) fitting.push_back(k);

@@ -211,13 +211,6 @@ std::string SensorName(SensorKind sensor) {
   throw BugError("a sensor without a name");
 }
 
-std::string FormatName(DatasetFormat format) {
-  for (const auto& [kind, name] : EnumNames(std::type_identity<DatasetFormat>{})) {
-    if (kind == format) return name;
-  }
-  throw BugError("a format without a name");
-}
-
 std::vector<std::string> ListImages(const fs::path& folder) {
   constexpr std::array<std::string_view, 10> kExtensions = {
       ".png", ".jpg", ".jpeg", ".webp", ".pgm", ".ppm", ".bmp", ".tif", ".tiff", ".pnm"};

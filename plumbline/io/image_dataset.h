@@ -55,7 +55,6 @@ void UseCamera(CameraFile camera, DatasetInfo& info);
 
 // Name shown to users.
 std::string SensorName(SensorKind sensor);
-std::string FormatName(DatasetFormat format);
 
 // The names of the image files in a folder, by natural order: runs of digits count as numbers, so
 // that 2.png comes before 10.png. InputError when there is no such folder.

@@ -46,4 +46,10 @@ std::vector<CovisibleKeyFrame> Covisible(const Map& map, KeyFrameId id, int min_
   return shared.Rank(min_shared);
 }
 
+std::vector<CovisibleKeyFrame> ClosestCovisible(const Map& map, KeyFrameId id, int most) {
+  std::vector<CovisibleKeyFrame> closest = Covisible(map, id);
+  if (static_cast<int>(closest.size()) > most) closest.resize(static_cast<std::size_t>(most));
+  return closest;
+}
+
 }  // namespace plumbline

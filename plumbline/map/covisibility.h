@@ -28,9 +28,17 @@ class SharedCounts {
   std::vector<int> shared_;  // by id
 };
 
+// Landmarks in common from which on two keyframes see the same place, not a few wrong matches.
+inline constexpr int kMinShared = 10;
+
 // The keyframes that show at least min_shared of the landmarks that `id` shows, most shared first
 // (ties: newest first), without `id` itself. Derived from the observations at each call, O(matches
 // x views).
-std::vector<CovisibleKeyFrame> Covisible(const Map& map, KeyFrameId id, int min_shared);
+std::vector<CovisibleKeyFrame> Covisible(const Map& map,
+                                         KeyFrameId id,
+                                         int min_shared = kMinShared);
+
+// The first `most` of them.
+std::vector<CovisibleKeyFrame> ClosestCovisible(const Map& map, KeyFrameId id, int most);
 
 }  // namespace plumbline

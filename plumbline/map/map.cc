@@ -221,7 +221,6 @@ void Map::Apply(const MapEdit& edit) {
   for (const MapChange& change : edit) {
     std::visit([&](const auto& c) { changer.Do(c); }, change);
   }
-  ++version_;
 }
 
 namespace {

@@ -7,7 +7,6 @@
 #include "plumbline/map/id_table.h"
 #include "plumbline/map/landmarks.h"
 
-#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -20,7 +19,6 @@ class Map {
   explicit Map(MapId id = MapId{0}) : id_(id) {}
 
   MapId id() const { return id_; }
-  std::int64_t version() const { return version_; }
   const std::map<KeyFrameId, KeyFrame>& keyframes() const { return keyframes_.entries(); }
   const std::map<PointId, MapPoint>& points() const { return points_.entries(); }
   const std::map<LineId, MapLine>& lines() const { return lines_.entries(); }
@@ -45,8 +43,8 @@ class Map {
   // Of the disparities of all keyframes.
   const StereoCorrection& stereo_correction() const { return stereo_correction_; }
 
-  // Carries out the changes in order and adds one to the version. Changes that name an object that
-  // an earlier change removed are skipped.
+  // Carries out the changes in order. Changes that name an object that an earlier change removed
+  // are skipped.
   void Apply(const MapEdit& edit);
 
   // Throws BugError when observations and matches disagree or a landmark has none.
@@ -62,7 +60,6 @@ class Map {
   friend struct MapChanger;
 
   MapId id_;
-  std::int64_t version_ = 0;
   KeyFrameId next_keyframe_{0};
   PointId next_point_{0};
   LineId next_line_{0};

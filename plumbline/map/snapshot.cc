@@ -11,8 +11,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kMinShared = 10;
-constexpr std::size_t kNeighboursOfNeighbour = 5;
+constexpr int kNeighboursOfNeighbour = 5;
 
 template <class Element, class LandmarkId>
 const Element* FindById(const std::vector<Element>& sorted, LandmarkId id) {
@@ -23,16 +22,15 @@ const Element* FindById(const std::vector<Element>& sorted, LandmarkId id) {
 
 std::set<KeyFrameId> Window(const Map& map, KeyFrameId centre, std::size_t max_keyframes) {
   std::set<KeyFrameId> window{centre};
-  const auto neighbours = Covisible(map, centre, kMinShared);
+  const auto neighbours = Covisible(map, centre);
   for (const auto& neighbour : neighbours) {
     if (window.size() >= max_keyframes) return window;
     window.insert(neighbour.id);
   }
   for (const auto& neighbour : neighbours) {
-    const auto seconds = Covisible(map, neighbour.id, kMinShared);
-    for (std::size_t i = 0; i < std::min(seconds.size(), kNeighboursOfNeighbour); ++i) {
+    for (const auto& second : ClosestCovisible(map, neighbour.id, kNeighboursOfNeighbour)) {
       if (window.size() >= max_keyframes) return window;
-      window.insert(seconds[i].id);
+      window.insert(second.id);
     }
   }
   return window;
@@ -53,7 +51,6 @@ std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
   const KeyFrame* reference = map.Find(centre);
   PLUMBLINE_CHECK(reference != nullptr, "snapshot around a keyframe that is not in the map");
   auto snapshot = std::make_shared<MapSnapshot>();
-  snapshot->version = map.version();
   snapshot->centre = centre;
   snapshot->stereo_correction = map.stereo_correction();
   snapshot->reference = std::make_shared<const KeyFrame>(*reference);

@@ -4,7 +4,6 @@
 
 #include "plumbline/map/map.h"
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -22,10 +21,9 @@ struct SnapshotLine : LineModel {
   int observation_count = 0;
 };
 
-// The part of the map around one keyframe as it was at one version. Immutable: the tracker reads it
+// The part of the map around one keyframe as it was at one time. Immutable: the tracker reads it
 // while mapping goes on.
 struct MapSnapshot {
-  std::int64_t version = 0;
   KeyFrameId centre;
   StereoCorrection stereo_correction;           // of disparities
   std::map<KeyFrameId, Rigid3> cam_from_world;  // keyframes of the window
@@ -37,10 +35,13 @@ struct MapSnapshot {
   const SnapshotLine* Find(LineId id) const;
 };
 
+// Keyframes whose landmarks a frame is tracked against.
+inline constexpr int kSnapshotKeyFrames = 40;
+
 // Copies the landmarks seen by `centre`, by its covisible keyframes and by their closest
 // neighbours, at most max_keyframes keyframes in all. Order of a megabyte.
 std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
                                                 KeyFrameId centre,
-                                                int max_keyframes);
+                                                int max_keyframes = kSnapshotKeyFrames);
 
 }  // namespace plumbline

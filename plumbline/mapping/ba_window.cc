@@ -110,11 +110,7 @@ class WindowBuilder {
 
   void AddLine(const MapLine& line) {
     const auto& views = builder_.ViewsOf(line.observations);
-    if (views.size() < 2) return;
-    if (!WellConditioned(line)) {
-      window_.young_lines.push_back(line.id);
-      return;
-    }
+    if (views.size() < 2 || !WellConditioned(line)) return;
     window_.lines.push_back(line.id);
     const int index = builder_.AddLine(line.line);
     for (const auto& view : views) builder_.AddLineView(index, view, true);

@@ -14,8 +14,7 @@ namespace plumbline {
 
 // A part of the map around a keyframe, which is the world of the problem.
 struct BaWindow : MapProblem {
-  std::vector<LineId> lines;        // by line index
-  std::vector<LineId> young_lines;  // seen by the window, too badly conditioned to take part
+  std::vector<LineId> lines;  // by line index
 };
 
 // The window around a keyframe: it and its covisible keyframes are free (never the first of the

@@ -102,7 +102,7 @@ MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const Cleanu
   const auto centre_it = map.keyframes().find(centre);
   const KeyFrameId before =
       centre_it == map.keyframes().begin() ? centre : std::prev(centre_it)->first;
-  for (const auto& neighbour : Covisible(map, centre, 10)) {
+  for (const auto& neighbour : Covisible(map, centre)) {
     if (neighbour.id == origin || neighbour.id == before) continue;
     if (IsRedundant(map, *map.Find(neighbour.id), options)) {
       // One at a time: what others show changes with each removal.

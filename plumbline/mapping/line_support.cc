@@ -3,6 +3,7 @@
 #include "plumbline/mapping/line_support.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/base/chi2.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/stretches.h"
 #include "plumbline/optimization/residuals.h"
@@ -26,7 +27,6 @@ bool Agrees(const RectifiedCamera& camera,
             const Rigid3& cam_from_world,
             const LineHypothesis& hypothesis,
             LineMeasurement measurement) {
-  constexpr double kMaxChi2 = 9.21;
   measurement.covariance += kPoseSigmaPx * kPoseSigmaPx * Eigen::Matrix2d::Identity();
   AddLandmarkUncertainty(camera,
                          cam_from_world,
@@ -36,7 +36,7 @@ bool Agrees(const RectifiedCamera& camera,
                          measurement);
   const auto residual =
       EvaluateLine(camera, cam_from_world, ToOrthonormal(hypothesis.line), measurement);
-  return residual && residual->r.squaredNorm() <= kMaxChi2;
+  return residual && residual->r.squaredNorm() <= kChi2TwoDof99;
 }
 
 // Where a segment lies along a line; nullopt where it runs against it.

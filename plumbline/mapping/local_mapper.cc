@@ -20,8 +20,6 @@
 namespace plumbline {
 namespace {
 
-constexpr int kMinShared = 10;
-
 template <class Step>
 void Timed(const char* name, std::vector<MappingStep>& times, const Step& step) {
   const auto start = std::chrono::steady_clock::now();
@@ -144,11 +142,7 @@ void LocalMapper::Watch(const MapEdit& edit) {
 }
 
 void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
-  auto neighbours = Covisible(map, id, kMinShared);
-  if (static_cast<int>(neighbours.size()) > options_.fusion_neighbours) {
-    neighbours.resize(static_cast<std::size_t>(options_.fusion_neighbours));
-  }
-  for (const auto& neighbour : neighbours) {
+  for (const auto& neighbour : ClosestCovisible(map, id, options_.fusion_neighbours)) {
     map.Apply(FuseLandmarks(map, imaging_, id, neighbour.id, options_.fusion));
     map.Apply(FuseLandmarks(map, imaging_, neighbour.id, id, options_.fusion));
   }

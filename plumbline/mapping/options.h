@@ -16,9 +16,9 @@ struct LandmarkCreationOptions {
   double max_relative_line_depth_sigma = 0.107;  // of the ends of lines from one frame
   int neighbours = 6;                            // keyframes searched for a second view of a point
   double min_parallax_deg = 0.3;                 // between the two views of a new point
-  int max_distance = 50;                         // Hamming, of 256 bits
-  double ratio = 0.8;
-  double min_plane_angle_deg = 2;  // between the two views of a new line
+  int max_distance = 50;                         // of their descriptors: Hamming, of 256 bits ...
+  double ratio = 0.8;                            // ... and against the second best
+  double min_plane_angle_deg = 2;                // between the two views of a new line
 };
 
 template <class Visitor>
@@ -39,13 +39,22 @@ void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
         o.max_relative_line_depth_sigma,
         "depth uncertainty of the ends of lines from one frame, relative to depth",
         Range{0.001, 1});
-  visit("neighbours", o.neighbours, "keyframes searched for a second view", Range{0, 100});
+  visit("neighbours",
+        o.neighbours,
+        "closest keyframes searched for a second view of points without landmark",
+        Range{0, 100});
   visit("min_parallax_deg",
         o.min_parallax_deg,
         "between two views of a point [deg]",
         Range{0.01, 45});
-  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
-  visit("ratio", o.ratio, "largest ratio of best to second best", Range{0.1, 1});
+  visit("max_distance",
+        o.max_distance,
+        "largest Hamming distance of the two views of a point, of 256 bits",
+        Range{0, 256});
+  visit("ratio",
+        o.ratio,
+        "largest ratio of this distance to that of the second best view",
+        Range{0.1, 1});
   visit("min_plane_angle_deg",
         o.min_plane_angle_deg,
         "between the interpretation planes of a new line [deg]",

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/parallel_lines.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/geometry/basis_across.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <cmath>

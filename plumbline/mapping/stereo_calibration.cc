@@ -79,8 +79,8 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
     if (!found) continue;
     const double z = (frame.cam_from_world * found->point.position).z();
     const double predicted = camera_.DisparityFromDepth(z);
-    const double relative = depth_row * found->point.covariance * depth_row.transpose();
-    const double variance = predicted * predicted * relative / (z * z);
+    const double depth_variance = depth_row * found->point.covariance * depth_row.transpose();
+    const double variance = predicted * predicted * depth_variance / (z * z);
     if (!(variance <= kMaxPredictionSigmaPx * kMaxPredictionSigmaPx)) continue;
     const Eigen::Vector2d px = frame.features().points[i].px - Eigen::Vector2d(disparity->px, 0);
     const double displacement = disparity->px + frame.indexed->correction.At(px) - predicted;

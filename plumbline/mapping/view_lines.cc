@@ -17,7 +17,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kClosest = 3;  // keyframes that section 3.3 takes
+constexpr int kClosest = 3;  // keyframes that section 3.3 takes
 
 struct LineViewOf {
   KeyFrameId keyframe;
@@ -91,9 +91,7 @@ MapEdit CreateLinesFromViews(const Map& map,
   const Frame& frame = map.Find(id)->frame;
   const FreeLines mine(frame);
   std::map<std::size_t, std::vector<LineViewOf>> tracks;  // by feature of this keyframe
-  auto neighbours = Covisible(map, id, 10);
-  if (neighbours.size() > kClosest) neighbours.resize(kClosest);
-  for (const auto& neighbour : neighbours) {
+  for (const auto& neighbour : ClosestCovisible(map, id, kClosest)) {
     const FreeLines theirs(map.Find(neighbour.id)->frame);
     for (const LineMatch& match : MatchLines(mine.features, theirs.features, LineMatchOptions{})) {
       auto& track = tracks[mine.index[static_cast<std::size_t>(match.a)]];

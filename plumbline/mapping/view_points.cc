@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/median.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/landmark_creation.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <array>
@@ -145,16 +146,14 @@ class PairSearch {
   std::vector<int> near_;
 };
 
-// Of the points that a keyframe shows; nullopt where it shows none.
+// Of the points that a keyframe shows; nullopt where it shows none, or most lie behind it.
 std::optional<double> MedianDepth(const Map& map, const Frame& frame) {
   std::vector<double> depths;
   for (const PointId id : frame.points) {
     if (id.valid()) depths.push_back((frame.cam_from_world * map.Find(id)->position).z());
   }
-  if (depths.empty()) return std::nullopt;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle > 0 ? std::optional(*middle) : std::nullopt;
+  const double median = UpperMedian(depths);
+  return median > 0 ? std::optional(median) : std::nullopt;
 }
 
 MapPoint NewPoint(const Frame& frame, std::size_t i, const Eigen::Vector3d& position) {
@@ -181,11 +180,7 @@ MapEdit CreatePointsFromViews(const Map& map,
   for (std::size_t i = 0; i < done.size(); ++i) done[i] = frame.points[i].valid();
   MapEdit edit;
   PointId next = map.NextPointId();
-  auto neighbours = Covisible(map, id, 10);
-  if (static_cast<int>(neighbours.size()) > options.neighbours) {
-    neighbours.resize(static_cast<std::size_t>(options.neighbours));
-  }
-  for (const auto& neighbour : neighbours) {
+  for (const auto& neighbour : ClosestCovisible(map, id, options.neighbours)) {
     const Frame& other = map.Find(neighbour.id)->frame;
     PairSearch search(imaging.camera, frame, other, *median_depth, options);
     std::vector<bool> taken(other.points.size(), false);

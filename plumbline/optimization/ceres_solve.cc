@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_solve.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/ceres_manifolds.h"
 #include "plumbline/optimization/ceres_terms.h"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/local_ba.h"
 
-#include "plumbline/base/error.h"
 #include "plumbline/optimization/ba_landmarks.h"
 #include "plumbline/optimization/ba_projected_ends.h"
+#include "plumbline/optimization/check_problem.h"
 #include "plumbline/optimization/line_ends.h"
 
 #include <algorithm>
@@ -20,33 +20,6 @@ constexpr double kMaxLambda = 1e10;
 // Below this damping a step is nearly that of Gauss-Newton, so that a small gain means convergence.
 constexpr double kSmallLambda = 1;
 
-bool IsFinite(const Rigid3& pose) {
-  return pose.rotation.coeffs().allFinite() && pose.translation.allFinite();
-}
-
-bool IsFinite(const PointMeasurement& m) {
-  const bool disparity =
-      !m.disparity || (std::isfinite(m.disparity->px) && std::isfinite(m.disparity->sigma_px));
-  return disparity && m.px.allFinite() && std::isfinite(m.sigma_px);
-}
-
-bool IsFinite(const LineMeasurement& m) {
-  return m.segment.start.allFinite() && m.segment.end.allFinite() && m.covariance.allFinite();
-}
-
-bool IsFinite(const BaProblem& p) {
-  const auto all = [](const auto& items, auto&& finite) {
-    return std::all_of(items.begin(), items.end(), finite);
-  };
-  return all(p.poses, [](const auto& x) { return IsFinite(x.cam_from_world); }) &&
-         all(p.points, [](const auto& x) { return x.allFinite(); }) &&
-         all(p.lines, [](const auto& x) { return x.U.coeffs().allFinite() && x.w.allFinite(); }) &&
-         all(p.point_observations, [](const auto& x) { return IsFinite(x.measurement); }) &&
-         all(p.line_observations, [](const auto& x) { return IsFinite(x.measurement); }) &&
-         all(p.axes, [](const auto& x) { return x.allFinite(); }) &&
-         all(p.parallel_lines, [](const auto& x) { return std::isfinite(x.sigma); });
-}
-
 // The poses, then for each axis the fixed pose of a frame whose z it is.
 std::vector<BaPose> MakePoses(const BaProblem& problem) {
   std::vector<BaPose> poses(problem.poses.size() + problem.axes.size());
@@ -61,28 +34,6 @@ std::vector<BaPose> MakePoses(const BaProblem& problem) {
     poses[problem.poses.size() + i].Set(frame);
   }
   return poses;
-}
-
-void CheckIndices(int pose, int landmark, std::size_t poses, std::size_t landmarks) {
-  PLUMBLINE_CHECK(pose >= 0 && static_cast<std::size_t>(pose) < poses,
-                  "pose index of an observation out of range");
-  PLUMBLINE_CHECK(landmark >= 0 && static_cast<std::size_t>(landmark) < landmarks,
-                  "landmark index of an observation out of range");
-}
-
-void CheckIndices(const BaProblem& problem) {
-  for (const auto& o : problem.point_observations) {
-    CheckIndices(o.pose, o.point, problem.poses.size(), problem.points.size());
-  }
-  for (const auto& o : problem.line_observations) {
-    CheckIndices(o.pose, o.line, problem.poses.size(), problem.lines.size());
-  }
-  PLUMBLINE_CHECK(problem.axes.empty() || problem.line_residual == LineResidualKind::kObservedEnds,
-                  "axes need the residual observed_ends");
-  for (const auto& o : problem.parallel_lines) {
-    CheckIndices(o.axis, o.line, problem.axes.size(), problem.lines.size());
-    PLUMBLINE_CHECK(o.sigma > 0, "sigma of a parallel line must be positive");
-  }
 }
 
 std::vector<BaObservation<PointTerm>> PointObservations(const BaProblem& problem) {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -23,27 +22,5 @@ struct HuberThresholds {
   double disparity = std::numeric_limits<double>::infinity();  // of a point with disparity
   double line = std::numeric_limits<double>::infinity();
 };
-
-// The value that a chi2 variable with `dof` >= 1 degrees of freedom stays below with 95 %. Exact to
-// 1e-3 for dof <= 12, else by the approximation of Wilson and Hilferty (error below 0.1 %).
-inline double Chi2Limit95(int dof) {
-  constexpr std::array kLimits{0.0,
-                               3.841,
-                               5.991,
-                               7.815,
-                               9.488,
-                               11.070,
-                               12.592,
-                               14.067,
-                               15.507,
-                               16.919,
-                               18.307,
-                               19.675,
-                               21.026};
-  if (dof < static_cast<int>(kLimits.size())) return kLimits[static_cast<std::size_t>(dof)];
-  const double a = 2.0 / (9.0 * dof);
-  const double root = 1 - a + 1.6448536 * std::sqrt(a);
-  return dof * root * root * root;
-}
 
 }  // namespace plumbline

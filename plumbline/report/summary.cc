@@ -169,7 +169,7 @@ std::string FormatSummary(const RunDescription& description,
   json["keyframes"] = counts.keyframes;
   json["points"] = counts.points;
   json["lines"] = counts.lines;
-  json["loops"] = 0;
+  json["loops"] = 0;  // nothing closes loops; the key is part of the format of the file
   const auto error = CompareWithGroundTruth(system, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts) : Json(nullptr);
   const auto main = system.MainMap();

@@ -10,7 +10,6 @@
 namespace plumbline {
 namespace {
 
-constexpr int kSnapshotKeyFrames = 40;
 constexpr std::size_t kBehind = 2;  // waiting keyframes
 
 // Of this thread (Linux). Where it is refused, things stay as they are.
@@ -160,7 +159,7 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
     newest = added.keyframe.id;
     times = mapper_.Add(map, added.keyframe, added.scores);
   }
-  auto snapshot = TakeSnapshot(map, newest, kSnapshotKeyFrames);
+  auto snapshot = TakeSnapshot(map, newest);
   lock.lock();
   versions_.push_back({task.number, std::move(snapshot)});
   times_.insert(times_.end(), times.begin(), times.end());

@@ -13,7 +13,6 @@
 namespace plumbline {
 namespace {
 
-constexpr int kSnapshotKeyFrames = 40;
 constexpr int kMaxMissed = 5;  // frames in a row; those before them are left alone
 
 // Goes back in time from a known pose with constant velocity.
@@ -59,7 +58,7 @@ class NearestKeyFrame {
   bool IsMadeOf(FrameId frame) const { return map_.Find(id_)->frame.id == frame; }
   Rigid3 cam_from_world() const { return map_.PoseOf(id_); }
   const MapSnapshot& snapshot() {
-    if (!snapshot_) snapshot_ = TakeSnapshot(map_, id_, kSnapshotKeyFrames);
+    if (!snapshot_) snapshot_ = TakeSnapshot(map_, id_);
     return *snapshot_;
   }
 

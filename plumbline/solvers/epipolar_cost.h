@@ -11,10 +11,6 @@
 
 namespace plumbline {
 
-// 95 % of chi-square with one and with two degrees of freedom.
-inline constexpr double kChi2OneDof = 3.841;
-inline constexpr double kChi2TwoDof = 5.991;
-
 // Squared Sampson distance of a match over its variance: chi-square with one degree of freedom.
 double SampsonChi2(const Eigen::Matrix3d& essential, const RayMatch& match);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/pose_refinement.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
@@ -149,7 +150,7 @@ Matrix5d Covariance(std::span<const RayMatch> matches, const Rigid3& pose, bool 
   Matrix5d information = Matrix5d::Zero();
   for (const RayMatch& match : matches) {
     const SampsonResidual r = model.Evaluate(match);
-    if (r.value * r.value < kChi2OneDof) information += r.jacobian.transpose() * r.jacobian;
+    if (r.value * r.value < kChi2OneDof95) information += r.jacobian.transpose() * r.jacobian;
   }
   if (!rotation_known) return InverseOrInfinite<5>(information);
   Matrix5d covariance = Matrix5d::Zero();
@@ -204,17 +205,17 @@ RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, R
   std::vector<RayMatch> near;
   const Eigen::Matrix3d E = EssentialMatrix(best.b_from_a);
   for (const RayMatch& match : matches) {
-    if (SampsonChi2(E, match) < 2 * kChi2OneDof) near.push_back(match);
+    if (SampsonChi2(E, match) < 2 * kChi2OneDof95) near.push_back(match);
   }
   if (near.size() < kSubsetSize) return best;
   const EpipolarCost cost(matches);
-  double lowest = cost.Truncated(E, kChi2OneDof, std::numeric_limits<double>::infinity());
+  double lowest = cost.Truncated(E, kChi2OneDof95, std::numeric_limits<double>::infinity());
   Rigid3 pose = best.b_from_a;
   std::array<RayMatch, kSubsetSize> subset;
   for (int i = 0; i < kSubsets; ++i) {
     for (RayMatch& match : subset) match = near[rng.Index(near.size())];
     const Rigid3 trial = RefinePose(subset, pose, kRough).b_from_a;
-    const double trial_cost = cost.Truncated(EssentialMatrix(trial), kChi2OneDof, lowest);
+    const double trial_cost = cost.Truncated(EssentialMatrix(trial), kChi2OneDof95, lowest);
     if (!(trial_cost < lowest)) continue;
     lowest = trial_cost;
     pose = trial;

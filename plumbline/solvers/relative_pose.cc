@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/relative_pose.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/pose_refinement.h"
@@ -46,9 +47,9 @@ RelativePoseHypothesis Judge(std::span<const RayMatch> matches, const RefinedPos
   h.is_inlier.resize(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const double chi2 = SampsonChi2(E, matches[i]);
-    h.is_inlier[i] = chi2 < kChi2OneDof;
+    h.is_inlier[i] = chi2 < kChi2OneDof95;
     h.inliers += h.is_inlier[i] ? 1 : 0;
-    h.cost += std::min(chi2, kChi2OneDof);
+    h.cost += std::min(chi2, kChi2OneDof95);
   }
   h.in_front = CountInFront(matches, h.is_inlier, h.b_from_a);
   return h;
@@ -192,11 +193,6 @@ std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMat
     AddHomographies(matches, options, rng, list);
   }
   return list.Take();
-}
-
-RelativePoseHypothesis RefineRelativePose(std::span<const RayMatch> matches, const Rigid3& start) {
-  const Rigid3 unit{start.rotation, start.translation.normalized()};
-  return Judge(matches, RefinePose(matches, unit));
 }
 
 RelativePoseHypothesis EstimateTranslation(std::span<const RayMatch> matches,

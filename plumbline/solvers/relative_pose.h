@@ -82,10 +82,6 @@ std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMat
                                                           Rng& rng,
                                                           std::span<const Rigid3> guesses = {});
 
-// The pose near `start` that fits the matches best, judged as above: sign of the translation and
-// rotation of the pair are those of the start.
-RelativePoseHypothesis RefineRelativePose(std::span<const RayMatch> matches, const Rigid3& start);
-
 // The translation of the best fit with the rotation known (2-point RANSAC, two degrees of freedom),
 // its sign by the count of points in front. The covariance is that with an exact rotation. An empty
 // is_inlier where there are fewer than two matches or they show no parallax at all.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/relative_pose_problems.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/pose_refinement.h"
 #include "plumbline/solvers/translation.h"
@@ -41,7 +42,7 @@ EssentialProblem::EssentialProblem(std::span<const RayMatch> matches)
 }
 
 double EssentialProblem::InlierRatio(const Model& E) const {
-  return Ratio(cost_.CountBelow(E, kChi2OneDof), size());
+  return Ratio(cost_.CountBelow(E, kChi2OneDof95), size());
 }
 
 EssentialProblem::Model EssentialProblem::Improve(const Model& E) const {
@@ -81,7 +82,7 @@ std::vector<Eigen::Matrix3d> HomographyProblem::Solve(
 double HomographyProblem::Cost(const Model& H, double limit) const {
   double sum = 0;
   for (const RayMatch& match : matches_) {
-    sum += std::min(SquaredTransferError(H, match), kChi2TwoDof);
+    sum += std::min(SquaredTransferError(H, match), kChi2TwoDof95);
     if (sum > limit) break;
   }
   return sum;
@@ -89,7 +90,7 @@ double HomographyProblem::Cost(const Model& H, double limit) const {
 
 double HomographyProblem::InlierRatio(const Model& H) const {
   const auto count = std::count_if(matches_.begin(), matches_.end(), [&](const RayMatch& m) {
-    return SquaredTransferError(H, m) < kChi2TwoDof;
+    return SquaredTransferError(H, m) < kChi2TwoDof95;
   });
   return Ratio(count, size());
 }
@@ -99,7 +100,7 @@ HomographyProblem::Model HomographyProblem::Improve(const Model& H) const {
   for (int i = 0; i < 2; ++i) {
     std::vector<RayMatch> inliers;
     for (const RayMatch& match : matches_) {
-      if (SquaredTransferError(improved, match) < 2 * kChi2TwoDof) inliers.push_back(match);
+      if (SquaredTransferError(improved, match) < 2 * kChi2TwoDof95) inliers.push_back(match);
     }
     const auto fitted = HomographyFromPoints(inliers, &improved);
     if (!fitted) break;
@@ -115,18 +116,18 @@ std::vector<Eigen::Vector3d> TranslationProblem::Solve(
 }
 
 double TranslationProblem::Cost(const Model& t, double limit) const {
-  return cost_.Truncated(EssentialMatrix({b_from_a_, t}), kChi2OneDof, limit);
+  return cost_.Truncated(EssentialMatrix({b_from_a_, t}), kChi2OneDof95, limit);
 }
 
 double TranslationProblem::InlierRatio(const Model& t) const {
-  return Ratio(cost_.CountBelow(EssentialMatrix({b_from_a_, t}), kChi2OneDof), size());
+  return Ratio(cost_.CountBelow(EssentialMatrix({b_from_a_, t}), kChi2OneDof95), size());
 }
 
 TranslationProblem::Model TranslationProblem::Improve(const Model& t) const {
   const Eigen::Matrix3d E = EssentialMatrix({b_from_a_, t});
   std::vector<RayMatch> inliers;
   for (const RayMatch& match : matches_) {
-    if (SampsonChi2(E, match) < 2 * kChi2OneDof) inliers.push_back(match);
+    if (SampsonChi2(E, match) < 2 * kChi2OneDof95) inliers.push_back(match);
   }
   return TranslationFromPoints(b_from_a_, inliers, t).value_or(t);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
 #include "plumbline/solvers/homography.h"
@@ -28,7 +29,9 @@ class EssentialProblem {
   explicit EssentialProblem(std::span<const RayMatch> matches);
 
   std::size_t size() const { return matches_.size(); }
-  double Cost(const Model& E, double limit) const { return cost_.Truncated(E, kChi2OneDof, limit); }
+  double Cost(const Model& E, double limit) const {
+    return cost_.Truncated(E, kChi2OneDof95, limit);
+  }
   double InlierRatio(const Model& E) const;
   // A few steps of RefinePose under a wide loss.
   Model Improve(const Model& E) const;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/rotation.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/base/median.h"
-#include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/ransac.h"
 
 #include <algorithm>
@@ -77,15 +77,16 @@ class RotationProblem {
   double Cost(const Model& R, double limit) const {
     double sum = 0;
     for (const RayMatch& match : matches_) {
-      sum += std::min(Chi2(R, match), kChi2TwoDof);
+      sum += std::min(Chi2(R, match), kChi2TwoDof95);
       if (sum > limit) break;
     }
     return sum;
   }
 
   int Inliers(const Model& R) const {
-    return static_cast<int>(std::count_if(
-        matches_.begin(), matches_.end(), [&](const auto& m) { return Chi2(R, m) < kChi2TwoDof; }));
+    return static_cast<int>(std::count_if(matches_.begin(), matches_.end(), [&](const auto& m) {
+      return Chi2(R, m) < kChi2TwoDof95;
+    }));
   }
   double InlierRatio(const Model& R) const {
     return static_cast<double>(Inliers(R)) / static_cast<double>(size());
@@ -99,7 +100,7 @@ class RotationProblem {
       for (const RayMatch& match : matches_) {
         TransferResidual r;
         if (!Evaluate(R, match, r)) continue;
-        const double part = 1 / (1 + r.value.squaredNorm() / (4 * kChi2TwoDof));
+        const double part = 1 / (1 + r.value.squaredNorm() / (4 * kChi2TwoDof95));
         information += part * part * r.jacobian.transpose() * r.jacobian;
         gradient += part * part * r.jacobian.transpose() * r.value;
       }

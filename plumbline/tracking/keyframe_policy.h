@@ -20,7 +20,11 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
   visit(
       "max_frames", o.max_frames, "a keyframe at the latest after so many frames", Range{1, 10000});
-  visit("min_frames", o.min_frames, "frames between keyframes at least", Range{1, 1000});
+  visit("min_frames",
+        o.min_frames,
+        "frames after a keyframe until the next may come, unless tracking is about to fail; 1: the "
+        "very next",
+        Range{1, 1000});
   visit("min_landmark_ratio",
         o.min_landmark_ratio,
         "keyframe when a smaller share of the last keyframe's landmarks is tracked",

@@ -3,11 +3,11 @@
 #include "plumbline/tracking/line_cutting.h"
 
 #include "plumbline/association/line_information.h"
+#include "plumbline/base/chi2.h"
 #include "plumbline/cutting/choose_features.h"
 #include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <limits>

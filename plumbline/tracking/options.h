@@ -45,13 +45,9 @@ struct TrackingOptions {
   KeyFramePolicyOptions keyframes;
 };
 
+// Which poses are accepted: a part of the fields.
 template <class Visitor>
-void VisitFields(Visitor&& visit, TrackingOptions& o) {
-  visit(
-      "reference",
-      o.reference,
-      "what a frame is tracked against: local_map, or last_frame (odometry: points and lines with "
-      "depth of the frame before alone, only the first frame becomes a keyframe; needs depth)");
+void VisitAcceptance(Visitor& visit, TrackingOptions& o) {
   visit("min_inliers", o.min_inliers, "points + lines a pose needs to be accepted", Range{4, 1000});
   visit("min_unpredicted_inliers",
         o.min_unpredicted_inliers,
@@ -84,12 +80,11 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         "keyframes that show an established landmark: where these fix the pose to "
         "enough_pose_sigma, others cannot outvote them; 0: all count alike",
         Range{0, 1000});
-  visit("motion_sigma",
-        o.motion_sigma,
-        "change of velocity that the prediction allows for: rotation [rad/s^2] and translation "
-        "[scene depths/s^2]",
-        Range{0.01, 1000});
-  visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
+}
+
+// Which depths are used: a part of the fields.
+template <class Visitor>
+void VisitDepthSigmas(Visitor& visit, TrackingOptions& o) {
   visit("max_relative_depth_sigma",
         o.max_relative_depth_sigma,
         "depth uncertainty of points from one frame, relative to depth",
@@ -106,6 +101,23 @@ void VisitFields(Visitor&& visit, TrackingOptions& o) {
         o.close_relative_depth_sigma,
         "depth uncertainty below which a point counts as near, relative to depth",
         Range{0.001, 1});
+}
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, TrackingOptions& o) {
+  visit(
+      "reference",
+      o.reference,
+      "what a frame is tracked against: local_map, or last_frame (odometry: points and lines with "
+      "depth of the frame before alone, only the first frame becomes a keyframe; needs depth)");
+  VisitAcceptance(visit, o);
+  visit("motion_sigma",
+        o.motion_sigma,
+        "change of velocity that the prediction allows for: rotation [rad/s^2] and translation "
+        "[scene depths/s^2]",
+        Range{0.01, 1000});
+  visit("min_initial", o.min_initial, "points + lines with depth to start a map", Range{10, 10000});
+  VisitDepthSigmas(visit, o);
   visit("first_radius_px",
         o.first_radius_px,
         "search radius from the last frame [px]",

@@ -41,6 +41,11 @@ auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSn
   return match < 0 ? nullptr : InSnapshot(candidates[static_cast<std::size_t>(match)].id, snapshot);
 }
 
+// Of the matches alone.
+FrameCounts CountsOf(const FrameMatches& matches) {
+  return {.matched_points = matches.Points(), .matched_lines = matches.Lines()};
+}
+
 std::vector<PointInImage> MatchedPoints(const Frame& frame, const FrameAssociation& association) {
   std::vector<PointInImage> result;
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
@@ -199,8 +204,7 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
   constexpr double kGate = 3;  // the pose that the vote gives is not the final one
   const bool odometry = options_.reference == TrackingReference::kLastFrame;
   association = MatchAppearance(frame, odometry ? last.frame : snapshot.reference->frame, snapshot);
-  counts.matched_points = association.matches.Points();
-  counts.matched_lines = association.matches.Lines();
+  counts = CountsOf(association.matches);
   Rigid3 initial = last.frame.cam_from_world;
   const auto voted =
       PoseFromPoints(imaging_.camera, MatchedPoints(frame, association), kMaxErrorPx);
@@ -216,15 +220,16 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
   return estimate;
 }
 
-PoseEstimate PoseSearch::WithLastFrame(const Frame& frame,
-                                       const PoseEstimate& first,
-                                       const PosePrior& prior,
-                                       FrameAssociation& association,
-                                       FrameCounts& counts) const {
+PoseAttempt PoseSearch::WithLastFrame(const Frame& frame,
+                                      const PoseEstimate& first,
+                                      const PosePrior& prior,
+                                      FrameAssociation found) const {
+  PoseAttempt attempt{std::move(found), {}, {}, {}};
+  FrameAssociation& association = attempt.association;
   MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
-  counts.matched_points = association.matches.Points();
-  counts.matched_lines = association.matches.Lines();
-  return Estimate(frame, first.cam_from_world, prior, association);
+  attempt.counts = CountsOf(association.matches);
+  attempt.pose = Estimate(frame, first.cam_from_world, prior, association);
+  return attempt;
 }
 
 PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
@@ -258,26 +263,24 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
   return Estimate(frame, of_established.cam_from_world, prior, association);
 }
 
-PoseEstimate PoseSearch::WithLocalMap(const Frame& frame,
-                                      const PoseEstimate& first,
-                                      const PosePrior& prior,
-                                      const MapSnapshot& snapshot,
-                                      FrameAssociation& association,
-                                      ExpectedLandmarks& expected,
-                                      FrameCounts& counts) const {
+PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
+                                     const PoseEstimate& first,
+                                     const PosePrior& prior,
+                                     const MapSnapshot& snapshot,
+                                     const FrameAssociation& found) const {
   // Landmarks of the map come before those made on the spot from the last frame: these know the
   // pose from one frame only, and would keep the map's from being found.
-  FrameAssociation with_map(frame.points.size(), frame.lines.size());
-  CopyMatches(association, true, with_map);
-  AddRest(snapshot.points, with_map.points);
-  AddRest(snapshot.lines, with_map.lines);
-  expected =
-      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, with_map);
-  CopyMatches(association, false, with_map);
-  association = std::move(with_map);
-  counts.matched_points = association.matches.Points();
-  counts.matched_lines = association.matches.Lines();
-  return EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);
+  PoseAttempt attempt{FrameAssociation(frame.points.size(), frame.lines.size()), {}, {}, {}};
+  FrameAssociation& association = attempt.association;
+  CopyMatches(found, true, association);
+  AddRest(snapshot.points, association.points);
+  AddRest(snapshot.lines, association.lines);
+  attempt.expected =
+      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+  CopyMatches(found, false, association);
+  attempt.counts = CountsOf(association.matches);
+  attempt.pose = EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);
+  return attempt;
 }
 
 }  // namespace plumbline

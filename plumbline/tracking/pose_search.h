@@ -26,6 +26,14 @@ struct FrameCounts {
   int inlier_points = 0, inlier_lines = 0;
 };
 
+// A pose of a frame and what it was found with.
+struct PoseAttempt {
+  FrameAssociation association;
+  ExpectedLandmarks expected;  // of the map; nothing where that was not searched
+  FrameCounts counts;          // of matches
+  PoseEstimate pose;
+};
+
 // Finds what a frame shows and its pose from it: first the landmarks of the last frame near where a
 // prediction puts them, or without one by descriptor, then the rest of the local map. Keeps nothing
 // from frame to frame.
@@ -51,21 +59,18 @@ class PoseSearch {
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association,
                                              FrameCounts& counts) const;
-  // Searches more of the last frame's landmarks from the first estimate.
-  PoseEstimate WithLastFrame(const Frame& frame,
-                             const PoseEstimate& first,
-                             const PosePrior& prior,
-                             FrameAssociation& association,
-                             FrameCounts& counts) const;
-  // Searches the rest of the snapshot from the first estimate; `expected` are the landmarks that
-  // should be visible from there. Established landmarks are not outvoted.
-  PoseEstimate WithLocalMap(const Frame& frame,
+  // Searches more of the last frame's landmarks from the first estimate and what it was found with.
+  PoseAttempt WithLastFrame(const Frame& frame,
                             const PoseEstimate& first,
                             const PosePrior& prior,
-                            const MapSnapshot& snapshot,
-                            FrameAssociation& association,
-                            ExpectedLandmarks& expected,
-                            FrameCounts& counts) const;
+                            FrameAssociation found) const;
+  // Searches the rest of the snapshot from the first estimate and what it was found with; expected
+  // are the landmarks that should be visible from there. Established landmarks are not outvoted.
+  PoseAttempt WithLocalMap(const Frame& frame,
+                           const PoseEstimate& first,
+                           const PosePrior& prior,
+                           const MapSnapshot& snapshot,
+                           const FrameAssociation& found) const;
 
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);

@@ -163,7 +163,8 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
   last_->frame.cam_from_world = last_pose;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
   FrameCounts counts;
-  std::optional<Attempt> attempt = FindPose(frame, Predict(last_pose, seconds), snapshot, counts);
+  std::optional<PoseAttempt> attempt =
+      FindPose(frame, Predict(last_pose, seconds), snapshot, counts);
   if (!attempt) {
     const int matches = counts.matched_points + counts.matched_lines;
     return Fail(std::move(frame),
@@ -187,7 +188,7 @@ TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool ma
 }
 
 TrackingResult Tracker::Succeed(Frame frame,
-                                Attempt attempt,
+                                PoseAttempt attempt,
                                 const FrameCounts& counts,
                                 const MapSnapshot& snapshot,
                                 bool mapping_behind) {
@@ -228,11 +229,11 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
 // From where the frame is predicted. From appearance, too, where that fails, or the motion is not
 // known (a guess of no motion finds what happens to lie there), or much less is found than in the
 // frame before (an unexpected motion). What shows more of the map is right.
-std::optional<Tracker::Attempt> Tracker::FindPose(const Frame& frame,
-                                                  const PosePrior& predicted,
-                                                  const MapSnapshot& snapshot,
-                                                  FrameCounts& counts) const {
-  std::optional<Attempt> best;
+std::optional<PoseAttempt> Tracker::FindPose(const Frame& frame,
+                                             const PosePrior& predicted,
+                                             const MapSnapshot& snapshot,
+                                             FrameCounts& counts) const {
+  std::optional<PoseAttempt> best;
   FrameAssociation found;
   if (const auto first = search_.FromPrediction(frame, predicted, *last_, snapshot, found)) {
     best = Settle(frame, *first, predicted, snapshot, std::move(found));
@@ -241,7 +242,7 @@ std::optional<Tracker::Attempt> Tracker::FindPose(const Frame& frame,
     const PosePrior free{last_->frame.cam_from_world};
     const auto first = search_.FromAppearance(frame, *last_, snapshot, found, counts);
     if (first) {
-      Attempt other = Settle(frame, *first, free, snapshot, std::move(found));
+      PoseAttempt other = Settle(frame, *first, free, snapshot, std::move(found));
       if (!best || Shown(other.association) > Shown(best->association)) best = std::move(other);
     }
   }
@@ -249,7 +250,7 @@ std::optional<Tracker::Attempt> Tracker::FindPose(const Frame& frame,
   return best;
 }
 
-bool Tracker::IsWeak(const Attempt& attempt) const {
+bool Tracker::IsWeak(const PoseAttempt& attempt) const {
   constexpr double kMuchLess = 0.5;
   return !search_.Agreed(attempt.pose, attempt.counts) ||
          Shown(attempt.association) < kMuchLess * Shown(last_->association);
@@ -261,19 +262,14 @@ int Tracker::Shown(const FrameAssociation& association) const {
 }
 
 // With all that the map, or the last frame, has for the frame.
-Tracker::Attempt Tracker::Settle(const Frame& frame,
-                                 const PoseEstimate& first,
-                                 const PosePrior& prior,
-                                 const MapSnapshot& snapshot,
-                                 FrameAssociation found) const {
-  Attempt attempt{std::move(found), {}, {}, {}};
-  if (options_.reference == TrackingReference::kLastFrame) {
-    attempt.pose = search_.WithLastFrame(frame, first, prior, attempt.association, attempt.counts);
-  } else {
-    attempt.pose = search_.WithLocalMap(
-        frame, first, prior, snapshot, attempt.association, attempt.expected, attempt.counts);
-  }
-  return attempt;
+PoseAttempt Tracker::Settle(const Frame& frame,
+                            const PoseEstimate& first,
+                            const PosePrior& prior,
+                            const MapSnapshot& snapshot,
+                            FrameAssociation found) const {
+  return options_.reference == TrackingReference::kLastFrame
+             ? search_.WithLastFrame(frame, first, prior, std::move(found))
+             : search_.WithLocalMap(frame, first, prior, snapshot, found);
 }
 
 // The last frame's pose, moved with its reference keyframe by what optimization has done since.

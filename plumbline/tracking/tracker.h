@@ -107,28 +107,20 @@ class Tracker {
 
   TrackingResult StartMap(Frame frame);
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind);
-  // A pose of a frame and what it was found with.
-  struct Attempt {
-    FrameAssociation association;
-    ExpectedLandmarks expected;
-    FrameCounts counts;
-    PoseEstimate pose;
-  };
-
-  std::optional<Attempt> FindPose(const Frame& frame,
-                                  const PosePrior& predicted,
-                                  const MapSnapshot& snapshot,
-                                  FrameCounts& counts) const;
-  bool IsWeak(const Attempt& attempt) const;
+  std::optional<PoseAttempt> FindPose(const Frame& frame,
+                                      const PosePrior& predicted,
+                                      const MapSnapshot& snapshot,
+                                      FrameCounts& counts) const;
+  bool IsWeak(const PoseAttempt& attempt) const;
   // Matches with what is tracked against: made on the spot, things that move have many, too.
   int Shown(const FrameAssociation& association) const;
-  Attempt Settle(const Frame& frame,
-                 const PoseEstimate& first,
-                 const PosePrior& prior,
-                 const MapSnapshot& snapshot,
-                 FrameAssociation found) const;
+  PoseAttempt Settle(const Frame& frame,
+                     const PoseEstimate& first,
+                     const PosePrior& prior,
+                     const MapSnapshot& snapshot,
+                     FrameAssociation found) const;
   TrackingResult Succeed(Frame frame,
-                         Attempt attempt,
+                         PoseAttempt attempt,
                          const FrameCounts& counts,
                          const MapSnapshot& snapshot,
                          bool mapping_behind);

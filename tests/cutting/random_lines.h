@@ -19,10 +19,11 @@ inline CuttableLine RandomLine(Rng& rng, double sigma_disparity = 1, double offs
     return Eigen::Vector3d(rng.Uniform(-2, 2), rng.Uniform(-1.5, 1.5), rng.Uniform(2, 7));
   };
   line.segment_in_cam = {end(), end()};
+  const double sigma_inverse_depth = sigma_disparity / (camera.fx * camera.baseline);
   line.start_covariance =
-      CovarianceFromDisparity(camera, line.segment_in_cam.start, 1, sigma_disparity);
+      CovarianceFromInverseDepth(camera, line.segment_in_cam.start, 1, sigma_inverse_depth);
   line.end_covariance =
-      CovarianceFromDisparity(camera, line.segment_in_cam.end, 1, sigma_disparity);
+      CovarianceFromInverseDepth(camera, line.segment_in_cam.end, 1, sigma_inverse_depth);
   Segment2 image{camera.Project(line.segment_in_cam.start),
                  camera.Project(line.segment_in_cam.end)};
   image.start.y() += offset_px;

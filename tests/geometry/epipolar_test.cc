@@ -3,7 +3,6 @@
 #include "plumbline/geometry/epipolar.h"
 
 #include "tests/support/random_geometry.h"
-#include <cmath>
 
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
@@ -65,35 +64,6 @@ TEST(SampsonDistance, IsChiSquareWithOneDegreeOfFreedom) {
 TEST(SampsonDistance, IsUndefinedWithoutMotion) {
   const Eigen::Matrix3d F = FundamentalMatrix(TestCamera(), Rigid3{});
   EXPECT_FALSE(SquaredSampsonDistance(F, {100, 100}, {100, 100}));
-}
-
-TEST(EpipolarOverlap, ComparesThePiecesOfALine) {
-  const RectifiedCamera camera = TestCamera();
-  const Rigid3 motion{ExpSo3({0.02, -0.05, 0.03}), {0.4, 0.05, 0}};
-  const Eigen::Matrix3d F = FundamentalMatrix(camera, motion);
-  // A slanted upright line; pieces by the height.
-  const auto at = [](double y) { return Eigen::Vector3d(0.2 + 0.1 * y, y, 3 + 0.4 * y); };
-  const auto in_a = [&](double y0, double y1) {
-    return Segment2{camera.Project(at(y0)), camera.Project(at(y1))};
-  };
-  const auto in_b = [&](double y0, double y1) {
-    return Segment2{camera.Project(motion * at(y0)), camera.Project(motion * at(y1))};
-  };
-  EXPECT_NEAR(*EpipolarOverlap(F, in_a(-1, 1), in_b(-1, 1)), 1, 1e-9);
-  EXPECT_NEAR(*EpipolarOverlap(F, in_a(-1, 1), in_b(1, -1)), 1, 1e-9);
-  EXPECT_NEAR(*EpipolarOverlap(F, in_a(-1, 1), in_b(-0.5, 0.1)), 1, 1e-9);
-  EXPECT_NEAR(*EpipolarOverlap(F, in_a(-1, -0.1), in_b(0.1, 1)), 0, 1e-9);
-  const double half = *EpipolarOverlap(F, in_a(-1, 0), in_b(-0.5, 0.5));
-  EXPECT_GT(half, 0.4);
-  EXPECT_LT(half, 0.6);
-}
-
-TEST(EpipolarOverlap, RefusesSegmentsAlongTheEpipolarLines) {
-  const Eigen::Matrix3d F =
-      FundamentalMatrix(TestCamera(), {Eigen::Quaterniond::Identity(), {-0.11, 0, 0}});
-  EXPECT_FALSE(EpipolarOverlap(F, {{100, 200}, {300, 201}}, {{90, 200}, {280, 201}}));
-  EXPECT_TRUE(EpipolarOverlap(F, {{100, 200}, {300, 240}}, {{90, 200}, {280, 240}}));
-  EXPECT_FALSE(EpipolarOverlap(F, {{100, 200}, {100, 200}}, {{90, 200}, {280, 240}}));
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/line_triangulation.h"
 
-#include "plumbline/geometry/trimming.h"
-
 #include "tests/support/jacobian.h"
 #include "tests/support/random_geometry.h"
 #include <cmath>
@@ -198,82 +196,6 @@ TEST(TriangulateLine, NamesItsFailures) {
   ASSERT_TRUE(TriangulateLine(camera, inconsistent));
   inconsistent[2].segment.start.x() += 20;
   EXPECT_EQ(TriangulateLine(camera, inconsistent).error(), kInconsistentViews);
-}
-
-TEST(TriangulateStereoLine, IsExactInTheLeftFrame) {
-  const RectifiedCamera camera = TestCamera();
-  const Segment3 truth{{0.2, -0.8, 2}, {0.4, 0.7, 2.6}};
-  const Rigid3 right = RightCamera(camera, Rigid3{});
-  // The right segment shows another piece of the line.
-  const Eigen::Vector3d beyond = truth.end + 0.2 * truth.Direction();
-  const Segment2 left_segment = ViewOf(truth, Rigid3{}).segment;
-  const Segment2 right_segment = ViewOf({truth.Midpoint(), beyond}, right).segment;
-  const auto result = TriangulateStereoLine(camera, left_segment, 1, right_segment, 1);
-  ASSERT_TRUE(result);
-  EXPECT_LT(Distance(result->estimate.line, truth), 1e-10);
-  const auto interval = TrimToSegment(camera, Rigid3{}, result->estimate.line, left_segment);
-  ASSERT_TRUE(interval);
-  EXPECT_LT((SegmentOf(result->estimate.line, *interval).end - truth.end).norm(), 1e-9);
-}
-
-TEST(TriangulateStereoLine, RefusesImageLinesAlongTheRows) {
-  const auto result = TriangulateStereoLine(
-      TestCamera(), {{100, 200}, {300, 200.1}}, 1, {{80, 200}, {280, 200.1}}, 1);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error(), LineTriangulationFailure::kParallelPlanes);
-}
-
-TEST(LineEstimate, TransformedCovarianceIsThatOfTheTransformedErrors) {
-  Rng rng(7);
-  for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d a = RandomVector<3>(rng, 2);
-    const LineEstimate estimate{LineThroughPoints(a, a + RandomVector<3>(rng)),
-                                Eigen::Vector4d(1, 2, 3, 4).asDiagonal()};
-    const Rigid3 motion = RandomRigid(rng);
-    const auto moved = Transform(motion, estimate);
-    ASSERT_TRUE(moved);
-    const Eigen::Matrix4d J = NumericJacobian(
-        [&](const Eigen::Vector4d& delta) {
-          const PluckerLine perturbed = ToPlucker(Retract(ToOrthonormal(estimate.line), delta));
-          return TangentTo(moved->line, Transform(motion, perturbed));
-        },
-        Eigen::Vector4d(Eigen::Vector4d::Zero()),
-        1e-4);
-    const Eigen::Matrix4d expected = J * estimate.covariance * J.transpose();
-    EXPECT_LT((moved->covariance - expected).norm(), 1e-5 * expected.norm());
-  }
-}
-
-TEST(LineFromEndPoints, CovarianceIsPropagatedFromThePoints) {
-  Rng rng(8);
-  for (int i = 0; i < 20; ++i) {
-    PointEstimate a{Eigen::Vector3d(0, 0, 3) + RandomVector<3>(rng), {}};
-    PointEstimate b{Eigen::Vector3d(0, 0, 3) + RandomVector<3>(rng), {}};
-    a.covariance = Eigen::Vector3d(1, 2, 9).asDiagonal();
-    b.covariance = Eigen::Vector3d(2, 1, 16).asDiagonal();
-    const auto estimate = LineFromEndPoints(a, b);
-    ASSERT_TRUE(estimate);
-    EXPECT_LT(estimate->line.DistanceTo(a.position), 1e-12);
-    EXPECT_LT(estimate->line.DistanceTo(b.position), 1e-12);
-    Vector6d both;
-    both << a.position, b.position;
-    const Eigen::Matrix<double, 4, 6> J = NumericJacobian(
-        [&](const Vector6d& x) {
-          return TangentTo(estimate->line, LineThroughPoints(x.head<3>(), x.tail<3>()));
-        },
-        both,
-        1e-4);
-    const Eigen::Matrix4d expected = J.leftCols<3>() * a.covariance * J.leftCols<3>().transpose() +
-                                     J.rightCols<3>() * b.covariance * J.rightCols<3>().transpose();
-    EXPECT_LT((estimate->covariance - expected).norm(), 1e-5 * expected.norm());
-  }
-}
-
-TEST(LineFromEndPoints, RefusesNoLength) {
-  const PointEstimate point{{1, 2, 3}, Eigen::Matrix3d::Identity()};
-  EXPECT_FALSE(LineFromEndPoints(point, point));
-  const PointEstimate twice{{2, 4, 6}, Eigen::Matrix3d::Identity()};
-  EXPECT_FALSE(LineFromEndPoints(point, twice)) << "through the camera centre";
 }
 
 }  // namespace

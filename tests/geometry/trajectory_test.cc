@@ -62,16 +62,8 @@ TEST(PathLength, SumsTheSteps) {
   EXPECT_EQ(PathLength({}), 0);
 }
 
-TEST(FirstOutOfOrder, NamesTheFirstStampThatDoesNotRise) {
-  Trajectory trajectory = ThreePoses();
-  EXPECT_EQ(FirstOutOfOrder(trajectory), std::nullopt);
-  trajectory[2].stamp_ns = 200 * kMs;
-  EXPECT_EQ(FirstOutOfOrder(trajectory), 2U);
-}
-
 TEST(TimeReversed, MirrorsStampsAndKeepsEachPoseWithItsStamp) {
   const Trajectory reversed = TimeReversed(ThreePoses(), 600 * kMs);
-  EXPECT_FALSE(FirstOutOfOrder(reversed));
   ASSERT_EQ(reversed.size(), 3U);
   EXPECT_EQ(reversed[0].stamp_ns, 100 * kMs);
   EXPECT_EQ(reversed[1].stamp_ns, 400 * kMs);

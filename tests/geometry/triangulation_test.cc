@@ -48,46 +48,6 @@ double Mahalanobis(const Eigen::Vector3d& error, const Eigen::Matrix3d& covarian
   return error.dot(covariance.ldlt().solve(error));
 }
 
-TEST(PointFromDisparity, InvertsTheProjection) {
-  const RectifiedCamera camera = TestCamera();
-  const Eigen::Vector3d p(0.4, -0.3, 2.5);
-  const auto point =
-      PointFromDisparity(camera, camera.Project(p), 1, {camera.DisparityFromDepth(p.z()), 1});
-  ASSERT_TRUE(point);
-  EXPECT_LT((point->position - p).norm(), 1e-12);
-}
-
-TEST(PointFromDisparity, CovarianceMatchesTheScatter) {
-  const RectifiedCamera camera = TestCamera();
-  const Eigen::Vector3d p(0.4, -0.3, 2.5);
-  Rng rng(1);
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
-  constexpr int kCount = 20000;
-  for (int i = 0; i < kCount; ++i) {
-    const Eigen::Vector2d px = camera.Project(p) + RandomVector<2>(rng, 0.3);
-    const double disparity = camera.DisparityFromDepth(p.z()) + rng.Normal(0.2);
-    const auto point = PointFromDisparity(camera, px, 0.3, {disparity, 0.2});
-    const Eigen::Vector3d error = point->position - p;
-    scatter += error * error.transpose() / kCount;
-    expected += point->covariance / kCount;
-  }
-  EXPECT_LT((scatter - expected).norm(), 0.05 * expected.norm());
-  // Across the depth too: whitened scatter is the unit matrix.
-  const Eigen::LLT<Eigen::Matrix3d> llt(expected);
-  const Eigen::Matrix3d white =
-      llt.matrixL().solve(llt.matrixL().solve(scatter).transpose().eval());
-  EXPECT_LT((white - Eigen::Matrix3d::Identity()).norm(), 0.1);
-}
-
-TEST(PointFromDisparity, NeedsAPositiveDisparityAndABaseline) {
-  RectifiedCamera camera = TestCamera();
-  EXPECT_FALSE(PointFromDisparity(camera, {10, 10}, 1, {0, 1}));
-  EXPECT_FALSE(PointFromDisparity(camera, {10, 10}, 1, {-3, 1}));
-  camera.baseline = 0;
-  EXPECT_FALSE(PointFromDisparity(camera, {10, 10}, 1, {3, 1}));
-}
-
 TEST(PointEstimate, TransformTurnsTheCovariance) {
   const PointEstimate point{{1, 2, 3}, Eigen::Vector3d(1, 4, 9).asDiagonal()};
   const Rigid3 quarter{ExpSo3({0, 0, std::acos(0.0)}), {1, 0, 0}};
@@ -116,11 +76,17 @@ TEST(TriangulatePoint, OneStereoViewIsTheStereoPoint) {
   const auto views = ViewsOf({0.3, 0.2, 0}, LookingAtTheOrigin(1, 0), true);
   const auto result = TriangulatePoint(camera, views, {.min_parallax = 0.01});
   ASSERT_TRUE(result);
-  const auto stereo = PointFromDisparity(camera, views[0].px, 1, *views[0].disparity);
-  const PointEstimate expected = Transform(Inverse(views[0].cam_from_world), *stereo);
-  EXPECT_LT((result->point.position - expected.position).norm(), 1e-9);
-  EXPECT_LT((result->point.covariance - expected.covariance).norm(),
-            1e-6 * expected.covariance.norm());
+  const auto point_of = [&](const Eigen::Vector3d& measured) -> Eigen::Vector3d {
+    const double depth = camera.DepthFromDisparity(measured.z());
+    return Inverse(views[0].cam_from_world) * (depth * camera.Unproject(measured.head<2>()));
+  };
+  const Disparity& disparity = *views[0].disparity;
+  const Eigen::Vector3d measured(views[0].px.x(), views[0].px.y(), disparity.px);
+  EXPECT_LT((result->point.position - point_of(measured)).norm(), 1e-9);
+  const Eigen::Matrix3d J = NumericJacobian(point_of, measured, 1e-4);
+  const double variance = disparity.sigma_px * disparity.sigma_px;
+  const Eigen::Matrix3d expected = J * Eigen::Vector3d(1, 1, variance).asDiagonal() * J.transpose();
+  EXPECT_LT((result->point.covariance - expected).norm(), 1e-6 * expected.norm());
 }
 
 TEST(TriangulatePoint, ErrorsFollowTheCovariance) {

@@ -153,9 +153,9 @@ TEST(AdjustStructure, BringsPosesBackAndDropsWhatDoesNotFit) {
   map.views[1].cam_from_world =
       ExpSe3((Vector6d() << 0.003, -0.002, 0.002, 0.01, 0, 0).finished()) *
       map.views[1].cam_from_world;
-  const StructureFit fit = AdjustStructure(scene.world.camera, map);
-  EXPECT_GT(fit.inliers, fit.observations * 9 / 10);
-  EXPECT_NEAR(fit.median_chi2, 0.5, 0.4);  // three observations of three unknowns: less than 1.39
+  const std::size_t before = map.points.size();
+  AdjustStructure(scene.world.camera, map);
+  EXPECT_GT(map.points.size(), before * 9 / 10);
   EXPECT_NEAR(MedianDepth(map), 1, 1e-12);
   for (std::size_t i = 1; i < truth.size(); ++i) {
     const Rigid3& pose = map.views[i].cam_from_world;

@@ -20,21 +20,12 @@ constexpr LineId kL0{0}, kL1{1};
 TEST(Map, StartsEmpty) {
   const Map map(MapId{3});
   EXPECT_EQ(map.id(), MapId{3});
-  EXPECT_EQ(map.version(), 0);
   EXPECT_TRUE(map.keyframes().empty());
   EXPECT_EQ(map.Find(kF0), nullptr);
   EXPECT_EQ(map.Find(kP0), nullptr);
   EXPECT_EQ(map.Find(kL0), nullptr);
   EXPECT_FALSE(map.Current(kP0).valid());
   EXPECT_NO_THROW(map.CheckInvariants());
-}
-
-TEST(Map, EveryApplyIsOneVersion) {
-  Map map;
-  map.Apply({});
-  EXPECT_EQ(map.version(), 1);
-  map.Apply({edit::AddKeyFrame{BlankKeyFrame(0, -1)}, edit::AddKeyFrame{BlankKeyFrame(1, 0)}});
-  EXPECT_EQ(map.version(), 2);
 }
 
 TEST(Map, LandmarksAndKeyFramesKnowOfEachOther) {

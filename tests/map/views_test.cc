@@ -59,10 +59,24 @@ TEST(Covisible, OrdersByCountThenNewestFirst) {
   EXPECT_EQ(neighbours[2].id, KeyFrameId{1});
 }
 
+TEST(Covisible, TheClosestAreItsFirst) {
+  Map map = ChainOfKeyFrames(4);
+  for (std::int64_t id = 0; id < 3 * kMinShared; ++id) {
+    const int feature = static_cast<int>(id);
+    map.Apply({edit::AddPoint{
+        PointSeenBy(id, {{KeyFrameId{0}, feature}, {KeyFrameId{1 + id % 3}, feature}})}});
+  }
+  const auto closest = ClosestCovisible(map, KeyFrameId{0}, 2);
+  ASSERT_EQ(closest.size(), 2U);
+  EXPECT_EQ(closest[0].id, KeyFrameId{3});
+  EXPECT_EQ(closest[1].id, KeyFrameId{2});
+  EXPECT_EQ(ClosestCovisible(map, KeyFrameId{0}, 5).size(), 3U);
+  EXPECT_TRUE(ClosestCovisible(map, KeyFrameId{0}, 0).empty());
+}
+
 TEST(Snapshot, HoldsAllLandmarksOfItsKeyFramesSortedById) {
   const Map map = SharingChain(6, 8, 4);
   const auto snapshot = TakeSnapshot(map, KeyFrameId{5}, 40);
-  EXPECT_EQ(snapshot->version, map.version());
   EXPECT_EQ(snapshot->centre, KeyFrameId{5});
   EXPECT_EQ(snapshot->reference->id, KeyFrameId{5});
   // 5 sees 4, and 4 sees 3: neighbours and theirs.

@@ -9,9 +9,8 @@
 namespace plumbline {
 namespace {
 
-using testing::AddNoise;
-using testing::MeasureLine;
 using testing::Random;
+using testing::RandomMeasuredSegment;
 using testing::StereoCamera;
 
 // Half the squared norm of an observation's residual, as a function of the landmark's update and
@@ -64,16 +63,10 @@ void ExpectAddMatchesCentralDifferences(const typename Kind::State& state,
 
 TEST(BaProjectedEnds, AddsTheProductsOfTheJacobians) {
   Random random(1);
-  const RectifiedCamera camera = StereoCamera();
   for (int i = 0; i < 20; ++i) {
+    const auto [cam_from_world, ends, m] = RandomMeasuredSegment(random, i % 2 == 0);
     BaPose pose;
-    pose.Set(ExpSe3(random.Twist(0.7, 2)));
-    const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
-    const Segment3 ends{world_from_cam * random.PointInView(camera),
-                        world_from_cam * random.PointInView(camera)};
-    auto m = MeasureLine(camera, pose.cam_from_world, ends, i % 2 == 0, 1);
-    AddNoise(random, 4, m);
-    m.covariance << 2, 0.6, 0.6, 1;
+    pose.Set(cam_from_world);
     const PluckerLine line = LineThroughPoints(ends.start, ends.end);
     const LineWithEnds with_ends{ToOrthonormal(line),
                                  {line.ParameterOf(ends.start), line.ParameterOf(ends.end)}};
@@ -88,13 +81,9 @@ TEST(BaLineEnd, TwoOfThemAddWhatTheWholeLineAdds) {
   Random random(2);
   const RectifiedCamera camera = StereoCamera();
   for (int i = 0; i < 20; ++i) {
+    auto [cam_from_world, ends, m] = RandomMeasuredSegment(random, i % 2 == 0);
     BaPose pose;
-    pose.Set(ExpSe3(random.Twist(0.7, 2)));
-    const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
-    const Segment3 ends{world_from_cam * random.PointInView(camera),
-                        world_from_cam * random.PointInView(camera)};
-    auto m = MeasureLine(camera, pose.cam_from_world, ends, i % 2 == 0, 1);
-    AddNoise(random, 4, m);
+    pose.Set(cam_from_world);
     m.covariance << 2, 0, 0, 0.5;
     LandmarkEquations<6> whole;
     PoseEquations pose_whole, pose_parts;

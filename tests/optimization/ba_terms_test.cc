@@ -16,6 +16,7 @@ using testing::AddNoise;
 using testing::MeasureLine;
 using testing::MeasurePoint;
 using testing::Random;
+using testing::RandomMeasuredSegment;
 using testing::StereoCamera;
 
 // The blocks that one observation adds, each expected to be w J^T J or w J^T r.
@@ -46,11 +47,13 @@ void ExpectBlocks(const Blocks<kDof>& blocks,
   near(blocks.W, w * J_pose.transpose() * J_landmark);
 }
 
-BaPose RandomPose(Random& random) {
+BaPose PoseAt(const Rigid3& cam_from_world) {
   BaPose pose;
-  pose.Set(ExpSe3(random.Twist(0.7, 2)));
+  pose.Set(cam_from_world);
   return pose;
 }
+
+BaPose RandomPose(Random& random) { return PoseAt(ExpSe3(random.Twist(0.7, 2))); }
 
 TEST(BaPoint, AddsTheProductsOfTheJacobians) {
   Random random(1);
@@ -76,14 +79,9 @@ TEST(BaLine, AddsTheProductsOfTheJacobians) {
   Random random(2);
   const RectifiedCamera camera = StereoCamera();
   for (int i = 0; i < 20; ++i) {
-    const BaPose pose = RandomPose(random);
-    const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
-    const Segment3 segment{world_from_cam * random.PointInView(camera),
-                           world_from_cam * random.PointInView(camera)};
+    const auto [cam_from_world, segment, m] = RandomMeasuredSegment(random, i % 2 == 0);
+    const BaPose pose = PoseAt(cam_from_world);
     const auto line = ToOrthonormal(LineThroughPoints(segment.start, segment.end));
-    auto m = MeasureLine(camera, pose.cam_from_world, segment, i % 2 == 0, 1);
-    AddNoise(random, 4, m);
-    m.covariance << 2, 0.6, 0.6, 1;
     const auto full = EvaluateLine(camera, pose.cam_from_world, line, m);
     ASSERT_TRUE(full);
     const LineTerm term = MakeLineTerm(camera, m);
@@ -102,14 +100,9 @@ TEST(BaLineLeft, AddsTheProductsOfTheJacobiansByCentralDifferences) {
   Random random(5);
   const RectifiedCamera camera = StereoCamera();
   for (int i = 0; i < 20; ++i) {
-    const BaPose pose = RandomPose(random);
-    const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
-    const Segment3 segment{world_from_cam * random.PointInView(camera),
-                           world_from_cam * random.PointInView(camera)};
+    const auto [cam_from_world, segment, m] = RandomMeasuredSegment(random, i % 2 == 0);
+    const BaPose pose = PoseAt(cam_from_world);
     const auto line = ToOrthonormal(LineThroughPoints(segment.start, segment.end));
-    auto m = MeasureLine(camera, pose.cam_from_world, segment, i % 2 == 0, 1);
-    AddNoise(random, 4, m);
-    m.covariance << 2, 0.6, 0.6, 1;
     const auto full = EvaluateLine(camera, pose.cam_from_world, line, m);
     ASSERT_TRUE(full);
     Eigen::Matrix<double, 2, 4> J_left;
@@ -187,11 +180,8 @@ TEST(BaLineEnds, AddsTheProductsOfTheJacobiansByCentralDifferences) {
   Random random(3);
   const RectifiedCamera camera = StereoCamera();
   for (int i = 0; i < 20; ++i) {
-    const BaPose pose = RandomPose(random);
-    const Segment3 ends = RandomSegment(random, camera, pose);
-    auto m = MeasureLine(camera, pose.cam_from_world, ends, i % 2 == 0, 1);
-    AddNoise(random, 4, m);
-    m.covariance << 2, 0.6, 0.6, 1;
+    const auto [cam_from_world, ends, m] = RandomMeasuredSegment(random, i % 2 == 0);
+    const BaPose pose = PoseAt(cam_from_world);
     const auto full = EvaluateEnds(camera, pose, ends, m);
     ASSERT_TRUE(full);
     Eigen::Matrix<double, 2, 6> J_ends;

@@ -17,10 +17,11 @@ namespace {
 using Eigen::VectorXd;
 using plumbline::testing::AddNoise;
 using plumbline::testing::LineNumbers;
-using plumbline::testing::MeasureLine;
+using plumbline::testing::MeasuredSegment;
 using plumbline::testing::MeasurePoint;
 using plumbline::testing::PoseNumbers;
 using plumbline::testing::Random;
+using plumbline::testing::RandomMeasuredSegment;
 using plumbline::testing::StereoCamera;
 
 // As Ceres writes derivatives.
@@ -76,54 +77,28 @@ TEST(CeresTerms, AnalyticDerivativesOfPointsAgreeWithAutomaticOnes) {
   }
 }
 
-// A measured segment with noise.
-struct MeasuredSegment {
-  Rigid3 pose;
-  Segment3 segment;
-  LineMeasurement m;
-};
-
-MeasuredSegment RandomMeasuredSegment(Random& random, bool right) {
-  const RectifiedCamera camera = StereoCamera();
-  MeasuredSegment out{ExpSe3(random.Twist(0.5, 2)), {}, {}};
-  out.segment = {Inverse(out.pose) * random.PointInView(camera),
-                 Inverse(out.pose) * random.PointInView(camera)};
-  out.m = MeasureLine(camera, out.pose, out.segment, right, 1);
-  AddNoise(random, 5, out.m);
-  out.m.covariance << 2, 0.5, 0.5, 1;
-  return out;
+template <class Manifold>
+void ExpectAnalyticIsAutomatic(unsigned seed, LineParametrization lines) {
+  Random random(seed);
+  for (int i = 0; i < 20; ++i) {
+    const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
+    const VectorXd line =
+        LineNumbers(ToOrthonormal(LineThroughPoints(s.segment.start, s.segment.end)));
+    const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
+    const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
+    const TangentManifold<Manifold> tangent;
+    const Manifold manifold;
+    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.cam_from_world), line, kTangentPose, tangent),
+                Evaluate(*automatic, PoseNumbers(s.cam_from_world), line, kPose, manifold));
+  }
 }
 
 TEST(CeresTerms, AnalyticDerivativesOfPluckerLinesAgreeWithAutomaticOnes) {
-  Random random(5);
-  const auto lines = LineParametrization::kPlucker;
-  for (int i = 0; i < 20; ++i) {
-    const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
-    const VectorXd line =
-        LineNumbers(ToOrthonormal(LineThroughPoints(s.segment.start, s.segment.end)));
-    const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
-    const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
-    const TangentManifold<OrthonormalLineManifold> tangent;
-    const OrthonormalLineManifold manifold;
-    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.pose), line, kTangentPose, tangent),
-                Evaluate(*automatic, PoseNumbers(s.pose), line, kPose, manifold));
-  }
+  ExpectAnalyticIsAutomatic<OrthonormalLineManifold>(5, LineParametrization::kPlucker);
 }
 
 TEST(CeresTerms, AnalyticDerivativesOfLeftPluckerLinesAgreeWithAutomaticOnes) {
-  Random random(8);
-  const auto lines = LineParametrization::kPluckerLeft;
-  for (int i = 0; i < 20; ++i) {
-    const MeasuredSegment s = RandomMeasuredSegment(random, i % 2 == 0);
-    const VectorXd line =
-        LineNumbers(ToOrthonormal(LineThroughPoints(s.segment.start, s.segment.end)));
-    const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
-    const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
-    const TangentManifold<LeftOrthonormalLineManifold> tangent;
-    const LeftOrthonormalLineManifold manifold;
-    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.pose), line, kTangentPose, tangent),
-                Evaluate(*automatic, PoseNumbers(s.pose), line, kPose, manifold));
-  }
+  ExpectAnalyticIsAutomatic<LeftOrthonormalLineManifold>(8, LineParametrization::kPluckerLeft);
 }
 
 // The terms of projected ends have automatic derivatives alone; our own are held against them.
@@ -137,11 +112,11 @@ TEST(CeresTerms, ProjectedEndsAreThoseOfEvaluateProjectedEnds) {
                                 plucker.ParameterOf(s.segment.end)};
     const auto cost =
         MakeProjectedEndsCost(StereoCamera(), s.m, LineParametrization::kPlucker, interval);
-    const auto ours = EvaluateProjectedEnds(StereoCamera(), s.pose, line, interval, s.m);
+    const auto ours = EvaluateProjectedEnds(StereoCamera(), s.cam_from_world, line, interval, s.m);
     ASSERT_TRUE(ours);
     const OrthonormalLineManifold manifold;
     ExpectEqual({ours->r, ours->J_pose, ours->J_line},
-                Evaluate(*cost, PoseNumbers(s.pose), LineNumbers(line), kPose, manifold));
+                Evaluate(*cost, PoseNumbers(s.cam_from_world), LineNumbers(line), kPose, manifold));
   }
 }
 
@@ -155,8 +130,8 @@ TEST(CeresTerms, AnalyticDerivativesOfEndPointsAgreeWithAutomaticOnes) {
     const auto analytic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAnalytic, lines);
     const auto automatic = MakeLineCost(StereoCamera(), s.m, CeresDerivatives::kAutomatic, lines);
     const ceres::EuclideanManifold<6> manifold;
-    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.pose), ends, kTangentPose, manifold),
-                Evaluate(*automatic, PoseNumbers(s.pose), ends, kPose, manifold));
+    ExpectEqual(Evaluate(*analytic, PoseNumbers(s.cam_from_world), ends, kTangentPose, manifold),
+                Evaluate(*automatic, PoseNumbers(s.cam_from_world), ends, kPose, manifold));
   }
 }
 

@@ -384,17 +384,5 @@ TEST(SolveLocalBa, LetsGoOfALineThatIsNotParallel) {
   EXPECT_LT(LineAngle(with.lines[0], without.lines[0]), 2e-3);
 }
 
-TEST(SolveLocalBa, RefusesAxesItCannotUse) {
-  BaScene scene = MakeBaScene(33, {});
-  scene.problem.axes = {Eigen::Vector3d::UnitY()};
-  scene.problem.parallel_lines = {{1, 0, 0.01}};
-  EXPECT_THROW(SolveLocalBa(scene.problem), BugError);
-  scene.problem.parallel_lines = {{0, 0, 0}};
-  EXPECT_THROW(SolveLocalBa(scene.problem), BugError);
-  scene.problem.parallel_lines = {{0, 0, 0.01}};
-  scene.problem.line_residual = LineResidualKind::kProjectedEnds;
-  EXPECT_THROW(SolveLocalBa(scene.problem), BugError);
-}
-
 }  // namespace
 }  // namespace plumbline

@@ -3,7 +3,6 @@
 #include "plumbline/optimization/pose_only.h"
 
 #include "plumbline/optimization/residuals.h"
-#include "plumbline/optimization/robust_loss.h"
 
 #include "tests/optimization/pose_scene.h"
 
@@ -162,13 +161,6 @@ TEST(SolvePose, RepeatsTheSameBytes) {
   EXPECT_EQ(a.cam_from_world.rotation.coeffs(), b.cam_from_world.rotation.coeffs());
   EXPECT_EQ(a.cam_from_world.translation, b.cam_from_world.translation);
   EXPECT_EQ(a.information, b.information);
-}
-
-TEST(Chi2Limit95, MatchesTheTablesAndContinuesSmoothly) {
-  EXPECT_NEAR(Chi2Limit95(2), 5.991, 1e-3);
-  EXPECT_NEAR(Chi2Limit95(4), 9.488, 1e-3);
-  EXPECT_NEAR(Chi2Limit95(20), 31.410, 0.03);
-  EXPECT_NEAR(Chi2Limit95(40), 55.758, 0.05);
 }
 
 }  // namespace

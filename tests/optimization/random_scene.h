@@ -85,4 +85,24 @@ inline void AddNoise(Random& random, double sigma, LineMeasurement& m) {
   }
 }
 
+// A segment somewhere in view of a camera somewhere, and its image with noise. The covariance of
+// the image is one that mixes the two residuals.
+struct MeasuredSegment {
+  Rigid3 cam_from_world;
+  Segment3 segment;
+  LineMeasurement m;
+};
+
+inline MeasuredSegment RandomMeasuredSegment(Random& random, bool right) {
+  const RectifiedCamera camera = StereoCamera();
+  MeasuredSegment out{ExpSe3(random.Twist(0.7, 2)), {}, {}};
+  const Rigid3 world_from_cam = Inverse(out.cam_from_world);
+  out.segment = {world_from_cam * random.PointInView(camera),
+                 world_from_cam * random.PointInView(camera)};
+  out.m = MeasureLine(camera, out.cam_from_world, out.segment, right, 1);
+  AddNoise(random, 4, out.m);
+  out.m.covariance << 2, 0.6, 0.6, 1;
+  return out;
+}
+
 }  // namespace plumbline::testing

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/epipolar_cost.h"
 
+#include "plumbline/base/chi2.h"
 #include "plumbline/geometry/epipolar.h"
 
 #include "tests/solvers/two_view_scene.h"
@@ -36,7 +37,7 @@ TEST(SampsonChi2, IsChiSquareWithOneDegree) {
   }
   const EpipolarCost cost(scene.matches);
   const Eigen::Matrix3d E = EssentialMatrix(scene.b_from_a);
-  EXPECT_NEAR(cost.CountBelow(E, kChi2OneDof) / 4000.0, 0.95, 0.012);
+  EXPECT_NEAR(cost.CountBelow(E, kChi2OneDof95) / 4000.0, 0.95, 0.012);
 }
 
 TEST(EpipolarCost, AgreesWithTheSingleDistancesForAnyNumber) {

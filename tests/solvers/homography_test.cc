@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/homography.h"
 
-#include "plumbline/solvers/epipolar_cost.h"
+#include "plumbline/base/chi2.h"
 
 #include "tests/solvers/two_view_scene.h"
 #include <cmath>
@@ -70,7 +70,7 @@ TEST(Homography, TransferErrorIsChiSquareWithTwoDegrees) {
   for (const RayMatch& match : scene.matches) {
     const double chi2 = SquaredTransferError(H, match);
     EXPECT_NEAR(chi2, SquaredTransferError(-2 * H, match), 1e-9 * (1 + chi2));
-    below += chi2 < kChi2TwoDof ? 1 : 0;
+    below += chi2 < kChi2TwoDof95 ? 1 : 0;
     sum += chi2;
   }
   EXPECT_NEAR(below / 4000, 0.95, 0.012);

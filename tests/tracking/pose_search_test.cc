@@ -120,10 +120,9 @@ TEST(PoseSearch, FindsMoreOfTheLastFrameFromAFirstPose) {
   const auto first =
       search.FromPrediction(frame, {PoseOnPath(1)}, scene.last, scene.snapshot, scene.association);
   ASSERT_TRUE(first);
-  FrameCounts counts;
-  const PoseEstimate pose = search.WithLastFrame(frame, *first, {}, scene.association, counts);
-  ExpectPose(pose, PoseOnPath(2));
-  EXPECT_GE(counts.matched_points, first->inlier_points);
+  const PoseAttempt attempt = search.WithLastFrame(frame, *first, {}, scene.association);
+  ExpectPose(attempt.pose, PoseOnPath(2));
+  EXPECT_GE(attempt.counts.matched_points, first->inlier_points);
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace plumbline {
+
+// The values that chi2 variables with one and two degrees of freedom stay below with 95 % and 99 %.
+inline constexpr double kChi2OneDof95 = 3.841;
+inline constexpr double kChi2TwoDof95 = 5.991;
+inline constexpr double kChi2TwoDof99 = 9.21;
+
+// The value that a chi2 variable with `dof` >= 1 degrees of freedom stays below with 95 %. Exact to
+// 1e-3 for dof <= 12, else by the approximation of Wilson and Hilferty (error below 0.1 %).
+inline double Chi2Limit95(int dof) {
+  constexpr std::array kLimits{0.0,
+                               kChi2OneDof95,
+                               kChi2TwoDof95,
+                               7.815,
+                               9.488,
+                               11.070,
+                               12.592,
+                               14.067,
+                               15.507,
+                               16.919,
+                               18.307,
+                               19.675,
+                               21.026};
+  if (dof < static_cast<int>(kLimits.size())) return kLimits[static_cast<std::size_t>(dof)];
+  const double a = 2.0 / (9.0 * dof);
+  const double root = 1 - a + 1.6448536 * std::sqrt(a);
+  return dof * root * root * root;
+}
+
+}  // namespace plumbline
