@@ -163,11 +163,6 @@ TEST(BaLine, AddsTheProductsOfItsDirectionBesideAnAxis) {
   }
 }
 
-Segment3 RandomSegment(Random& random, const RectifiedCamera& camera, const BaPose& pose) {
-  const Rigid3 world_from_cam = Inverse(pose.cam_from_world);
-  return {world_from_cam * random.PointInView(camera), world_from_cam * random.PointInView(camera)};
-}
-
 std::optional<LineResidual> EvaluateEnds(const RectifiedCamera& camera,
                                          const BaPose& pose,
                                          const Segment3& ends,
