@@ -79,15 +79,18 @@ void KeepScale(const BaProblem& problem, BaResult& result) {
 }
 
 // Solves until no two keyframes that follow each other are torn apart; nullopt where it comes to no
-// end of that, or the numbers are not finite. Poses that are held are marked in the problem.
-std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
+// end of that, or the numbers are not finite. Poses that are held are free in `whole`: a new scale
+// is for all.
+std::optional<BaResult> SolveInOnePiece(const BaProblem& whole,
                                         const LineOptions& lines,
                                         const MappingOptions& options) {
   constexpr int kAttempts = 4;
+  BaProblem problem = whole;
   const double limit = options.window.max_pose_sigma;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     BaResult result = SolveWithLoosePosesHeld(problem, options.ba, lines.parametrization, limit);
     if (result.termination == BaTermination::kNotFinite) return std::nullopt;
+    KeepScale(whole, result);
     if (!HoldTornPoses(result, limit, problem)) return result;
   }
   return std::nullopt;
@@ -107,10 +110,8 @@ MapEdit AdjustWholeMap(const Map& map,
   }
   const MapProblem whole =
       MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
-  BaProblem problem = whole.problem;  // held poses are free in `whole`: a new scale is for all
-  std::optional<BaResult> result = SolveInOnePiece(problem, lines, options);
+  const std::optional<BaResult> result = SolveInOnePiece(whole.problem, lines, options);
   if (!result) return {};
-  KeepScale(whole.problem, *result);
   MapEdit edit = PosesAndPointsOf(whole, *result);
   MoveLines(map, PosesByKeyFrame(whole, *result), edit);
   return edit;

@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -96,19 +98,23 @@ bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
 }
 
 bool HoldTornPoses(const BaResult& solution, double limit, BaProblem& problem) {
-  const std::vector<PoseSigma> sigmas = SigmasOfPoses(problem, InitialState(problem));
+  const std::vector<PoseSigma> sigmas = SigmasOfPoses(problem, solution);
   bool any = false;
-  for (std::size_t i = 1; i < problem.poses.size(); ++i) {
-    auto& before = problem.poses[i - 1];
-    auto& pose = problem.poses[i];
-    if (before.fixed && pose.fixed) continue;
-    const Vector6d change = LogSe3(solution.poses[i] * Inverse(solution.poses[i - 1]) *
-                                   Inverse(pose.cam_from_world * Inverse(before.cam_from_world)));
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    if (!sigmas[i].AtMost(limit)) continue;
+    const std::optional<std::size_t> before = std::exchange(last, i);
+    if (!before) continue;
+    auto& a = problem.poses[*before];
+    auto& b = problem.poses[i];
+    if (a.fixed && b.fixed) continue;
+    const Rigid3 motion = solution.poses[i] * Inverse(solution.poses[*before]);
+    const Vector6d change = LogSe3(motion * Inverse(b.cam_from_world * Inverse(a.cam_from_world)));
     if (change.head<3>().norm() <= limit &&
         change.tail<3>().norm() <= limit * sigmas[i].scene_depth) {
       continue;
     }
-    before.fixed = pose.fixed = true;
+    a.fixed = b.fixed = true;
     any = true;
   }
   return any;

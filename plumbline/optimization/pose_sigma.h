@@ -38,9 +38,10 @@ std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& s
 bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem);
 
 // Marks as fixed the poses of the problem that follow each other and that the solution moves
-// against one another by more than `limit` (radians, and the scene's depth): what ties their parts
-// of the map leaves a direction open (lines along a road), though the landmarks of each fix its
-// pose. Returns whether there were any that were not fixed yet.
+// against one another by more than `limit` (radians, and of the scene's depth): what ties their
+// parts of the map leaves a direction open (lines along a road), though the landmarks of each fix
+// its pose. Those that are loose themselves are passed over. Returns whether there were any that
+// were not fixed yet.
 bool HoldTornPoses(const BaResult& solution, double limit, BaProblem& problem);
 
 // SolveLocalBa with those poses held that are loose before it, or by what it leaves of their

@@ -148,6 +148,28 @@ TEST(HoldTornPoses, HoldsBothSidesOfATear) {
   EXPECT_TRUE(problem.poses[3].fixed && problem.poses[4].fixed);
 }
 
+// The third pose has too little of its own, and stays behind while its neighbours are corrected.
+TEST(HoldTornPoses, PassesOverLoosePoses) {
+  BaProblem problem = TwoViewsOfLines(24);
+  problem.poses.push_back(problem.poses[1]);
+  problem.poses.push_back(problem.poses[1]);
+  for (std::size_t k = 0; k < 96; ++k) {
+    auto o = problem.line_observations[k];
+    if (o.pose != 1) continue;
+    o.pose = 3;
+    problem.line_observations.push_back(o);
+  }
+  ASSERT_TRUE(HoldLoosePoses(InitialState(problem), 0.01, problem));
+  ASSERT_TRUE(problem.poses[2].fixed);
+  BaResult solution = InitialState(problem);
+  for (const std::size_t i : {0UL, 1UL, 3UL}) solution.poses[i].translation.z() += 0.5;
+  EXPECT_FALSE(HoldTornPoses(solution, 0.01, problem));
+  solution.poses[3].translation.z() += 0.5;
+  EXPECT_TRUE(HoldTornPoses(solution, 0.01, problem));
+  EXPECT_TRUE(problem.poses[1].fixed && problem.poses[3].fixed) << "across the loose one";
+  EXPECT_FALSE(problem.poses[0].fixed);
+}
+
 TEST(SigmasOfPoses, ShrinkWithTheNumberOfObservations) {
   const BaProblem few = TwoViewsOfLines(14);
   const BaProblem many = TwoViewsOfLines(24);
