@@ -48,7 +48,9 @@ CommandSyntax Syntax() {
             "fit it, with * and ?; may be repeated"},
            {"--set", "KEY=VALUE", "one option for all runs; may be repeated"},
            {"--jobs", "N", "runs at once (1); more than one spoils the times"},
-           {"--time-limit", "S", "kill a run after so many seconds (60, and one for each frame)"},
+           {"--time-limit",
+            "S",
+            "kill a run after so many seconds (60, and one for each frame; six with starts)"},
            {"--force", "", "run again what is done"},
            {"--dry-run", "", "list the runs and start none"},
            {"--quiet", "", "print nothing but errors"}}};

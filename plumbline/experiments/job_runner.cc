@@ -178,10 +178,12 @@ class Runner {
   }
 
   double LimitOf(const Job& job) const {
-    constexpr double kStart = 60, kFrame = 1, kFramesOfUnknown = 3600;
+    constexpr double kStart = 60, kFramesOfUnknown = 3600;
+    // A frame is offered to all starts of the six seconds before it.
+    const double per_frame = plan_.experiment.command == RunCommandKind::kStarts ? 6 : 1;
     const std::size_t frames = plan_.SequenceOf(job).frames;
     return options_.time_limit_s.value_or(
-        kStart + kFrame * (frames > 0 ? static_cast<double>(frames) : kFramesOfUnknown));
+        kStart + per_frame * (frames > 0 ? static_cast<double>(frames) : kFramesOfUnknown));
   }
 
   bool HasEnded(Running& running) {
