@@ -87,7 +87,7 @@ struct BaWindowOptions {
   int min_shared = 15;                   // landmarks that tie a keyframe to the window
   double min_line_plane_angle_deg = 10;  // between views, for a line to take part ...
   double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
-  double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma)
+  double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma, HoldTornPoses)
   bool parallel_lines = true;             // lines keep to directions that many of the map share
 };
 
@@ -104,11 +104,13 @@ void VisitFields(Visitor&& visit, BaWindowOptions& o) {
         o.max_line_relative_sigma,
         "or from this uncertainty of its ends, relative to their depth",
         Range{0, 1});
-  visit("max_pose_sigma",
-        o.max_pose_sigma,
-        "deviation to which its landmarks must fix a keyframe that is adjusted: rotation [rad] and "
-        "translation relative to their depth",
-        Range{1e-6, 10});
+  visit(
+      "max_pose_sigma",
+      o.max_pose_sigma,
+      "deviation to which its landmarks must fix a keyframe that is adjusted: rotation [rad] and "
+      "translation relative to their depth; when the run ends, two that follow each other may not "
+      "be moved against one another by more",
+      Range{1e-6, 10});
   visit("parallel_lines",
         o.parallel_lines,
         "lines that are parallel to many others of the map by chi2 are held so (not with "

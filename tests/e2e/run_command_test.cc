@@ -139,11 +139,13 @@ TEST(Run, PlaysBackwardsAndWritesTheStampsOfTheRecording) {
 }
 
 TEST(Run, BackwardsHasTheErrorsThatEvaluateFinds) {
+  int found = 0;
   for (const std::string sequence : {"euroc/MH_01_easy_first250 --to 30 --sensor stereo",
                                      "tum/rgbd_dataset_freiburg1_floor_first90 --to 30",
                                      "kitti/06_first51 --to 15 --sensor stereo"}) {
     const auto data = FindData(sequence.substr(0, sequence.find(' ')));
-    if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+    if (!data) continue;
+    ++found;
     const ScratchFolder folder;
     Outcome outcome = RunProgram(folder,
                                  "run " + Quoted(*data) + sequence.substr(sequence.find(' ')) +
@@ -159,6 +161,7 @@ TEST(Run, BackwardsHasTheErrorsThatEvaluateFinds) {
     EXPECT_NEAR(run["ate"]["rmse"], errors["ate_m"]["rmse"], 1e-6) << sequence;
     EXPECT_LT(run["ate"]["rmse"], 0.1) << sequence;
   }
+  if (found == 0) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
 }
 
 }  // namespace
