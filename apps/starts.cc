@@ -94,8 +94,8 @@ double ReadNumber(const CommandLine& line, const std::string& option) {
 
 StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
   StartPlan plan;
-  plan.seconds = line.Count("--seconds", 2, 1);
-  plan.patience = line.Count("--patience", 6, 1);
+  plan.seconds = line.Count("--seconds", static_cast<int>(plan.seconds), 1);
+  plan.patience = line.Count("--patience", static_cast<int>(plan.patience), 1);
   plan.limits.parallax_deg = ReadNumber(line, "--least-parallax");
   const int from = line.Count("--from", 0, 0);
   plan.frames = EveryStart(dataset.size(), from, line.Count("--every", 5, 1));

@@ -21,4 +21,13 @@ Eigen::Matrix3d CovarianceFromInverseDepth(const RectifiedCamera& camera,
   return covariance;
 }
 
+Eigen::Matrix3d CovarianceFromDisparity(const RectifiedCamera& camera,
+                                        const Eigen::Vector3d& point_in_cam,
+                                        double sigma_px,
+                                        double sigma_disparity_px) {
+  PLUMBLINE_CHECK(camera.baseline > 0, "no disparity without a baseline");
+  return CovarianceFromInverseDepth(
+      camera, point_in_cam, sigma_px, sigma_disparity_px / (camera.fx * camera.baseline));
+}
+
 }  // namespace plumbline

@@ -13,14 +13,19 @@ namespace plumbline {
 // "constant in inverse depth" of the second paper, section 6. First order. With X = (u, v, 1)/rho,
 // dX/du = e_x z / fx, dX/dv = e_y z / fy, dX/drho = -z X. `point_in_cam` must have z > 0.
 //
-// Of a point from a stereo pair or a depth image, whose disparity fx * baseline / z is known to
-// sigma_disparity_px, sigma_inverse_depth is sigma_disparity_px / (fx * baseline).
-//
 // For a point measured in an earlier camera, take that camera's covariance and turn it into the
 // present one: R Sigma R^T with R of cam_from_earlier.
 Eigen::Matrix3d CovarianceFromInverseDepth(const RectifiedCamera& camera,
                                            const Eigen::Vector3d& point_in_cam,
                                            double sigma_px,
                                            double sigma_inverse_depth);
+
+// The same for a point from a stereo pair or a depth image: the disparity fx * baseline / z is
+// known to sigma_disparity_px, so its inverse depth to sigma_disparity_px / (fx * baseline). The
+// camera's baseline must be positive.
+Eigen::Matrix3d CovarianceFromDisparity(const RectifiedCamera& camera,
+                                        const Eigen::Vector3d& point_in_cam,
+                                        double sigma_px,
+                                        double sigma_disparity_px);
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "plumbline/eval/figure.h"
 #include "plumbline/experiments/curve_plot.h"
 #include "plumbline/experiments/metrics.h"
+#include "plumbline/starts/start_bench.h"
 #include "plumbline/starts/start_figures.h"
 
 #include <algorithm>
@@ -57,10 +58,10 @@ std::vector<CurvePanel> PanelsOfPools(
 }
 
 Figure TimePlot(const Plan& plan, const StartsByJob& starts) {
-  constexpr double kEnd = 6;  // seconds
+  const double end = StartPlan{}.patience;
   const CurvePanel blank{
-      "", "seconds of video", "possible starts with a right map [%]", {}, false, kEnd, kPercent};
-  return CurvePlot(PanelsOfPools(plan, starts, blank, [](const Records& records) {
+      "", "seconds of video", "possible starts with a right map [%]", {}, false, end, kPercent};
+  return CurvePlot(PanelsOfPools(plan, starts, blank, [end](const Records& records) {
     std::vector<double> seconds;
     std::size_t possible = 0;
     for (const StartRecord& record : records) {
@@ -70,7 +71,7 @@ Figure TimePlot(const Plan& plan, const StartsByJob& starts) {
         seconds.push_back(record.map->seconds);
       }
     }
-    return Cumulative(std::move(seconds), possible, kEnd);
+    return Cumulative(std::move(seconds), possible, end);
   }));
 }
 

@@ -25,11 +25,13 @@ std::optional<bool> IsPossible(const StartRecord& record);
 //   waiting                          possible ones without a map
 //   success, success_in_the_end      right ones of the possible, percent; and with late ones
 //   wrong_rate, accepted             wrong ones, and those with a map, of all, percent
-//   map_frames, map_seconds          until there is a map, late ones too: median, and with _p95
-//   95th percentile map_parallax                     true median parallax of the maps, degrees,
-//   median rotation_error, direction_error  degrees, of all maps, wrong ones too: median, and _p95
+//   map_frames, map_seconds          until there is a map: median, and with _p95 95th percentile
+//   map_parallax                     true median parallax of the maps, degrees, median
+//   rotation_error, direction_error  degrees: median, and _p95
 //   depth_error, depth_outliers      percent, the same (StartErrors)
 //   map_points, map_lines            medians
+//
+// Those of maps are of all maps, wrong and late ones too.
 std::map<std::string, double, std::less<>> FiguresOf(std::span<const StartRecord> records);
 
 // The value that `share` of the values do not exceed (nearest rank); they must not be empty.

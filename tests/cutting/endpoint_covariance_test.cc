@@ -37,13 +37,15 @@ TEST(EndpointCovariance, OfDisparityIsThatOfColumnRowAndDisparity) {
   };
   const Matrix3d J = NumericJacobian(back, measured, 1e-3);
   const Matrix3d expected = J * Vector3d(1, 1, 0.25).asDiagonal() * J.transpose();
-  const Matrix3d found =
-      CovarianceFromInverseDepth(camera, point, 1, 0.5 / (camera.fx * camera.baseline));
+  const Matrix3d found = CovarianceFromDisparity(camera, point, 1, 0.5);
   EXPECT_LT((found - expected).norm(), 1e-7 * expected.norm());
 }
 
 TEST(EndpointCovariance, RefusesPointsBehindTheCamera) {
   EXPECT_THROW(CovarianceFromInverseDepth(TestCamera(), {0, 0, -1}, 1, 1), BugError);
+  RectifiedCamera mono = TestCamera();
+  mono.baseline = 0;
+  EXPECT_THROW(CovarianceFromDisparity(mono, {0, 0, 1}, 1, 1), BugError);
 }
 
 }  // namespace

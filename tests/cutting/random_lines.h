@@ -19,11 +19,10 @@ inline CuttableLine RandomLine(Rng& rng, double sigma_disparity = 1, double offs
     return Eigen::Vector3d(rng.Uniform(-2, 2), rng.Uniform(-1.5, 1.5), rng.Uniform(2, 7));
   };
   line.segment_in_cam = {end(), end()};
-  const double sigma_inverse_depth = sigma_disparity / (camera.fx * camera.baseline);
   line.start_covariance =
-      CovarianceFromInverseDepth(camera, line.segment_in_cam.start, 1, sigma_inverse_depth);
+      CovarianceFromDisparity(camera, line.segment_in_cam.start, 1, sigma_disparity);
   line.end_covariance =
-      CovarianceFromInverseDepth(camera, line.segment_in_cam.end, 1, sigma_inverse_depth);
+      CovarianceFromDisparity(camera, line.segment_in_cam.end, 1, sigma_disparity);
   Segment2 image{camera.Project(line.segment_in_cam.start),
                  camera.Project(line.segment_in_cam.end)};
   image.start.y() += offset_px;

@@ -36,6 +36,15 @@ TrueMap MovedMap(const SyntheticWorld& world) {
   return scene;
 }
 
+SyntheticWorld WorldOfVerticalLines(int points, int lines) {
+  SyntheticWorld world = MakeSyntheticWorld(points, lines);
+  for (auto& line : world.lines) {
+    const Eigen::Vector3d middle = line.segment.Midpoint();
+    line.segment = {middle - Eigen::Vector3d(0, 0.5, 0), middle + Eigen::Vector3d(0, 0.5, 0)};
+  }
+  return world;
+}
+
 double WorstPose(const Map& map) {
   const std::vector<Rigid3> truth = TruePoses();
   double worst = 0;
@@ -68,11 +77,7 @@ TEST(AdjustWholeMap, NeedsNoPoints) {
 
 // Parallel lines leave one direction of each keyframe open.
 TEST(AdjustWholeMap, LeavesKeyFramesInTheirPlacesThatNothingFixes) {
-  SyntheticWorld world = MakeSyntheticWorld(0, 150);
-  for (auto& line : world.lines) {
-    const Eigen::Vector3d middle = line.segment.Midpoint();
-    line.segment = {middle - Eigen::Vector3d(0, 0.5, 0), middle + Eigen::Vector3d(0, 0.5, 0)};
-  }
+  const SyntheticWorld world = WorldOfVerticalLines(0, 150);
   TrueMap scene = MovedMap(world);
   const Map before = scene.map;
   ASSERT_FALSE(MakeLineMap(before, world.Imaging(), {}).empty());
@@ -85,11 +90,7 @@ TEST(AdjustWholeMap, LeavesKeyFramesInTheirPlacesThatNothingFixes) {
 
 // Points fix each half of the keyframes by itself; only vertical lines tie one to the other.
 TEST(AdjustWholeMap, KeepsHalvesTogetherThatParallelLinesTie) {
-  SyntheticWorld world = MakeSyntheticWorld(150, 100);
-  for (auto& line : world.lines) {
-    const Eigen::Vector3d middle = line.segment.Midpoint();
-    line.segment = {middle - Eigen::Vector3d(0, 0.5, 0), middle + Eigen::Vector3d(0, 0.5, 0)};
-  }
+  const SyntheticWorld world = WorldOfVerticalLines(150, 100);
   TrueMap scene = MovedMap(world);
   MapEdit edit;
   for (const auto& [id, point] : scene.map.points()) {

@@ -72,6 +72,17 @@ BaProblem TwoViewsOfLines(int seen) {
   return problem;
 }
 
+void AddPoseLikeTheSecond(BaProblem& problem) {
+  const int added = static_cast<int>(problem.poses.size());
+  problem.poses.push_back(problem.poses[1]);
+  const auto observations = problem.line_observations;
+  for (auto o : observations) {
+    if (o.pose != 1) continue;
+    o.pose = added;
+    problem.line_observations.push_back(o);
+  }
+}
+
 TEST(HoldLoosePoses, HoldsThePoseThatParallelLinesLeaveOpen) {
   BaProblem all = TwoViewsOfLines(24);
   EXPECT_FALSE(HoldLoosePoses(InitialState(all), 0.01, all));
@@ -116,15 +127,7 @@ TEST(SolveWithLoosePosesHeld, MovesWhatIsFixedAndNothingElse) {
 // Five poses; the solution takes the last two somewhere else together.
 TEST(HoldTornPoses, HoldsBothSidesOfATear) {
   BaProblem problem = TwoViewsOfLines(24);
-  problem.poses.resize(5, problem.poses[1]);
-  for (int pose = 2; pose < 5; ++pose) {
-    for (std::size_t k = 0; k < 96; ++k) {
-      auto o = problem.line_observations[k];
-      if (o.pose != 1) continue;
-      o.pose = pose;
-      problem.line_observations.push_back(o);
-    }
-  }
+  for (int i = 0; i < 3; ++i) AddPoseLikeTheSecond(problem);
   const auto held = [&](double slide) {
     BaProblem copy = problem;
     BaResult solution = InitialState(problem);
@@ -152,13 +155,7 @@ TEST(HoldTornPoses, HoldsBothSidesOfATear) {
 TEST(HoldTornPoses, PassesOverLoosePoses) {
   BaProblem problem = TwoViewsOfLines(24);
   problem.poses.push_back(problem.poses[1]);
-  problem.poses.push_back(problem.poses[1]);
-  for (std::size_t k = 0; k < 96; ++k) {
-    auto o = problem.line_observations[k];
-    if (o.pose != 1) continue;
-    o.pose = 3;
-    problem.line_observations.push_back(o);
-  }
+  AddPoseLikeTheSecond(problem);
   ASSERT_TRUE(HoldLoosePoses(InitialState(problem), 0.01, problem));
   ASSERT_TRUE(problem.poses[2].fixed);
   BaResult solution = InitialState(problem);
