@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace plumbline {
@@ -18,67 +19,169 @@ constexpr double kMedianToSigma = 1 / 1.1774;
 // Of what the noise was said to be: where the residuals are smaller still, none is an outlier.
 constexpr double kMinSpread = 0.1;
 
-// |entry - centre * inverse distance| in standard deviations, by view and point; unknown ones -1.
-Eigen::MatrixXd Residuals(const Rank1Matrix& matrix, const RankOne& pair) {
-  const Eigen::MatrixXd& weights = matrix.weights();
-  Eigen::MatrixXd residuals(weights.rows(), weights.cols());
-  for (Eigen::Index k = 0; k < weights.cols(); ++k) {
-    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      const Eigen::Vector3d error = matrix.entries().col(k).segment<3>(3 * i) -
-                                    pair.centres.segment<3>(3 * i) * pair.inverse_distances(k);
-      const double weight = weights(i, k);
-      residuals(i, k) = weight > 0 ? error.norm() * std::sqrt(weight) : -1;
+using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
+using Rows = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The deviation of residuals by their median.
+class SpreadOfKnown {
+ public:
+  explicit SpreadOfKnown(const Rank1Rows& weights) {
+    known_.reserve(static_cast<std::size_t>(weights.size()));
+    for (Eigen::Index j = 0; j < weights.size(); ++j) {
+      if (weights.data()[j] > 0) known_.push_back(j);
+    }
+    values_.resize(known_.size());
+    middle_.resize(known_.size());
+  }
+
+  double operator()(const Rows& squared_residuals) {
+    if (known_.empty()) return 0;
+    for (std::size_t j = 0; j < known_.size(); ++j) {
+      values_[j] = squared_residuals.data()[known_[j]];
+    }
+    if (last_ == 0) last_ = MedianOfSample();
+    last_ = Median();
+    return std::sqrt(last_) * kMedianToSigma;
+  }
+
+ private:
+  double MedianOfSample() {
+    constexpr std::size_t kStep = 16;
+    std::size_t size = 0;
+    for (std::size_t j = 0; j < values_.size(); j += kStep) middle_[size++] = values_[j];
+    return UpperMedian(std::span(middle_).first(size));
+  }
+
+  // The upper median. From one reweighting to the next it hardly moves, so that only what lies
+  // around the last one needs to be put in order.
+  double Median() {
+    constexpr double kAround = 1.4;
+    const double low = last_ / kAround;
+    const double high = last_ * kAround;
+    std::size_t below = 0;
+    std::size_t between = 0;
+    for (const double value : values_) {
+      middle_[between] = value;
+      below += value < low ? 1 : 0;
+      between += value >= low && value <= high ? 1 : 0;
+    }
+    const std::size_t rank = values_.size() / 2;
+    if (rank < below || rank >= below + between) return UpperMedian(std::span(values_));
+    const auto begin = middle_.begin();
+    const auto place = begin + static_cast<std::ptrdiff_t>(rank - below);
+    std::nth_element(begin, place, begin + static_cast<std::ptrdiff_t>(between));
+    return *place;
+  }
+
+  std::vector<Eigen::Index> known_;  // places of the entries that have a weight
+  std::vector<double> values_;
+  std::vector<double> middle_;
+  double last_ = 0;
+};
+
+// Points by coordinate.
+struct CoordinateRows {
+  Row x, y;
+
+  explicit CoordinateRows(std::span<const Eigen::Vector2d> points)
+      : x(points.size()), y(points.size()) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      x(static_cast<Eigen::Index>(k)) = points[k].x();
+      y(static_cast<Eigen::Index>(k)) = points[k].y();
     }
   }
-  return residuals;
-}
+};
 
-double Spread(const Eigen::MatrixXd& residuals) {
-  std::vector<double> known;
-  known.reserve(static_cast<std::size_t>(residuals.size()));
-  for (Eigen::Index j = 0; j < residuals.size(); ++j) {
-    if (residuals.data()[j] >= 0) known.push_back(residuals.data()[j]);
-  }
-  return known.empty() ? 0 : UpperMedian(known) * kMedianToSigma;
-}
-
-// Weights of the entries by their noise and by the Cauchy loss of their residuals.
-Eigen::MatrixXd Reweighted(const Eigen::MatrixXd& weights,
-                           const Eigen::MatrixXd& residuals,
-                           double width) {
-  return weights.array() / (1 + (residuals.array() / width).square());
-}
-
-// The inverse distances for given centres.
-void SolvePoints(const Eigen::MatrixXd& entries, const Eigen::MatrixXd& weights, RankOne& pair) {
-  for (Eigen::Index k = 0; k < entries.cols(); ++k) {
-    double numerator = 0;
-    double denominator = 0;
-    for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      const auto centre = pair.centres.segment<3>(3 * i);
-      numerator += weights(i, k) * centre.dot(entries.col(k).segment<3>(3 * i));
-      denominator += weights(i, k) * centre.squaredNorm();
+// Weighted least squares of points and cameras in turn (eq. 5). What does not change from one step
+// to the next is kept.
+class Alternation {
+ public:
+  Alternation(const Rank1Matrix& matrix, const Eigen::VectorXd& centres)
+      : entries_(matrix.entries().array()),
+        weights_(matrix.weights().array()),
+        squares_(weights_.rows(), weights_.cols()),
+        along_(weights_.rows(), weights_.cols()),
+        reweighted_(weights_),
+        numerator_(weights_.cols()),
+        denominator_(weights_.cols()),
+        pair_{centres, Eigen::VectorXd(weights_.cols())} {
+    for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
+      squares_.row(i) = entries_.row(3 * i).square() + entries_.row(3 * i + 1).square() +
+                        entries_.row(3 * i + 2).square();
     }
-    pair.inverse_distances(k) = denominator > 0 ? numerator / denominator : 0;
+    SetAlong();
+    SolvePoints();
   }
-}
 
-// The centres for given inverse distances, then scaled to unit length in all.
-void SolveCentres(const Eigen::MatrixXd& entries, const Eigen::MatrixXd& weights, RankOne& pair) {
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-    Eigen::Vector3d numerator = Eigen::Vector3d::Zero();
-    double denominator = 0;
-    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
-      const double d = pair.inverse_distances(k);
-      numerator += weights(i, k) * d * entries.col(k).segment<3>(3 * i);
-      denominator += weights(i, k) * d * d;
-    }
-    pair.centres.segment<3>(3 * i) =
-        denominator > 0 ? Eigen::Vector3d(numerator / denominator) : Eigen::Vector3d::Zero();
+  RankOne& pair() { return pair_; }
+
+  // One step under the Cauchy loss.
+  void Step(const Rows& squared_residuals, double width) {
+    reweighted_ = weights_ / (1 + squared_residuals / (width * width));
+    SolvePoints();
+    SolveCentres();
+    SetAlong();
+    SolvePoints();
   }
-  const double length = pair.centres.norm();
-  if (length > 0) pair.centres /= length;
-}
+
+  // |entry - centre * inverse distance|^2 over its variance, by view and point; unknown ones 0.
+  void SquaredResiduals(Rows& residuals) const {
+    const auto d = pair_.inverse_distances.transpose().array();
+    for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
+      const double length = pair_.centres.segment<3>(3 * i).squaredNorm();
+      residuals.row(i) =
+          weights_.row(i) * (squares_.row(i) - d * (2 * along_.row(i) - length * d)).max(0);
+    }
+  }
+
+ private:
+  // The entries' parts along the centres.
+  void SetAlong() {
+    for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
+      const Eigen::Vector3d c = pair_.centres.segment<3>(3 * i);
+      along_.row(i) = c.x() * entries_.row(3 * i) + c.y() * entries_.row(3 * i + 1) +
+                      c.z() * entries_.row(3 * i + 2);
+    }
+  }
+
+  // The inverse distances for given centres.
+  void SolvePoints() {
+    numerator_.setZero();
+    denominator_.setZero();
+    for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
+      numerator_ += reweighted_.row(i) * along_.row(i);
+      denominator_ += pair_.centres.segment<3>(3 * i).squaredNorm() * reweighted_.row(i);
+    }
+    pair_.inverse_distances =
+        (denominator_ > 0).select(numerator_ / denominator_, 0).matrix().transpose();
+  }
+
+  // The centres for given inverse distances, then scaled to unit length in all.
+  void SolveCentres() {
+    const auto d = pair_.inverse_distances.transpose().array();
+    for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
+      Row& weighted = numerator_;
+      weighted = reweighted_.row(i) * d;
+      const double denominator = (weighted * d).sum();
+      pair_.centres.segment<3>(3 * i).setZero();
+      if (!(denominator > 0)) continue;
+      for (Eigen::Index j = 3 * i; j < 3 * i + 3; ++j) {
+        pair_.centres(j) = (weighted * entries_.row(j)).sum() / denominator;
+      }
+    }
+    const double length = pair_.centres.norm();
+    if (length > 0) pair_.centres /= length;
+  }
+
+  Eigen::ArrayWrapper<const Rank1Rows> entries_;
+  Eigen::ArrayWrapper<const Rank1Rows> weights_;
+  Rows squares_;  // of the lengths of the entries
+  Rows along_;
+  Rows reweighted_;
+  Row numerator_;
+  Row denominator_;
+  RankOne pair_;
+};
 
 // Most points are in front of the camera: the sign that an SVD leaves open.
 void FixSign(RankOne& pair) {
@@ -89,13 +192,11 @@ void FixSign(RankOne& pair) {
   pair.inverse_distances = -pair.inverse_distances;
 }
 
-// The unweighted solution of the matrix with its columns scaled by what they are worth (which
+// Of the unweighted solution of the matrix with its columns scaled by what they are worth (which
 // leaves it rank one), so that rays near the epipole do not drown the others.
-RankOne StartingPair(const Rank1Matrix& matrix) {
+Eigen::VectorXd StartingCentres(const Rank1Matrix& matrix) {
   const Eigen::RowVectorXd worth = matrix.weights().colwise().mean().cwiseSqrt();
-  RankOne pair = LeadingPair(matrix.entries() * worth.asDiagonal());
-  SolvePoints(matrix.entries(), matrix.weights(), pair);
-  return pair;
+  return LeadingPair(matrix.entries() * worth.asDiagonal()).centres;
 }
 
 Rank1Solution ToSolution(const RankOne& pair, double spread) {
@@ -116,41 +217,52 @@ Rank1Solution ToSolution(const RankOne& pair, double spread) {
 
 Rank1Matrix::Rank1Matrix(std::span<const Eigen::Vector2d> reference_points,
                          std::span<const Rank1View> views,
-                         double min_epipole_angle) {
-  const auto n = static_cast<Eigen::Index>(reference_points.size());
-  const auto m = static_cast<Eigen::Index>(views.size());
-  entries_ = Eigen::MatrixXd::Zero(3 * m, n);
-  weights_ = Eigen::MatrixXd::Zero(m, n);
-  Eigen::Matrix3Xd rays(3, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    rays.col(k) = reference_points[static_cast<std::size_t>(k)].homogeneous().normalized();
-  }
+                         double min_epipole_angle)
+    : entries_(3 * views.size(), reference_points.size()),
+      weights_(views.size(), reference_points.size()) {
+  const CoordinateRows reference(reference_points);
+  const Row length = (reference.x.square() + reference.y.square() + 1).sqrt();
+  const RayRows p{reference.x / length, reference.y / length, 1 / length};
   const double min_squared_sine = std::pow(std::sin(min_epipole_angle), 2);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Rank1View& view = views[static_cast<std::size_t>(i)];
-    PLUMBLINE_CHECK(view.points.size() == reference_points.size() &&
-                        view.sigmas.size() == reference_points.size(),
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    PLUMBLINE_CHECK(views[i].points.size() == reference_points.size() &&
+                        views[i].sigmas.size() == reference_points.size(),
                     "one place and one sigma for each point");
-    const Eigen::Matrix3d turn = view.reference_from_cam.toRotationMatrix();
-    const Eigen::Vector3d& t = view.centre_direction;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double sigma = view.sigmas[static_cast<std::size_t>(k)];
-      if (!(sigma > 0)) continue;
-      const Eigen::Vector3d q =
-          turn * view.points[static_cast<std::size_t>(k)].homogeneous().normalized();
-      const double c = t.dot(q);
-      const double squared_sine = 1 - c * c;
-      if (!(squared_sine > min_squared_sine)) continue;  // the two lines are parallel (E1, eq. 3)
-      const Eigen::Vector3d p = rays.col(k);
-      const double s0 = (t.dot(p) - c * q.dot(p)) / squared_sine;
-      const double s = (q.dot(p) - c * t.dot(p)) / squared_sine;
-      entries_.col(k).segment<3>(3 * i) = 0.5 * (s0 * t + p - s * q);
-      weights_(i, k) = squared_sine / (sigma * sigma);
-    }
+    SetView(static_cast<Eigen::Index>(i), views[i], p, min_squared_sine);
   }
 }
 
-RankOne LeadingPair(const Eigen::MatrixXd& entries) {
+// q is of any length here: what it would be divided by comes out of eq. 3 as its square.
+void Rank1Matrix::SetView(Eigen::Index i,
+                          const Rank1View& view,
+                          const RayRows& p,
+                          double min_squared_sine) {
+  const CoordinateRows seen(view.points);
+  const Eigen::Matrix3d turn = view.reference_from_cam.toRotationMatrix();
+  const auto turned = [&](Eigen::Index row) -> Row {
+    return turn(row, 0) * seen.x + turn(row, 1) * seen.y + turn(row, 2);
+  };
+  const RayRows q{turned(0), turned(1), turned(2)};
+  const Eigen::Vector3d& t = view.centre_direction;
+  const Row squared_length = q.x.square() + q.y.square() + q.z.square();
+  const Row tq = t.x() * q.x + t.y() * q.y + t.z() * q.z;
+  const Row tp = t.x() * p.x + t.y() * p.y + t.z() * p.z;
+  const Row qp = q.x * p.x + q.y * p.y + q.z * p.z;
+  const Row across = squared_length - tq.square();  // the square of q's part across t
+  const Eigen::Map<const Row> sigmas(view.sigmas.data(), tq.size());
+  // Not those without a place, nor those along t, where the two lines are parallel.
+  const Row known = (sigmas > 0 && across > min_squared_sine * squared_length).cast<double>();
+  const Row half = 0.5 * known / (known > 0).select(across, 1);
+  const Row s0 = half * (squared_length * tp - tq * qp);
+  const Row s = half * (qp - tq * tp);
+  const Row half_known = 0.5 * known;
+  entries_.row(3 * i) = s0 * t.x() + half_known * p.x - s * q.x;
+  entries_.row(3 * i + 1) = s0 * t.y() + half_known * p.y - s * q.y;
+  entries_.row(3 * i + 2) = s0 * t.z() + half_known * p.z - s * q.z;
+  weights_.row(i) = known * across / (known > 0).select(squared_length * sigmas.square(), 1);
+}
+
+RankOne LeadingPair(const Rank1Rows& entries) {
   const Eigen::MatrixXd gram = entries * entries.transpose();
   // The column with the most in it is not orthogonal to what is sought.
   Eigen::Index start = 0;
@@ -178,24 +290,24 @@ std::optional<Rank1Solution> FactorizeRank1(std::span<const Eigen::Vector2d> ref
                                             const Rank1Options& options) {
   if (views.empty() || reference_points.empty()) return std::nullopt;
   const Rank1Matrix matrix(reference_points, views, options.min_epipole_angle);
-  const Eigen::MatrixXd& weights = matrix.weights();
-  if ((weights.colwise().maxCoeff().array() > 0).count() < 3) return std::nullopt;
+  const Rank1Rows& weights = matrix.weights();
+  const auto most = weights.colwise().maxCoeff().eval();
+  if ((most.array() > 0).count() < 3) return std::nullopt;
   if (!(weights.rowwise().maxCoeff().minCoeff() > 0)) return std::nullopt;
-  RankOne pair = StartingPair(matrix);
-  Eigen::MatrixXd residuals = Residuals(matrix, pair);
+  Alternation alternation(matrix, StartingCentres(matrix));
+  SpreadOfKnown spread(weights);
+  Rows residuals(weights.rows(), weights.cols());
+  alternation.SquaredResiduals(residuals);
   for (int i = 0; i < options.iterations; ++i) {
-    const Eigen::MatrixXd reweighted = Reweighted(
-        weights, residuals, options.loss_width * std::max(kMinSpread, Spread(residuals)));
-    SolvePoints(matrix.entries(), reweighted, pair);
-    SolveCentres(matrix.entries(), reweighted, pair);
-    SolvePoints(matrix.entries(), reweighted, pair);
-    residuals = Residuals(matrix, pair);
+    alternation.Step(residuals, options.loss_width * std::max(kMinSpread, spread(residuals)));
+    alternation.SquaredResiduals(residuals);
   }
+  RankOne& pair = alternation.pair();
   FixSign(pair);
   for (Eigen::Index k = 0; k < weights.cols(); ++k) {
-    if (!(weights.col(k).maxCoeff() > 0)) pair.inverse_distances(k) = 0;
+    if (!(most(k) > 0)) pair.inverse_distances(k) = 0;
   }
-  return ToSolution(pair, Spread(residuals));
+  return ToSolution(pair, spread(residuals));
 }
 
 }  // namespace plumbline

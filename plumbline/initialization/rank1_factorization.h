@@ -28,6 +28,9 @@ struct Rank1Options {
   double loss_width = 2.385;        // of the Cauchy loss, in standard deviations
 };
 
+// By row: what all points have in one coordinate of one frame lies side by side.
+using Rank1Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 // Cameras and points that are rank one together.
 struct Rank1Solution {
   std::vector<Eigen::Vector3d> centres;  // of the views, in the reference frame; unit length in all
@@ -55,12 +58,19 @@ class Rank1Matrix {
               std::span<const Rank1View> views,
               double min_epipole_angle);
 
-  const Eigen::MatrixXd& entries() const { return entries_; }  // 3m x n; 0 where unknown
-  const Eigen::MatrixXd& weights() const { return weights_; }  // m x n: 1 / variance; 0: unknown
+  const Rank1Rows& entries() const { return entries_; }  // 3m x n; 0 where unknown
+  const Rank1Rows& weights() const { return weights_; }  // m x n: 1 / variance; 0: unknown
 
  private:
-  Eigen::MatrixXd entries_;
-  Eigen::MatrixXd weights_;
+  using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
+  struct RayRows {
+    Row x, y, z;
+  };
+  // The rows of one view; `p`: the unit rays in the reference.
+  void SetView(Eigen::Index i, const Rank1View& view, const RayRows& p, double min_squared_sine);
+
+  Rank1Rows entries_;
+  Rank1Rows weights_;
 };
 
 // The leading pair of a dense matrix, centres (3m) times inverse distances (n), |centres| = 1, by
@@ -70,7 +80,7 @@ struct RankOne {
   Eigen::VectorXd centres;
   Eigen::VectorXd inverse_distances;
 };
-RankOne LeadingPair(const Eigen::MatrixXd& entries);
+RankOne LeadingPair(const Rank1Rows& entries);
 
 // Solves for all centres and inverse distances at once (eq. 5).
 //

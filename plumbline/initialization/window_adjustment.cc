@@ -103,7 +103,8 @@ WindowSolution AdjustWindow(const WindowTracks& tracks,
     }
   }
   const std::vector<std::size_t> lines = AddLines(tracks, solution, problem);
-  const BaResult result = SolveLocalBa(problem, {.rounds = 4, .max_iterations = max_iterations});
+  const BaResult result = SolveLocalBa(
+      problem, {.rounds = 4, .max_iterations = max_iterations, .rejection_tolerance = 1e-2});
   WindowSolution adjusted_solution = solution;
   for (std::size_t i = 0; i < solution.cam_from_reference.size(); ++i) {
     adjusted_solution.cam_from_reference[i] = result.poses[i + 1];

@@ -36,55 +36,107 @@ std::optional<Measured> Measure(const Eigen::Vector3d& in_cam,
   return result;
 }
 
-// A landmark's part of the normal equations, eliminated: N parameters.
-template <int N>
-struct Eliminated {
-  using Block = Eigen::Matrix<double, 6, N>;
-  Eigen::Matrix<double, N, N> inverse;  // V^-1
-  std::vector<Block> W;                 // by view; zero where it is not seen
-  bool known = false;
-};
-
-// What a landmark and the views that see it have in common.
+// What a landmark of N parameters and the views that see it have in common.
 template <int N>
 struct NormalBlocks {
-  explicit NormalBlocks(std::size_t views)
-      : W(views, Eigen::Matrix<double, 6, N>::Zero()), H(views, Matrix6d::Zero()) {}
+  using Block = Eigen::Matrix<double, 6, N>;
 
+  explicit NormalBlocks(std::size_t views) : W(views), H(views), sees(views) { Clear(); }
+
+  void Clear() {
+    V.setZero();
+    std::fill(sees.begin(), sees.end(), char{0});
+  }
   void Add(std::size_t view,
            const Eigen::Matrix<double, 2, 6>& J_pose,
            const Eigen::Matrix<double, 2, N>& J) {
     V += J.transpose() * J;
-    H[view] = J_pose.transpose() * J_pose;
-    W[view] = J_pose.transpose() * J;
+    H[view].noalias() = J_pose.transpose() * J_pose;
+    W[view].noalias() = J_pose.transpose() * J;
+    sees[view] = 1;
   }
 
-  Eigen::Matrix<double, N, N> V = Eigen::Matrix<double, N, N>::Zero();
-  std::vector<Eigen::Matrix<double, 6, N>> W;
-  std::vector<Matrix6d> H;
+  Eigen::Matrix<double, N, N> V;
+  std::vector<Block> W;     // by view; of those that see it
+  std::vector<Matrix6d> H;  // by view; of those that see it
+  std::vector<char> sees;   // by view
 };
 
-// Takes the landmark out and adds what it says about the poses to the lower triangle.
-template <int N>
-Eliminated<N> Eliminate(NormalBlocks<N> blocks, Eigen::MatrixXd& information) {
-  Eliminated<N> landmark;
-  const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(blocks.V);
-  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) return landmark;
-  landmark.known = true;
-  landmark.inverse = factor.solve(Eigen::Matrix<double, N, N>::Identity());
-  landmark.W = std::move(blocks.W);
-  for (std::size_t i = 0; i < blocks.H.size(); ++i) {
-    const typename Eliminated<N>::Block WV = landmark.W[i] * landmark.inverse;
-    const auto row = static_cast<Eigen::Index>(6 * i);
-    information.block<6, 6>(row, row) += blocks.H[i];
-    for (std::size_t j = 0; j <= i; ++j) {
-      const auto column = static_cast<Eigen::Index>(6 * j);
-      information.block<6, 6>(row, column) -= WV * landmark.W[j].transpose();
+// What all landmarks say about the poses: blocks of the lower triangle.
+class PoseInformation {
+ public:
+  explicit PoseInformation(std::size_t views)
+      : views_(views), blocks_(views * (views + 1) / 2, Matrix6d::Zero()) {}
+
+  // Takes a landmark out; returns V^-1, nullopt where it is not fixed.
+  template <int N>
+  std::optional<Eigen::Matrix<double, N, N>> Eliminate(const NormalBlocks<N>& blocks) {
+    const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(blocks.V);
+    if (factor.info() != Eigen::Success) return std::nullopt;
+    const Eigen::Matrix<double, N, N> inverse =
+        factor.solve(Eigen::Matrix<double, N, N>::Identity());
+    if (!(OneNorm<N>(blocks.V) * OneNorm<N>(inverse) < 1e12)) return std::nullopt;
+    for (std::size_t i = 0; i < views_; ++i) {
+      if (!blocks.sees[i]) continue;
+      Block(i, i) += blocks.H[i];
+      const typename NormalBlocks<N>::Block WV = blocks.W[i] * inverse;
+      for (std::size_t j = 0; j <= i; ++j) {
+        if (blocks.sees[j]) Block(i, j).noalias() -= WV * blocks.W[j].transpose();
+      }
+    }
+    return inverse;
+  }
+
+  Eigen::MatrixXd LowerTriangle() {
+    const auto size = static_cast<Eigen::Index>(6 * views_);
+    Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(size, size);
+    for (std::size_t i = 0; i < views_; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        lower.block<6, 6>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(6 * j)) =
+            Block(i, j);
+      }
+    }
+    return lower;
+  }
+
+ private:
+  template <int N>
+  static double OneNorm(const Eigen::Matrix<double, N, N>& matrix) {
+    return matrix.cwiseAbs().colwise().sum().maxCoeff();
+  }
+  Matrix6d& Block(std::size_t row, std::size_t column) {
+    return blocks_[row * (row + 1) / 2 + column];
+  }
+
+  std::size_t views_;
+  std::vector<Matrix6d> blocks_;
+};
+
+// How the depths of the points that are known follow the poses.
+struct Depths {
+  std::vector<std::size_t> points;
+  std::vector<double> variances;  // of log depth with the poses held
+  // By column a point: minus the derivative of its log depth by the poses.
+  Eigen::MatrixXd columns;
+
+  explicit Depths(const WindowTracks& tracks)
+      : columns(6 * tracks.views.size(), tracks.reference.points.size()) {}
+
+  void Add(std::size_t k, const NormalBlocks<3>& blocks, const Eigen::Matrix3d& inverse, double z) {
+    auto column = columns.col(static_cast<Eigen::Index>(points.size()));
+    points.push_back(k);
+    variances.push_back(inverse(2, 2) / (z * z));
+    const Eigen::Vector3d to_point = inverse.col(2) / z;
+    for (std::size_t i = 0; i < blocks.W.size(); ++i) {
+      auto part = column.segment<6>(static_cast<Eigen::Index>(6 * i));
+      if (blocks.sees[i]) {
+        part.noalias() = blocks.W[i] * to_point;
+      } else {
+        part.setZero();
+      }
     }
   }
-  return landmark;
-}
-using EliminatedPoint = Eliminated<3>;
+};
 
 struct Rotations {
   std::vector<Eigen::Matrix3d> of_view;
@@ -96,33 +148,34 @@ struct Rotations {
   }
 };
 
-EliminatedPoint EliminatePoint(const WindowTracks& tracks,
-                               const WindowSolution& solution,
-                               const Rotations& rotations,
-                               std::size_t k,
-                               double noise,
-                               double max_chi2,
-                               Eigen::MatrixXd& information) {
+// The normal equations of a point; false where it has no place or no view sees it.
+bool SetPointBlocks(const WindowTracks& tracks,
+                    const WindowSolution& solution,
+                    const Rotations& rotations,
+                    std::size_t k,
+                    double noise,
+                    double max_chi2,
+                    NormalBlocks<3>& blocks) {
   const Eigen::Vector3d& X = solution.points[k];
   const auto in_reference =
       Measure(X, tracks.reference.points[k], noise * tracks.reference.sigmas[k]);
-  if (!solution.is_known[k] || !in_reference) return {};
-  NormalBlocks<3> blocks(tracks.views.size());
+  if (!solution.is_known[k] || !in_reference) return false;
+  blocks.Clear();
   blocks.V = in_reference->J.transpose() * in_reference->J;
-  int seen = 0;
+  bool seen = false;
   for (std::size_t i = 0; i < tracks.views.size(); ++i) {
     const TrackedPoints& view = tracks.views[i];
     if (!view.Has(k)) continue;
-    const Eigen::Vector3d in_cam = solution.cam_from_reference[i] * X;
+    const Eigen::Vector3d in_cam =
+        rotations.of_view[i] * X + solution.cam_from_reference[i].translation;
     const auto measured = Measure(in_cam, view.points[k], noise * view.sigmas[k]);
     if (!measured || measured->error.squaredNorm() > max_chi2) continue;
-    ++seen;
+    seen = true;
     Eigen::Matrix<double, 2, 6> J_pose;
     J_pose << -measured->J * Skew(in_cam), measured->J;
     blocks.Add(i, J_pose, measured->J * rotations.of_view[i]);
   }
-  if (seen == 0) return {};
-  return Eliminate(std::move(blocks), information);
+  return seen;
 }
 
 // A line that fits all views that show it.
@@ -130,7 +183,7 @@ void EliminateLine(const WindowTracks& tracks,
                    const WindowSolution& solution,
                    std::size_t k,
                    double noise,
-                   Eigen::MatrixXd& information) {
+                   PoseInformation& information) {
   const OrthonormalLine line = ToOrthonormal(*solution.lines[k]);
   NormalBlocks<4> blocks(tracks.views.size());
   const auto in_reference =
@@ -145,7 +198,7 @@ void EliminateLine(const WindowTracks& tracks,
     if (!measured) return;
     blocks.Add(i, measured->J_pose, measured->J_line);
   }
-  Eliminate(std::move(blocks), information);
+  information.Eliminate(blocks);
 }
 
 // The direction in which the whole grows: all centres away from the reference.
@@ -178,66 +231,65 @@ std::optional<Eigen::MatrixXd> InvertWithScaleHeld(Eigen::MatrixXd information,
          unit.cwiseInverse().asDiagonal();
 }
 
-// How the logarithm of a point's depth follows the poses.
-Eigen::VectorXd DepthRow(const EliminatedPoint& point, double depth) {
-  Eigen::VectorXd row(static_cast<Eigen::Index>(6 * point.W.size()));
-  const Eigen::Vector3d to_point = point.inverse.col(2) / depth;
-  for (std::size_t i = 0; i < point.W.size(); ++i) {
-    row.segment<6>(static_cast<Eigen::Index>(6 * i)) = -point.W[i] * to_point;
-  }
-  return row;
-}
-
 // Of the depths, after a common factor was taken off: the mean of their logarithms, weighted so
 // that points too far away to have a depth do not set it.
-std::vector<double> RelativeDepthSigmas(const WindowSolution& solution,
-                                        const std::vector<EliminatedPoint>& points,
+std::vector<double> RelativeDepthSigmas(std::size_t points,
+                                        Depths depths,
                                         const Eigen::MatrixXd& poses) {
-  std::vector<double> sigmas(points.size(), -1);
-  std::vector<Eigen::VectorXd> rows(points.size());
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(poses.rows());
-  double weights = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!points[k].known) continue;
-    const double z = solution.points[k].z();
-    const double weight = z * z / points[k].inverse(2, 2);
-    rows[k] = DepthRow(points[k], z);
-    mean += weight * rows[k];
-    weights += weight;
-  }
-  if (weights > 0) mean /= weights;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!points[k].known) continue;
-    const double z = solution.points[k].z();
-    const Eigen::VectorXd row = rows[k] - mean;
-    const double variance = points[k].inverse(2, 2) / (z * z) + row.dot(poses * row);
-    sigmas[k] = std::sqrt(std::max(0.0, variance));
+  std::vector<double> sigmas(points, -1);
+  const auto count = static_cast<Eigen::Index>(depths.points.size());
+  const Eigen::Map<const Eigen::VectorXd> variances(depths.variances.data(), count);
+  auto columns = depths.columns.leftCols(count);
+  const Eigen::VectorXd weights = variances.cwiseInverse();
+  if (count > 0) columns.colwise() -= (columns * weights / weights.sum()).eval();
+  const Eigen::VectorXd by_poses = columns.cwiseProduct(poses * columns).colwise().sum();
+  for (Eigen::Index j = 0; j < count; ++j) {
+    sigmas[depths.points[static_cast<std::size_t>(j)]] =
+        std::sqrt(std::max(0.0, variances(j) + by_poses(j)));
   }
   return sigmas;
 }
 
+// Of the poses; `depths`, where given, gets those of all points.
+std::optional<Eigen::MatrixXd> PoseCovariance(const WindowTracks& tracks,
+                                              const WindowSolution& solution,
+                                              double noise,
+                                              double max_chi2,
+                                              double line_noise,
+                                              Depths* depths) {
+  PoseInformation information(tracks.views.size());
+  const Rotations rotations(solution);
+  NormalBlocks<3> blocks(tracks.views.size());
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (!SetPointBlocks(tracks, solution, rotations, k, noise, max_chi2, blocks)) continue;
+    const auto inverse = information.Eliminate(blocks);
+    if (inverse && depths != nullptr) depths->Add(k, blocks, *inverse, solution.points[k].z());
+  }
+  for (const std::size_t k : LinesThatFit(tracks, solution)) {
+    EliminateLine(tracks, solution, k, line_noise, information);
+  }
+  return InvertWithScaleHeld(information.LowerTriangle(), solution);
+}
+
 }  // namespace
+
+std::optional<Eigen::MatrixXd> ComputePoseCovariance(const WindowTracks& tracks,
+                                                     const WindowSolution& solution,
+                                                     double noise,
+                                                     double max_chi2) {
+  return PoseCovariance(tracks, solution, noise, max_chi2, 1, nullptr);
+}
 
 std::optional<WindowCovariance> ComputeWindowCovariance(const WindowTracks& tracks,
                                                         const WindowSolution& solution,
                                                         double noise,
                                                         double max_chi2,
                                                         double line_noise) {
-  const auto size = static_cast<Eigen::Index>(6 * tracks.views.size());
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
-  const Rotations rotations(solution);
-  std::vector<EliminatedPoint> points;
-  points.reserve(tracks.size());
-  for (std::size_t k = 0; k < tracks.size(); ++k) {
-    points.push_back(EliminatePoint(tracks, solution, rotations, k, noise, max_chi2, information));
-  }
-  for (const std::size_t k : LinesThatFit(tracks, solution)) {
-    EliminateLine(tracks, solution, k, line_noise, information);
-  }
-  auto poses = InvertWithScaleHeld(std::move(information), solution);
+  Depths depths(tracks);
+  auto poses = PoseCovariance(tracks, solution, noise, max_chi2, line_noise, &depths);
   if (!poses) return std::nullopt;
   WindowCovariance result;
-  result.relative_depth_sigmas = RelativeDepthSigmas(solution, points, *poses);
+  result.relative_depth_sigmas = RelativeDepthSigmas(tracks.size(), std::move(depths), *poses);
   result.poses = std::move(*poses);
   return result;
 }

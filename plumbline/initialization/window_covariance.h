@@ -36,6 +36,12 @@ std::optional<WindowCovariance> ComputeWindowCovariance(const WindowTracks& trac
                                                         double max_chi2,
                                                         double line_noise = 1);
 
+// The part of the poses alone.
+std::optional<Eigen::MatrixXd> ComputePoseCovariance(const WindowTracks& tracks,
+                                                     const WindowSolution& solution,
+                                                     double noise,
+                                                     double max_chi2);
+
 // Standard deviations of the pose of one view.
 struct PoseAccuracy {
   double rotation = 0;   // radians, along the worst axis

@@ -151,16 +151,15 @@ std::vector<TrackedPoints> Interpolated(const WindowTracks& tracks,
                                         const WindowSolution& solution,
                                         const WindowFactorizationOptions& options) {
   std::vector<TrackedPoints> completed = tracks.views;
-  const auto covariance = ComputeWindowCovariance(tracks, solution, 1, kMaxChi2);
+  const auto covariance = ComputePoseCovariance(tracks, solution, 1, kMaxChi2);
   if (!covariance) return completed;
   const TrackedPoints& newest = tracks.views.back();
   const auto last = static_cast<Eigen::Index>(6 * (tracks.views.size() - 1));
   for (std::size_t i = 0; i + 1 < completed.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(6 * i);
     InterpolationPoses poses{solution.cam_from_reference[i], solution.cam_from_reference.back()};
-    poses.covariance << covariance->poses.block<6, 6>(row, row),
-        covariance->poses.block<6, 6>(row, last), covariance->poses.block<6, 6>(last, row),
-        covariance->poses.block<6, 6>(last, last);
+    poses.covariance << covariance->block<6, 6>(row, row), covariance->block<6, 6>(row, last),
+        covariance->block<6, 6>(last, row), covariance->block<6, 6>(last, last);
     const GeometricInterpolation interpolation(poses);
     for (std::size_t k = 0; k < tracks.size(); ++k) {
       if (completed[i].Has(k) || !newest.Has(k)) continue;

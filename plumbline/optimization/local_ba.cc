@@ -104,7 +104,9 @@ class BundleAdjuster {
   double Try(const HuberThresholds& huber);
   void Accept();
   // From cost_, the cost under the same loss.
-  BaTermination Optimize(const HuberThresholds& huber);
+  BaTermination Optimize(const HuberThresholds& huber, double function_tolerance);
+  // True when this changed what is in use.
+  bool Classify();
   HuberThresholds Thresholds(int round) const;
 
   const LocalBaOptions& options_;
@@ -149,7 +151,8 @@ void BundleAdjuster<LineKind>::Accept() {
 }
 
 template <class LineKind>
-BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber) {
+BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber,
+                                                 double function_tolerance) {
   double lambda = options_.initial_lambda;
   // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
   const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
@@ -157,7 +160,7 @@ BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber) {
     ++iterations_;
     double cost = std::numeric_limits<double>::infinity();
     if (ComputeStep(huber, lambda)) cost = Try(huber);
-    const double tolerance = std::max(options_.function_tolerance * cost_, rounding);
+    const double tolerance = std::max(function_tolerance * cost_, rounding);
     const bool nearly_gauss_newton = lambda <= kSmallLambda;
     if (cost <= cost_) {
       const double gain = cost_ - cost;
@@ -178,6 +181,12 @@ BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber) {
 }
 
 template <class LineKind>
+bool BundleAdjuster<LineKind>::Classify() {
+  const bool points_changed = points_.Classify(poses_, options_.gate_scale);
+  return lines_.Classify(poses_, options_.gate_scale) || points_changed;
+}
+
+template <class LineKind>
 HuberThresholds BundleAdjuster<LineKind>::Thresholds(int round) const {
   const bool last_of_several = options_.rounds > 1 && round == options_.rounds - 1;
   if (!options_.robust || (last_of_several && !options_.robust_last_round)) return {};
@@ -189,13 +198,15 @@ BaResult BundleAdjuster<LineKind>::Solve() {
   BaResult result;
   points_.UseAll(poses_);
   lines_.UseAll(poses_);
-  for (int round = 0; round < options_.rounds && points_.used() + lines_.used() > 0; ++round) {
+  const int last = options_.rounds - 1;
+  for (int round = 0; round <= last && points_.used() + lines_.used() > 0; ++round) {
+    const bool rejecting = options_.rejection_tolerance > 0 && round < last;
     cost_ = Cost(Thresholds(round));
     if (round == 0) result.initial_cost = cost_;
-    result.termination = Optimize(Thresholds(round));
+    result.termination = Optimize(
+        Thresholds(round), rejecting ? options_.rejection_tolerance : options_.function_tolerance);
     result.final_cost = cost_;
-    points_.Classify(poses_, options_.gate_scale);
-    lines_.Classify(poses_, options_.gate_scale);
+    if (!Classify() && rejecting) round = last - 1;
   }
   for (const BaPose& pose : poses_) result.poses.push_back(pose.cam_from_world);
   result.points = points_.states();

@@ -18,9 +18,12 @@ struct LocalBaOptions {
   int rounds = 2;                    // of solve, then reject observations by chi2
   int max_iterations = 10;           // per round, accepted and rejected steps
   double function_tolerance = 1e-4;  // a round ends when the cost falls by less than this part
-  bool robust = true;                // Huber loss; false: squares in every round
-  bool robust_last_round = true;     // false: squares in the last of several rounds
-  double huber_point = 2.4477;       // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
+  // The same for the rounds before the last, which are there to tell outliers. Where one of these
+  // changes none, the last is next. 0: all rounds are alike, and none is left out.
+  double rejection_tolerance = 0;
+  bool robust = true;             // Huber loss; false: squares in every round
+  bool robust_last_round = true;  // false: squares in the last of several rounds
+  double huber_point = 2.4477;    // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
   double huber_disparity = 2.7955;
   double huber_line = 2.4477;
   double gate_scale = 1;  // multiplies the 95 % limits of chi2 that part inliers from outliers
@@ -34,6 +37,11 @@ void VisitFields(Visitor&& visit, LocalBaOptions& o) {
   visit("function_tolerance",
         o.function_tolerance,
         "relative decrease of the cost that ends a round",
+        Range{0, 1});
+  visit("rejection_tolerance",
+        o.rejection_tolerance,
+        "the same of the rounds before the last, of which those that would change no outlier are "
+        "left out; 0: as function_tolerance, and none is left out",
         Range{0, 1});
   visit("robust", o.robust, "use the Huber loss");
   visit("robust_last_round", o.robust_last_round, "use the Huber loss in the last round, too");

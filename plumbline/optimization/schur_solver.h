@@ -111,7 +111,17 @@ class SchurSolver {
                                               std::span<const Coupling<kDof>> couplings) const;
 
  private:
-  // Block (row, column) of the sum of Z Z^T, row >= column.
+  // Adds Z Z^T where it is looked at: in the lower triangle, by 2x2 blocks.
+  template <int kDof>
+  static void AddToLower(const Eigen::Matrix<double, 6, kDof>& Z, Matrix6d& sum) {
+    sum.leftCols<2>().noalias() += Z * Z.template topRows<2>().transpose();
+    sum.template block<4, 2>(2, 2).noalias() +=
+        Z.template bottomRows<4>() * Z.template middleRows<2>(2).transpose();
+    sum.template block<2, 2>(4, 4).noalias() +=
+        Z.template bottomRows<2>() * Z.template bottomRows<2>().transpose();
+  }
+  // Block (row, column) of the sum of Z Z^T, row >= column; of those with row = column the lower
+  // triangle.
   Matrix6d& Block(int row, int column) {
     const auto r = static_cast<std::size_t>(row);
     return complement_[r * (r + 1) / 2 + static_cast<std::size_t>(column)];
@@ -177,10 +187,11 @@ EliminatedLandmark<kDof> SchurSolver::Eliminate(const LandmarkEquations<kDof>& l
     complement_g_[static_cast<std::size_t>(coupling.pose)].noalias() += coupling.W * out.y;
   }
   for (std::size_t i = 0; i < couplings.size(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
+    for (std::size_t j = 0; j < i; ++j) {
       Block(couplings[i].pose, couplings[j].pose).noalias() +=
           couplings[i].W * couplings[j].W.transpose();
     }
+    AddToLower(couplings[i].W, Block(couplings[i].pose, couplings[i].pose));
   }
   return out;
 }

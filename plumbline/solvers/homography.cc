@@ -72,10 +72,18 @@ std::optional<Eigen::Matrix3d> HomographyFromPoints(std::span<const RayMatch> ma
 }
 
 double SquaredTransferError(const Eigen::Matrix3d& homography, const RayMatch& match) {
-  const Eigen::Vector3d mapped = homography * match.a.homogeneous();
-  if (mapped.z() == 0) return std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d error = match.b - mapped.head<2>() / mapped.z();
-  return error.squaredNorm() / TransferVariance(homography, match, mapped);
+  const Eigen::Matrix3d& H = homography;
+  const Eigen::Vector3d mapped = H * match.a.homogeneous();
+  const double z = mapped.z();
+  if (z == 0) return std::numeric_limits<double>::infinity();
+  // The error times z and its derivative times z^2 need no division.
+  const Eigen::Vector2d error = z * match.b - mapped.head<2>();
+  const Eigen::Matrix2d J =
+      z * H.topLeftCorner<2, 2>() - mapped.head<2>() * H.bottomLeftCorner<1, 2>();
+  const double zz = z * z;
+  const double variance = zz * zz * match.sigma_b * match.sigma_b +
+                          0.5 * J.squaredNorm() * match.sigma_a * match.sigma_a;
+  return zz * error.squaredNorm() / variance;
 }
 
 std::vector<PlanarMotion> MotionsFromHomography(const Eigen::Matrix3d& homography) {

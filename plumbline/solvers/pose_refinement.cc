@@ -112,6 +112,12 @@ double CostOf(std::span<const RayMatch> matches, const Rigid3& pose, const Biwei
   return cost;
 }
 
+// Under the loss that RefinePose has by default.
+double RefinementCost(std::span<const RayMatch> matches, const Rigid3& pose) {
+  constexpr double kScale = PoseRefinementOptions{}.loss_scale;
+  return CostOf(matches, pose, Biweight{kScale * kScale});
+}
+
 Rigid3 Moved(const Rigid3& pose, const Vector5d& step) {
   const Eigen::Vector3d t = pose.translation + BasisAcross(pose.translation) * step.tail<2>();
   return {(ExpSo3(step.head<3>()) * pose.rotation).normalized(), t.normalized()};
@@ -184,7 +190,8 @@ RefinedPose RefinePose(std::span<const RayMatch> matches,
       damping *= 10;
       continue;
     }
-    const bool converged = result.cost - cost <= 1e-9 * result.cost || step.norm() < 1e-10;
+    const bool converged =
+        result.cost - cost <= options.tolerance * result.cost || step.norm() < 1e-10;
     result.b_from_a = trial;
     result.cost = cost;
     damping = std::max(damping * 0.1, 1e-9);
@@ -201,16 +208,19 @@ RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, R
   constexpr int kSubsets = 10;
   constexpr std::size_t kSubsetSize = 40;
   constexpr PoseRefinementOptions kRough{.max_iterations = 4, .loss_scale = 6, .covariance = false};
-  RefinedPose best = RefinePose(matches, start);
+  // What the subsets begin with need not be the minimum, but near it.
+  const Rigid3 first =
+      RefinePose(matches, start, {.tolerance = 1e-3, .covariance = false}).b_from_a;
   std::vector<RayMatch> near;
-  const Eigen::Matrix3d E = EssentialMatrix(best.b_from_a);
+  near.reserve(matches.size());
+  const Eigen::Matrix3d E = EssentialMatrix(first);
   for (const RayMatch& match : matches) {
     if (SampsonChi2(E, match) < 2 * kChi2OneDof95) near.push_back(match);
   }
-  if (near.size() < kSubsetSize) return best;
+  if (near.size() < kSubsetSize) return RefinePose(matches, first);
   const EpipolarCost cost(matches);
   double lowest = cost.Truncated(E, kChi2OneDof95, std::numeric_limits<double>::infinity());
-  Rigid3 pose = best.b_from_a;
+  Rigid3 pose = first;
   std::array<RayMatch, kSubsetSize> subset;
   for (int i = 0; i < kSubsets; ++i) {
     for (RayMatch& match : subset) match = near[rng.Index(near.size())];
@@ -221,7 +231,8 @@ RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, R
     pose = trial;
   }
   const RefinedPose polished = RefinePose(matches, pose);
-  return polished.cost < best.cost ? polished : best;
+  if (polished.cost <= RefinementCost(matches, first)) return polished;
+  return RefinePose(matches, first);
 }
 
 }  // namespace plumbline

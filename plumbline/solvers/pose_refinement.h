@@ -24,6 +24,7 @@ SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
 
 struct PoseRefinementOptions {
   int max_iterations = 15;
+  double tolerance = 1e-9;      // of the cost: to fall by less than this part is the end
   bool rotation_known = false;  // only the direction of the translation is refined
   double loss_scale = 4.685;    // of Tukey's biweight: 95 % efficient on normal residuals
   bool covariance = true;       // false: left at zero

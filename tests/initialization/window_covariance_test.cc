@@ -122,6 +122,14 @@ TEST(WindowCovariance, GrowsWithTheNoise) {
   EXPECT_NEAR(two->poses.trace() / one->poses.trace(), 4, 1e-6);
 }
 
+TEST(WindowCovariance, IsThatOfThePosesWithoutTheDepths) {
+  const WindowScene scene = MakeWindowScene(2, CurvedMotion(4), {.sigma = 1e-3, .missed = 0.2});
+  const auto all = ComputeWindowCovariance(scene.tracks, scene.truth, 1, kMaxChi2);
+  const auto poses = ComputePoseCovariance(scene.tracks, scene.truth, 1, kMaxChi2);
+  ASSERT_TRUE(all && poses);
+  EXPECT_EQ(all->poses, *poses);
+}
+
 TEST(WindowCovariance, SaysThatATurningCameraKnowsNoDepth) {
   std::vector<Rigid3> poses = CurvedMotion(3, 1e-4);
   const WindowScene scene = MakeWindowScene(3, poses);
