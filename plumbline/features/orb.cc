@@ -141,7 +141,8 @@ double ParabolaPeak(double before, double at, double after) {
   return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
 }
 
-// Harris response at whole-pixel offsets, up to 2, from a corner; 5x5 windows.
+// Harris response at whole-pixel offsets, up to 2, from a corner; windows of 5x5 pixels, weighted
+// by a Gaussian: with a box, pixels that enter and leave at its border move the peak.
 class HarrisAround {
  public:
   HarrisAround(const GrayImage& image, int x, int y) {
@@ -164,12 +165,14 @@ class HarrisAround {
     float xx = 0;
     float xy = 0;
     float yy = 0;
+    static const Weights kWeights = MakeWeights();
+    auto weight = kWeights.begin();
     for (int v = dy - kWindow; v <= dy + kWindow; ++v) {
-      for (int u = dx - kWindow; u <= dx + kWindow; ++u) {
+      for (int u = dx - kWindow; u <= dx + kWindow; ++u, ++weight) {
         const auto& p = products_[static_cast<std::size_t>((v + kReach) * kSide + u + kReach)];
-        xx += p[0];
-        xy += p[1];
-        yy += p[2];
+        xx += *weight * p[0];
+        xy += *weight * p[1];
+        yy += *weight * p[2];
       }
     }
     constexpr float kTrace = 0.04F;
@@ -180,6 +183,21 @@ class HarrisAround {
   static constexpr int kWindow = 2;
   static constexpr int kReach = kWindow + 2;
   static constexpr int kSide = 2 * kReach + 1;
+  using Weights =
+      std::array<float, static_cast<std::size_t>((2 * kWindow + 1) * (2 * kWindow + 1))>;
+
+  static Weights MakeWeights() {
+    constexpr double kSigma = 1.2;
+    Weights weights{};
+    std::size_t k = 0;
+    for (int v = -kWindow; v <= kWindow; ++v) {
+      for (int u = -kWindow; u <= kWindow; ++u) {
+        weights[k++] = static_cast<float>(std::exp(-0.5 * (u * u + v * v) / (kSigma * kSigma)));
+      }
+    }
+    return weights;
+  }
+
   std::array<std::array<float, 3>, static_cast<std::size_t>(kSide* kSide)> products_;
 };
 
@@ -262,7 +280,9 @@ void ExtractLevel(const PyramidLevel& level,
     places.push_back(px);
     PointFeature point;
     point.px = level.ToFull(px);
-    point.sigma_px = std::hypot(options.sigma_px * scale, calibration_sigma_px);
+    const double noise_sigma = options.noise_sigma_px / static_cast<double>(c.response);
+    point.sigma_px =
+        std::hypot(std::hypot(options.sigma_px, noise_sigma) * scale, calibration_sigma_px);
     point.angle = CentroidAngle(
         level.image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
     point.response = static_cast<double>(c.response);

@@ -18,7 +18,9 @@ struct OrbOptions {
   int fast_min_threshold = 4;  // used in cells where the first finds nothing
   int cell_px = 35;            // side of these cells on a level
   bool subpixel = true;
-  double sigma_px = 0.3;  // of a corner at octave 0
+  double sigma_px = 0.2;  // of a sharp corner at octave 0
+  // What noise adds: of a corner of one grey level of contrast, less as the contrast grows.
+  double noise_sigma_px = 6.7;
   // What lenses and shutter that are not quite as the calibration says add to every corner,
   // relative to the width of the image.
   double calibration_sigma = 5e-4;
@@ -33,11 +35,15 @@ struct OrbOptions {
 // peak of the Harris response (parabola, at most 1.5 level pixels), which more than halves the
 // scatter between frames: 0.45 to 0.2 level pixels on EuRoC, where the Förstner point gives 0.50.
 //
+// The scatter grows as the contrast falls: matched under true poses and depths, corners move by
+// 0.1 level pixels from frame to frame above 100 grey levels, 0.15 at 40, 0.3 at 15 and 1 below 7,
+// in all hypot(0.1, 4 / contrast). The deviations are given in this proportion.
+//
 // `pyramid` must have been built with the levels and the factor of the options (BuildOrbPyramid).
 // Corners closer to an invalid pixel or to the border than the patch (20 level pixels) are left
-// out. Result: position and sigma (sigma_px * scale of the octave, and the calibration's) in pixels
-// of the full image, ordered by octave, then as selected. Cost: about 6 ms for 752x480 and 1000
-// points.
+// out. Result: position and sigma (of corner and noise * scale of the octave, and the
+// calibration's) in pixels of the full image, ordered by octave, then as selected. Cost: about 6 ms
+// for 752x480 and 1000 points.
 std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
                                      const ValidRegion& valid,
                                      int count,
@@ -57,7 +63,12 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
         Range{1, 255});
   visit("cell_px", o.cell_px, "side of the cells with their own threshold [px]", Range{8, 500});
   visit("subpixel", o.subpixel, "refine corners below the pixel");
-  visit("sigma_px", o.sigma_px, "deviation of a corner at octave 0 [px]", Range{0.05, 10});
+  visit("sigma_px", o.sigma_px, "deviation of a sharp corner at octave 0 [px]", Range{0.05, 10});
+  visit("noise_sigma_px",
+        o.noise_sigma_px,
+        "deviation that noise adds to a corner of one grey level of contrast, less as that grows "
+        "[px]",
+        Range{0, 100});
   visit(
       "calibration_sigma",
       o.calibration_sigma,

@@ -2,8 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/orb.h"
 
+#include "plumbline/base/median.h"
+
 #include "tests/features/render.h"
+#include <cmath>
 #include <numbers>
+#include <random>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +52,40 @@ TEST(Orb, GivesNoMoreThanAskedAndTheSameEveryTime) {
   EXPECT_TRUE(Orb(image, 0).empty());
 }
 
+double ScaleOf(const PointFeature& point, const OrbOptions& options) {
+  return std::pow(options.scale_factor, point.octave);
+}
+
+// Two noisy images of one texture, whose right half has a fifth of the contrast: the deviations say
+// how much more the corners there move, and none is said to be better than it is.
+TEST(Orb, DeviationFollowsTheContrast) {
+  const SquareTexture texture(150, 320, 240);
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 2);
+  const auto image = [&] {
+    return Render(320, 240, [&](const Eigen::Vector2d& p) {
+      return 128 + (p.x() < 160 ? 1 : 0.2) * (texture(p) - 128) + noise(random);
+    });
+  };
+  const auto a = Orb(image(), 400);
+  const auto b = Orb(image(), 400);
+  std::vector<double> sigma[2], moved[2];  // strong, weak; level pixels, and deviations
+  for (const PointFeature& p : a) {
+    const PointFeature* other = Nearest(b, p.px, p.octave);
+    if (!other || (other->px - p.px).norm() > 2 * ScaleOf(p, {})) continue;
+    const std::size_t side = p.px.x() < 160 ? 0 : 1;
+    sigma[side].push_back(p.sigma_px / ScaleOf(p, {}));
+    moved[side].push_back((other->px - p.px).norm() / std::hypot(p.sigma_px, other->sigma_px));
+  }
+  ASSERT_GT(moved[0].size(), 50U);
+  ASSERT_GT(moved[1].size(), 50U);
+  EXPECT_GT(UpperMedian(std::span<double>(sigma[1])),
+            1.2 * UpperMedian(std::span<double>(sigma[0])));
+  EXPECT_LT(UpperMedian(std::span<double>(moved[0])), 1.18);  // of two components of one deviation
+  EXPECT_LT(UpperMedian(std::span<double>(moved[1])), 1.18);
+  for (const PointFeature& p : a) EXPECT_GE(p.sigma_px, OrbOptions{}.sigma_px * ScaleOf(p, {}));
+}
+
 TEST(Orb, FollowsASubPixelShift) {
   const SquareTexture texture(150, 320, 240);
   const Eigen::Vector2d shift(1.4, -0.7);
@@ -58,7 +98,7 @@ TEST(Orb, FollowsASubPixelShift) {
   for (const PointFeature& p : a) {
     const PointFeature* other = Nearest(b, p.px + shift, p.octave);
     if (!other) continue;
-    const double error = (other->px - p.px - shift).norm() * options.sigma_px / p.sigma_px;
+    const double error = (other->px - p.px - shift).norm() / ScaleOf(p, options);
     if (error > 2) continue;
     errors.push_back(error);
     alike += HammingDistance(p.descriptor, other->descriptor) < 60 ? 1 : 0;
@@ -118,7 +158,7 @@ TEST(Orb, KeepsItsPatchOnValidPixels) {
   const auto points = ExtractOrb(BuildOrbPyramid(image, options), ValidRegion(mask), 300, options);
   EXPECT_GT(points.size(), 50U);
   for (const PointFeature& p : points) {
-    EXPECT_GT(p.px.x(), 119 + 17 * p.sigma_px / options.sigma_px);
+    EXPECT_GT(p.px.x(), 119 + 17 * ScaleOf(p, options));
   }
 }
 
