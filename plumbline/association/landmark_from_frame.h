@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <optional>
 
+#include <Eigen/Core>
+
 namespace plumbline {
 
 // The point that feature i of one stereo or RGB-D frame shows, in the world. nullopt without
@@ -18,6 +20,12 @@ std::optional<PointModel> PointFromFrame(const RectifiedCamera& camera,
                                          const Frame& frame,
                                          std::size_t i,
                                          double max_relative_sigma);
+
+// Covariance, in the world, of the place of PointFromFrame: what the deviations of the pixel and of
+// the disparity leave open with the pose taken as known. The feature must have a disparity.
+Eigen::Matrix3d PointCovarianceFromFrame(const RectifiedCamera& camera,
+                                         const Frame& frame,
+                                         std::size_t i);
 
 // The line that line feature i of one stereo or RGB-D frame shows, in the world, with its
 // information. nullopt without right line, when it runs along the rows (no depth), or when the

@@ -6,6 +6,7 @@
 #include "plumbline/base/median.h"
 #include "plumbline/optimization/pose_terms.h"
 #include "plumbline/optimization/robust_loss.h"
+#include "plumbline/optimization/uncertain_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,7 @@ class PoseSolver {
   // Levenberg-Marquardt from pose_; true when it met a tolerance.
   bool Optimize(const HuberThresholds& huber, int max_iterations);
   // At pose_, whose rotation R is.
+  double PointChi2Of(const PosePoint& point, const Eigen::Matrix3d& R) const;
   double LineChi2(std::size_t i, const Eigen::Matrix3d& R) const;
   // Makes chi2_ that of pose_ where it is not (after a rejected step).
   void UpdateChi2();
@@ -79,7 +81,16 @@ class PoseSolver {
 void PoseSolver::Pack(const PoseProblem& problem) {
   points_.reserve(problem.points.size());
   for (const auto& match : problem.points) {
-    points_.push_back({match.point_in_world, MakePointTerm(match.measurement)});
+    const auto uncertain = MakeUncertainPointTerm(camera_,
+                                                  problem.cam_from_world,
+                                                  match.point_in_world,
+                                                  match.point_covariance,
+                                                  match.measurement);
+    if (uncertain) {
+      points_.push_back({match.point_in_world, uncertain->term, uncertain->whitening});
+    } else {
+      points_.push_back({match.point_in_world, MakePointTerm(match.measurement), {}});
+    }
   }
   std::vector<int> names;
   names.reserve(problem.lines.size());
@@ -124,11 +135,17 @@ void PoseSolver::EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber
       if (point_used_[i]) eq.cost += 0.5 * HuberLoss(kInvalidChi2, k);
       continue;
     }
+    if (point.whitening) lin.r = *point.whitening * lin.r;
     const double chi2 = lin.r.squaredNorm();
     point_chi2_[i] = chi2;
     if (!point_used_[i]) continue;
     eq.cost += 0.5 * HuberLoss(chi2, k);
-    AddPoint(lin, p, HuberWeight(chi2, k), eq);
+    const double weight = HuberWeight(chi2, k);
+    if (point.whitening) {
+      AddPoint(lin.r, *point.whitening * PointJacobian(lin), p, weight, eq);
+    } else {
+      AddPoint(lin, p, weight, eq);
+    }
   }
 }
 
@@ -196,6 +213,14 @@ PoseSums PoseSolver::Evaluate(const Rigid3& pose, const HuberThresholds& huber) 
   return eq;
 }
 
+double PoseSolver::PointChi2Of(const PosePoint& point, const Eigen::Matrix3d& R) const {
+  const Eigen::Vector3d p = R * point.in_world + pose_.translation;
+  if (!point.whitening) return PointChi2(camera_, point.term, p).value_or(kInfinity);
+  PointLinearization lin;
+  if (!LinearizePoint(camera_, point.term, p, lin)) return kInfinity;
+  return (*point.whitening * lin.r).squaredNorm();
+}
+
 double PoseSolver::LineChi2(std::size_t i, const Eigen::Matrix3d& R) const {
   const Eigen::Vector3d& t = pose_.translation;
   Eigen::Vector2d r;
@@ -215,8 +240,7 @@ void PoseSolver::UpdateChi2() {
   chi2_is_current_ = true;
   const Eigen::Matrix3d R = pose_.rotation.toRotationMatrix();
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Eigen::Vector3d p = R * points_[i].in_world + pose_.translation;
-    point_chi2_[i] = PointChi2(camera_, points_[i].term, p).value_or(kInfinity);
+    point_chi2_[i] = PointChi2Of(points_[i], R);
   }
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     line_chi2_[i] = LineChi2(i, R);

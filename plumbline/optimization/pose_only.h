@@ -63,7 +63,8 @@ struct PoseOnlyResult {
 // perturbation exp([w, v]) T (eq. 20). After each round all matches, also those rejected before,
 // are classified by chi2 at 95 %: points with 2 degrees of freedom (3 with disparity), the
 // measurements of one line group together with 2 each. A point behind the camera is an outlier. The
-// initial pose may be wrong by tens of pixels, with 30 % of the matches wrong.
+// initial pose may be wrong by tens of pixels, with 30 % of the matches wrong. What a point's own
+// covariance adds to its residual is taken at the initial pose (uncertain_point.h).
 //
 //   problem   measurements in pixels, landmarks in the world, the initial pose
 //   returns   always a result; judge it by `converged` and the counts of inliers

@@ -8,6 +8,7 @@
 #include "plumbline/optimization/robust_loss.h"
 
 #include <cstddef>
+#include <optional>
 
 namespace plumbline {
 
@@ -17,6 +18,7 @@ namespace plumbline {
 struct PosePoint {
   Eigen::Vector3d in_world;
   PointTerm term;
+  std::optional<Eigen::Matrix3d> whitening;  // of the residuals of an UncertainPointTerm
 };
 
 struct PoseLine {
@@ -79,6 +81,19 @@ inline void AddPoint(const PointLinearization& a,
   eq.H(5, 5) += m22;
   eq.g.head<3>() += p.cross(q);
   eq.g.tail<3>() += q;
+}
+
+// The same of a point whose G is any matrix.
+inline void AddPoint(const Eigen::Vector3d& r,
+                     const Eigen::Matrix3d& G,
+                     const Eigen::Vector3d& p,
+                     double w,
+                     PoseSums& eq) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << -G * Skew(p), G;
+  const Eigen::Matrix<double, 3, 6> wJ = w * J;
+  eq.H.noalias() += wJ.transpose() * J;
+  eq.g.noalias() += wJ.transpose() * r;
 }
 
 // Adds a line to the cost and, with w J^T J and w J^T r of the two rows, to the equations.

@@ -81,6 +81,8 @@ struct PoseProblem {
   struct PointMatch {
     Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
     PointMeasurement measurement;
+    // Of the point in the world, beside that of the measurement; zero where the place is known.
+    Eigen::Matrix3d point_covariance = Eigen::Matrix3d::Zero();
   };
   struct LineMatch {
     PluckerLine line_in_world;

@@ -51,7 +51,7 @@ void Associate(const std::vector<LandmarkId>& ids,
     const auto* landmark = ids[i].valid() ? snapshot.Find(ids[i]) : nullptr;
     if (landmark == nullptr) continue;
     match_of_feature[i] = static_cast<int>(candidates.size());
-    candidates.push_back({ids[i], *landmark});
+    candidates.push_back({.id = ids[i], .model = *landmark});
   }
 }
 

@@ -8,6 +8,7 @@
 #include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
+#include "plumbline/optimization/uncertain_point.h"
 
 #include <algorithm>
 #include <limits>
@@ -71,8 +72,7 @@ std::vector<PointRows> RowsOfPoints(const PoseProblem& problem) {
   std::vector<PointRows> rows;
   rows.reserve(problem.points.size());
   for (const auto& match : problem.points) {
-    const auto residual = EvaluatePoint(
-        problem.camera, problem.cam_from_world, match.point_in_world, match.measurement);
+    const auto residual = EvaluateMatch(problem.camera, problem.cam_from_world, match);
     rows.emplace_back(residual ? PointRows(residual->J_pose.topRows(residual->rows))
                                : PointRows(0, 6));
   }
@@ -213,8 +213,7 @@ std::vector<bool> PointsThatFit(const PoseProblem& problem,
                                 double gate_scale) {
   std::vector<bool> fits;
   for (const auto& match : problem.points) {
-    const auto residual =
-        EvaluatePoint(problem.camera, cam_from_world, match.point_in_world, match.measurement);
+    const auto residual = EvaluateMatch(problem.camera, cam_from_world, match);
     fits.push_back(residual &&
                    residual->r.squaredNorm() <= gate_scale * Chi2Limit95(residual->rows));
   }

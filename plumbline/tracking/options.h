@@ -28,6 +28,7 @@ struct TrackingOptions {
   double min_inlier_ratio = 0.4;     // ... this part of the matched points must be inliers
   double max_pose_sigma = 0.02;      // and to which they must fix it (PoseSigma)
   double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
+  int enough_inliers = 60;           // and, points + lines, with which
   double guess_pose_sigma = 0.01;    // up to which lines at the depth of the scene are not tried
   int established_views = 3;         // keyframes that show a landmark which others cannot outvote
   double motion_sigma = 5;           // change of the velocity [rad/s^2], [scene depths/s^2]
@@ -36,10 +37,11 @@ struct TrackingOptions {
   double max_relative_line_depth_sigma = 0.15;  // of the ends of lines, whose weights allow for it
   double worst_relative_depth_sigma = 0.3;      // the same when the first search finds too little
   double close_relative_depth_sigma = 0.05;     // of points that count as near
-  double first_radius_px = 12;  // search around the predicted place, from the last frame
-  double wide_factor = 3;       // the same when that finds too little
-  int new_map_after = 10;       // lost frames after which a new map starts
-  int trial_keyframes = 5;      // until then a map of a single camera is given up at once
+  bool point_covariance = true;  // what the depths of such points leave open counts in the pose
+  double first_radius_px = 12;   // search around the predicted place, from the last frame
+  double wide_factor = 3;        // the same when that finds too little
+  int new_map_after = 10;        // lost frames after which a new map starts
+  int trial_keyframes = 5;       // until then a map of a single camera is given up at once
   ProjectionSearchOptions search;
   PoseOnlyOptions pose;
   KeyFramePolicyOptions keyframes;
@@ -71,6 +73,10 @@ void VisitAcceptance(Visitor& visit, TrackingOptions& o) {
         o.enough_pose_sigma,
         "the same, from which on no landmarks of more uncertain depth are searched",
         Range{1e-6, 10});
+  visit("enough_inliers",
+        o.enough_inliers,
+        "points + lines with which that must be known",
+        Range{0, 100000});
   visit("guess_pose_sigma",
         o.guess_pose_sigma,
         "the same, up to which no lines without known depth are searched",
@@ -101,6 +107,10 @@ void VisitDepthSigmas(Visitor& visit, TrackingOptions& o) {
         o.close_relative_depth_sigma,
         "depth uncertainty below which a point counts as near, relative to depth",
         Range{0.001, 1});
+  visit("point_covariance",
+        o.point_covariance,
+        "points made from one frame weigh in the pose as the uncertainty of their place says (with "
+        "local_map, those beyond the first search)");
 }
 
 template <class Visitor>

@@ -26,8 +26,9 @@ void AddPoints(const Features& features, const FrameAssociation& association, Ma
   for (std::size_t i = 0; i < association.matches.point_of_feature.size(); ++i) {
     const int match = association.matches.point_of_feature[i];
     if (match < 0) continue;
-    const PointModel& point = association.points[static_cast<std::size_t>(match)].model;
-    out.problem.points.push_back({point.position, MeasurePoint(features, i)});
+    const CandidatePoint& point = association.points[static_cast<std::size_t>(match)];
+    out.problem.points.push_back(
+        {point.model.position, MeasurePoint(features, i), point.covariance});
     out.point_feature.push_back(i);
   }
 }

@@ -22,7 +22,7 @@ void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& can
   std::set<decltype(Candidate::id)> known;
   for (const Candidate& candidate : candidates) known.insert(candidate.id);
   for (const Landmark& landmark : landmarks) {
-    if (!known.contains(landmark.id)) candidates.push_back({landmark.id, landmark});
+    if (!known.contains(landmark.id)) candidates.push_back({.id = landmark.id, .model = landmark});
   }
 }
 
@@ -79,8 +79,11 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
   const FrameAssociation& before = last.association;
   for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
     const auto* known = InSnapshot(before.points, before.matches.point_of_feature[i], snapshot);
-    const auto point = PointOf(known, last.frame, i, point_sigma);
-    if (point) result.points.push_back(*point);
+    auto point = PointOf(known, last.frame, i, point_sigma);
+    if (!point) continue;
+    // Beside the map's, whose own deviations do not count, well-known ones are as good as exact.
+    if (known_only && !IsOdometry()) point->covariance.setZero();
+    result.points.push_back(*point);
   }
   const auto scene = depths == Depths::kGuessed ? SceneDisparity(last.frame) : std::nullopt;
   for (std::size_t i = 0; i < last.frame.lines.size(); ++i) {
@@ -139,7 +142,9 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
     // Guesses may be wrong: only where needed.
     const double limit =
         how.depths == Depths::kGuessed ? options_.guess_pose_sigma : options_.enough_pose_sigma;
-    if (best && best->sigma.AtMost(limit)) break;
+    const bool many =
+        how.depths == Depths::kGuessed || (best && best->Inliers() >= options_.enough_inliers);
+    if (best && best->sigma.AtMost(limit) && many) break;
     FrameAssociation found;
     const auto estimate = SearchLast(frame, predicted, last, snapshot, how, found);
     if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;
@@ -153,9 +158,14 @@ std::optional<CandidatePoint> PoseSearch::PointOf(const SnapshotPoint* known,
                                                   const Frame& frame,
                                                   std::size_t feature,
                                                   double max_relative_sigma) const {
-  if (known != nullptr) return CandidatePoint{known->id, *known};
+  if (known != nullptr) return CandidatePoint{.id = known->id, .model = *known};
   const auto point = PointFromFrame(imaging_.camera, frame, feature, max_relative_sigma);
-  return point ? std::optional(CandidatePoint{PointId{}, *point}) : std::nullopt;
+  if (!point) return std::nullopt;
+  CandidatePoint candidate{.id = {}, .model = *point};
+  if (options_.point_covariance) {
+    candidate.covariance = PointCovarianceFromFrame(imaging_.camera, frame, feature);
+  }
+  return candidate;
 }
 
 std::optional<CandidateLine> PoseSearch::LineOf(const SnapshotLine* known,
@@ -202,8 +212,8 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
                                                        FrameCounts& counts) const {
   constexpr double kMaxErrorPx = 4;
   constexpr double kGate = 3;  // the pose that the vote gives is not the final one
-  const bool odometry = options_.reference == TrackingReference::kLastFrame;
-  association = MatchAppearance(frame, odometry ? last.frame : snapshot.reference->frame, snapshot);
+  association =
+      MatchAppearance(frame, IsOdometry() ? last.frame : snapshot.reference->frame, snapshot);
   counts = CountsOf(association.matches);
   Rigid3 initial = last.frame.cam_from_world;
   const auto voted =

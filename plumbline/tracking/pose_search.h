@@ -45,8 +45,8 @@ class PoseSearch {
              const CuttingOptions& cutting);
 
   // From the landmarks that the last frame showed, and points and lines of its depths, near where
-  // `predicted` puts them; of more uncertain depths where the others do not fix the pose. nullopt
-  // where no pose is accepted that at least a third of its matches agree with.
+  // `predicted` puts them; of more uncertain depths where the others do not fix the pose or are
+  // few. nullopt where no pose is accepted that at least a third of its matches agree with.
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const PosePrior& predicted,
                                              const LastFrame& last,
@@ -126,6 +126,8 @@ class PoseSearch {
                         const Rigid3& initial,
                         const PosePrior& prior,
                         FrameAssociation& association) const;
+
+  bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
 
   ImagingModel imaging_;
   TrackingOptions options_;

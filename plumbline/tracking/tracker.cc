@@ -68,6 +68,16 @@ void CountShared(const std::vector<LandmarkId>& of_keyframe,
       }));
 }
 
+// What shows more of the map is right, unless the other shows twice as much in all: things that
+// move have many landmarks made on the spot, too, and after a fast motion little of the map is
+// left.
+bool ShowsMore(const FrameAssociation& a, const FrameAssociation& b) {
+  const int all_a = a.matches.All();
+  const int all_b = b.matches.All();
+  if (all_a > 2 * all_b || all_b > 2 * all_a) return all_a > all_b;
+  return MatchesOfMap(a) > MatchesOfMap(b);
+}
+
 }  // namespace
 
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after) {
@@ -228,7 +238,7 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
 
 // From where the frame is predicted. From appearance, too, where that fails, or the motion is not
 // known (a guess of no motion finds what happens to lie there), or much less is found than in the
-// frame before (an unexpected motion). What shows more of the map is right.
+// frame before (an unexpected motion).
 std::optional<PoseAttempt> Tracker::FindPose(const Frame& frame,
                                              const PosePrior& predicted,
                                              const MapSnapshot& snapshot,
@@ -243,7 +253,7 @@ std::optional<PoseAttempt> Tracker::FindPose(const Frame& frame,
     const auto first = search_.FromAppearance(frame, *last_, snapshot, found, counts);
     if (first) {
       PoseAttempt other = Settle(frame, *first, free, snapshot, std::move(found));
-      if (!best || Shown(other.association) > Shown(best->association)) best = std::move(other);
+      if (!best || ShowsMore(other.association, best->association)) best = std::move(other);
     }
   }
   if (best) counts = best->counts;
@@ -253,12 +263,7 @@ std::optional<PoseAttempt> Tracker::FindPose(const Frame& frame,
 bool Tracker::IsWeak(const PoseAttempt& attempt) const {
   constexpr double kMuchLess = 0.5;
   return !search_.Agreed(attempt.pose, attempt.counts) ||
-         Shown(attempt.association) < kMuchLess * Shown(last_->association);
-}
-
-int Tracker::Shown(const FrameAssociation& association) const {
-  return options_.reference == TrackingReference::kLastFrame ? association.matches.All()
-                                                             : MatchesOfMap(association);
+         attempt.association.matches.All() < kMuchLess * last_->association.matches.All();
 }
 
 // With all that the map, or the last frame, has for the frame.

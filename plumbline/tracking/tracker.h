@@ -112,8 +112,6 @@ class Tracker {
                                       const MapSnapshot& snapshot,
                                       FrameCounts& counts) const;
   bool IsWeak(const PoseAttempt& attempt) const;
-  // Matches with what is tracked against: made on the spot, things that move have many, too.
-  int Shown(const FrameAssociation& association) const;
   PoseAttempt Settle(const Frame& frame,
                      const PoseEstimate& first,
                      const PosePrior& prior,

@@ -278,6 +278,31 @@ TEST(PointFromFrame, FindsTheTruePointWithItsLooks) {
   EXPECT_FALSE(PointFromFrame(world.camera, frame, 0, 0.02));
 }
 
+// Against the derivative of the place by pixel and disparity.
+TEST(PointFromFrame, CovarianceIsThatOfPixelAndDisparity) {
+  SyntheticWorld world;
+  world.points.push_back({{0.7, -0.4, 5}, {}});
+  Rng rng(1);
+  const Rigid3 pose = SomePose();
+  const SyntheticFrame sensed = Sense(world, pose, kExact, rng);
+  const Frame frame = MakeFrame(FrameId{0}, pose, sensed);
+  const PointFeature& feature = frame.features().points[0];
+  const Disparity& disparity = *frame.features().point_disparity[0];
+  const auto place = [&](const Eigen::Vector3d& by) -> Eigen::Vector3d {
+    return Inverse(pose) * (world.camera.DepthFromDisparity(disparity.px + by.z()) *
+                            world.camera.Unproject(feature.px + by.head<2>()));
+  };
+  const Eigen::Vector3d sigma(feature.sigma_px, feature.sigma_px, disparity.sigma_px);
+  Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d step = 1e-5 * Eigen::Vector3d::Unit(i);
+    const Eigen::Vector3d moved = sigma(i) * (place(step) - place(-step)) / 2e-5;
+    expected += moved * moved.transpose();
+  }
+  const Eigen::Matrix3d covariance = PointCovarianceFromFrame(world.camera, frame, 0);
+  EXPECT_LT((covariance - expected).norm(), 1e-6 * expected.norm());
+}
+
 TEST(PointFromFrame, NeedsADepth) {
   SyntheticWorld world;
   world.points.push_back({{0.7, -0.4, 5}, {}});

@@ -62,6 +62,38 @@ TEST(SolvePose, PriorStandsInForWhatMatchesLeaveOpen) {
   EXPECT_LT(Error(result.cam_from_world, scene.truth), 1e-4);
 }
 
+// Every other point is not where the map has it, by as much as its covariance says: with it the
+// pose is better, and its information says how good it is.
+TEST(SolvePose, WeighsPointsByTheCovarianceOfTheirPlaces) {
+  constexpr int kSeeds = 100;
+  double chi2 = 0;
+  double with_covariance = 0;
+  double without = 0;
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    Scene scene = MakePoseScene(seed, {.points = 100, .lines = 0, .sigma = 1});
+    testing::Random random(1000 + seed);
+    const Rigid3 world_from_cam = Inverse(scene.truth);
+    for (std::size_t i = 0; i < scene.problem.points.size(); i += 2) {
+      auto& match = scene.problem.points[i];
+      const Eigen::Vector3d ray = match.point_in_world - world_from_cam.translation;
+      const Eigen::Vector3d off =
+          0.03 * (ray + 0.5 * ray.norm() * random.NormalVector(1).normalized());
+      match.point_in_world += random.Normal(1) * off;
+      match.point_covariance = off * off.transpose();
+    }
+    const auto with = SolvePose(scene.problem);
+    EXPECT_TRUE(with.converged) << seed;
+    const Vector6d error = LogSe3(with.cam_from_world * Inverse(scene.truth));
+    chi2 += error.dot(with.information * error) / kSeeds;
+    for (auto& match : scene.problem.points) match.point_covariance.setZero();
+    with_covariance += error.squaredNorm();
+    const Rigid3 alone = SolvePose(scene.problem).cam_from_world;
+    without += LogSe3(alone * Inverse(scene.truth)).squaredNorm();
+  }
+  EXPECT_NEAR(chi2, 6, 1.2);
+  EXPECT_LT(with_covariance, 0.7 * without);
+}
+
 // Every seed: 30 % gross outliers, start several tens of pixels off.
 TEST(SolvePose, FindsThePoseAmongGrossOutliersFromAFarStart) {
   for (unsigned seed = 0; seed < 50; ++seed) {

@@ -3,6 +3,7 @@
 #include "plumbline/tracking/pose_search.h"
 
 #include "tests/support/synthetic_world.h"
+#include <algorithm>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -55,6 +56,42 @@ TEST(PoseSearch, FollowsTheDepthsOfTheLastFrame) {
       frame, {PoseOnPath(1)}, scene.last, scene.snapshot, scene.association);
   ExpectPose(pose, PoseOnPath(2));
   EXPECT_EQ(pose->inlier_points, scene.association.matches.Points());
+}
+
+// Most depths are hardly known. The few others fix the pose, but are too few to rely on.
+TEST(PoseSearch, FewKnownDepthsBringInUncertainOnes) {
+  constexpr std::size_t kKnown = 12;  // every twelfth
+  Scene scene;
+  Features features = scene.last.frame.features();
+  for (std::size_t i = 0; i < features.points.size(); ++i) {
+    auto& disparity = features.point_disparity[i];
+    if (disparity && i % kKnown != 0) disparity->sigma_px = 0.1 * disparity->px;
+  }
+  for (auto& line : features.line_right) line.reset();
+  scene.last.frame.indexed = IndexFeatures(scene.world.camera, features);
+  scene.options.enough_pose_sigma = 0.02;
+  const Frame frame = FrameAt(scene.world, 2);
+  const auto search = [&] {
+    return scene.Search().FromPrediction(
+        frame, {PoseOnPath(1)}, scene.last, scene.snapshot, scene.association);
+  };
+  const auto uncertain = [&] {
+    return std::count_if(scene.association.points.begin(),
+                         scene.association.points.end(),
+                         [](const CandidatePoint& p) { return !p.covariance.isZero(0); });
+  };
+  const auto many = search();
+  ASSERT_TRUE(many);
+  EXPECT_GT(many->inlier_points, scene.options.enough_inliers);
+  EXPECT_GT(uncertain(), scene.options.enough_inliers);
+  EXPECT_LT(CentreDistance(many->cam_from_world, PoseOnPath(2)), 0.03);
+  scene.options.point_covariance = false;
+  ASSERT_TRUE(search());
+  EXPECT_EQ(uncertain(), 0);
+  scene.options.enough_inliers = 0;
+  const auto few = search();
+  ASSERT_TRUE(few);
+  EXPECT_LT(few->inlier_points, scene.options.enough_inliers + 60);
 }
 
 TEST(PoseSearch, FindsNoPoseWhereNothingIsToBeSeen) {
