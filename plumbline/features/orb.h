@@ -36,8 +36,8 @@ struct OrbOptions {
 // scatter between frames: 0.45 to 0.2 level pixels on EuRoC, where the Förstner point gives 0.50.
 //
 // The scatter grows as the contrast falls: matched under true poses and depths, corners move by
-// 0.1 level pixels from frame to frame above 100 grey levels, 0.15 at 40, 0.3 at 15 and 1 below 7,
-// in all hypot(0.1, 4 / contrast). The deviations are given in this proportion.
+// 0.1 level pixels from frame to frame above 100 grey levels, 0.15 at 40, 0.3 at 17 and 1 below 7,
+// roughly hypot(0.1, 4 / contrast). The deviations are nearly in this proportion.
 //
 // `pyramid` must have been built with the levels and the factor of the options (BuildOrbPyramid).
 // Corners closer to an invalid pixel or to the border than the patch (20 level pixels) are left
@@ -66,8 +66,7 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
   visit("sigma_px", o.sigma_px, "deviation of a sharp corner at octave 0 [px]", Range{0.05, 10});
   visit("noise_sigma_px",
         o.noise_sigma_px,
-        "deviation that noise adds to a corner of one grey level of contrast, less as that grows "
-        "[px]",
+        "deviation that noise adds to a corner [px] times its contrast [grey levels]",
         Range{0, 100});
   visit(
       "calibration_sigma",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_terms.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/optimization/ba_terms.h"
 #include "plumbline/optimization/residuals.h"
 
@@ -348,6 +349,7 @@ std::unique_ptr<ceres::CostFunction> MakeProjectedEndsCost(const RectifiedCamera
 
 std::unique_ptr<ceres::CostFunction> MakePosePointCost(const RectifiedCamera& camera,
                                                        const PoseProblem::PointMatch& match) {
+  PLUMBLINE_CHECK(match.point_covariance.isZero(0), "the reference knows exact points only");
   if (match.measurement.disparity) return std::make_unique<PosePointCost<3>>(camera, match);
   return std::make_unique<PosePointCost<2>>(camera, match);
 }

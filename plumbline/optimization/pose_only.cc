@@ -89,7 +89,12 @@ void PoseSolver::Pack(const PoseProblem& problem) {
     if (uncertain) {
       points_.push_back({match.point_in_world, uncertain->term, uncertain->whitening});
     } else {
-      points_.push_back({match.point_in_world, MakePointTerm(match.measurement), {}});
+      // One that has no term for its covariance must not pass for exact later: no residual at all.
+      const bool exact = match.point_covariance.isZero(0);
+      constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+      points_.push_back({exact ? match.point_in_world : Eigen::Vector3d::Constant(kNowhere),
+                         MakePointTerm(match.measurement),
+                         {}});
     }
   }
   std::vector<int> names;

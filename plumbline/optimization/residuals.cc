@@ -41,8 +41,7 @@ std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,
   const Eigen::Vector3d p = cam_from_world * point_in_world;
   PointLinearization lin;
   if (!LinearizePoint(camera, MakePointTerm(measurement), p, lin)) return std::nullopt;
-  Eigen::Matrix3d J_cam;
-  J_cam << lin.ux, 0, lin.uz, 0, lin.vy, lin.vz, 0, 0, lin.dz;
+  const Eigen::Matrix3d J_cam = PointJacobian(lin);
   PointResidual out;
   out.rows = measurement.disparity ? 3 : 2;
   out.r = lin.r;

@@ -67,6 +67,13 @@ struct PointLinearization {
   double ux = 0, uz = 0, vy = 0, vz = 0, dz = 0;
 };
 
+// Derivative of a linearized point residual with respect to the point in the camera frame.
+inline Eigen::Matrix3d PointJacobian(const PointLinearization& at) {
+  Eigen::Matrix3d J;
+  J << at.ux, 0, at.uz, 0, at.vy, at.vz, 0, 0, at.dz;
+  return J;
+}
+
 // False when the point is not in front of the camera; `out` is then not set.
 inline bool LinearizePoint(const RectifiedCamera& camera,
                            const PointTerm& term,

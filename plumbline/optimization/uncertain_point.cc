@@ -22,7 +22,10 @@ std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& 
   Eigen::Matrix3d S = J * point_covariance * J.transpose();  // no disparity: its row is zero
   S.diagonal().head<2>().array() += measurement.sigma_px * measurement.sigma_px;
   S(2, 2) += with_disparity ? measurement.disparity->sigma_px * measurement.disparity->sigma_px : 1;
-  out.whitening = S.llt().matrixL().solve(Eigen::Matrix3d::Identity());
+  const Eigen::LLT<Eigen::Matrix3d> factor(S);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  out.whitening = factor.matrixL().solve(Eigen::Matrix3d::Identity());
+  if (!out.whitening.allFinite()) return std::nullopt;
   return out;
 }
 
@@ -31,6 +34,7 @@ std::optional<PointResidual> EvaluateMatch(const RectifiedCamera& camera,
                                            const PoseProblem::PointMatch& match) {
   const auto uncertain = MakeUncertainPointTerm(
       camera, cam_from_world, match.point_in_world, match.point_covariance, match.measurement);
+  if (!uncertain && !match.point_covariance.isZero(0)) return std::nullopt;
   PointMeasurement unit = match.measurement;
   if (uncertain) {
     unit.sigma_px = 1;

@@ -13,13 +13,6 @@
 
 namespace plumbline {
 
-// Derivative of a linearized point residual with respect to the point in the camera frame.
-inline Eigen::Matrix3d PointJacobian(const PointLinearization& at) {
-  Eigen::Matrix3d J;
-  J << at.ux, 0, at.uz, 0, at.vy, at.vz, 0, 0, at.dz;
-  return J;
-}
-
 // A measurement of a point whose place has a covariance of its own.
 struct UncertainPointTerm {
   PointTerm term;             // with weights of one: residuals in pixels
@@ -28,7 +21,8 @@ struct UncertainPointTerm {
 
 // The covariance of the residual is that of the measurement and of the point's projection,
 // S = diag(sigma^2) + J Sigma J^T, at the given pose; its inverse Cholesky factor whitens. nullopt
-// when the point is not in front of the camera, and without covariance (zero).
+// when the point is not in front of the camera, or so near that S is singular to working precision,
+// and without covariance (zero).
 //
 //   point_covariance  of the place in the world, map units squared; positive semidefinite
 std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& camera,
@@ -38,7 +32,7 @@ std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& 
                                                          const PointMeasurement& measurement);
 
 // Residual and derivatives of a match at a pose, whitened with the covariance of measurement and
-// point there. nullopt when the point is not in front of the camera.
+// point there. nullopt when the point is not in front of the camera, as above.
 std::optional<PointResidual> EvaluateMatch(const RectifiedCamera& camera,
                                            const Rigid3& cam_from_world,
                                            const PoseProblem::PointMatch& match);

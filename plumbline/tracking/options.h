@@ -75,7 +75,7 @@ void VisitAcceptance(Visitor& visit, TrackingOptions& o) {
         Range{1e-6, 10});
   visit("enough_inliers",
         o.enough_inliers,
-        "points + lines with which that must be known",
+        "points + lines that agree with it, below which they are searched all the same",
         Range{0, 100000});
   visit("guess_pose_sigma",
         o.guess_pose_sigma,
@@ -110,7 +110,7 @@ void VisitDepthSigmas(Visitor& visit, TrackingOptions& o) {
   visit("point_covariance",
         o.point_covariance,
         "points made from one frame weigh in the pose as the uncertainty of their place says (with "
-        "local_map, those beyond the first search)");
+        "local_map not in the first search, which uses well-known depths only)");
 }
 
 template <class Visitor>

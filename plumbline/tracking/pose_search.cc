@@ -145,6 +145,7 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
     const bool many =
         how.depths == Depths::kGuessed || (best && best->Inliers() >= options_.enough_inliers);
     if (best && best->sigma.AtMost(limit) && many) break;
+    if (how.depths == Depths::kUncertain && imaging_.camera.baseline == 0) continue;  // no depths
     FrameAssociation found;
     const auto estimate = SearchLast(frame, predicted, last, snapshot, how, found);
     if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;

@@ -74,8 +74,11 @@ void CountShared(const std::vector<LandmarkId>& of_keyframe,
 bool ShowsMore(const FrameAssociation& a, const FrameAssociation& b) {
   const int all_a = a.matches.All();
   const int all_b = b.matches.All();
-  if (all_a > 2 * all_b || all_b > 2 * all_a) return all_a > all_b;
-  return MatchesOfMap(a) > MatchesOfMap(b);
+  const int map_a = MatchesOfMap(a);
+  const int map_b = MatchesOfMap(b);
+  const bool no_map = map_a + map_b == 0;  // odometry
+  if (no_map || all_a > 2 * all_b || all_b > 2 * all_a) return all_a > all_b;
+  return map_a > map_b;
 }
 
 }  // namespace

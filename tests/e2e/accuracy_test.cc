@@ -26,6 +26,7 @@ TEST(Accuracy, FloorRgbd) { Check(kFloor); }
 TEST(Accuracy, RoadStereo) { Check(kRoad); }
 TEST(Accuracy, RoadDrivingStereo) { Check(kRoadDriving); }
 TEST(Accuracy, MachineHallFastStereo) { Check(kMachineHallFast); }
+TEST(Accuracy, RoadFastStereo) { Check(kRoadFast); }
 TEST(Accuracy, MachineHallMono) { Check(kMachineHallMono); }
 TEST(Accuracy, FloorMono) { Check(kFloorMono); }
 TEST(Accuracy, OfficeMono) { Check(kOfficeMono); }

@@ -94,6 +94,21 @@ TEST(SolvePose, WeighsPointsByTheCovarianceOfTheirPlaces) {
   EXPECT_LT(with_covariance, 0.7 * without);
 }
 
+// Its residual has no covariance at the initial pose; it must not pass for exact at a better one.
+TEST(SolvePose, UncertainPointsBehindTheInitialPoseDoNotCount) {
+  Scene scene = MakePoseScene(3, {.points = 100, .lines = 0});
+  auto& match = scene.problem.points[0];
+  match.point_covariance = 0.1 * Eigen::Matrix3d::Identity();
+  match.point_in_world = Inverse(scene.problem.cam_from_world) * Eigen::Vector3d(0, 0, -0.01);
+  match.measurement.px =
+      scene.problem.camera.Project(scene.truth * scene.problem.points[1].point_in_world);
+  const auto result = SolvePose(scene.problem);
+  EXPECT_TRUE(result.converged);
+  EXPECT_FALSE(result.point_inliers[0]);
+  EXPECT_EQ(result.inlier_points, 99);
+  EXPECT_LT(Error(result.cam_from_world, scene.truth), 1e-4);
+}
+
 // Every seed: 30 % gross outliers, start several tens of pixels off.
 TEST(SolvePose, FindsThePoseAmongGrossOutliersFromAFarStart) {
   for (unsigned seed = 0; seed < 50; ++seed) {

@@ -41,6 +41,23 @@ TEST(UncertainPoint, HasNoTermWithoutCovarianceOrBehindTheCamera) {
   EXPECT_FALSE(term(Inverse(m.pose) * Eigen::Vector3d(0, 0, -1), m.covariance));
 }
 
+// Hardly in front of the camera, with a covariance along the ray alone: S is nearly singular. There
+// is a finite term or none, and no such match is taken for exact.
+TEST(UncertainPoint, IsFiniteOrNothingRightBeforeTheCamera) {
+  const Measured m;
+  auto match = m.Match(true);
+  for (const double z : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1}) {
+    const Eigen::Vector3d ray = Eigen::Vector3d(0.3, -0.2, 1) * z;
+    const Eigen::Vector3d in_world = Inverse(m.pose).rotation * ray;
+    match.point_in_world = Inverse(m.pose) * ray;
+    match.point_covariance = 1 / (z * z) * in_world * in_world.transpose();
+    const auto term = MakeUncertainPointTerm(
+        m.camera, m.pose, match.point_in_world, match.point_covariance, match.measurement);
+    EXPECT_EQ(term.has_value(), EvaluateMatch(m.camera, m.pose, match).has_value()) << z;
+    EXPECT_TRUE(!term || term->whitening.allFinite()) << z;
+  }
+}
+
 TEST(UncertainPoint, WithoutCovarianceAMatchIsAMeasurement) {
   const Measured m;
   auto match = m.Match(true);
@@ -86,8 +103,15 @@ TEST(UncertainPoint, DerivativesAreThoseOfTheWhitenedResidual) {
   const auto term =
       MakeUncertainPointTerm(m.camera, m.pose, m.place, match.point_covariance, match.measurement);
   ASSERT_TRUE(at && exact && term);  // with deviations of one, the exact one is in pixels
-  EXPECT_LT((at->J_pose - term->whitening * exact->J_pose).norm(), 1e-9);
-  EXPECT_LT((at->J_point - term->whitening * exact->J_point).norm(), 1e-9);
+  const auto whitened = [&](const Vector6d& step) -> Eigen::Vector3d {
+    const Rigid3 moved = RetractLeft(m.pose, step);
+    return term->whitening * EvaluatePoint(m.camera, moved, m.place, match.measurement)->r;
+  };
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d step = 1e-6 * Vector6d::Unit(i);
+    const Eigen::Vector3d slope = (whitened(step) - whitened(-step)) / 2e-6;
+    EXPECT_LT((at->J_pose.col(i) - slope).norm(), 1e-5 * at->J_pose.norm()) << i;
+  }
   // Less is known than of an exact point, in every direction.
   const Matrix6d less = exact->J_pose.transpose() * exact->J_pose -
                         at->J_pose.transpose() * at->J_pose + 1e-9 * Matrix6d::Identity();

@@ -91,7 +91,7 @@ TEST(PoseSearch, FewKnownDepthsBringInUncertainOnes) {
   scene.options.enough_inliers = 0;
   const auto few = search();
   ASSERT_TRUE(few);
-  EXPECT_LT(few->inlier_points, scene.options.enough_inliers + 60);
+  EXPECT_LT(few->inlier_points, TrackingOptions{}.enough_inliers);
 }
 
 TEST(PoseSearch, FindsNoPoseWhereNothingIsToBeSeen) {
