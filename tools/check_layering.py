@@ -20,7 +20,7 @@ LAYERS = {
     "cutting": ["base", "geometry", "optimization"],
     "features": ["base", "geometry", "image"],
     "map": ["base", "geometry", "features"],
-    "association": ["base", "geometry", "features", "optimization", "map"],
+    "association": ["base", "geometry", "features", "optimization", "cutting", "map"],
     "initialization": ["base", "geometry", "image", "features", "optimization", "map",
                        "association", "solvers"],
     "tracking": ["base", "geometry", "features", "optimization", "cutting", "map", "association",

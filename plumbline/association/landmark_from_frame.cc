@@ -6,6 +6,7 @@
 #include "plumbline/association/measurements.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/median.h"
+#include "plumbline/cutting/endpoint_covariance.h"
 #include "plumbline/features/match_lines.h"
 
 #include <cmath>
@@ -99,15 +100,11 @@ Eigen::Matrix3d PointCovarianceFromFrame(const RectifiedCamera& camera,
   const PointFeature& feature = frame.features().points[i];
   const auto& disparity = frame.features().point_disparity[i];
   PLUMBLINE_CHECK(disparity.has_value(), "a point without disparity has no place");
-  const double z = camera.DepthFromDisparity(disparity->px);
-  Eigen::Matrix3d J;  // of the place in the camera, by column, row and disparity
-  J.col(0) << z / camera.fx, 0, 0;
-  J.col(1) << 0, z / camera.fy, 0;
-  J.col(2) = -z / disparity->px * camera.Unproject(feature.px);
-  const Eigen::Vector3d sigma(feature.sigma_px, feature.sigma_px, disparity->sigma_px);
-  const Eigen::Matrix3d world_from_cam = frame.cam_from_world.rotation.inverse().toRotationMatrix();
-  const Eigen::Matrix3d root = world_from_cam * J * sigma.asDiagonal();
-  return root * root.transpose();
+  const Eigen::Vector3d in_camera =
+      camera.DepthFromDisparity(disparity->px) * camera.Unproject(feature.px);
+  const Eigen::Matrix3d R = Inverse(frame.cam_from_world).rotation.toRotationMatrix();
+  return R * CovarianceFromDisparity(camera, in_camera, feature.sigma_px, disparity->sigma_px) *
+         R.transpose();
 }
 
 std::optional<LineModel> LineFromFrame(const RectifiedCamera& camera,
