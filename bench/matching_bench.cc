@@ -156,12 +156,11 @@ void LinesByProjection(benchmark::State& state) {
 
 void StereoPoints(benchmark::State& state) {
   const Scene& scene = TheScene();
+  const ValidRegion whole(scene.camera.width, scene.camera.height);
   std::vector<std::optional<Disparity>> found;
   for (auto _ : state) {
-    found = MatchStereoPoints(scene.camera,
-                              {scene.left.points, scene.left.pyramid},
-                              {scene.right.points, scene.right.pyramid},
-                              {});
+    found = MatchStereoPoints(
+        scene.camera, scene.left.points, {scene.left.pyramid, scene.right.pyramid, whole}, {});
   }
   Report(state, scene, scene.left.points.size(), scene.right.points.size(), CountFound(found));
 }

@@ -18,6 +18,7 @@ struct SingleView {
   std::vector<LineFeature> lines;
 };
 
+// Points are sought in the left image only; the right one needs its pyramid, to be searched.
 void ExtractPoints(const GrayImage& image,
                    const ValidRegion& region,
                    const FeatureOptions& options,
@@ -25,6 +26,13 @@ void ExtractPoints(const GrayImage& image,
   if (!options.points) return;
   view.pyramid = BuildOrbPyramid(image, options.orb);
   view.points = ExtractOrb(view.pyramid, region, options.point_count, options.orb);
+}
+
+void BuildPyramidOnly(const GrayImage& image,
+                      const ValidRegion& /*region*/,
+                      const FeatureOptions& options,
+                      SingleView& view) {
+  if (options.points) view.pyramid = BuildOrbPyramid(image, options.orb);
 }
 
 void ExtractLines(const GrayImage& image,
@@ -38,28 +46,34 @@ void ExtractLines(const GrayImage& image,
   DescribeLines(gradient, &view.lines);
 }
 
-// The left view and, for stereo, the right one.
+// The left view and, for stereo, the right one, whose points are not wanted.
 std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureOptions& options) {
   std::array<SingleView, 2> views;
   const ValidRegion whole(input.left->width(), input.left->height());
-  // Points and lines of each image by turns: two threads share them evenly.
+  const std::array tasks{ExtractPoints, ExtractLines, BuildPyramidOnly, ExtractLines};
   ParallelFor(input.right ? 4 : 2, options.parallel ? 2 : 1, [&](int task) {
     const bool left = task < 2;
     const GrayImage& image = left ? *input.left : *input.right;
     const ValidRegion* valid = left ? input.left_valid : input.right_valid;
-    const auto extract = task % 2 == 0 ? ExtractPoints : ExtractLines;
-    extract(image, valid ? *valid : whole, options, views[left ? 0 : 1]);
+    tasks[static_cast<std::size_t>(task)](
+        image, valid ? *valid : whole, options, views[left ? 0 : 1]);
   });
   return views;
 }
 
 void MatchRight(const RectifiedCamera& camera,
-                const SingleView& left,
-                const SingleView& right,
+                const FeatureInput& input,
+                const std::array<SingleView, 2>& views,
                 const FeatureOptions& options,
                 Features* features) {
+  const auto& [left, right] = views;
+  const ValidRegion whole(camera.width, camera.height);
   features->point_disparity = MatchStereoPoints(
-      camera, {left.points, left.pyramid}, {right.points, right.pyramid}, options.stereo_points);
+      camera,
+      left.points,
+      {left.pyramid, right.pyramid, input.right_valid ? *input.right_valid : whole},
+      options.stereo_points,
+      options.parallel ? 2 : 1);
   features->line_right = MatchStereoLines(camera, left.lines, right.lines, options.stereo_lines);
 }
 
@@ -82,7 +96,7 @@ Features ExtractFeatures(const RectifiedCamera& camera,
   SingleView& left = views[0];
   Features features;
   if (input.right) {
-    MatchRight(camera, left, views[1], options, &features);
+    MatchRight(camera, input, views, options, &features);
   } else if (input.depth) {
     features.point_disparity = PointDisparities(camera, *input.depth, left.points, options.depth);
     features.line_right = VirtualRightLines(camera, *input.depth, left.lines, options.depth);

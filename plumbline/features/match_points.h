@@ -4,6 +4,7 @@
 
 #include "plumbline/base/options.h"
 #include "plumbline/features/types.h"
+#include "plumbline/features/valid_region.h"
 #include "plumbline/image/image.h"
 #include "plumbline/image/pyramid.h"
 
@@ -34,12 +35,9 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
                                     const PointMatchOptions& options);
 
 struct StereoPointOptions {
-  int max_distance = 75;
-  double ratio = 0.9;          // best / second best that is somewhere else; 1: no test
-  double row_band_px = 2;      // allowed row difference, times the scale of the octave
+  double ratio = 0.9;  // best sum of differences / second best elsewhere in the row must be below
   double min_depth_m = 0.25;   // gives the largest disparity
   int window_px = 5;           // half width of the correlation window, finest level
-  int search_px = 5;           // half width of the correlation search, pixels of the level
   double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
   double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
   // Of every disparity, from the pair's calibration, relative to the width of the image: errors of
@@ -47,36 +45,41 @@ struct StereoPointOptions {
   double calibration_sigma = 8e-4;
 };
 
-struct StereoView {
-  const std::vector<PointFeature>& points;
-  const ImagePyramid& pyramid;
+// Both images of a rectified pair, levels of the same sizes, and where the right one is real.
+struct StereoPyramids {
+  const ImagePyramid& left;
+  const ImagePyramid& right;
+  const ValidRegion& right_valid;
 };
 
-// Disparity of each left point of a rectified pair, nullopt where no right point matches.
+// Disparity of each point of the left image of a rectified pair, nullopt where the right image does
+// not show it for certain.
 //
-// Candidates share the row band and the octave +-1; the best by descriptor is refined by
-// correlation on the level image and a Gauss-Newton step for the sub-pixel shift, with the mean
-// brightness of the window free. Its pixels weigh the less the further they are from the corner,
-// and windows of coarse levels are smaller, against errors at depth edges. sigma_px comes from the
-// curvature and the residual of that correlation. Matches whose residual is far above the median
-// are dropped, and a right point that would serve twice keeps the closer one. Disparities are 0 < d
-// <= fx * baseline / min_depth.
+// Searched along the whole row of the right image, on the level where the point was found
+// (RowSearch): a corner need not be found as a corner in both images, which only every second one
+// is. Refined by a Gauss-Newton step for the sub-pixel shift, with the mean brightness of the
+// window free. Its pixels weigh the less the further they are from the corner, and windows of
+// coarse levels are smaller, against errors at depth edges. sigma_px comes from the curvature and
+// the residual of that correlation. Matches whose residual is far above the median are dropped.
+// Disparities are 0 < d <= fx * baseline / min_depth. Up to `threads` threads share the levels;
+// same result with any number.
 std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
-                                                        const StereoView& left,
-                                                        const StereoView& right,
-                                                        const StereoPointOptions& options);
+                                                        const std::vector<PointFeature>& points,
+                                                        const StereoPyramids& pyramids,
+                                                        const StereoPointOptions& options,
+                                                        int threads = 1);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoPointOptions& o) {
-  visit("max_distance", o.max_distance, "largest Hamming distance of a match", Range{0, 256});
-  visit("ratio", o.ratio, "largest ratio of best to second best distance", Range{0.1, 1});
-  visit("row_band_px", o.row_band_px, "allowed row difference at octave 0 [px]", Range{0.5, 20});
+  visit("ratio",
+        o.ratio,
+        "largest ratio of best to second best sum of differences in the row",
+        Range{0.1, 1});
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
   visit("window_px",
         o.window_px,
         "half width of the correlation window of the finest level [px]",
         Range{2, 15});
-  visit("search_px", o.search_px, "half width of the correlation search [px]", Range{1, 20});
   visit("max_sad_factor",
         o.max_sad_factor,
         "residual limit as a multiple of the median",

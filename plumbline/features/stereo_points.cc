@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/median.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/features/match_points.h"
+#include "plumbline/features/row_search.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <span>
 
@@ -17,86 +18,6 @@ namespace {
 constexpr int kMaxWindow = 15;
 constexpr std::size_t kMaxPatch =
     static_cast<std::size_t>((2 * kMaxWindow + 1) * (2 * kMaxWindow + 1));
-
-// Right points ordered by row, to find those of a band of rows.
-class RowIndex {
- public:
-  explicit RowIndex(const std::vector<PointFeature>& points)
-      : points_(points), order_(points.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return Row(a) < Row(b); });
-  }
-
-  // Calls visit(index) for the points with |y - row| <= band.
-  template <class Visit>
-  void ForEach(double row, double band, Visit visit) const {
-    auto it = std::lower_bound(
-        order_.begin(), order_.end(), row - band, [&](int i, double y) { return Row(i) < y; });
-    for (; it != order_.end() && Row(*it) <= row + band; ++it) visit(*it);
-  }
-
- private:
-  double Row(int i) const { return points_[static_cast<std::size_t>(i)].px.y(); }
-
-  const std::vector<PointFeature>& points_;
-  std::vector<int> order_;
-};
-
-struct Candidate {
-  int index = -1;
-  int distance = 257;
-};
-
-// May these two show one point? Rows, octaves, disparity.
-struct StereoGate {
-  const ImagePyramid& pyramid;
-  double max_disparity = 0;
-  double row_band = 0;
-
-  double Scale(const PointFeature& point) const {
-    return pyramid[static_cast<std::size_t>(point.octave)].scale.maxCoeff();
-  }
-
-  bool operator()(const PointFeature& left, const PointFeature& right) const {
-    const double disparity = left.px.x() - right.px.x();
-    const double scale = std::max(Scale(left), Scale(right));
-    return std::abs(left.octave - right.octave) <= 1 && disparity >= -scale &&
-           disparity <= max_disparity + scale &&
-           std::abs(left.px.y() - right.px.y()) <= row_band * scale;
-  }
-};
-
-// Best right point for a left one, unless another one elsewhere is about as good.
-Candidate BestRight(const PointFeature& left,
-                    const std::vector<PointFeature>& right,
-                    const RowIndex& rows,
-                    const StereoGate& gate,
-                    const StereoPointOptions& options) {
-  constexpr double kSamePlacePx = 4;
-  constexpr double kMaxScaleRatio = 2;  // of neighbouring octaves
-  Candidate best;
-  std::vector<Candidate> all;
-  const double scale = gate.Scale(left);
-  const double band = gate.row_band * kMaxScaleRatio * scale;
-  rows.ForEach(left.px.y(), band, [&](int i) {
-    const PointFeature& candidate = right[static_cast<std::size_t>(i)];
-    if (!gate(left, candidate)) return;
-    const int distance = HammingDistance(left.descriptor, candidate.descriptor);
-    all.push_back({i, distance});
-    if (distance < best.distance || (distance == best.distance && i < best.index)) {
-      best = {i, distance};
-    }
-  });
-  if (best.index < 0 || best.distance > options.max_distance) return {};
-  const double place = right[static_cast<std::size_t>(best.index)].px.x();
-  for (const Candidate& c : all) {
-    const double apart = std::abs(right[static_cast<std::size_t>(c.index)].px.x() - place);
-    if (apart > kSamePlacePx * scale && best.distance > options.ratio * c.distance) {
-      return {};
-    }
-  }
-  return best;
-}
 
 // A square of grey levels with its mean taken off.
 struct Patch {
@@ -120,15 +41,6 @@ bool ReadPatch(const GrayImage& image, int x, int y, int half, Patch* patch) {
   for (int i = 0; i < side * side; ++i) patch->value[static_cast<std::size_t>(i)] -= mean;
   patch->half = half;
   return true;
-}
-
-float SumOfDifferences(const Patch& a, const Patch& b) {
-  const int count = (2 * a.half + 1) * (2 * a.half + 1);
-  float sum = 0;
-  for (int i = 0; i < count; ++i) {
-    sum += std::abs(a.value[static_cast<std::size_t>(i)] - b.value[static_cast<std::size_t>(i)]);
-  }
-  return sum;
 }
 
 struct Correlation {
@@ -240,110 +152,101 @@ std::optional<Correlation> RefineShift(
                      step->absolute / total};
 }
 
-// Whole-pixel search along the row, then sub-pixel. nullopt at the end of the search range.
-std::optional<Correlation> Correlate(const GrayImage& left,
-                                     const Eigen::Vector2i& at,
-                                     const GrayImage& right,
-                                     int right_x,
-                                     const CorrelationWindow& window,
-                                     int search_px) {
-  Patch reference;
-  if (!ReadPatch(left, at.x(), at.y(), window.half(), &reference)) return std::nullopt;
-  int best_shift = 0;
-  float best = 0;
-  bool found = false;
-  Patch other;
-  for (int shift = -search_px; shift <= search_px; ++shift) {
-    if (!ReadPatch(right, right_x + shift, at.y(), window.half(), &other)) continue;
-    const float sum = SumOfDifferences(reference, other);
-    if (found && sum >= best) continue;
-    best = sum;
-    best_shift = shift;
-    found = true;
-  }
-  if (!found || std::abs(best_shift) == search_px) return std::nullopt;
-  return RefineShift(reference, window, right, right_x + best_shift, at.y());
-}
+struct Found {
+  Disparity disparity;
+  double residual = 0;  // grey levels
+};
 
-// Index of the left point that each right point likes best, -1: none.
-std::vector<int> BestLeft(const std::vector<PointFeature>& left,
-                          const std::vector<Candidate>& candidates,
-                          std::size_t right_count) {
-  std::vector<int> best(right_count, -1);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const Candidate& c = candidates[i];
-    if (c.index < 0) continue;
-    int& holder = best[static_cast<std::size_t>(c.index)];
-    if (holder < 0 || c.distance < candidates[static_cast<std::size_t>(holder)].distance) {
-      holder = static_cast<int>(i);
-    }
-  }
-  return best;
-}
+// Points of one octave: what they share, and the search for each.
+class OctaveMatcher {
+ public:
+  OctaveMatcher(const RectifiedCamera& camera,
+                const PyramidLevel& left,
+                const PyramidLevel& right,
+                const ValidRegion& right_valid,
+                const StereoPointOptions& options)
+      : left_(left),
+        right_(right),
+        right_valid_(right_valid),
+        options_(options),
+        window_(options.window_px, left.scale.maxCoeff()),
+        search_(left.image, right.image),
+        max_disparity_(camera.DisparityFromDepth(options.min_depth_m)),
+        calibration_sigma_px_(options.calibration_sigma * camera.width) {}
 
-void DropPoorResiduals(const std::vector<double>& residuals,
-                       double factor,
-                       std::vector<std::optional<Disparity>>* disparities) {
+  std::optional<Found> Match(const PointFeature& point) {
+    const double scale = left_.scale.x();
+    const Eigen::Vector2i at = left_.FromFull(point.px).array().round().cast<int>();
+    const auto range =
+        static_cast<int>(std::ceil(std::min<double>(max_disparity_ / scale, at.x())));
+    const std::optional<int> x = search_.Find(at, range, options_.ratio);
+    if (!x || !IsReal({*x, at.y()})) return std::nullopt;
+    Patch patch;
+    if (!ReadPatch(left_.image, at.x(), at.y(), window_.half(), &patch)) return std::nullopt;
+    const std::optional<Correlation> found = RefineShift(patch, window_, right_.image, *x, at.y());
+    if (!found) return std::nullopt;
+    const double disparity = (at.x() - found->x) * scale;
+    if (disparity <= 0 || disparity > max_disparity_) return std::nullopt;
+    const double sigma =
+        std::hypot(std::max(options_.min_sigma_px, found->sigma) * scale, calibration_sigma_px_);
+    return Found{{disparity, sigma}, found->residual};
+  }
+
+ private:
+  // Does the window around a place of the right level show what the camera saw?
+  bool IsReal(const Eigen::Vector2i& at) const {
+    return right_valid_.Contains(right_.ToFull(at.cast<double>()),
+                                 (window_.half() + 1) * right_.scale.maxCoeff());
+  }
+
+  const PyramidLevel& left_;
+  const PyramidLevel& right_;
+  const ValidRegion& right_valid_;
+  const StereoPointOptions& options_;
+  CorrelationWindow window_;
+  RowSearch search_;
+  double max_disparity_;
+  double calibration_sigma_px_;
+};
+
+void DropPoorResiduals(double factor, std::vector<std::optional<Found>>* matches) {
   constexpr double kAlwaysGood = 3;  // grey levels
-  std::vector<double> found;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if ((*disparities)[i]) found.push_back(residuals[i]);
+  std::vector<double> residuals;
+  for (const std::optional<Found>& match : *matches) {
+    if (match) residuals.push_back(match->residual);
   }
-  if (found.empty()) return;
-  const double limit = std::max(kAlwaysGood, factor * UpperMedian(std::span<double>(found)));
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (residuals[i] > limit) (*disparities)[i].reset();
+  if (residuals.empty()) return;
+  const double limit = std::max(kAlwaysGood, factor * UpperMedian(std::span<double>(residuals)));
+  for (std::optional<Found>& match : *matches) {
+    if (match && match->residual > limit) match.reset();
   }
 }
 
 }  // namespace
 
 std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
-                                                        const StereoView& left,
-                                                        const StereoView& right,
-                                                        const StereoPointOptions& options) {
+                                                        const std::vector<PointFeature>& points,
+                                                        const StereoPyramids& pyramids,
+                                                        const StereoPointOptions& options,
+                                                        int threads) {
+  const ImagePyramid& left = pyramids.left;
+  const ImagePyramid& right = pyramids.right;
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
-  PLUMBLINE_CHECK(left.pyramid.size() == right.pyramid.size(), "pyramids of one kind");
+  PLUMBLINE_CHECK(left.size() == right.size(), "pyramids of one kind");
   PLUMBLINE_CHECK(options.window_px <= kMaxWindow, "size of the correlation window");
-  const StereoGate gate{
-      left.pyramid, camera.DisparityFromDepth(options.min_depth_m), options.row_band_px};
-  const double calibration_sigma_px = options.calibration_sigma * camera.width;
-  std::vector<CorrelationWindow> windows;
-  for (const PyramidLevel& level : left.pyramid) {
-    windows.emplace_back(options.window_px, level.scale.maxCoeff());
+  std::vector<std::optional<Found>> matches(points.size());
+  ParallelFor(static_cast<int>(left.size()), threads, [&](int octave) {
+    const auto level = static_cast<std::size_t>(octave);
+    OctaveMatcher matcher(camera, left[level], right[level], pyramids.right_valid, options);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].octave == octave) matches[i] = matcher.Match(points[i]);
+    }
+  });
+  DropPoorResiduals(options.max_sad_factor, &matches);
+  std::vector<std::optional<Disparity>> result(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (matches[i]) result[i] = matches[i]->disparity;
   }
-  const RowIndex rows(right.points);
-  std::vector<Candidate> candidates(left.points.size());
-  for (std::size_t i = 0; i < left.points.size(); ++i) {
-    candidates[i] = BestRight(left.points[i], right.points, rows, gate, options);
-  }
-  const std::vector<int> best_left = BestLeft(left.points, candidates, right.points.size());
-  std::vector<std::optional<Disparity>> result(left.points.size());
-  std::vector<double> residuals(left.points.size(), 0);
-  for (std::size_t i = 0; i < left.points.size(); ++i) {
-    if (candidates[i].index < 0) continue;
-    const auto j = static_cast<std::size_t>(candidates[i].index);
-    const auto octave = static_cast<std::size_t>(left.points[i].octave);
-    if (best_left[j] != static_cast<int>(i)) continue;
-    const PyramidLevel& level = left.pyramid[octave];
-    const PyramidLevel& other = right.pyramid[octave];
-    const Eigen::Vector2i at = level.FromFull(left.points[i].px).array().round().cast<int>();
-    const double start = other.FromFull(right.points[j].px).x();
-    const std::optional<Correlation> found = Correlate(level.image,
-                                                       at,
-                                                       other.image,
-                                                       static_cast<int>(std::lround(start)),
-                                                       windows[octave],
-                                                       options.search_px);
-    if (!found) continue;
-    const double disparity = (at.x() - found->x) * level.scale.x();
-    if (disparity <= 0 || disparity > gate.max_disparity) continue;
-    const double sigma = std::hypot(std::max(options.min_sigma_px, found->sigma) * level.scale.x(),
-                                    calibration_sigma_px);
-    result[i] = Disparity{disparity, sigma};
-    residuals[i] = found->residual;
-  }
-  DropPoorResiduals(residuals, options.max_sad_factor, &result);
   return result;
 }
 

@@ -29,8 +29,8 @@ std::vector<std::optional<Disparity>> Match(const Side& left,
                                             const Side& right,
                                             const StereoPointOptions& options = {}) {
   return MatchStereoPoints(TestCamera(kWidth, kHeight),
-                           {left.points, left.pyramid},
-                           {right.points, right.pyramid},
+                           left.points,
+                           {left.pyramid, right.pyramid, ValidRegion(kWidth, kHeight)},
                            options);
 }
 

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/row_search.h"
+
+#include "plumbline/base/error.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace plumbline {
+namespace {
+
+// Sixteen bytes are one instruction's worth.
+constexpr int kWindowWidth = 16;
+constexpr int kBefore = kWindowWidth / 2;  // pixels of a window left of its place
+constexpr int kHalfHeight = 5;
+constexpr int kNone = 128;  // no slope
+
+// Derivative along the row, smoothed over three rows (Sobel), 128 where there is none.
+GrayImage Slopes(const GrayImage& image) {
+  GrayImage slopes(image.width(), image.height(), kNone);
+  for (int y = 1; y + 1 < image.height(); ++y) {
+    const std::uint8_t* above = image.row(y - 1);
+    const std::uint8_t* here = image.row(y);
+    const std::uint8_t* below = image.row(y + 1);
+    std::uint8_t* out = slopes.row(y);
+    for (int x = 1; x + 1 < image.width(); ++x) {
+      const int slope = above[x + 1] - above[x - 1] + 2 * (here[x + 1] - here[x - 1]) +
+                        below[x + 1] - below[x - 1];
+      out[x] = static_cast<std::uint8_t>(std::clamp(kNone + slope / 2, 0, 255));
+    }
+  }
+  return slopes;
+}
+
+int SumOfDifferences(const GrayImage& a, const GrayImage& b, int ax, int bx, int y) {
+  int sum = 0;
+  for (int dy = -kHalfHeight; dy <= kHalfHeight; ++dy) {
+    const std::uint8_t* row_a = a.row(y + dy) + ax - kBefore;
+    const std::uint8_t* row_b = b.row(y + dy) + bx - kBefore;
+    for (int i = 0; i < kWindowWidth; ++i) sum += std::abs(row_a[i] - row_b[i]);
+  }
+  return sum;
+}
+
+// The sum of differences from a window without any slope.
+int SumOfSlopes(const GrayImage& slopes, const Eigen::Vector2i& at) {
+  int sum = 0;
+  for (int dy = -kHalfHeight; dy <= kHalfHeight; ++dy) {
+    const std::uint8_t* row = slopes.row(at.y() + dy) + at.x() - kBefore;
+    for (int i = 0; i < kWindowWidth; ++i) sum += std::abs(row[i] - kNone);
+  }
+  return sum;
+}
+
+}  // namespace
+
+RowSearch::RowSearch(const GrayImage& left, const GrayImage& right)
+    : left_(Slopes(left)), right_(Slopes(right)) {
+  PLUMBLINE_CHECK(left.width() == right.width() && left.height() == right.height(),
+                  "images of one size");
+}
+
+std::optional<int> RowSearch::Find(const Eigen::Vector2i& left, int max_disparity, double ratio) {
+  const int y = left.y();
+  const std::optional<int> x =
+      Best(left_, left, right_, {left.x() - max_disparity, left.x() + 1}, ratio);
+  if (!x) return std::nullopt;
+  const std::optional<int> back = Best(right_, {*x, y}, left_, {*x - 1, *x + max_disparity}, ratio);
+  if (!back || std::abs(*back - left.x()) > 1) return std::nullopt;
+  return x;
+}
+
+std::optional<int> RowSearch::Best(const GrayImage& from,
+                                   const Eigen::Vector2i& at,
+                                   const GrayImage& to,
+                                   Range range,
+                                   double ratio) {
+  constexpr int kSamePlace = 2;
+  const auto fits = [&](int x) { return x >= kBefore && x + kWindowWidth - kBefore <= to.width(); };
+  if (at.y() < kHalfHeight || at.y() + kHalfHeight >= to.height() || !fits(at.x())) {
+    return std::nullopt;
+  }
+  const int first = std::max(range.first, kBefore);
+  const int last = std::min(range.last, to.width() - (kWindowWidth - kBefore));
+  if (first > last) return std::nullopt;
+  sums_.resize(static_cast<std::size_t>(last - first + 1));
+  for (int x = first; x <= last; ++x) {
+    sums_[static_cast<std::size_t>(x - first)] = SumOfDifferences(from, to, at.x(), x, at.y());
+  }
+  const auto least = std::min_element(sums_.begin(), sums_.end());
+  const auto best = static_cast<int>(least - sums_.begin());
+  int second = SumOfSlopes(from, at);
+  for (int k = 0; k < static_cast<int>(sums_.size()); ++k) {
+    if (std::abs(k - best) > kSamePlace) {
+      second = std::min(second, sums_[static_cast<std::size_t>(k)]);
+    }
+  }
+  if (*least >= ratio * second) return std::nullopt;
+  return first + best;
+}
+
+}  // namespace plumbline

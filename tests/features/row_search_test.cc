@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/row_search.h"
+
+#include "tests/features/render.h"
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 120;
+constexpr double kRatio = 0.9;
+
+// What a right camera sees whose image is moved by `shift` and darker.
+GrayImage Shifted(const SquareTexture& texture, double shift) {
+  return Render(kWidth, kHeight, [&](const Eigen::Vector2d& p) {
+    return 0.9 * texture(p + Eigen::Vector2d(shift, 0)) - 10;
+  });
+}
+
+// Every seventh pixel that has room for the window and the shift.
+template <class Visit>
+void ForPixels(Visit visit) {
+  for (int y = 10; y < kHeight - 10; y += 7) {
+    for (int x = 60; x < kWidth - 20; x += 7) visit(Eigen::Vector2i(x, y));
+  }
+}
+
+TEST(RowSearch, FindsAKnownShiftInADarkerImage) {
+  const SquareTexture texture(400, kWidth, kHeight);
+  RowSearch search(Shifted(texture, 0), Shifted(texture, 21));
+  int right = 0;
+  int wrong = 0;
+  int all = 0;
+  ForPixels([&](const Eigen::Vector2i& at) {
+    const std::optional<int> x = search.Find(at, 40, kRatio);
+    ++all;
+    if (x) ++(*x == at.x() - 21 ? right : wrong);
+  });
+  EXPECT_GT(right, 0.8 * all);
+  EXPECT_LT(wrong, 0.01 * all);
+}
+
+TEST(RowSearch, FindsNothingOnAPatternThatRepeats) {
+  const auto stripes = [](const Eigen::Vector2d& p) {
+    return 128 + 60 * std::sin(p.x() * std::numbers::pi / 4) + 30 * std::sin(p.y() * 0.3);
+  };
+  const GrayImage image = Render(kWidth, kHeight, stripes);
+  RowSearch search(image, image);
+  ForPixels([&](const Eigen::Vector2i& at) { EXPECT_FALSE(search.Find(at, 40, kRatio)); });
+}
+
+TEST(RowSearch, FindsNothingWhereTheRightImageShowsSomethingElse) {
+  const SquareTexture texture(400, kWidth, kHeight);
+  const GrayImage left = Shifted(texture, 0);
+  RowSearch flat(left, GrayImage(kWidth, kHeight, 90));
+  RowSearch out_of_range(left, Shifted(texture, 55));
+  int found = 0;
+  int all = 0;
+  ForPixels([&](const Eigen::Vector2i& at) {
+    EXPECT_FALSE(flat.Find(at, 40, kRatio));
+    found += out_of_range.Find(at, 40, kRatio) ? 1 : 0;
+    ++all;
+  });
+  EXPECT_LT(found, 0.1 * all);
+}
+
+TEST(RowSearch, StaysInsideTheImages) {
+  const SquareTexture texture(400, kWidth, kHeight);
+  RowSearch search(Shifted(texture, 0), Shifted(texture, 3));
+  for (int y = 0; y < kHeight; ++y) {
+    for (const int x : {0, 7, 8, 12, kWidth - 9, kWidth - 8, kWidth - 1}) {
+      const std::optional<int> found = search.Find({x, y}, 1000, kRatio);
+      if (!found) continue;
+      EXPECT_GE(y, 5);
+      EXPECT_GE(*found, 8);
+      EXPECT_LE(*found, kWidth - 8);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
