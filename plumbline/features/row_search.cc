@@ -3,9 +3,12 @@
 #include "plumbline/features/row_search.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
 #include <cstdlib>
+
+#include <opencv2/imgproc.hpp>
 
 namespace plumbline {
 namespace {
@@ -16,21 +19,14 @@ constexpr int kBefore = kWindowWidth / 2;  // pixels of a window left of its pla
 constexpr int kHalfHeight = 5;
 constexpr int kNone = 128;  // no slope
 
-// Derivative along the row, smoothed over three rows (Sobel), 128 where there is none.
+// Derivative along the row, smoothed over three rows (Sobel), halved, kNone where there is none.
 GrayImage Slopes(const GrayImage& image) {
-  GrayImage slopes(image.width(), image.height(), kNone);
-  for (int y = 1; y + 1 < image.height(); ++y) {
-    const std::uint8_t* above = image.row(y - 1);
-    const std::uint8_t* here = image.row(y);
-    const std::uint8_t* below = image.row(y + 1);
-    std::uint8_t* out = slopes.row(y);
-    for (int x = 1; x + 1 < image.width(); ++x) {
-      const int slope = above[x + 1] - above[x - 1] + 2 * (here[x + 1] - here[x - 1]) +
-                        below[x + 1] - below[x - 1];
-      out[x] = static_cast<std::uint8_t>(std::clamp(kNone + slope / 2, 0, 255));
-    }
-  }
-  return slopes;
+  cv::Mat slopes;
+  cv::Sobel(AsMat(image), slopes, CV_16S, 1, 0);
+  GrayImage result(image.width(), image.height());
+  cv::Mat target = AsMat(result);
+  slopes.convertTo(target, CV_8U, 0.5, kNone);
+  return result;
 }
 
 int SumOfDifferences(const GrayImage& a, const GrayImage& b, int ax, int bx, int y) {
