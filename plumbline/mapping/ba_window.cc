@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
+#include <set>
 
 namespace plumbline {
 namespace {
@@ -37,6 +38,7 @@ class WindowBuilder {
     ChooseFree();
     ChooseLandmarks();
     ChooseFixed();
+    AddPoses();
     for (const MapPoint* point : points_) builder_.AddPoint(*point);
     for (const MapLine* line : lines_) AddLine(*line);
     AddParallelLines();
@@ -46,22 +48,19 @@ class WindowBuilder {
 
  private:
   void ChooseFree() {
-    const KeyFrameId origin = map_.keyframes().begin()->first;
-    std::vector<KeyFrameId> free{centre_};
+    free_ = {centre_};
     for (const auto& neighbour : Covisible(map_, centre_, options_.min_shared)) {
-      if (static_cast<int>(free.size()) >= options_.free_keyframes) break;
-      free.push_back(neighbour.id);
+      if (static_cast<int>(free_.size()) >= options_.free_keyframes) break;
+      free_.insert(neighbour.id);
     }
-    std::sort(free.begin(), free.end());
-    for (const KeyFrameId id : free) builder_.AddPose(id, id == origin);
   }
 
   // The landmarks with at least two views that the keyframes of the window show, by id.
   template <class Landmark, class LandmarkId>
   std::vector<const Landmark*> Shown(std::vector<LandmarkId> Frame::*matches) const {
     std::vector<LandmarkId> ids;
-    for (const Frame* frame : builder_.frames()) {
-      for (const LandmarkId id : frame->*matches) {
+    for (const KeyFrameId keyframe : free_) {
+      for (const LandmarkId id : map_.Find(keyframe)->frame.*matches) {
         if (id.valid()) ids.push_back(id);
       }
     }
@@ -84,12 +83,20 @@ class WindowBuilder {
     SharedCounts shared(map_);
     for (const MapPoint* point : points_) shared.Add(point->observations);
     for (const MapLine* line : lines_) shared.Add(line->observations);
-    for (const KeyFrameId id : window_.keyframes) shared.Leave(id);
+    for (const KeyFrameId id : free_) shared.Leave(id);
     std::vector<CovisibleKeyFrame> others = shared.Rank(1);
     if (static_cast<int>(others.size()) > options_.fixed_keyframes) {
       others.resize(static_cast<std::size_t>(options_.fixed_keyframes));
     }
-    for (const auto& other : others) builder_.AddPose(other.id, true);
+    for (const auto& other : others) fixed_.insert(other.id);
+  }
+
+  // Ordered by time: HoldTornPoses looks at those that follow each other.
+  void AddPoses() {
+    const KeyFrameId origin = map_.keyframes().begin()->first;
+    std::set<KeyFrameId> all = free_;
+    all.insert(fixed_.begin(), fixed_.end());
+    for (const KeyFrameId id : all) builder_.AddPose(id, id == origin || fixed_.contains(id));
     HoldGauge();
   }
 
@@ -182,7 +189,9 @@ class WindowBuilder {
   const BaWindowOptions& options_;
   KeyFrameId centre_;
   BaWindow window_;
-  MapProblemBuilder builder_;            // of window_
+  MapProblemBuilder builder_;  // of window_
+  std::set<KeyFrameId> free_;
+  std::set<KeyFrameId> fixed_;
   std::vector<const MapPoint*> points_;  // candidates
   std::vector<const MapLine*> lines_;
 };

@@ -4,7 +4,6 @@
 
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
-#include "plumbline/optimization/pose_sigma.h"
 
 #include <cstddef>
 #include <limits>
@@ -78,24 +77,6 @@ void KeepScale(const BaProblem& problem, BaResult& result) {
   for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
-// Solves until no two keyframes that follow each other are torn apart; nullopt where it comes to no
-// end of that, or the numbers are not finite. Poses that are held are free in `whole`: a new scale
-// is for all.
-std::optional<BaResult> SolveInOnePiece(const BaProblem& whole,
-                                        const LineOptions& lines,
-                                        const MappingOptions& options) {
-  constexpr int kAttempts = 4;
-  BaProblem problem = whole;
-  const double limit = options.window.max_pose_sigma;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    BaResult result = SolveWithLoosePosesHeld(problem, options.ba, lines.parametrization, limit);
-    if (result.termination == BaTermination::kNotFinite) return std::nullopt;
-    KeepScale(whole, result);
-    if (!HoldTornPoses(result, limit, problem)) return result;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 MapEdit AdjustWholeMap(const Map& map,
@@ -110,7 +91,14 @@ MapEdit AdjustWholeMap(const Map& map,
   }
   const MapProblem whole =
       MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
-  const std::optional<BaResult> result = SolveInOnePiece(whole.problem, lines, options);
+  BaProblem problem = whole.problem;
+  // Poses that are held are free in `whole`: a new scale is for all.
+  const std::optional<BaResult> result =
+      SolveInOnePiece(problem,
+                      options.ba,
+                      lines.parametrization,
+                      options.window.final_limits(),
+                      [&](BaResult& solution) { KeepScale(whole.problem, solution); });
   if (!result) return {};
   MapEdit edit = PosesAndPointsOf(whole, *result);
   MoveLines(map, PosesByKeyFrame(whole, *result), edit);

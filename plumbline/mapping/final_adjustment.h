@@ -16,9 +16,8 @@ namespace plumbline {
 // residual of eq. 13 here, whatever lines.residual says, and are not held parallel. The first
 // keyframe stays where it is, and so do those that the points and well seen lines do not fix to
 // mapping.window.max_pose_sigma, and both of two that follow each other and would be moved against
-// one another by more than that (HoldTornPoses; all is solved anew then, up to four times); with a
-// single camera the length of the path as long as it is; line landmarks move with a keyframe that
-// shows them.
+// one another by more than that (SolveInOnePiece); with a single camera the length of the path is
+// kept; line landmarks move with a keyframe that shows them.
 //
 // Nothing for a map of less than three keyframes, or more than
 // mapping.final_adjustment_keyframes, or one that is torn whatever is held. Cost:

@@ -7,7 +7,6 @@
 #include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/mapping/landmark_creation.h"
-#include "plumbline/optimization/pose_sigma.h"
 
 #include <algorithm>
 #include <chrono>
@@ -152,12 +151,12 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
 void LocalMapper::Adjust(Map& map, KeyFrameId id) {
   BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
   BaProblem& problem = window.problem;
-  const BaResult result = SolveWithLoosePosesHeld(
-      problem, options_.ba, lines_.parametrization, options_.window.max_pose_sigma);
+  const std::optional<BaResult> result =
+      SolveInOnePiece(problem, options_.ba, lines_.parametrization, options_.window.local_limits());
+  if (!result) return;
   adjusted_lines_.count += problem.lines.size();
-  adjusted_lines_.bytes += result.line_bytes;
-  if (result.termination == BaTermination::kNotFinite) return;
-  map.Apply(ToEdit(map, imaging_, window, result));
+  adjusted_lines_.bytes += result->line_bytes;
+  map.Apply(ToEdit(map, imaging_, window, *result));
 }
 
 // The keyframe kDelay ago is one that others after it have shown the landmarks of.

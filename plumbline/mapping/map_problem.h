@@ -42,7 +42,6 @@ class MapProblemBuilder {
                     MapProblem& out);
 
   void AddPose(KeyFrameId id, bool fixed);
-  const std::vector<const Frame*>& frames() const { return frames_; }  // by pose index
 
   // Of a landmark, ordered by keyframe. Valid until the next call.
   const std::vector<View>& ViewsOf(const Observations& observations);

@@ -6,6 +6,7 @@
 #include "plumbline/base/options.h"
 #include "plumbline/mapping/line_map_options.h"
 #include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/pose_sigma.h"
 
 namespace plumbline {
 
@@ -88,7 +89,11 @@ struct BaWindowOptions {
   double min_line_plane_angle_deg = 10;  // between views, for a line to take part ...
   double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
   double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma, HoldTornPoses)
+  double max_correction = 0.03;           // of it against the one before, in local adjustment
   bool parallel_lines = true;             // lines keep to directions that many of the map share
+
+  PoseLimits local_limits() const { return {.sigma = max_pose_sigma, .change = max_correction}; }
+  PoseLimits final_limits() const { return {.sigma = max_pose_sigma, .change = max_pose_sigma}; }
 };
 
 template <class Visitor>
@@ -111,6 +116,11 @@ void VisitFields(Visitor&& visit, BaWindowOptions& o) {
       "translation relative to their depth; when the run ends, two that follow each other may not "
       "be moved against one another by more",
       Range{1e-6, 10});
+  visit("max_correction",
+        o.max_correction,
+        "of a keyframe against the one before it, in local adjustment: rotation [rad] and "
+        "translation relative to the depth of its landmarks",
+        Range{1e-6, 10});
   visit("parallel_lines",
         o.parallel_lines,
         "lines that are parallel to many others of the map by chi2 are held so (not with "

@@ -97,12 +97,12 @@ bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
   return any;
 }
 
-bool HoldTornPoses(const BaResult& solution, double limit, BaProblem& problem) {
+bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem) {
   const std::vector<PoseSigma> sigmas = SigmasOfPoses(problem, solution);
   bool any = false;
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    if (!sigmas[i].AtMost(limit)) continue;
+    if (!sigmas[i].AtMost(limits.sigma)) continue;
     const std::optional<std::size_t> before = std::exchange(last, i);
     if (!before) continue;
     auto& a = problem.poses[*before];
@@ -110,8 +110,8 @@ bool HoldTornPoses(const BaResult& solution, double limit, BaProblem& problem) {
     if (a.fixed && b.fixed) continue;
     const Rigid3 motion = solution.poses[i] * Inverse(solution.poses[*before]);
     const Vector6d change = LogSe3(motion * Inverse(b.cam_from_world * Inverse(a.cam_from_world)));
-    if (change.head<3>().norm() <= limit &&
-        change.tail<3>().norm() <= limit * sigmas[i].scene_depth) {
+    if (change.head<3>().norm() <= limits.change &&
+        change.tail<3>().norm() <= limits.change * sigmas[i].scene_depth) {
       continue;
     }
     a.fixed = b.fixed = true;
@@ -130,6 +130,21 @@ BaResult SolveWithLoosePosesHeld(BaProblem& problem,
   // Rejected observations may leave a pose loose that was fixed before.
   if (!HoldLoosePoses(result, limit, problem)) return result;
   return SolveLocalBa(problem, options, lines);
+}
+
+std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
+                                        const LocalBaOptions& options,
+                                        LineParametrization lines,
+                                        const PoseLimits& limits,
+                                        const std::function<void(BaResult&)>& normalize) {
+  constexpr int kAttempts = 4;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    BaResult result = SolveWithLoosePosesHeld(problem, options, lines, limits.sigma);
+    if (result.termination == BaTermination::kNotFinite) return std::nullopt;
+    if (normalize) normalize(result);
+    if (!HoldTornPoses(result, limits, problem)) return result;
+  }
+  return std::nullopt;
 }
 
 }  // namespace plumbline

@@ -6,6 +6,8 @@
 #include "plumbline/optimization/local_ba.h"
 #include "plumbline/optimization/problem.h"
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -37,12 +39,17 @@ std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& s
 // were any. The caller solves again, from the problem's poses.
 bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem);
 
+// What a pose must keep to, to be adjusted.
+struct PoseLimits {
+  double sigma = 0;   // PoseSigma at most
+  double change = 0;  // against the pose before it at most: radians, and of the scene's depth
+};
+
 // Marks as fixed the poses of the problem that follow each other and that the solution moves
-// against one another by more than `limit` (radians, and of the scene's depth): what ties their
-// parts of the map leaves a direction open (lines along a road), though the landmarks of each fix
-// its pose. Those that are loose themselves are passed over. Returns whether there were any that
-// were not fixed yet.
-bool HoldTornPoses(const BaResult& solution, double limit, BaProblem& problem);
+// against one another by more than `limits.change`: what ties their parts of the map leaves a
+// direction open (lines along a road), though the landmarks of each fix its pose. Those that are
+// loose themselves are passed over. Returns whether there were any that were not fixed yet.
+bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem);
 
 // SolveLocalBa with those poses held that are loose before it, or by what it leaves of their
 // observations; they are marked as fixed in the problem.
@@ -50,5 +57,14 @@ BaResult SolveWithLoosePosesHeld(BaProblem& problem,
                                  const LocalBaOptions& options,
                                  LineParametrization lines,
                                  double limit);
+
+// The same until no two poses that follow each other are torn apart (HoldTornPoses), up to four
+// times; nullopt where it comes to no end of that, or the numbers are not finite. `normalize`, if
+// any, is applied to each solution before it is looked at.
+std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
+                                        const LocalBaOptions& options,
+                                        LineParametrization lines,
+                                        const PoseLimits& limits,
+                                        const std::function<void(BaResult&)>& normalize = {});
 
 }  // namespace plumbline

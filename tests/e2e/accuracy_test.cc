@@ -27,6 +27,7 @@ TEST(Accuracy, RoadStereo) { Check(kRoad); }
 TEST(Accuracy, RoadDrivingStereo) { Check(kRoadDriving); }
 TEST(Accuracy, MachineHallFastStereo) { Check(kMachineHallFast); }
 TEST(Accuracy, RoadFastStereo) { Check(kRoadFast); }
+TEST(Accuracy, RoadFastTiedByLines) { Check(kRoadFastLines); }
 TEST(Accuracy, MachineHallMono) { Check(kMachineHallMono); }
 TEST(Accuracy, FloorMono) { Check(kFloorMono); }
 TEST(Accuracy, OfficeMono) { Check(kOfficeMono); }

@@ -124,6 +124,8 @@ TEST(SolveWithLoosePosesHeld, MovesWhatIsFixedAndNothingElse) {
   EXPECT_EQ(parallel.poses[1].translation, problem.poses[1].cam_from_world.translation);
 }
 
+constexpr PoseLimits kLimits{.sigma = 0.01, .change = 0.01};
+
 // Five poses; the solution takes the last two somewhere else together.
 TEST(HoldTornPoses, HoldsBothSidesOfATear) {
   BaProblem problem = TwoViewsOfLines(24);
@@ -132,8 +134,8 @@ TEST(HoldTornPoses, HoldsBothSidesOfATear) {
     BaProblem copy = problem;
     BaResult solution = InitialState(problem);
     for (std::size_t i = 3; i < 5; ++i) solution.poses[i].translation.z() += slide;
-    const bool any = HoldTornPoses(solution, 0.01, copy);
-    EXPECT_EQ(HoldTornPoses(solution, 0.01, copy), false) << "held already";
+    const bool any = HoldTornPoses(solution, kLimits, copy);
+    EXPECT_EQ(HoldTornPoses(solution, kLimits, copy), false) << "held already";
     std::vector<int> fixed;
     for (std::size_t i = 0; i < 5; ++i) {
       if (copy.poses[i].fixed) fixed.push_back(static_cast<int>(i));
@@ -147,7 +149,7 @@ TEST(HoldTornPoses, HoldsBothSidesOfATear) {
   EXPECT_EQ(held(0.011 * depth), (std::vector<int>{2, 3}));
   BaResult turned = InitialState(problem);
   turned.poses[4] = ExpSe3((Vector6d() << 0, 0, 0.011, 0, 0, 0).finished()) * turned.poses[4];
-  EXPECT_TRUE(HoldTornPoses(turned, 0.01, problem));
+  EXPECT_TRUE(HoldTornPoses(turned, kLimits, problem));
   EXPECT_TRUE(problem.poses[3].fixed && problem.poses[4].fixed);
 }
 
@@ -160,11 +162,29 @@ TEST(HoldTornPoses, PassesOverLoosePoses) {
   ASSERT_TRUE(problem.poses[2].fixed);
   BaResult solution = InitialState(problem);
   for (const std::size_t i : {0UL, 1UL, 3UL}) solution.poses[i].translation.z() += 0.5;
-  EXPECT_FALSE(HoldTornPoses(solution, 0.01, problem));
+  EXPECT_FALSE(HoldTornPoses(solution, kLimits, problem));
   solution.poses[3].translation.z() += 0.5;
-  EXPECT_TRUE(HoldTornPoses(solution, 0.01, problem));
+  EXPECT_TRUE(HoldTornPoses(solution, kLimits, problem));
   EXPECT_TRUE(problem.poses[1].fixed && problem.poses[3].fixed) << "across the loose one";
   EXPECT_FALSE(problem.poses[0].fixed);
+}
+
+TEST(SolveInOnePiece, HoldsWhatASolutionTearsApart) {
+  const Rigid3 truth = TwoViewsOfLines(24).poses[1].cam_from_world;
+  const auto moved_by = [&](double turn) {
+    BaProblem problem = TwoViewsOfLines(24);
+    problem.poses[0].fixed = true;
+    problem.poses[1].cam_from_world.rotation = ExpSo3(Eigen::Vector3d(0, turn, 0)) * truth.rotation;
+    const Rigid3 before = problem.poses[1].cam_from_world;
+    int solutions = 0;
+    const auto solution = SolveInOnePiece(
+        problem, {}, LineParametrization::kPlucker, kLimits, [&](BaResult&) { ++solutions; });
+    EXPECT_TRUE(solution.has_value());
+    EXPECT_EQ(solutions, problem.poses[1].fixed ? 2 : 1);
+    return LogSe3(solution->poses[1] * Inverse(before)).norm();
+  };
+  EXPECT_NEAR(moved_by(0.004), 0.004, 1e-3);
+  EXPECT_EQ(moved_by(0.04), 0);
 }
 
 TEST(SigmasOfPoses, ShrinkWithTheNumberOfObservations) {
