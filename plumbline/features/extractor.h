@@ -21,7 +21,7 @@ struct FeatureOptions {
   bool lines = true;
   int line_count = 200;
   LineDetector line_detector = LineDetector::kDrawing;
-  bool parallel = true;  // points and lines, left and right, in two threads; same result
+  bool parallel = true;  // in two threads; same result
   OrbOptions orb;
   LineDetectionOptions line;
   StereoPointOptions stereo_points;
@@ -53,10 +53,10 @@ void VisitFields(Visitor&& visit, FeatureOptions& o) {
   visit("lines", o.lines, "use lines");
   visit("line_count", o.line_count, "lines per image", Range{0, 5000});
   visit("line_detector", o.line_detector, "detector of line segments");
-  visit("parallel", o.parallel, "points and lines, left and right, in two threads");
+  visit("parallel", o.parallel, "features in two threads");
   visit("orb", o.orb, "corners and their descriptors");
   visit("line", o.line, "line segments");
-  visit("stereo_points", o.stereo_points, "matching of points between left and right");
+  visit("stereo_points", o.stereo_points, "disparities of points from the right image");
   visit("stereo_lines", o.stereo_lines, "matching of lines between left and right");
   visit("depth", o.depth, "disparities from depth images");
 }

@@ -14,12 +14,13 @@ namespace plumbline {
 namespace {
 
 // Sixteen bytes are one instruction's worth.
-constexpr int kWindowWidth = 16;
-constexpr int kBefore = kWindowWidth / 2;  // pixels of a window left of its place
+constexpr int kWindowWidth = 2 * RowSearch::kReach;
+constexpr int kBefore = RowSearch::kReach;  // pixels of a window left of its place
 constexpr int kHalfHeight = 5;
 constexpr int kNone = 128;  // no slope
 
 // Derivative along the row, smoothed over three rows (Sobel), halved, kNone where there is none.
+// Saturates where grey levels two pixels apart differ by more than 64.
 GrayImage Slopes(const GrayImage& image) {
   cv::Mat slopes;
   cv::Sobel(AsMat(image), slopes, CV_16S, 1, 0);
@@ -70,15 +71,15 @@ std::optional<int> RowSearch::Find(const Eigen::Vector2i& left, int max_disparit
 std::optional<int> RowSearch::Best(const GrayImage& from,
                                    const Eigen::Vector2i& at,
                                    const GrayImage& to,
-                                   Range range,
+                                   Columns columns,
                                    double ratio) {
   constexpr int kSamePlace = 2;
   const auto fits = [&](int x) { return x >= kBefore && x + kWindowWidth - kBefore <= to.width(); };
   if (at.y() < kHalfHeight || at.y() + kHalfHeight >= to.height() || !fits(at.x())) {
     return std::nullopt;
   }
-  const int first = std::max(range.first, kBefore);
-  const int last = std::min(range.last, to.width() - (kWindowWidth - kBefore));
+  const int first = std::max(columns.first, kBefore);
+  const int last = std::min(columns.last, to.width() - (kWindowWidth - kBefore));
   if (first > last) return std::nullopt;
   sums_.resize(static_cast<std::size_t>(last - first + 1));
   for (int x = first; x <= last; ++x) {

@@ -178,7 +178,7 @@ class OctaveMatcher {
     const double scale = left_.scale.x();
     const Eigen::Vector2i at = left_.FromFull(point.px).array().round().cast<int>();
     const auto range =
-        static_cast<int>(std::ceil(std::min<double>(max_disparity_ / scale, at.x())));
+        static_cast<int>(std::ceil(std::min<double>(max_disparity_ / scale, left_.image.width())));
     const std::optional<int> x = search_.Find(at, range, options_.ratio);
     if (!x || !IsReal({*x, at.y()})) return std::nullopt;
     Patch patch;
@@ -195,8 +195,10 @@ class OctaveMatcher {
  private:
   // Does the window around a place of the right level show what the camera saw?
   bool IsReal(const Eigen::Vector2i& at) const {
+    constexpr int kRefinement = 3;  // pixels that refinement may move, and their neighbours
+    const int radius = std::max(window_.half() + kRefinement, RowSearch::kReach);
     return right_valid_.Contains(right_.ToFull(at.cast<double>()),
-                                 (window_.half() + 1) * right_.scale.maxCoeff());
+                                 radius * right_.scale.maxCoeff());
   }
 
   const PyramidLevel& left_;
@@ -237,9 +239,11 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
   std::vector<std::optional<Found>> matches(points.size());
   ParallelFor(static_cast<int>(left.size()), threads, [&](int octave) {
     const auto level = static_cast<std::size_t>(octave);
+    const auto in_octave = [&](const PointFeature& point) { return point.octave == octave; };
+    if (std::none_of(points.begin(), points.end(), in_octave)) return;
     OctaveMatcher matcher(camera, left[level], right[level], pyramids.right_valid, options);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points[i].octave == octave) matches[i] = matcher.Match(points[i]);
+      if (in_octave(points[i])) matches[i] = matcher.Match(points[i]);
     }
   });
   DropPoorResiduals(options.max_sad_factor, &matches);

@@ -20,7 +20,7 @@ namespace plumbline {
 // kept; line landmarks move with a keyframe that shows them.
 //
 // Nothing for a map of less than three keyframes, or more than
-// mapping.final_adjustment_keyframes, or one that is torn whatever is held. Cost:
+// mapping.final_adjustment_keyframes. Cost:
 // FindWellSeenLines, and bundle adjustment of the whole map, whose time grows with the third power
 // of the keyframes.
 MapEdit AdjustWholeMap(const Map& map,

@@ -22,8 +22,19 @@ void MapProblemBuilder::AddPose(KeyFrameId id, bool fixed) {
   const Frame& frame = map_.Find(id)->frame;
   pose_of_[static_cast<std::size_t>(id.value)] = static_cast<int>(frames_.size());
   frames_.push_back(&frame);
+  const bool follows = !out_.keyframes.empty() && Follows(out_.keyframes.back(), id);
   out_.keyframes.push_back(id);
-  out_.problem.poses.push_back({frame.cam_from_world * world_from_problem_, fixed});
+  out_.problem.poses.push_back({frame.cam_from_world * world_from_problem_, fixed, follows});
+}
+
+// Does `id` come soon after `before`? Some between may share no landmark with a problem's others.
+bool MapProblemBuilder::Follows(KeyFrameId before, KeyFrameId id) const {
+  constexpr int kBetween = 4;
+  auto place = map_.keyframes().find(id);
+  for (int k = 0; k <= kBetween && place != map_.keyframes().begin(); ++k) {
+    if ((--place)->first == before) return true;
+  }
+  return false;
 }
 
 const std::vector<MapProblemBuilder::View>& MapProblemBuilder::ViewsOf(

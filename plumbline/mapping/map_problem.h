@@ -58,6 +58,7 @@ class MapProblemBuilder {
   int PoseOf(KeyFrameId id) const { return pose_of_[static_cast<std::size_t>(id.value)]; }
 
  private:
+  bool Follows(KeyFrameId before, KeyFrameId id) const;
   const Features& FeaturesOf(const View& view) const {
     return frames_[static_cast<std::size_t>(view.pose)]->features();
   }

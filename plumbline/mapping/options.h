@@ -88,8 +88,8 @@ struct BaWindowOptions {
   int min_shared = 15;                   // landmarks that tie a keyframe to the window
   double min_line_plane_angle_deg = 10;  // between views, for a line to take part ...
   double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
-  double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma, HoldTornPoses)
-  double max_correction = 0.03;           // of it against the one before, in local adjustment
+  double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma)
+  double max_correction = 0.03;           // of it against the one before, in one window
   bool parallel_lines = true;             // lines keep to directions that many of the map share
 
   PoseLimits local_limits() const { return {.sigma = max_pose_sigma, .change = max_correction}; }

@@ -102,6 +102,7 @@ bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem
   bool any = false;
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    if (!problem.poses[i].follows) last.reset();
     if (!sigmas[i].AtMost(limits.sigma)) continue;
     const std::optional<std::size_t> before = std::exchange(last, i);
     if (!before) continue;
@@ -138,13 +139,14 @@ std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const PoseLimits& limits,
                                         const std::function<void(BaResult&)>& normalize) {
   constexpr int kAttempts = 4;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  for (int attempt = 1;; ++attempt) {
     BaResult result = SolveWithLoosePosesHeld(problem, options, lines, limits.sigma);
     if (result.termination == BaTermination::kNotFinite) return std::nullopt;
     if (normalize) normalize(result);
     if (!HoldTornPoses(result, limits, problem)) return result;
+    if (attempt + 1 < kAttempts) continue;
+    for (auto& pose : problem.poses) pose.fixed = true;
   }
-  return std::nullopt;
 }
 
 }  // namespace plumbline

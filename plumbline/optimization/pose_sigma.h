@@ -48,7 +48,8 @@ struct PoseLimits {
 // Marks as fixed the poses of the problem that follow each other and that the solution moves
 // against one another by more than `limits.change`: what ties their parts of the map leaves a
 // direction open (lines along a road), though the landmarks of each fix its pose. Those that are
-// loose themselves are passed over. Returns whether there were any that were not fixed yet.
+// loose themselves are passed over; between a pose that does not follow (BaProblem::Pose) and
+// those before it there is no tear. Returns whether there were any that were not fixed yet.
 bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem);
 
 // SolveLocalBa with those poses held that are loose before it, or by what it leaves of their
@@ -59,8 +60,9 @@ BaResult SolveWithLoosePosesHeld(BaProblem& problem,
                                  double limit);
 
 // The same until no two poses that follow each other are torn apart (HoldTornPoses), up to four
-// times; nullopt where it comes to no end of that, or the numbers are not finite. `normalize`, if
-// any, is applied to each solution before it is looked at.
+// times, the last time with all poses held. nullopt where the numbers are not finite. `normalize`,
+// if any, is applied to each solution before it is looked at. Cost: most often that of one
+// SolveLocalBa, at most eight.
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,
                                         LineParametrization lines,

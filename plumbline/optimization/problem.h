@@ -39,6 +39,7 @@ struct BaProblem {
   struct Pose {
     Rigid3 cam_from_world;
     bool fixed = false;
+    bool follows = true;  // soon after the pose before it in time (HoldTornPoses)
   };
   struct PointObservation {
     int pose = 0;

@@ -3,7 +3,9 @@
 #include "plumbline/features/row_search.h"
 
 #include "tests/features/render.h"
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -76,10 +78,21 @@ TEST(RowSearch, StaysInsideTheImages) {
       const std::optional<int> found = search.Find({x, y}, 1000, kRatio);
       if (!found) continue;
       EXPECT_GE(y, 5);
+      EXPECT_LE(y, kHeight - 6);
       EXPECT_GE(*found, 8);
       EXPECT_LE(*found, kWidth - 8);
     }
   }
+}
+
+TEST(RowSearch, FindsNothingInImagesSmallerThanTheWindow) {
+  const SquareTexture texture(40, 20, 20);
+  const GrayImage image = Render(10, 8, texture);
+  RowSearch search(image, image);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 10; ++x) EXPECT_FALSE(search.Find({x, y}, 5, kRatio));
+  }
+  EXPECT_THROW(RowSearch(image, GrayImage(10, 9)), BugError);
 }
 
 }  // namespace

@@ -57,6 +57,29 @@ TEST(StereoPoints, MeasureAKnownShiftBelowThePixel) {
   }
 }
 
+TEST(StereoPoints, AreNotFoundInTheInventedBorderOfTheRightImage) {
+  const SquareTexture texture(150, kWidth, kHeight);
+  const Side left = Extract(Render(kWidth, kHeight, texture));
+  const Side right = Extract(Render(kWidth, kHeight, [&](const Eigen::Vector2d& p) {
+    return texture(p + Eigen::Vector2d(10, 0));
+  }));
+  constexpr int kBorder = kWidth / 2;
+  GrayImage mask(kWidth, kHeight, 255);
+  for (int y = 0; y < kHeight; ++y) std::fill_n(mask.row(y), kBorder, std::uint8_t{0});
+  const auto disparities = MatchStereoPoints(TestCamera(kWidth, kHeight),
+                                             left.points,
+                                             {left.pyramid, right.pyramid, ValidRegion(mask)},
+                                             {},
+                                             2);
+  int found = 0;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    if (!disparities[i]) continue;
+    ++found;
+    EXPECT_GT(left.points[i].px.x() - disparities[i]->px, kBorder + 5);
+  }
+  EXPECT_GT(found, 60);
+}
+
 TEST(StereoPoints, AreNotFoundOutsideTheRangeOfDisparities) {
   const SquareTexture texture(150, kWidth, kHeight);
   const Side left = Extract(Render(kWidth, kHeight, texture));
