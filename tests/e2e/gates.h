@@ -24,7 +24,7 @@ inline constexpr Gate kFloor{"tum/rgbd_dataset_freiburg1_floor_first90", "", 90,
 inline constexpr Gate kRoad{"kitti/06_first51", "", 51, 0, 0.035};
 // Motions that nothing foretells: the car drives already in the first frame; every third image
 // alone.
-inline constexpr Gate kRoadDriving{"kitti/06_first51", "--from 5", 46, 0, 0.03};
+inline constexpr Gate kRoadDriving{"kitti/06_first51", "--from 5", 46, 0, 0.025};
 inline constexpr Gate kMachineHallFast{"euroc/MH_01_easy_first250", "--stride 3", 84, 0, 0.0055};
 // Six metres from image to image: little but what is far away shows again.
 inline constexpr Gate kRoadFast{"kitti/06_first51", "--stride 5", 11, 0, 0.25};
