@@ -18,21 +18,22 @@ struct SingleView {
   std::vector<LineFeature> lines;
 };
 
-// Points are sought in the left image only; the right one needs its pyramid, to be searched.
-void ExtractPoints(const GrayImage& image,
-                   const ValidRegion& region,
-                   const FeatureOptions& options,
-                   SingleView& view) {
-  if (!options.points) return;
-  view.pyramid = BuildOrbPyramid(image, options.orb);
-  view.points = ExtractOrb(view.pyramid, region, options.point_count, options.orb);
-}
-
+// All that points need of the right image, which is searched for those of the left one.
 void BuildPyramidOnly(const GrayImage& image,
                       const ValidRegion& /*region*/,
                       const FeatureOptions& options,
                       SingleView& view) {
   if (options.points) view.pyramid = BuildOrbPyramid(image, options.orb);
+}
+
+void ExtractPoints(const GrayImage& image,
+                   const ValidRegion& region,
+                   const FeatureOptions& options,
+                   SingleView& view) {
+  BuildPyramidOnly(image, region, options, view);
+  if (options.points) {
+    view.points = ExtractOrb(view.pyramid, region, options.point_count, options.orb);
+  }
 }
 
 void ExtractLines(const GrayImage& image,

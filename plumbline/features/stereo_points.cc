@@ -22,7 +22,6 @@ constexpr std::size_t kMaxPatch =
 // A square of grey levels with its mean taken off.
 struct Patch {
   std::array<float, kMaxPatch> value;
-  int half = 0;
 };
 
 bool ReadPatch(const GrayImage& image, int x, int y, int half, Patch* patch) {
@@ -39,7 +38,6 @@ bool ReadPatch(const GrayImage& image, int x, int y, int half, Patch* patch) {
   }
   const float mean = static_cast<float>(sum) / static_cast<float>(side * side);
   for (int i = 0; i < side * side; ++i) patch->value[static_cast<std::size_t>(i)] -= mean;
-  patch->half = half;
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
+#include "plumbline/optimization/pose_sigma.h"
 
 #include <cstddef>
 #include <limits>

@@ -20,9 +20,8 @@ namespace plumbline {
 // kept; line landmarks move with a keyframe that shows them.
 //
 // Nothing for a map of less than three keyframes, or more than
-// mapping.final_adjustment_keyframes. Cost:
-// FindWellSeenLines, and bundle adjustment of the whole map, whose time grows with the third power
-// of the keyframes.
+// mapping.final_adjustment_keyframes. Cost: FindWellSeenLines, and bundle adjustment of the whole
+// map, whose time grows with the third power of the keyframes.
 MapEdit AdjustWholeMap(const Map& map,
                        const ImagingModel& imaging,
                        const LineOptions& lines,

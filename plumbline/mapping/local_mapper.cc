@@ -7,6 +7,7 @@
 #include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/optimization/pose_sigma.h"
 
 #include <algorithm>
 #include <chrono>
