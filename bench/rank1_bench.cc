@@ -43,11 +43,13 @@ void LeadingPairOfMatrix(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(LeadingPair(matrix.entries()));
 }
 
-void FactorizeReweighted(benchmark::State& state) {
+// The matrix and its factorization.
+void Factorize(benchmark::State& state, int reweighting) {
   const testing::WindowScene scene = Scene(state);
   const std::vector<Rank1View> views = ViewsOf(scene);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(FactorizeRank1(scene.tracks.reference.points, views));
+    benchmark::DoNotOptimize(
+        FactorizeRank1(scene.tracks.reference.points, views, {.iterations = reweighting}));
   }
 }
 
@@ -101,7 +103,8 @@ void Sizes(benchmark::internal::Benchmark* benchmark) {
   for (const int n : {500, 300, 200}) benchmark->Args({3, n});
 }
 BENCHMARK(LeadingPairOfMatrix)->Apply(Sizes);
-BENCHMARK(FactorizeReweighted)->Apply(Sizes);
+BENCHMARK_CAPTURE(Factorize, plain, 0)->Apply(Sizes);
+BENCHMARK_CAPTURE(Factorize, reweighted, Rank1Options{}.iterations)->Apply(Sizes);
 BENCHMARK(InterpolateFrame)->Apply(Sizes);
 BENCHMARK(Covariance)->Apply(Sizes);
 BENCHMARK(Factorization)->Apply(Sizes);

@@ -22,61 +22,32 @@ constexpr double kMinSpread = 0.1;
 using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
 using Rows = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The deviation of residuals by their median.
+// The deviation of residuals by their median, of a few hundred entries spread over all that have a
+// weight: more would tell it to a few percent better, which no loss is sensitive to.
 class SpreadOfKnown {
  public:
   explicit SpreadOfKnown(const Rank1Rows& weights) {
-    known_.reserve(static_cast<std::size_t>(weights.size()));
-    for (Eigen::Index j = 0; j < weights.size(); ++j) {
-      if (weights.data()[j] > 0) known_.push_back(j);
+    constexpr Eigen::Index kEnough = 300;
+    const std::span known(weights.data(), static_cast<std::size_t>(weights.size()));
+    const auto step = std::max<Eigen::Index>(1, (weights.array() > 0).count() / kEnough);
+    Eigen::Index met = 0;
+    for (std::size_t j = 0; j < known.size(); ++j) {
+      if (known[j] > 0 && met++ % step == 0) sample_.push_back(j);
     }
-    values_.resize(known_.size());
-    middle_.resize(known_.size());
+    values_.resize(sample_.size());
   }
 
   double operator()(const Rows& squared_residuals) {
-    if (known_.empty()) return 0;
-    for (std::size_t j = 0; j < known_.size(); ++j) {
-      values_[j] = squared_residuals.data()[known_[j]];
+    if (sample_.empty()) return 0;
+    for (std::size_t j = 0; j < sample_.size(); ++j) {
+      values_[j] = squared_residuals.data()[sample_[j]];
     }
-    if (last_ == 0) last_ = MedianOfSample();
-    last_ = Median();
-    return std::sqrt(last_) * kMedianToSigma;
+    return std::sqrt(UpperMedian(std::span(values_))) * kMedianToSigma;
   }
 
  private:
-  double MedianOfSample() {
-    constexpr std::size_t kStep = 16;
-    std::size_t size = 0;
-    for (std::size_t j = 0; j < values_.size(); j += kStep) middle_[size++] = values_[j];
-    return UpperMedian(std::span(middle_).first(size));
-  }
-
-  // The upper median. From one reweighting to the next it hardly moves, so that only what lies
-  // around the last one needs to be put in order.
-  double Median() {
-    constexpr double kAround = 1.4;
-    const double low = last_ / kAround;
-    const double high = last_ * kAround;
-    std::size_t below = 0;
-    std::size_t between = 0;
-    for (const double value : values_) {
-      middle_[between] = value;
-      below += value < low ? 1 : 0;
-      between += value >= low && value <= high ? 1 : 0;
-    }
-    const std::size_t rank = values_.size() / 2;
-    if (rank < below || rank >= below + between) return UpperMedian(std::span(values_));
-    const auto begin = middle_.begin();
-    const auto place = begin + static_cast<std::ptrdiff_t>(rank - below);
-    std::nth_element(begin, place, begin + static_cast<std::ptrdiff_t>(between));
-    return *place;
-  }
-
-  std::vector<Eigen::Index> known_;  // places of the entries that have a weight
+  std::vector<std::size_t> sample_;  // places of entries that have a weight
   std::vector<double> values_;
-  std::vector<double> middle_;
-  double last_ = 0;
 };
 
 // Points by coordinate.
@@ -117,7 +88,7 @@ class Alternation {
 
   // One step under the Cauchy loss.
   void Step(const Rows& squared_residuals, double width) {
-    reweighted_ = weights_ / (1 + squared_residuals / (width * width));
+    reweighted_ = weights_ / (1 + squared_residuals * (1 / (width * width)));
     SolvePoints();
     SolveCentres();
     SetAlong();
@@ -215,14 +186,18 @@ Rank1Solution ToSolution(const RankOne& pair, double spread) {
 
 }  // namespace
 
+Rank1Matrix::RayRows Rank1Matrix::UnitRays(std::span<const Eigen::Vector2d> points) {
+  const CoordinateRows rows(points);
+  const Row inverse_length = 1 / (rows.x.square() + rows.y.square() + 1).sqrt();
+  return {rows.x * inverse_length, rows.y * inverse_length, inverse_length};
+}
+
 Rank1Matrix::Rank1Matrix(std::span<const Eigen::Vector2d> reference_points,
                          std::span<const Rank1View> views,
                          double min_epipole_angle)
     : entries_(3 * views.size(), reference_points.size()),
       weights_(views.size(), reference_points.size()) {
-  const CoordinateRows reference(reference_points);
-  const Row length = (reference.x.square() + reference.y.square() + 1).sqrt();
-  const RayRows p{reference.x / length, reference.y / length, 1 / length};
+  const RayRows p = UnitRays(reference_points);
   const double min_squared_sine = std::pow(std::sin(min_epipole_angle), 2);
   for (std::size_t i = 0; i < views.size(); ++i) {
     PLUMBLINE_CHECK(views[i].points.size() == reference_points.size() &&

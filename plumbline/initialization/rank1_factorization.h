@@ -66,6 +66,7 @@ class Rank1Matrix {
   struct RayRows {
     Row x, y, z;
   };
+  static RayRows UnitRays(std::span<const Eigen::Vector2d> points);
   // The rows of one view; `p`: the unit rays in the reference.
   void SetView(Eigen::Index i, const Rank1View& view, const RayRows& p, double min_squared_sine);
 
