@@ -216,6 +216,7 @@ std::string EvaluationTable(const Evaluation& evaluation) {
   table << "alignment   " << NameOf(evaluation.options.alignment);
   if (evaluation.options.alignment == TrajectoryAlignment::kSim3) {
     table << ", scale " << error.reference_from_estimate.scale;
+    if (error.scale_drift) table << ", drift of the scale " << 100 * *error.scale_drift << " %";
   }
   if (error.degenerate) {
     table << " (not determined by the positions: " << DegeneracyName(*error.degenerate)
@@ -247,6 +248,8 @@ std::string EvaluationJson(const Evaluation& evaluation) {
         static_cast<double>(error.estimated) / static_cast<double>(*evaluation.frames_delivered);
   }
   json["scale"] = error.reference_from_estimate.scale;
+  json["scale_drift"] = nullptr;
+  if (error.scale_drift) json["scale_drift"] = *error.scale_drift;
   json["degenerate"] = nullptr;
   if (error.degenerate) json["degenerate"] = DegeneracyName(*error.degenerate);
   json["ate_m"] = ToJson(error.ate, 1);

@@ -40,6 +40,19 @@ double Spread(std::span<const Eigen::Vector3d> points) {
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
+struct PathSpread {
+  double reference = 0, estimate = 0;
+};
+
+PathSpread SpreadOf(std::span<const EvaluatedPose> poses) {
+  std::vector<Eigen::Vector3d> reference, estimate;
+  for (const EvaluatedPose& pose : poses) {
+    reference.push_back(pose.reference.translation);
+    estimate.push_back(pose.estimate.translation);
+  }
+  return {Spread(reference), Spread(estimate)};
+}
+
 // For positions that do not determine the rotation: that of the first pair of poses.
 Similarity3 AlignFirstPose(const std::vector<EvaluatedPose>& poses, double scale) {
   const Rigid3& reference = poses.front().reference;
@@ -180,8 +193,26 @@ std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
   if (result.poses.empty()) return std::nullopt;
   Align(options.alignment, result);
   ApplyAlignment(result);
+  if (options.alignment == TrajectoryAlignment::kSim3) {
+    result.scale_drift = ScaleDrift(result.poses);
+  }
   CompareMotions(estimate, options.window, result);
   return result;
+}
+
+std::optional<double> ScaleDrift(std::span<const EvaluatedPose> poses) {
+  constexpr std::size_t kStretches = 5;
+  constexpr double kFar = 1.0 / 20;
+  const std::size_t size = poses.size() / kStretches;
+  if (size == 0) return std::nullopt;
+  const PathSpread all = SpreadOf(poses);
+  const PathSpread first = SpreadOf(poses.first(size));
+  const PathSpread last = SpreadOf(poses.last(size));
+  const double least = kFar * all.reference;
+  if (!(least > 0) || first.reference < least || last.reference < least || !(first.estimate > 0)) {
+    return std::nullopt;
+  }
+  return (last.estimate / last.reference) / (first.estimate / first.reference) - 1;
 }
 
 Similarity3 AlignPoses(std::span<const EvaluatedPose> poses) {

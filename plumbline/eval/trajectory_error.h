@@ -86,6 +86,7 @@ struct TrajectoryError {
   std::vector<EvaluatedPose> poses;            // those associated, in time order
   std::vector<RelativeError> relative;         // those that span the window, in time order
   ErrorStatistics ate;                         // positions after alignment, metres
+  std::optional<double> scale_drift;           // with kSim3: see ScaleDrift
   std::optional<ErrorStatistics> rpe;  // metres per second; nullopt: no pair spans the window
   std::optional<ErrorStatistics> roe;  // radians per second
 };
@@ -123,6 +124,18 @@ std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
 //   result   reference_from_aligned, scale 1
 //   cost     O(n)
 Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
+
+// How the scale of an estimate changed: its unit over the true one in the last fifth of the poses,
+// divided by that in the first fifth, less 1. Positive: what is estimated has become larger.
+//
+// The unit of a stretch is its spread (root mean square distance from the mean position) over the
+// true one: for small errors the scale of its own alignment, and defined on straight paths, too.
+//
+//   poses    in time order; the estimates in any world and unit
+//   fails    nullopt where the camera does not get far in one of the two: their true spread must be
+//            a twentieth of that of all poses
+//   cost     O(n)
+std::optional<double> ScaleDrift(std::span<const EvaluatedPose> poses);
 
 // The trajectory of what carries the camera turned into the camera's: world_from_body *
 // body_from_camera.

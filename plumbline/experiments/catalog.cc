@@ -170,6 +170,7 @@ Experiment MonocularLineExperiment() {
                          {"two_view_lines", {"lines.reconstruction=two_view"}, mono},
                          {"klt_start", {"initialization.method=rank1_klt"}, mono},
                          {"two_view_start", {"initialization.method=two_view"}, mono}};
+  experiment.metrics.insert(experiment.metrics.begin() + 1, {"ate_causal", "scale_drift"});
   return experiment;
 }
 
@@ -270,6 +271,7 @@ Experiment MonocularRobustnessExperiment() {
   for (Variant& variant : experiment.variants) {
     variant.arguments.insert(variant.arguments.end(), {"--sensor", "mono"});
   }
+  experiment.metrics.emplace_back("scale_drift");
   return experiment;
 }
 

@@ -58,6 +58,13 @@ constexpr std::array kEntries = {
           {"/accuracy_causal/roe/mean"}},
     Entry{{"roe_causal_rmse", "deg/s", "roe_rmse of the poses as first reported", kLower, false, 4},
           {"/accuracy_causal/roe/rmse"}},
+    Entry{{"scale_drift",
+           "%",
+           "scale of the last fifth of the final trajectory against the first, less 1; one camera",
+           kNeither,
+           false,
+           2},
+          {"/accuracy/scale_drift", 100}},
     Entry{{"tracked", "frames", "frames with a pose", kHigher}, {"/frames/tracked"}},
     Entry{{"lost", "frames", "frames without a pose after the first map", kLower},
           {"/frames/lost"}},
@@ -245,6 +252,7 @@ std::string WhyMissing(const Json& summary, const char* pointer) {
   if (!number.starts_with("/accuracy")) return "not measured";
   const std::string part(number.substr(1, number.find('/', 1) - 1));
   if (!summary.contains(part) || summary[part].is_null()) return "no ground truth of any pose";
+  if (number.ends_with("/scale_drift")) return "not one camera, or it does not get far";
   return "no two poses are 3 s apart";
 }
 

@@ -36,7 +36,10 @@ Json Statistics(const ErrorStatistics& s, double factor, const char* unit) {
 Json Accuracy(const TrajectoryError& error, SensorKind sensor, const RunCounts& counts) {
   Json json;
   json["alignment"] = sensor == SensorKind::kMono ? "sim3" : "se3";
-  if (sensor == SensorKind::kMono) json["scale"] = error.reference_from_estimate.scale;
+  if (sensor == SensorKind::kMono) {
+    json["scale"] = error.reference_from_estimate.scale;
+    json["scale_drift"] = OrNull(error.scale_drift);
+  }
   json["association"] = "interpolate";
   json["associated"] = error.poses.size();
   json["coverage"] = counts.frames > 0 ? static_cast<double>(counts.tracked) / counts.frames : 0.0;

@@ -182,6 +182,46 @@ TEST(TrajectoryError, Sim3TakesOutTheScaleAlsoOfRelativeErrors) {
   EXPECT_GT(CompareTrajectories(reference, estimate, options)->rpe->mean, 1);
 }
 
+// Fifty poses, the steps of the last ten longer than those of the first by `drift`.
+std::vector<EvaluatedPose> DriftingPoses(const Eigen::Vector3d& bend, double drift) {
+  std::vector<EvaluatedPose> poses(50);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto t = static_cast<double>(i);
+    poses[i].reference.translation = {t, bend.x() * t * t, bend.y() * std::sin(t)};
+    const double scale = i < 40 ? 3 : 3 * (1 + drift);
+    poses[i].estimate.translation = ExpSo3({1, 2, 3}) * (scale * poses[i].reference.translation);
+  }
+  return poses;
+}
+
+TEST(ScaleDrift, IsOfTheLastFifthAgainstTheFirst) {
+  for (const Eigen::Vector3d& bend : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.1, 2, 0)}) {
+    const auto drift = ScaleDrift(DriftingPoses(bend, 0.07));
+    ASSERT_TRUE(drift);
+    EXPECT_NEAR(*drift, 0.07, 1e-12);
+  }
+  EXPECT_NEAR(*ScaleDrift(DriftingPoses({0, 1, 0}, -0.2)), -0.2, 1e-12);
+}
+
+TEST(ScaleDrift, IsUnknownWhereTheCameraStaysAtTheEnd) {
+  std::vector<EvaluatedPose> poses = DriftingPoses({0, 0, 0}, 0.1);
+  for (std::size_t i = 40; i < 50; ++i) poses[i].reference = poses[40].reference;
+  EXPECT_FALSE(ScaleDrift(poses));
+  EXPECT_FALSE(ScaleDrift(std::span(poses).first(4)));
+  EXPECT_FALSE(ScaleDrift({}));
+}
+
+TEST(ScaleDrift, IsComparedWithAFreeScaleOnly) {
+  Rng rng(3);
+  const Trajectory reference = RandomTrajectory(rng, 40, 0.1);
+  TrajectoryErrorOptions options{.alignment = TrajectoryAlignment::kSim3};
+  const auto error = CompareTrajectories(reference, reference, options);
+  ASSERT_TRUE(error && error->scale_drift);
+  EXPECT_NEAR(*error->scale_drift, 0, 1e-12);
+  options.alignment = TrajectoryAlignment::kSe3;
+  EXPECT_FALSE(CompareTrajectories(reference, reference, options)->scale_drift);
+}
+
 TEST(TrajectoryError, InterpolationMeetsTheTimeThatNearestMisses) {
   Trajectory reference;
   for (int i = 0; i < 20; ++i) reference.push_back(At(0.03 * i, {0.3 * i, 0, 0}));
