@@ -4,6 +4,7 @@
 
 #include "plumbline/mapping/line_map.h"
 
+#include "tests/mapping/vertical_lines.h"
 #include "tests/support/true_map.h"
 #include <algorithm>
 #include <vector>
@@ -34,15 +35,6 @@ TrueMap MovedMap(const SyntheticWorld& world) {
   }
   scene.map.Apply(edit);
   return scene;
-}
-
-SyntheticWorld WorldOfVerticalLines(int points, int lines) {
-  SyntheticWorld world = MakeSyntheticWorld(points, lines);
-  for (auto& line : world.lines) {
-    const Eigen::Vector3d middle = line.segment.Midpoint();
-    line.segment = {middle - Eigen::Vector3d(0, 0.5, 0), middle + Eigen::Vector3d(0, 0.5, 0)};
-  }
-  return world;
 }
 
 double WorstPose(const Map& map) {
