@@ -233,7 +233,8 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
   const ImagePyramid& right = pyramids.right;
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
   PLUMBLINE_CHECK(left.size() == right.size(), "pyramids of one kind");
-  PLUMBLINE_CHECK(options.window_px <= kMaxWindow, "size of the correlation window");
+  PLUMBLINE_CHECK(options.window_px > 0 && options.window_px <= kMaxWindow,
+                  "size of the correlation window");
   std::vector<std::optional<Found>> matches(points.size());
   ParallelFor(static_cast<int>(left.size()), threads, [&](int octave) {
     const auto level = static_cast<std::size_t>(octave);

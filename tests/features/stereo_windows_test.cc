@@ -111,6 +111,7 @@ TEST(StereoPoints, SayWhatTheyCannotWorkWith) {
   };
   const auto two = BuildPyramid(image, 2, 1.2);
   EXPECT_THAT(error([&] { Match(one, one, 16); }), HasSubstr("size of the correlation window"));
+  EXPECT_THAT(error([&] { Match(one, one, -1); }), HasSubstr("size of the correlation window"));
   EXPECT_THAT(error([&] { Match(one, two, 5); }), HasSubstr("pyramids of one kind"));
   EXPECT_THAT(error([&] { Match(one, one, 5, 0); }), HasSubstr("stereo needs a baseline"));
   EXPECT_EQ(error([&] { Match(one, one, 15); }), "no error");
