@@ -19,9 +19,10 @@ namespace plumbline {
 // one another by more than that (SolveInOnePiece); with a single camera the length of the path is
 // kept; line landmarks move with a keyframe that shows them.
 //
-// Nothing for a map of less than three keyframes, or more than
-// mapping.final_adjustment_keyframes. Cost: FindWellSeenLines, and bundle adjustment of the whole
-// map, whose time grows with the third power of the keyframes.
+// Nothing for a map of less than three keyframes, or one that would take longer than
+// mapping.final_adjustment_keyframes of which all share landmarks. Cost: FindWellSeenLines, and
+// bundle adjustment of the whole map, whose time grows with the keyframes, and with the square of
+// how many keyframes back the first is with which a keyframe shares a landmark.
 MapEdit AdjustWholeMap(const Map& map,
                        const ImagingModel& imaging,
                        const LineOptions& lines,

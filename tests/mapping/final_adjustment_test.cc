@@ -121,10 +121,45 @@ TEST(AdjustWholeMap, LeavesMapsAloneThatAreTooLargeOrTooSmall) {
   const SyntheticWorld world = MakeSyntheticWorld(50, 20);
   const TrueMap scene = MovedMap(world);
   MappingOptions options;
-  options.final_adjustment_keyframes = kKeyFrames - 1;
-  EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
+  for (const int keyframes : {0, kKeyFrames - 1}) {
+    options.final_adjustment_keyframes = keyframes;
+    EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
+  }
+  options.final_adjustment_keyframes = kKeyFrames;
+  EXPECT_FALSE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
   const TrueMap pair = MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(8)}, {});
   EXPECT_TRUE(AdjustWholeMap(pair.map, world.Imaging(), {}, {}).empty());
+}
+
+// Each point is left to four keyframes that follow each other.
+void ForgetAfterFourKeyFrames(TrueMap& scene) {
+  MapEdit edit;
+  for (const auto& [index, id] : scene.point_of) {
+    const auto first = static_cast<std::int64_t>(index % (kKeyFrames - 3));
+    for (const auto& [keyframe, feature] : scene.map.Find(id)->observations) {
+      if (keyframe.value >= first && keyframe.value < first + 4) continue;
+      edit.push_back(edit::RemovePointObservation{id, keyframe});
+    }
+  }
+  scene.map.Apply(edit);
+}
+
+// What counts is the time it takes, which is less where keyframes share landmarks with those near
+// them only.
+TEST(AdjustWholeMap, TakesLongPathsForTheSmallerMapsThatTakeAsLong) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 0);
+  MappingOptions options;
+  options.final_adjustment_keyframes = 7;
+  TrueMap scene = MovedMap(world);
+  EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
+  ForgetAfterFourKeyFrames(scene);
+  const MapEdit edit = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
+  ASSERT_FALSE(edit.empty());
+  const double before = WorstPose(scene.map);
+  scene.map.Apply(edit);
+  EXPECT_LT(WorstPose(scene.map), 0.8 * before);
+  options.final_adjustment_keyframes = 4;
+  EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
 }
 
 }  // namespace

@@ -3,9 +3,13 @@
 #include "plumbline/optimization/schur_solver.h"
 
 #include "tests/optimization/random_scene.h"
+#include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -76,6 +80,98 @@ TEST(SchurSolver, GivesTheStepOfTheWholeDampedSystem) {
       EXPECT_LT((step - expected.segment<kDof>(6 * kPoses + kDof * i)).norm(), 1e-9);
     }
   }
+}
+
+// A landmark that poses see, with random equations of full rank.
+struct SeenLandmark {
+  LandmarkEquations<3> equations;
+  std::vector<Coupling<3>> couplings;
+};
+
+// A path along which poses share landmarks with their neighbours, and its ends with one another.
+// `poses` get the equations of all observations.
+std::vector<SeenLandmark> LandmarksAlongPath(std::vector<PoseEquations>& poses) {
+  testing::Random random(5);
+  const auto uniform = [&random]() { return random.Uniform(-1, 1); };
+  const int count = static_cast<int>(poses.size());
+  std::vector<SeenLandmark> landmarks;
+  for (int i = 0; i < count; ++i) {
+    SeenLandmark landmark;
+    std::vector<int> seen_by{i % count, (i + 1) % count, (i + 3) % count};
+    std::sort(seen_by.begin(), seen_by.end());
+    for (const int pose : seen_by) {
+      const Eigen::Matrix<double, kRows, 6> A = Eigen::MatrixXd::NullaryExpr(kRows, 6, uniform);
+      const Eigen::Matrix<double, kRows, 3> B = Eigen::MatrixXd::NullaryExpr(kRows, 3, uniform);
+      const Eigen::Matrix<double, kRows, 1> r = Eigen::VectorXd::NullaryExpr(kRows, uniform);
+      poses[static_cast<std::size_t>(pose)].H += A.transpose() * A;
+      poses[static_cast<std::size_t>(pose)].g += A.transpose() * r;
+      landmark.equations.V += B.transpose() * B;
+      landmark.equations.g += B.transpose() * r;
+      landmark.couplings.push_back({pose, A.transpose() * B});
+    }
+    landmarks.push_back(std::move(landmark));
+  }
+  return landmarks;
+}
+
+// The system of the poses with the landmarks eliminated, by dense matrices.
+Eigen::VectorXd DenseSteps(const std::vector<PoseEquations>& poses,
+                           const std::vector<SeenLandmark>& landmarks,
+                           double lambda) {
+  const auto size = 6 * static_cast<Eigen::Index>(poses.size());
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd g(size);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto row = 6 * static_cast<Eigen::Index>(i);
+    H.block<6, 6>(row, row) = poses[i].H;
+    H.diagonal().segment<6>(row) *= 1 + lambda;
+    g.segment<6>(row) = poses[i].g;
+  }
+  for (const SeenLandmark& landmark : landmarks) {
+    Eigen::Matrix3d V = landmark.equations.V;
+    V.diagonal() *= 1 + lambda;
+    const Eigen::Matrix3d inverse = V.inverse();
+    for (const auto& a : landmark.couplings) {
+      g.segment<6>(6 * a.pose) -= a.W * inverse * landmark.equations.g;
+      for (const auto& b : landmark.couplings) {
+        H.block<6, 6>(6 * a.pose, 6 * b.pose) -= a.W * inverse * b.W.transpose();
+      }
+    }
+  }
+  return -H.llt().solve(g);
+}
+
+TEST(SchurSolver, SolvesAsWellWhereThePosesAreMany) {
+  for (const std::size_t count : {200U, 201U, 260U}) {  // dense, and sparse
+    std::vector<PoseEquations> poses(count);
+    const std::vector<SeenLandmark> landmarks = LandmarksAlongPath(poses);
+    SchurSolver solver(static_cast<int>(count));
+    for (const double lambda : {0.1, 1e-6}) {  // the blocks stay from one to the next
+      const Eigen::VectorXd expected = DenseSteps(poses, landmarks, lambda);
+      solver.Reset();
+      for (std::size_t i = 0; i < count; ++i) solver.pose(static_cast<int>(i)) = poses[i];
+      for (SeenLandmark landmark : landmarks) {
+        solver.Eliminate<3>(landmark.equations, lambda, landmark.couplings);
+      }
+      ASSERT_TRUE(solver.Solve(lambda));
+      for (std::size_t i = 0; i < count; ++i) {
+        const int index = static_cast<int>(i);
+        ASSERT_LT((solver.step(index) - expected.segment<6>(6 * index)).norm(), 1e-8) << count;
+      }
+    }
+  }
+}
+
+TEST(SchurSolver, ManyPosesWithoutObservationsStayOrAreRefused) {
+  constexpr int kMany = 300;
+  SchurSolver solver(kMany);
+  solver.pose(7).H.setIdentity();
+  solver.pose(7).g.setOnes();
+  ASSERT_TRUE(solver.Solve(1));
+  EXPECT_EQ(solver.step(8).norm(), 0);
+  EXPECT_LT((solver.step(7) + 0.5 * Vector6d::Ones()).norm(), 1e-12);
+  solver.pose(9).H = -Matrix6d::Identity();
+  EXPECT_FALSE(solver.Solve(0));
 }
 
 TEST(SchurSolver, ALandmarkWithoutInformationIsHeldStill) {

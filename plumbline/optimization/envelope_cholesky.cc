@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/envelope_cholesky.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <Eigen/Cholesky>
+
+namespace plumbline {
+namespace {
+
+// The square block of a panel that ends at the diagonal.
+auto DiagonalBlock(const EnvelopePanel& panel) { return panel.rows.rightCols(panel.rows.rows()); }
+
+auto LeftOfDiagonal(const EnvelopePanel& panel) {
+  return panel.rows.leftCols(panel.begin - panel.first);
+}
+
+// The entries of L in a panel's columns of another one, which is factorized: those of the matrix
+// less what the columns before contribute.
+void Eliminate(const EnvelopePanel& other, EnvelopePanel& panel) {
+  const Eigen::Index first = std::max(panel.first, other.first);
+  const Eigen::Index width = other.begin - first;
+  auto block = panel.rows.middleCols(other.begin - panel.first, other.rows.rows());
+  if (width > 0) {
+    block.noalias() -= panel.rows.middleCols(first - panel.first, width) *
+                       other.rows.middleCols(first - other.first, width).transpose();
+  }
+  if (&other == &panel) return;
+  DiagonalBlock(other).transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(
+      block);
+}
+
+bool FactorDiagonal(EnvelopePanel& panel) {
+  Eigen::Ref<Eigen::MatrixXd> diagonal = panel.rows.rightCols(panel.rows.rows());
+  return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower>(diagonal).info() == Eigen::Success;
+}
+
+}  // namespace
+
+bool FactorEnvelope(std::vector<EnvelopePanel>& panels) {
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (panels[j].begin >= panels[i].first) Eliminate(panels[j], panels[i]);
+    }
+    if (!FactorDiagonal(panels[i])) return false;
+  }
+  return true;
+}
+
+void SolveEnvelope(const std::vector<EnvelopePanel>& panels, Eigen::VectorXd& x) {
+  for (const EnvelopePanel& panel : panels) {
+    auto own = x.segment(panel.begin, panel.rows.rows());
+    own.noalias() -= LeftOfDiagonal(panel) * x.segment(panel.first, panel.begin - panel.first);
+    DiagonalBlock(panel).triangularView<Eigen::Lower>().solveInPlace(own);
+  }
+  for (auto panel = panels.rbegin(); panel != panels.rend(); ++panel) {
+    auto own = x.segment(panel->begin, panel->rows.rows());
+    DiagonalBlock(*panel).transpose().triangularView<Eigen::Upper>().solveInPlace(own);
+    x.segment(panel->first, panel->begin - panel->first).noalias() -=
+        LeftOfDiagonal(*panel).transpose() * own;
+  }
+}
+
+}  // namespace plumbline
