@@ -216,7 +216,9 @@ std::string EvaluationTable(const Evaluation& evaluation) {
   table << "alignment   " << NameOf(evaluation.options.alignment);
   if (evaluation.options.alignment == TrajectoryAlignment::kSim3) {
     table << ", scale " << error.reference_from_estimate.scale;
-    if (error.scale_drift) table << ", drift of the scale " << 100 * *error.scale_drift << " %";
+    if (error.scale_drift) {
+      table << std::setprecision(2) << ", drift of the scale " << 100 * *error.scale_drift << " %";
+    }
   }
   if (error.degenerate) {
     table << " (not determined by the positions: " << DegeneracyName(*error.degenerate)

@@ -33,7 +33,9 @@ void SolvePath(benchmark::State& state) {
     if (reach >= i && i > 0) Couple(i, 0, solver);
   }
   for (auto _ : state) {
-    if (!solver.Solve(1e-4)) state.SkipWithError("not positive definite");
+    if (solver.Solve(1e-4)) continue;
+    state.SkipWithError("not positive definite");
+    break;
   }
 }
 BENCHMARK(SolvePath)

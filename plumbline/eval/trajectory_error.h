@@ -131,7 +131,8 @@ Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
 // The unit of a stretch is its spread (root mean square distance from the mean position) over the
 // true one: for small errors the scale of its own alignment, and defined on straight paths, too.
 //
-//   poses    in time order; the estimates in any world and unit
+//   poses    in time order; the estimates in any world and unit, but all in one: units of two maps
+//            of one camera have nothing to do with one another
 //   fails    nullopt where the camera does not get far in one of the two: their true spread must be
 //            a twentieth of that of all poses
 //   cost     O(n)

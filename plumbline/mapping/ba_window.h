@@ -18,10 +18,10 @@ struct BaWindow : MapProblem {
 };
 
 // The window around a keyframe: it and its covisible keyframes are free (never the first of the
-// map), other keyframes that see the same landmarks are fixed. Where fewer than one are, with a
-// single camera fewer than two (unless the window is the whole map), the oldest of the window are
-// fixed, too. Landmarks need two views; lines in addition a wide enough angle between their
-// interpretation planes or well known ends.
+// map), other keyframes that see the same landmarks are fixed. At least one is, with a single
+// camera two unless the window is the whole map: if need be the oldest of the window. Landmarks
+// need two views; lines in addition a wide enough angle between their interpretation planes or well
+// known ends.
 BaWindow MakeBaWindow(const Map& map,
                       const ImagingModel& imaging,
                       KeyFrameId centre,

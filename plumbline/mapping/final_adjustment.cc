@@ -4,13 +4,14 @@
 
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
+#include "plumbline/optimization/envelope_cholesky.h"
 #include "plumbline/optimization/pose_sigma.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -46,43 +47,29 @@ MapProblem MakeWholeMap(const Map& map,
   return whole;
 }
 
-// How many poses before a pose is the first that it shares a landmark with.
-class Reach {
- public:
-  explicit Reach(const BaProblem& problem)
-      : of_point_(problem.points.size(), kLast),
-        of_line_(problem.lines.size(), kLast),
-        of_pose_(problem.poses.size(), kLast) {
-    for (const auto& o : problem.point_observations) Lower(of_point_, o.point, o.pose);
-    for (const auto& o : problem.line_observations) Lower(of_line_, o.line, o.pose);
-    for (const auto& o : problem.point_observations)
-      Lower(of_pose_, o.pose, At(of_point_, o.point));
-    for (const auto& o : problem.line_observations) Lower(of_pose_, o.pose, At(of_line_, o.line));
-  }
-
-  double operator()(int pose) const { return std::max(0, pose - At(of_pose_, pose)); }
-
- private:
-  static constexpr int kLast = std::numeric_limits<int>::max();
-
-  static int At(const std::vector<int>& earliest, int index) {
-    return earliest[static_cast<std::size_t>(index)];
-  }
-  static void Lower(std::vector<int>& earliest, int index, int pose) {
-    int& value = earliest[static_cast<std::size_t>(index)];
+// By pose the first that it shares a landmark with.
+std::vector<int> FirstSharing(const BaProblem& problem) {
+  const auto lower = [](std::vector<int>& first, int index, int pose) {
+    int& value = first[static_cast<std::size_t>(index)];
     value = std::min(value, pose);
+  };
+  const int last = static_cast<int>(problem.poses.size());
+  std::vector<int> of_point(problem.points.size(), last), of_line(problem.lines.size(), last);
+  for (const auto& o : problem.point_observations) lower(of_point, o.point, o.pose);
+  for (const auto& o : problem.line_observations) lower(of_line, o.line, o.pose);
+  std::vector<int> of_pose(problem.poses.size());
+  std::iota(of_pose.begin(), of_pose.end(), 0);
+  for (const auto& o : problem.point_observations) {
+    lower(of_pose, o.pose, of_point[static_cast<std::size_t>(o.point)]);
   }
+  for (const auto& o : problem.line_observations) {
+    lower(of_pose, o.pose, of_line[static_cast<std::size_t>(o.line)]);
+  }
+  return of_pose;
+}
 
-  std::vector<int> of_point_, of_line_, of_pose_;  // earliest pose
-};
-
-// The keyframes of a map in which all share landmarks and whose equations take as long to solve
-// (SchurSolver): as many as there are, or fewer.
-double EquivalentKeyFrames(const BaProblem& problem) {
-  const Reach reach(problem);
-  double sum = 0;
-  for (int i = 0; i < static_cast<int>(problem.poses.size()); ++i) sum += reach(i) * reach(i);
-  return std::cbrt(3 * sum);
+bool TakesTooLong(const MapProblem& whole, const MappingOptions& options) {
+  return EnvelopeSize(FirstSharing(whole.problem)) > options.final_adjustment_keyframes;
 }
 
 // Line landmarks keep their place before the newest keyframe that shows them.
@@ -127,9 +114,11 @@ MapEdit AdjustWholeMap(const Map& map,
                        const MappingOptions& options) {
   constexpr std::size_t kMinKeyFrames = 3;
   if (map.keyframes().size() < kMinKeyFrames || options.final_adjustment_keyframes == 0) return {};
+  // The search for lines is for maps that may be adjusted.
+  if (TakesTooLong(MakeWholeMap(map, imaging, lines.weighting, {}), options)) return {};
   const MapProblem whole =
       MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
-  if (EquivalentKeyFrames(whole.problem) > options.final_adjustment_keyframes) return {};
+  if (TakesTooLong(whole, options)) return {};
   BaProblem problem = whole.problem;
   // Poses that are held are free in `whole`: a new scale is for all.
   const std::optional<BaResult> result =

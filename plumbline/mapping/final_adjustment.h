@@ -19,10 +19,9 @@ namespace plumbline {
 // one another by more than that (SolveInOnePiece); with a single camera the length of the path is
 // kept; line landmarks move with a keyframe that shows them.
 //
-// Nothing for a map of less than three keyframes, or one that would take longer than
-// mapping.final_adjustment_keyframes of which all share landmarks. Cost: FindWellSeenLines, and
-// bundle adjustment of the whole map, whose time grows with the keyframes, and with the square of
-// how many keyframes back the first is with which a keyframe shares a landmark.
+// Nothing for a map of less than three keyframes, or one whose equations take longer than those of
+// mapping.final_adjustment_keyframes that all share landmarks (EnvelopeSize). Cost:
+// FindWellSeenLines, and bundle adjustment of the whole map, with the time of FactorEnvelope.
 MapEdit AdjustWholeMap(const Map& map,
                        const ImagingModel& imaging,
                        const LineOptions& lines,

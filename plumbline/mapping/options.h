@@ -155,8 +155,8 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
       "final_adjustment_keyframes",
       o.final_adjustment_keyframes,
       "maps of up to so many keyframes are adjusted as a whole when the run ends, and larger ones "
-      "that take no longer, since their keyframes share landmarks with those near them only; 0: "
-      "none",
+      "whose equations take no longer, since keyframes share landmarks with those near them "
+      "only; 0: none",
       Range{0, 10000});
   visit("line_map", o.line_map, "which lines of the finished map are given out");
 }

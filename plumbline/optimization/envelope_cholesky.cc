@@ -3,6 +3,7 @@
 #include "plumbline/optimization/envelope_cholesky.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Cholesky>
@@ -17,8 +18,7 @@ auto LeftOfDiagonal(const EnvelopePanel& panel) {
   return panel.rows.leftCols(panel.begin - panel.first);
 }
 
-// The entries of L in a panel's columns of another one, which is factorized: those of the matrix
-// less what the columns before contribute.
+// The entries of L in a panel's columns of an earlier one, which is factorized.
 void Eliminate(const EnvelopePanel& other, EnvelopePanel& panel) {
   const Eigen::Index first = std::max(panel.first, other.first);
   const Eigen::Index width = other.begin - first;
@@ -27,21 +27,34 @@ void Eliminate(const EnvelopePanel& other, EnvelopePanel& panel) {
     block.noalias() -= panel.rows.middleCols(first - panel.first, width) *
                        other.rows.middleCols(first - other.first, width).transpose();
   }
-  if (&other == &panel) return;
   DiagonalBlock(other).transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(
       block);
 }
 
 bool FactorDiagonal(EnvelopePanel& panel) {
+  const Eigen::Index left = panel.begin - panel.first;
   Eigen::Ref<Eigen::MatrixXd> diagonal = panel.rows.rightCols(panel.rows.rows());
+  if (left > 0) {
+    diagonal.selfadjointView<Eigen::Lower>().rankUpdate(panel.rows.leftCols(left), -1);
+  }
   return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower>(diagonal).info() == Eigen::Success;
 }
 
 }  // namespace
 
+double EnvelopeSize(std::span<const int> first) {
+  double cost = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    for (int j = first[i]; j < static_cast<int>(i); ++j) {
+      cost += 1 + std::max(0, j - std::max(first[i], first[static_cast<std::size_t>(j)]));
+    }
+  }
+  return std::cbrt(6 * cost);
+}
+
 bool FactorEnvelope(std::vector<EnvelopePanel>& panels) {
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
+    for (std::size_t j = 0; j < i; ++j) {
       if (panels[j].begin >= panels[i].first) Eliminate(panels[j], panels[i]);
     }
     if (!FactorDiagonal(panels[i])) return false;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,10 @@ struct EnvelopePanel {
 //   returns  false where the matrix is not positive definite
 //   cost     O(size width^2) for panels of that width, at most that of a dense factorization
 bool FactorEnvelope(std::vector<EnvelopePanel>& panels);
+
+// The size of the full matrix whose factorization takes as long as one within the envelope in which
+// row i begins at column first[i] <= i. At most the number of rows. O(entries of the envelope).
+double EnvelopeSize(std::span<const int> first);
 
 // Solves L L^T x = b in place, L as FactorEnvelope leaves it. O(entries).
 void SolveEnvelope(const std::vector<EnvelopePanel>& panels, Eigen::VectorXd& x);

@@ -114,7 +114,8 @@ BaResult InitialState(const BaProblem& problem);
 //   lines     the parameters that lines have meanwhile; the result is the same form of line. Where
 //             ends are needed (end points, projected ends), they are those of TrimmedEnds().
 //   returns   finite numbers whenever the input is finite
-//   cost      per iteration O(sum over landmarks of their poses squared + free poses cubed)
+//   cost      per iteration O(sum over landmarks of their poses squared + FactorEnvelope of the
+//   free ones)
 BaResult SolveLocalBa(const BaProblem& problem,
                       const LocalBaOptions& options = {},
                       LineParametrization lines = LineParametrization::kPlucker);

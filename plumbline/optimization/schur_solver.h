@@ -80,28 +80,6 @@ struct EliminatedLandmark {
       const Eigen::Matrix<double, kDof, 1>& x = Eigen::Matrix<double, kDof, 1>::Zero()) const;
 };
 
-// One row of a symmetric matrix of 6x6 blocks, its lower triangle: the blocks that there are, by
-// column.
-class BlockRow {
- public:
-  // With all blocks up to the diagonal, or with none.
-  BlockRow(int row, bool full);
-
-  // Block (row, column), column <= row; made zero where there is none. O(1) in a full row, else
-  // O(log blocks), and O(blocks) for a new one.
-  Matrix6d& At(int column);
-  // Zeros, the blocks stay.
-  void SetZero();
-
-  const std::vector<int>& columns() const { return columns_; }  // ascending
-  const std::vector<Matrix6d>& blocks() const { return blocks_; }
-
- private:
-  bool full_;
-  std::vector<int> columns_;
-  std::vector<Matrix6d> blocks_;
-};
-
 // Damped Gauss-Newton equations of free poses and landmarks, with the landmarks eliminated one by
 // one into a system of the poses (Schur complement):
 //
@@ -110,10 +88,10 @@ class BlockRow {
 // Damping adds lambda times the diagonal (Marquardt), which makes a step independent of the units
 // of the parameters. Sums run in the order of the calls, so results repeat bit by bit.
 //
-// Up to 200 free poses the system is solved as a dense one. Of more, only the blocks of poses that
-// share a landmark are kept, and each pose's row begins where it first shares one (EnvelopePanel):
-// where poses share landmarks with those shortly before and after them, time and memory grow with
-// the number of poses, not with its third and second power.
+// Up to 200 free poses the system is solved as a dense one. Of more, each row begins with the first
+// pose that shares a landmark with it, rounded down to a panel of 32 (EnvelopePanel): where poses
+// share landmarks with those shortly before and after them, time and memory grow with the number
+// of poses, not with its third and second power.
 class SchurSolver {
  public:
   explicit SchurSolver(int free_poses);
@@ -123,7 +101,7 @@ class SchurSolver {
   PoseEquations& pose(int index) { return poses_[static_cast<std::size_t>(index)]; }
 
   // Eliminates one landmark. `couplings` are ordered by pose, each pose at most once; on return
-  // they hold Z. O(couplings squared), no allocation.
+  // they hold Z. O(couplings squared); allocates where a row of more than 200 poses gets longer.
   template <int kDof>
   EliminatedLandmark<kDof> Eliminate(const LandmarkEquations<kDof>& landmark,
                                      double lambda,
@@ -148,13 +126,29 @@ class SchurSolver {
     sum.template block<2, 2>(4, 4).noalias() +=
         Z.template bottomRows<2>() * Z.template bottomRows<2>().transpose();
   }
+  // The blocks of a row of the lower triangle, from the first that is not zero to the diagonal.
+  struct BlockRow {
+    std::size_t first = 0;
+    std::vector<Matrix6d> blocks;
+  };
+  // Makes sure that the row of a pose begins at an earlier one at the latest.
+  void Reach(int pose, int earlier) {
+    BlockRow& row = complement_[static_cast<std::size_t>(pose)];
+    if (static_cast<std::size_t>(earlier) < row.first) Extend(earlier, row);
+  }
+  void Extend(int column, BlockRow& row) const;
+  // Block (row, column) of the sum of Z Z^T, the row reaching so far; of those with row = column
+  // the lower triangle.
+  Matrix6d& Block(int row, int column) {
+    BlockRow& r = complement_[static_cast<std::size_t>(row)];
+    return r.blocks[static_cast<std::size_t>(column) - r.first];
+  }
   // H + lambda diag(H) of a pose less its own part of the sum of Z Z^T; lower triangle valid.
   Matrix6d DiagonalBlock(std::size_t pose, double lambda) const;
-  std::size_t FirstPanel(std::size_t begin, std::size_t end) const;
   void FillPanels(double lambda);
 
   std::vector<PoseEquations> poses_;
-  std::vector<BlockRow> complement_;  // sum of Z Z^T; of blocks on the diagonal the lower triangle
+  std::vector<BlockRow> complement_;    // sum of Z Z^T, by pose
   std::vector<Vector6d> complement_g_;  // sum of Z y
   std::size_t panel_poses_;
   std::vector<EnvelopePanel> panels_;  // of the system of the poses, by panel_poses_ each
@@ -213,11 +207,12 @@ EliminatedLandmark<kDof> SchurSolver::Eliminate(const LandmarkEquations<kDof>& l
     complement_g_[static_cast<std::size_t>(coupling.pose)].noalias() += coupling.W * out.y;
   }
   for (std::size_t i = 0; i < couplings.size(); ++i) {
-    BlockRow& row = complement_[static_cast<std::size_t>(couplings[i].pose)];
+    if (i > 0) Reach(couplings[i].pose, couplings.front().pose);
     for (std::size_t j = 0; j < i; ++j) {
-      row.At(couplings[j].pose).noalias() += couplings[i].W * couplings[j].W.transpose();
+      Block(couplings[i].pose, couplings[j].pose).noalias() +=
+          couplings[i].W * couplings[j].W.transpose();
     }
-    AddToLower(couplings[i].W, row.At(couplings[i].pose));
+    AddToLower(couplings[i].W, Block(couplings[i].pose, couplings[i].pose));
   }
   return out;
 }

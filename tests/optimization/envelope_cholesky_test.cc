@@ -3,6 +3,9 @@
 #include "plumbline/optimization/envelope_cholesky.h"
 
 #include "tests/optimization/random_scene.h"
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -86,6 +89,18 @@ TEST(EnvelopeCholesky, RefusesWhatIsNotPositiveDefinite) {
     last.rows(last.rows.rows() - 1, last.rows.cols() - 1) = -1;
     EXPECT_FALSE(FactorEnvelope(system.panels));
   }
+}
+
+TEST(EnvelopeSize, IsThatOfTheFullMatrixWithAsManyMultiplications) {
+  EXPECT_NEAR(EnvelopeSize(std::vector<int>(100, 0)), 100, 0.01);
+  std::vector<int> band(1000);
+  for (int i = 0; i < 1000; ++i) band[static_cast<std::size_t>(i)] = std::max(0, i - 20);
+  // Of 20 entries of a row the k-th takes k multiplications.
+  EXPECT_NEAR(EnvelopeSize(band), std::cbrt(6 * 1000 * 20 * 21 / 2), 1);
+  // The last rows meet the first: each of their entries is one of a band again, but the last few.
+  for (std::size_t i = 990; i < 1000; ++i) band[i] = 0;
+  EXPECT_NEAR(EnvelopeSize(band), std::cbrt(6 * (1000 * 210 + 10 * 1000 * 20 + 1000 * 45)), 2);
+  EXPECT_EQ(EnvelopeSize({}), 0);
 }
 
 TEST(EnvelopeCholesky, HasNothingToDoWithoutPanels) {
