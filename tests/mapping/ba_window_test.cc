@@ -203,16 +203,6 @@ void Disturb(Map& map, double scale) {
   map.Apply(edit);
 }
 
-double WorstPose(const Map& map, const std::vector<Rigid3>& truth) {
-  double worst = 0;
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    worst = std::max(
-        worst,
-        CentreDistance(keyframe.frame.cam_from_world, truth[static_cast<std::size_t>(id.value)]));
-  }
-  return worst;
-}
-
 TEST(ToEdit, BringsBackDisturbedPosesAndLandmarks) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 80);
   const std::vector<Rigid3> truth = Path(5, 6);

@@ -7,6 +7,7 @@
 #include "plumbline/map/map.h"
 
 #include "tests/support/synthetic_world.h"
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -29,6 +30,16 @@ inline KeyFrameId AddKeyFrameTo(Map& map,
   map.Apply({edit::AddKeyFrame{
       {id, KeyFrameId{id.value - 1}, MakeFrame(FrameId{id.value}, cam_from_world, sensed)}}});
   return id;
+}
+
+// The largest distance of a keyframe from its true place; `truth` by keyframe, cam_from_world.
+inline double WorstPose(const Map& map, const std::vector<Rigid3>& truth) {
+  double worst = 0;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const auto k = static_cast<std::size_t>(id.value);
+    worst = std::max(worst, CentreDistance(keyframe.frame.cam_from_world, truth[k]));
+  }
+  return worst;
 }
 
 namespace true_map_detail {
