@@ -49,7 +49,7 @@ void AddRow(std::ostringstream& table,
             const std::string& name,
             const std::optional<ErrorStatistics>& statistics,
             double factor) {
-  table << std::left << std::setw(14) << name << std::right;
+  table << std::left << std::setw(14) << name << std::right << std::setprecision(6);
   if (!statistics) {
     table << "  no pair of poses spans the window\n";
     return;

@@ -170,6 +170,39 @@ TEST(Evaluate, NamesWhatIsWrong) {
   testing::internal::GetCapturedStdout();
 }
 
+// Twenty poses on a curve; the last four of the estimate are of another scale than the others.
+TEST(Evaluate, TellsTheDriftOfTheScaleOfASingleCamera) {
+  const ScratchFolder folder;
+  Trajectory reference, estimate;
+  for (int i = 0; i < 20; ++i) {
+    StampedPose pose;
+    pose.stamp_ns = 1'000'000'000 + 50'000'000LL * i;
+    pose.world_from_camera.translation = {1.0 * i, 0.1 * i * i, 0};
+    reference.push_back(pose);
+    pose.world_from_camera.translation *= i < 16 ? 0.5 : 0.55;
+    estimate.push_back(pose);
+  }
+  WriteTum(folder / "reference.txt", reference);
+  WriteTum(folder / "estimate.txt", estimate);
+  const auto evaluate = [&](const std::string& align) {
+    const std::vector<std::string> arguments = {(folder / "reference.txt").string(),
+                                                (folder / "estimate.txt").string(),
+                                                "--align",
+                                                align,
+                                                "--json",
+                                                (folder / "out.json").string()};
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(EvaluateCommand(arguments), 0);
+    return testing::internal::GetCapturedStdout();
+  };
+  const std::string text = evaluate("sim3");
+  EXPECT_THAT(text, HasSubstr(", drift of the scale 10.00 %\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("ATE .m. +[0-9]+[.][0-9][0-9][0-9][0-9][0-9][0-9] "));
+  EXPECT_THAT(Contents(folder / "out.json"), HasSubstr("\"scale_drift\": 0.1"));
+  EXPECT_THAT(evaluate("se3"), testing::Not(HasSubstr("drift of the scale")));
+  EXPECT_THAT(Contents(folder / "out.json"), HasSubstr("\"scale_drift\": null"));
+}
+
 // A run in a world of its own: the reference world is turned, moved and 1 / scale as large.
 struct LineRun {
   ScratchFolder folder;
