@@ -68,8 +68,9 @@ std::vector<int> FirstSharing(const BaProblem& problem) {
   return of_pose;
 }
 
-bool TakesTooLong(const MapProblem& whole, const MappingOptions& options) {
-  return EnvelopeSize(FirstSharing(whole.problem)) > options.final_adjustment_keyframes;
+// Only a map of more keyframes than the limit can.
+bool TakesTooLong(const MapProblem& whole, int limit) {
+  return EnvelopeSize(FirstSharing(whole.problem)) > limit;
 }
 
 // Line landmarks keep their place before the newest keyframe that shows them.
@@ -113,12 +114,15 @@ MapEdit AdjustWholeMap(const Map& map,
                        const LineOptions& lines,
                        const MappingOptions& options) {
   constexpr std::size_t kMinKeyFrames = 3;
-  if (map.keyframes().size() < kMinKeyFrames || options.final_adjustment_keyframes == 0) return {};
-  // The search for lines is for maps that may be adjusted.
-  if (TakesTooLong(MakeWholeMap(map, imaging, lines.weighting, {}), options)) return {};
+  const int limit = options.final_adjustment_keyframes;
+  const std::size_t count = map.keyframes().size();
+  if (count < kMinKeyFrames || limit == 0) return {};
+  const bool large = count > static_cast<std::size_t>(limit);
+  // The points alone tell of many maps, before the search for lines.
+  if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weighting, {}), limit)) return {};
   const MapProblem whole =
       MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
-  if (TakesTooLong(whole, options)) return {};
+  if (large && TakesTooLong(whole, limit)) return {};
   BaProblem problem = whole.problem;
   // Poses that are held are free in `whole`: a new scale is for all.
   const std::optional<BaResult> result =

@@ -21,7 +21,7 @@ SchurSolver::SchurSolver(int free_poses)
       panel_poses_(poses_.size() > kDensePoses ? kPanelPoses : kDensePoses),
       step_(6 * free_poses) {
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    complement_[i].first = poses_.size() > kDensePoses ? i : 0;
+    complement_[i].first = PanelBegin(i);
     complement_[i].blocks.resize(i + 1 - complement_[i].first);
   }
   Reset();
@@ -35,9 +35,8 @@ void SchurSolver::Reset() {
   std::fill(complement_g_.begin(), complement_g_.end(), Vector6d::Zero());
 }
 
-// To the beginning of a panel: there the row of the panel begins, too.
-void SchurSolver::Extend(int column, BlockRow& row) const {
-  const std::size_t first = static_cast<std::size_t>(column) / panel_poses_ * panel_poses_;
+void SchurSolver::Extend(std::size_t column, BlockRow& row) const {
+  const std::size_t first = PanelBegin(column);
   row.blocks.insert(row.blocks.begin(), row.first - first, Matrix6d::Zero());
   row.first = first;
 }

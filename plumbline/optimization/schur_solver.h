@@ -126,7 +126,8 @@ class SchurSolver {
     sum.template block<2, 2>(4, 4).noalias() +=
         Z.template bottomRows<2>() * Z.template bottomRows<2>().transpose();
   }
-  // The blocks of a row of the lower triangle, from the first that is not zero to the diagonal.
+  // The blocks of a row of the lower triangle, from the beginning of the panel in which the first
+  // is that is not zero, to the diagonal.
   struct BlockRow {
     std::size_t first = 0;
     std::vector<Matrix6d> blocks;
@@ -134,9 +135,12 @@ class SchurSolver {
   // Makes sure that the row of a pose begins at an earlier one at the latest.
   void Reach(int pose, int earlier) {
     BlockRow& row = complement_[static_cast<std::size_t>(pose)];
-    if (static_cast<std::size_t>(earlier) < row.first) Extend(earlier, row);
+    const auto column = static_cast<std::size_t>(earlier);
+    if (column < row.first) Extend(column, row);
   }
-  void Extend(int column, BlockRow& row) const;
+  void Extend(std::size_t column, BlockRow& row) const;
+  // The first pose of the panel that a pose is in.
+  std::size_t PanelBegin(std::size_t pose) const { return pose / panel_poses_ * panel_poses_; }
   // Block (row, column) of the sum of Z Z^T, the row reaching so far; of those with row = column
   // the lower triangle.
   Matrix6d& Block(int row, int column) {
