@@ -24,15 +24,15 @@ void Measure(const char* path) {
   MappingOptions options;
   options.final_adjustment_keyframes = 1'000'000;
   const auto start = std::chrono::steady_clock::now();
-  const plumbline::MapEdit edit =
+  const plumbline::Correction correction =
       plumbline::AdjustWholeMap(saved.map, imaging, LineOptions{}, options);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  fmt::print("{}: {} keyframes, {} points, {} lines, {} changes, {:.2f} s\n",
+  fmt::print("{}: {} keyframes, {} points, {} lines, {} poses moved, {:.2f} s\n",
              path,
              saved.map.keyframes().size(),
              saved.map.points().size(),
              saved.map.lines().size(),
-             edit.size(),
+             correction.keyframes.size(),
              seconds.count());
 }
 

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/geometry/sim3.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/landmarks.h"
 
+#include <map>
 #include <variant>
 #include <vector>
 
@@ -26,6 +28,14 @@ struct RemoveKeyFrame {
 struct SetPose {
   KeyFrameId id;
   Rigid3 cam_from_world;
+};
+// Moves keyframes, each by a similarity of its own (new from old world), and all that hangs on
+// them: a landmark goes with the newest keyframe that shows it; removed keyframes, and frames whose
+// pose is kept relative to a keyframe, follow by themselves (Placement). Keyframes that are not
+// named stay. Where keyframes that see the same move alike, no reprojection changes. Scales other
+// than 1 are for maps of a single camera: disparities do not change with them.
+struct MoveKeyFrames {
+  std::map<KeyFrameId, Similarity3> new_from_old;
 };
 
 // What corrects the disparities of all keyframes, those of later ones too.
@@ -105,6 +115,7 @@ struct ScoreLine {
 using MapChange = std::variant<edit::AddKeyFrame,
                                edit::RemoveKeyFrame,
                                edit::SetPose,
+                               edit::MoveKeyFrames,
                                edit::CorrectStereo,
                                edit::AddPoint,
                                edit::AddLine,

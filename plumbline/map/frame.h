@@ -44,6 +44,10 @@ struct KeyFrame {
   KeyFrameId id;
   KeyFrameId parent;  // the keyframe it was tracked against; invalid for the first
   Frame frame;
+  // How often a length around the keyframe that was 1 when it came into the map is 1 today: the
+  // product of the scales of all motions it took part in (edit::MoveKeyFrames).
+  double unit = 1;
+  std::int64_t number = 0;  // how many keyframes the map had taken in before; the map counts
 };
 
 }  // namespace plumbline

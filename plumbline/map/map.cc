@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/map/appearance.h"
+#include "plumbline/map/motion.h"
 
 #include <algorithm>
 #include <string>
@@ -35,16 +36,45 @@ const MapLine* Map::Find(LineId id) const { return lines_.Find(id); }
 PointId Map::Current(PointId id) const { return Follow(merged_points_, points_, id); }
 LineId Map::Current(LineId id) const { return Follow(merged_lines_, lines_, id); }
 
-Rigid3 Map::PoseOf(KeyFrameId id) const {
-  Rigid3 cam_from_ancestor;
+bool Map::Knows(KeyFrameId id) const {
+  return Find(id) != nullptr || removed_keyframes_.contains(id);
+}
+
+std::int64_t Map::NumberOf(KeyFrameId id) const {
+  if (const KeyFrame* keyframe = Find(id)) return keyframe->number;
+  const auto removed = removed_keyframes_.find(id);
+  PLUMBLINE_CHECK(removed != removed_keyframes_.end(), "a keyframe that never was in the map");
+  return removed->second.number;
+}
+
+KeyFrameId Map::ParentOf(KeyFrameId id) const {
+  if (const KeyFrame* keyframe = Find(id)) return keyframe->parent;
+  const auto removed = removed_keyframes_.find(id);
+  return removed == removed_keyframes_.end() ? KeyFrameId{} : removed->second.parent;
+}
+
+Placement Map::PlaceOf(KeyFrameId id) const {
+  std::vector<const Removed*> chain;  // up to a keyframe that is in the map
   for (auto it = removed_keyframes_.find(id); it != removed_keyframes_.end();
        it = removed_keyframes_.find(id)) {
-    cam_from_ancestor = cam_from_ancestor * it->second.cam_from_parent;
+    chain.push_back(&it->second);
     id = it->second.parent;
   }
   const KeyFrame* keyframe = Find(id);
-  PLUMBLINE_CHECK(keyframe != nullptr, "pose of a keyframe that never was in the map");
-  return cam_from_ancestor * keyframe->frame.cam_from_world;
+  PLUMBLINE_CHECK(keyframe != nullptr, "place of a keyframe that never was in the map");
+  double unit = keyframe->unit;
+  Rigid3 cam_from_ancestor;
+  for (auto removed = chain.rbegin(); removed != chain.rend(); ++removed) {
+    const RelativePose& relative = (*removed)->from_parent;
+    cam_from_ancestor = InUnit(relative, unit) * cam_from_ancestor;
+    unit *= (*removed)->unit / relative.unit;
+  }
+  return {cam_from_ancestor * keyframe->frame.cam_from_world, unit};
+}
+
+void Map::ReserveIds(PointId next_point, LineId next_line) {
+  next_point_ = std::max(next_point_, next_point);
+  next_line_ = std::max(next_line_, next_line);
 }
 
 // Carries out single changes. Overloads of Do() are what std::visit dispatches to.
@@ -136,6 +166,16 @@ struct MapChanger {
     }
   }
 
+  // Each goes with the newest keyframe that shows it.
+  template <class LandmarkId, class Landmark>
+  static void MoveLandmarks(std::map<LandmarkId, Landmark>& landmarks,
+                            const edit::MoveKeyFrames& change) {
+    for (auto& [id, landmark] : landmarks) {
+      const auto motion = change.new_from_old.find(landmark.observations.newest().first);
+      if (motion != change.new_from_old.end()) Move(motion->second, landmark);
+    }
+  }
+
   // Matches of the new keyframe become observations of the landmarks as they stand today.
   template <class LandmarkId>
   void ObserveMatches(KeyFrameId keyframe_id, const std::vector<LandmarkId>& matches) {
@@ -148,8 +188,9 @@ struct MapChanger {
   void Do(const edit::AddKeyFrame& change) {
     KeyFrame keyframe = change.keyframe;
     const KeyFrameId id = keyframe.id;
-    PLUMBLINE_CHECK(id >= map.next_keyframe_, "id of a new keyframe is not new");
-    map.next_keyframe_ = KeyFrameId{id.value + 1};
+    PLUMBLINE_CHECK(!map.Knows(id), "id of a new keyframe is not new");
+    map.next_keyframe_ = std::max(map.next_keyframe_, KeyFrameId{id.value + 1});
+    keyframe.number = map.keyframes_taken_in_++;
     const auto points = std::exchange(keyframe.frame.points, {});
     const auto lines = std::exchange(keyframe.frame.lines, {});
     keyframe.frame.points.resize(points.size());
@@ -163,9 +204,10 @@ struct MapChanger {
   void Do(const edit::RemoveKeyFrame& change) {
     KeyFrame* keyframe = FindKeyFrame(change.id);
     if (keyframe == nullptr || !keyframe->parent.valid()) return;
-    const Rigid3 parent_from_world = map.PoseOf(keyframe->parent);
+    const Placement parent = map.PlaceOf(keyframe->parent);
+    const Rigid3 cam_from_parent = keyframe->frame.cam_from_world * Inverse(parent.cam_from_world);
     map.removed_keyframes_[change.id] = {
-        keyframe->parent, keyframe->frame.cam_from_world * Inverse(parent_from_world)};
+        keyframe->parent, {cam_from_parent, parent.unit}, keyframe->unit, keyframe->number};
     const Frame frame = keyframe->frame;
     for (const PointId id : frame.points) Unobserve(id, change.id);
     for (const LineId id : frame.lines) Unobserve(id, change.id);
@@ -175,6 +217,14 @@ struct MapChanger {
   void Do(const edit::SetPose& change) {
     if (KeyFrame* keyframe = FindKeyFrame(change.id)) {
       keyframe->frame.cam_from_world = change.cam_from_world;
+    }
+  }
+
+  void Do(const edit::MoveKeyFrames& change) {
+    MoveLandmarks(map.points_.entries(), change);
+    MoveLandmarks(map.lines_.entries(), change);
+    for (const auto& [id, motion] : change.new_from_old) {
+      if (KeyFrame* keyframe = FindKeyFrame(id)) Move(motion, *keyframe);
     }
   }
 
@@ -217,6 +267,7 @@ struct MapChanger {
 };
 
 void Map::Apply(const MapEdit& edit) {
+  ++version_;
   MapChanger changer{*this};
   for (const MapChange& change : edit) {
     std::visit([&](const auto& c) { changer.Do(c); }, change);

@@ -6,7 +6,9 @@
 #include "plumbline/map/frame.h"
 #include "plumbline/map/id_table.h"
 #include "plumbline/map/landmarks.h"
+#include "plumbline/map/placement.h"
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -32,10 +34,23 @@ class Map {
   PointId Current(PointId id) const;
   LineId Current(LineId id) const;
 
-  // Pose of a keyframe that is or was in the map: a removed one moves with its parent.
-  Rigid3 PoseOf(KeyFrameId id) const;
+  // Place of a keyframe that is or was in the map: a removed one moves with its parent.
+  Placement PlaceOf(KeyFrameId id) const;
+  Rigid3 PoseOf(KeyFrameId id) const { return PlaceOf(id).cam_from_world; }
+  // Whether it is or was in the map.
+  bool Knows(KeyFrameId id) const;
+  // KeyFrame::parent, also of a removed keyframe; invalid for one that the map does not know.
+  KeyFrameId ParentOf(KeyFrameId id) const;
+  // KeyFrame::number, also of a removed keyframe.
+  std::int64_t NumberOf(KeyFrameId id) const;
 
-  // Ids for new objects: the next numbers never used before.
+  // Grows with every edit that is applied.
+  std::int64_t version() const { return version_; }
+
+  // New landmarks get ids from these on, or higher ones: an atlas gives an id once in all its maps.
+  void ReserveIds(PointId next_point, LineId next_line);
+
+  // Ids for new objects: higher than any used before.
   KeyFrameId NextKeyFrameId() const { return next_keyframe_; }
   PointId NextPointId() const { return next_point_; }
   LineId NextLineId() const { return next_line_; }
@@ -51,15 +66,20 @@ class Map {
   void CheckInvariants() const;
 
  private:
+  // A keyframe that left the map, beside its parent of then.
   struct Removed {
     KeyFrameId parent;
-    Rigid3 cam_from_parent;
+    RelativePose from_parent;
+    double unit = 1;  // its own when it left
+    std::int64_t number = 0;
   };
 
   // One overload for each kind of change; points and lines share the templates behind them.
   friend struct MapChanger;
 
   MapId id_;
+  std::int64_t version_ = 0;
+  std::int64_t keyframes_taken_in_ = 0;
   KeyFrameId next_keyframe_{0};
   PointId next_point_{0};
   LineId next_line_{0};

@@ -47,13 +47,16 @@ const SnapshotLine* MapSnapshot::Find(LineId id) const { return FindById(lines, 
 
 std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
                                                 KeyFrameId centre,
-                                                int max_keyframes) {
+                                                int max_keyframes,
+                                                std::span<const KeyFrameId> earlier) {
   const KeyFrame* reference = map.Find(centre);
   PLUMBLINE_CHECK(reference != nullptr, "snapshot around a keyframe that is not in the map");
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->centre = centre;
   snapshot->stereo_correction = map.stereo_correction();
   snapshot->reference = std::make_shared<const KeyFrame>(*reference);
+  snapshot->places.emplace(centre, map.PlaceOf(centre));
+  for (const KeyFrameId id : earlier) snapshot->places.emplace(id, map.PlaceOf(id));
   std::set<PointId> points;
   std::set<LineId> lines;
   for (const KeyFrameId id : Window(map, centre, static_cast<std::size_t>(max_keyframes))) {

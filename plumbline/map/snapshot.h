@@ -3,9 +3,11 @@
 #pragma once
 
 #include "plumbline/map/map.h"
+#include "plumbline/map/placement.h"
 
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace plumbline {
@@ -27,9 +29,12 @@ struct MapSnapshot {
   KeyFrameId centre;
   StereoCorrection stereo_correction;           // of disparities
   std::map<KeyFrameId, Rigid3> cam_from_world;  // keyframes of the window
-  std::shared_ptr<const KeyFrame> reference;    // the centre, for matching by appearance
-  std::vector<SnapshotPoint> points;            // sorted by id
-  std::vector<SnapshotLine> lines;              // sorted by id
+  // Of the centre and of those that earlier snapshots were taken around: what the tracker's last
+  // pose may hang on, also where the keyframe left the map meanwhile.
+  std::map<KeyFrameId, Placement> places;
+  std::shared_ptr<const KeyFrame> reference;  // the centre, for matching by appearance
+  std::vector<SnapshotPoint> points;          // sorted by id
+  std::vector<SnapshotLine> lines;            // sorted by id
 
   const SnapshotPoint* Find(PointId id) const;
   const SnapshotLine* Find(LineId id) const;
@@ -39,9 +44,11 @@ struct MapSnapshot {
 inline constexpr int kSnapshotKeyFrames = 40;
 
 // Copies the landmarks seen by `centre`, by its covisible keyframes and by their closest
-// neighbours, at most max_keyframes keyframes in all. Order of a megabyte.
+// neighbours, at most max_keyframes keyframes in all. `earlier` are keyframes that are or were in
+// the map, whose places the tracker may ask for. Order of a megabyte.
 std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
                                                 KeyFrameId centre,
-                                                int max_keyframes = kSnapshotKeyFrames);
+                                                int max_keyframes = kSnapshotKeyFrames,
+                                                std::span<const KeyFrameId> earlier = {});
 
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/final_adjustment.h"
 
+#include "plumbline/base/median.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
 #include "plumbline/optimization/envelope_cholesky.h"
@@ -10,9 +11,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -73,46 +74,73 @@ bool TakesTooLong(const MapProblem& whole, int limit) {
   return EnvelopeSize(FirstSharing(whole.problem)) > limit;
 }
 
-// Line landmarks keep their place before the newest keyframe that shows them.
-void MoveLines(const Map& map, const std::map<KeyFrameId, Rigid3>& poses, MapEdit& edit) {
-  for (const auto& [id, line] : map.lines()) {
-    const KeyFrameId newest = line.observations.newest().first;
-    const Rigid3 motion = Inverse(poses.at(newest)) * map.Find(newest)->frame.cam_from_world;
-    edit::MoveLine change{id, Transform(motion, line.line), 0, 0, line.information};
-    change.start = change.line.ParameterOf(motion * line.line.PointAt(line.start));
-    change.end = change.line.ParameterOf(motion * line.line.PointAt(line.end));
-    edit.push_back(change);
+// How much deeper the points lie that a pose shows, after / before: the median over its points;
+// nullopt where it shows too few to tell.
+std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& depths) {
+  constexpr std::size_t kFew = 10;
+  std::vector<double> ratios;
+  for (const auto& [before, after] : depths) {
+    if (before > 0 && after > 0) ratios.push_back(after / before);
   }
+  if (ratios.size() < kFew) return std::nullopt;
+  return UpperMedian(ratios);
 }
 
-// Of the distances between keyframes that follow each other.
-double PathLength(const std::vector<Rigid3>& poses) {
-  double length = 0;
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    length += (Inverse(poses[k]).translation - Inverse(poses[k - 1]).translation).norm();
+// By pose, 1 where lengths are measured. A pose that shows too few points has the scale of the one
+// before it, the first ones that of the first that tells.
+std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
+  std::vector<double> scales(problem.poses.size(), 1);
+  if (problem.camera.baseline > 0) return scales;
+  std::vector<std::vector<std::pair<double, double>>> depths(problem.poses.size());
+  for (const auto& o : problem.point_observations) {
+    const auto pose = static_cast<std::size_t>(o.pose);
+    const auto point = static_cast<std::size_t>(o.point);
+    depths[pose].emplace_back((problem.poses[pose].cam_from_world * problem.points[point]).z(),
+                              (result.poses[pose] * result.points[point]).z());
   }
-  return length;
+  std::optional<double> last;
+  for (std::size_t k = 0; k < scales.size() && !last; ++k) last = ScaleAround(depths[k]);
+  for (std::size_t k = 0; k < scales.size() && last; ++k) {
+    scales[k] = ScaleAround(depths[k]).value_or(*last);
+    last = scales[k];
+  }
+  return scales;
 }
 
-// A single camera leaves the scale of the whole open; the frames between the keyframes keep the one
-// that they were tracked with, and so must these.
-void KeepScale(const BaProblem& problem, BaResult& result) {
+// A single camera leaves the unit of the whole open: it stays what it is around the oldest
+// keyframe.
+void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
   if (problem.camera.baseline > 0) return;
-  std::vector<Rigid3> before;
-  for (const auto& pose : problem.poses) before.push_back(pose.cam_from_world);
-  const double length = PathLength(result.poses);
-  if (!(length > 0)) return;
-  const double scale = PathLength(before) / length;
+  const double scale = 1 / ScalesOf(problem, result).front();
   for (Rigid3& pose : result.poses) pose.translation *= scale;
   for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
+Correction CorrectionOf(const Map& map, const MapProblem& whole, const BaResult& result) {
+  Correction correction;
+  const std::vector<double> scales = ScalesOf(whole.problem, result);
+  const Rigid3 world_from_problem = Inverse(whole.problem_from_world);
+  for (std::size_t k = 0; k < whole.keyframes.size(); ++k) {
+    const KeyFrameId id = whole.keyframes[k];
+    const Rigid3& before = map.Find(id)->frame.cam_from_world;
+    const bool fixed = whole.problem.poses[k].fixed;
+    correction.keyframes[id] = {
+        before, fixed ? before : result.poses[k] * whole.problem_from_world, scales[k]};
+  }
+  for (std::size_t k = 0; k < whole.points.size(); ++k) {
+    const PointId id = whole.points[k];
+    correction.points[id] = {map.Find(id)->position, world_from_problem * result.points[k]};
+  }
+  correction.outliers = OutliersOf(whole, result);
+  return correction;
+}
+
 }  // namespace
 
-MapEdit AdjustWholeMap(const Map& map,
-                       const ImagingModel& imaging,
-                       const LineOptions& lines,
-                       const MappingOptions& options) {
+Correction AdjustWholeMap(const Map& map,
+                          const ImagingModel& imaging,
+                          const LineOptions& lines,
+                          const MappingOptions& options) {
   constexpr std::size_t kMinKeyFrames = 3;
   const int limit = options.final_adjustment_keyframes;
   const std::size_t count = map.keyframes().size();
@@ -124,17 +152,15 @@ MapEdit AdjustWholeMap(const Map& map,
       MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
   if (large && TakesTooLong(whole, limit)) return {};
   BaProblem problem = whole.problem;
-  // Poses that are held are free in `whole`: a new scale is for all.
+  // Poses that are held are free in `whole`: a new unit is for all.
   const std::optional<BaResult> result =
       SolveInOnePiece(problem,
                       options.ba,
                       lines.parametrization,
                       options.window.final_limits(),
-                      [&](BaResult& solution) { KeepScale(whole.problem, solution); });
+                      [&](BaResult& solution) { KeepUnitOfTheOldest(whole.problem, solution); });
   if (!result) return {};
-  MapEdit edit = PosesAndPointsOf(whole, *result);
-  MoveLines(map, PosesByKeyFrame(whole, *result), edit);
-  return edit;
+  return CorrectionOf(map, whole, *result);
 }
 
 }  // namespace plumbline

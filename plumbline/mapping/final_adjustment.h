@@ -5,6 +5,7 @@
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
+#include "plumbline/mapping/correction.h"
 #include "plumbline/mapping/options.h"
 
 namespace plumbline {
@@ -16,15 +17,16 @@ namespace plumbline {
 // residual of eq. 13 here, whatever lines.residual says, and are not held parallel. The first
 // keyframe stays where it is, and so do those that the points and well seen lines do not fix to
 // mapping.window.max_pose_sigma, and both of two that follow each other and would be moved against
-// one another by more than that (SolveInOnePiece); with a single camera the length of the path is
-// kept; line landmarks move with a keyframe that shows them.
+// one another by more than that (SolveInOnePiece); with a single camera the depth of
+// what the first keyframe shows is kept, in the median, and each keyframe gets the scale by which
+// the depths it shows have changed (KeyFrame::unit).
 //
 // Nothing for a map of less than three keyframes, or one whose equations take longer than those of
 // mapping.final_adjustment_keyframes that all share landmarks (EnvelopeSize). Cost:
 // FindWellSeenLines, and bundle adjustment of the whole map, with the time of FactorEnvelope.
-MapEdit AdjustWholeMap(const Map& map,
-                       const ImagingModel& imaging,
-                       const LineOptions& lines,
-                       const MappingOptions& options);
+Correction AdjustWholeMap(const Map& map,
+                          const ImagingModel& imaging,
+                          const LineOptions& lines,
+                          const MappingOptions& options);
 
 }  // namespace plumbline

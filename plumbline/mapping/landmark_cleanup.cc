@@ -13,10 +13,13 @@ namespace {
 enum class Verdict { kKeepWatching, kPassed, kRemove };
 
 template <class Landmark>
-Verdict Judge(const Landmark* landmark, KeyFrameId newest, const CleanupOptions& options) {
+Verdict Judge(const Map& map,
+              const Landmark* landmark,
+              KeyFrameId newest,
+              const CleanupOptions& options) {
   if (landmark == nullptr) return Verdict::kPassed;  // gone already
   if (landmark->score.Ratio() < options.min_found_ratio) return Verdict::kRemove;
-  if (newest.value - landmark->created_by.value < options.trial_keyframes) {
+  if (map.NumberOf(newest) - map.NumberOf(landmark->created_by) < options.trial_keyframes) {
     return Verdict::kKeepWatching;
   }
   return static_cast<int>(landmark->observations.size()) < options.min_observations
@@ -31,7 +34,7 @@ void JudgeAll(const Map& map,
               std::vector<LandmarkId>& young,
               MapEdit& edit) {
   std::erase_if(young, [&](LandmarkId id) {
-    const Verdict verdict = Judge(map.Find(id), newest, options);
+    const Verdict verdict = Judge(map, map.Find(id), newest, options);
     if (verdict == Verdict::kRemove) edit.push_back(Remove{id});
     return verdict != Verdict::kKeepWatching;
   });

@@ -46,6 +46,15 @@ double MaxDifference(const RectifiedCamera& camera,
   return largest;
 }
 
+// The keyframe of this number near the newest end of the map; nullptr where it was removed.
+const KeyFrame* WithNumber(const Map& map, std::int64_t number) {
+  const auto& keyframes = map.keyframes();
+  auto keyframe = keyframes.rbegin();
+  while (keyframe != keyframes.rend() && keyframe->second.number > number) ++keyframe;
+  const bool found = keyframe != keyframes.rend() && keyframe->second.number == number;
+  return found ? &keyframe->second : nullptr;
+}
+
 // New looks for all landmarks that a keyframe shows.
 MapEdit RefreshShown(const Frame& frame) {
   MapEdit edit;
@@ -99,7 +108,9 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map) const {
   constexpr int kRounds = 2;  // with better poses, lines find more of what shows them
   std::vector<MappingStep> times;
   for (int round = 0; round < kRounds; ++round) {
-    Timed("finish", times, [&] { map.Apply(AdjustWholeMap(map, imaging_, lines_, options_)); });
+    Timed("finish", times, [&] {
+      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options_), map));
+    });
   }
   return times;
 }
@@ -163,7 +174,7 @@ void LocalMapper::Adjust(Map& map, KeyFrameId id) {
 // The keyframe kDelay ago is one that others after it have shown the landmarks of.
 void LocalMapper::CalibrateStereo(Map& map, KeyFrameId id) {
   constexpr std::int64_t kDelay = 3;
-  const KeyFrame* keyframe = map.Find(KeyFrameId{id.value - kDelay});
+  const KeyFrame* keyframe = WithNumber(map, map.NumberOf(id) - kDelay);
   if (keyframe != nullptr) calibrator_.Observe(map, *keyframe);
   const StereoCorrection correction = calibrator_.Estimate();
   if (MaxDifference(imaging_.camera, correction, map.stereo_correction()) > kMinChangePx) {

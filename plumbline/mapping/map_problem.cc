@@ -74,6 +74,18 @@ void MapProblemBuilder::AddLineView(int line, const View& view, bool with_right)
   }
 }
 
+std::vector<edit::RemovePointObservation> OutliersOf(const MapProblem& part,
+                                                     const BaResult& result) {
+  std::vector<edit::RemovePointObservation> outliers;
+  const auto& observations = part.problem.point_observations;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (result.point_inliers[k]) continue;
+    outliers.push_back({part.points[static_cast<std::size_t>(observations[k].point)],
+                        part.keyframes[static_cast<std::size_t>(observations[k].pose)]});
+  }
+  return outliers;
+}
+
 MapEdit PosesAndPointsOf(const MapProblem& part, const BaResult& result) {
   MapEdit edit;
   for (std::size_t k = 0; k < part.keyframes.size(); ++k) {
@@ -84,13 +96,8 @@ MapEdit PosesAndPointsOf(const MapProblem& part, const BaResult& result) {
   for (std::size_t k = 0; k < part.points.size(); ++k) {
     edit.push_back(edit::MovePoint{part.points[k], world_from_problem * result.points[k]});
   }
-  const auto& observations = part.problem.point_observations;
-  for (std::size_t k = 0; k < observations.size(); ++k) {
-    if (result.point_inliers[k]) continue;
-    edit.push_back(edit::RemovePointObservation{
-        part.points[static_cast<std::size_t>(observations[k].point)],
-        part.keyframes[static_cast<std::size_t>(observations[k].pose)]});
-  }
+  const auto outliers = OutliersOf(part, result);
+  edit.insert(edit.end(), outliers.begin(), outliers.end());
   return edit;
 }
 

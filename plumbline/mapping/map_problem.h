@@ -72,6 +72,10 @@ class MapProblemBuilder {
   std::vector<View> views_;           // last asked for
 };
 
+// The observations of points that turned out to be outliers.
+std::vector<edit::RemovePointObservation> OutliersOf(const MapProblem& part,
+                                                     const BaResult& result);
+
 // Poses of the result in the world of the map, the fixed ones included.
 std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaResult& result);
 

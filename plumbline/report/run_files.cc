@@ -42,18 +42,18 @@ void WriteTrajectories(const System& system,
     }
     return;
   }
-  for (const Map& map : system.maps()) {
-    const std::string suffix = map.id() == *main ? "" : fmt::format("_map{}", map.id().value);
-    write("trajectory" + suffix + ".txt", system.FinalTrajectory(map.id()));
-    write("trajectory_causal" + suffix + ".txt", system.CausalTrajectory(map.id()));
-    write("keyframes" + suffix + ".txt", system.KeyFrameTrajectory(map.id()));
+  for (const auto& [id, map] : system.maps()) {
+    const std::string suffix = id == *main ? "" : fmt::format("_map{}", id.value);
+    write("trajectory" + suffix + ".txt", system.FinalTrajectory(id));
+    write("trajectory_causal" + suffix + ".txt", system.CausalTrajectory(id));
+    write("keyframes" + suffix + ".txt", system.KeyFrameTrajectory(id));
   }
 }
 
 void WriteMap(const System& system, const std::filesystem::path& folder) {
   const auto main = system.MainMap();
   const Map none;
-  const Map& map = main ? system.maps()[static_cast<std::size_t>(main->value)] : none;
+  const Map& map = main ? system.maps().at(*main) : none;
   std::vector<Eigen::Vector3d> points;
   for (const auto& [id, point] : map.points()) points.push_back(point.position);
   std::vector<Segment3> lines;

@@ -113,8 +113,8 @@ RunScene MakeRunScene(const System& system, const Dataset& dataset, const RunSce
     scene.up = {0, 0, 1};
   }
   const auto main = system.MainMap();
-  for (const Map& map : system.maps()) {
-    if (main == map.id()) scene.main = scene.maps.size();
+  for (const auto& [id, map] : system.maps()) {
+    if (main == id) scene.main = scene.maps.size();
     scene.maps.push_back(MakeMapScene(system, dataset, map));
   }
   if (scene.main) {

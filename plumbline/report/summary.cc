@@ -112,7 +112,7 @@ RunCounts CountRun(const System& system) {
   }
   counts.maps = static_cast<int>(system.maps().size());
   if (const auto main = system.MainMap()) {
-    const Map& map = system.maps()[static_cast<std::size_t>(main->value)];
+    const Map& map = system.maps().at(*main);
     counts.keyframes = static_cast<int>(map.keyframes().size());
     counts.points = static_cast<int>(map.points().size());
     counts.lines = static_cast<int>(map.lines().size());
@@ -130,7 +130,7 @@ LineMemory MeasureLineMemory(const System& system) {
   memory.adjustment = mean(adjusted.bytes, adjusted.count);
   const auto main = system.MainMap();
   if (!main) return memory;
-  const auto& lines = system.maps()[static_cast<std::size_t>(main->value)].lines();
+  const auto& lines = system.maps().at(*main).lines();
   std::size_t bytes = 0;
   for (const auto& [id, line] : lines) {
     bytes += sizeof(line) + line.observations.size() * sizeof(Observations::value_type);

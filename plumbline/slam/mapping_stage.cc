@@ -18,6 +18,17 @@ void LowerPriority() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
 }
 
+// The keyframe beside its parent as the map has it today, which may have moved since the frame was
+// tracked.
+KeyFrame PlacedIn(const Map& map, const NewKeyFrame& added) {
+  KeyFrame keyframe = added.keyframe;
+  if (!keyframe.parent.valid() || !map.Knows(keyframe.parent)) return keyframe;
+  const Placement parent = map.PlaceOf(keyframe.parent);
+  keyframe.frame.cam_from_world = PoseBeside(parent, added.from_parent);
+  keyframe.unit = parent.unit;
+  return keyframe;
+}
+
 }  // namespace
 
 MappingStage::MappingStage(const ImagingModel& imaging, const SlamOptions& options)
@@ -80,8 +91,8 @@ void MappingStage::Finish() {
   while (versions_.size() > 1) versions_.pop_front();
   if (finished_ == submitted_) return;
   finished_ = submitted_;
-  for (Map& map : maps_) {
-    const std::vector<MappingStep> times = mapper_.Finish(map);
+  for (const auto& [id, map] : atlas_.maps()) {
+    const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id));
     times_.insert(times_.end(), times.begin(), times.end());
   }
 }
@@ -92,9 +103,9 @@ void MappingStage::CheckComplete() const {
   PLUMBLINE_CHECK(Done() == submitted_, "maps are complete only after Finish");
 }
 
-const std::vector<Map>& MappingStage::maps() const {
+const Atlas& MappingStage::atlas() const {
   CheckComplete();
-  return maps_;
+  return atlas_;
 }
 
 const AdjustedLines& MappingStage::adjusted_lines() const {
@@ -145,10 +156,10 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   tasks_.pop_front();
   lock.unlock();
   if (task.starts_map) {
-    maps_.emplace_back(MapId{static_cast<std::int64_t>(maps_.size())});
-    mapper_.StartNewMap(maps_.back());
+    mapper_.StartNewMap(atlas_.Start());
+    centres_.clear();
   }
-  Map& map = maps_.back();
+  Map& map = atlas_.active();
   KeyFrameId newest;
   std::vector<MappingStep> times;
   if (const auto* start = std::get_if<MapStart>(&task.work)) {
@@ -157,12 +168,22 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   } else {
     const auto& added = std::get<NewKeyFrame>(task.work);
     newest = added.keyframe.id;
-    times = mapper_.Add(map, added.keyframe, added.scores);
+    times = mapper_.Add(map, PlacedIn(map, added), added.scores);
   }
-  auto snapshot = TakeSnapshot(map, newest);
+  auto snapshot = TakeSnapshotAround(map, newest);
   lock.lock();
   versions_.push_back({task.number, std::move(snapshot)});
   times_.insert(times_.end(), times.begin(), times.end());
+}
+
+// Also of the places of the snapshots before: the tracker's last pose may hang on one of them.
+std::shared_ptr<const MapSnapshot> MappingStage::TakeSnapshotAround(const Map& map,
+                                                                    KeyFrameId centre) {
+  constexpr std::size_t kRemembered = 16;
+  const std::vector<KeyFrameId> earlier(centres_.begin(), centres_.end());
+  centres_.push_back(centre);
+  if (centres_.size() > kRemembered) centres_.pop_front();
+  return TakeSnapshot(map, centre, kSnapshotKeyFrames, earlier);
 }
 
 }  // namespace plumbline

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/association/projection_search.h"
-#include "plumbline/map/map.h"
+#include "plumbline/map/atlas.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/local_mapper.h"
 #include "plumbline/slam/map_start.h"
@@ -57,11 +57,11 @@ class MappingStage {
   // that is to be tracked against. Rethrows what mapping threw.
   void Finish();
 
-  // Empty before the first keyframe; the last one is the map in use. With a thread, only after
-  // Finish (BugError).
-  const std::vector<Map>& maps() const;
+  // None before the first keyframe. With a thread, only after Finish (BugError).
+  const Atlas& atlas() const;
+  const std::map<MapId, Map>& maps() const { return atlas().maps(); }
 
-  // Like maps().
+  // Like atlas().
   const AdjustedLines& adjusted_lines() const;
 
   // Time of the mapping steps done since the last call.
@@ -89,6 +89,7 @@ class MappingStage {
   void CheckComplete() const;
   void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);
+  std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
   std::int64_t Done() const { return versions_.empty() ? 0 : versions_.back().task; }
 
   RunMode mode_;
@@ -99,7 +100,8 @@ class MappingStage {
   std::deque<Due> dues_;  // of tasks later than the one last asked for; live: of first keyframes
   // The worker's side.
   LocalMapper mapper_;
-  std::vector<Map> maps_;
+  Atlas atlas_;
+  std::deque<KeyFrameId> centres_;  // of the last snapshots of the active map
   // Between the two, guarded by mutex_.
   mutable std::mutex mutex_;
   std::condition_variable task_added_, task_done_;

@@ -56,7 +56,10 @@ class NearestKeyFrame {
 
   KeyFrameId id() const { return id_; }
   bool IsMadeOf(FrameId frame) const { return map_.Find(id_)->frame.id == frame; }
-  Rigid3 cam_from_world() const { return map_.PoseOf(id_); }
+  RelativePose Relative(const Rigid3& cam_from_world) const {
+    const Placement place = map_.PlaceOf(id_);
+    return {cam_from_world * Inverse(place.cam_from_world), place.unit};
+  }
   const MapSnapshot& snapshot() {
     if (!snapshot_) snapshot_ = TakeSnapshot(map_, id_);
     return *snapshot_;
@@ -107,15 +110,15 @@ void MonocularStart::Tracked(const TrackingResult& result) {
   if (young_keyframes_ == 0 || young_frames_ == 0) return;
   const Frame& frame = result.frame;
   starts_.back().frames.push_back(
-      {frame.id, frame.stamp_ns, frame.indexed, result.reference, result.cam_from_reference});
+      {frame.id, frame.stamp_ns, frame.indexed, result.reference, result.from_reference});
   --young_frames_;
   if (result.keyframe) --young_keyframes_;
 }
 
-std::vector<EarlierFrame> MonocularStart::Locate(const std::vector<Map>& maps) {
+std::vector<EarlierFrame> MonocularStart::Locate(const std::map<MapId, Map>& maps) {
   std::vector<EarlierFrame> located;
   for (const Start& start : starts_) {
-    LocateFramesOf(start, maps.at(static_cast<std::size_t>(start.map.value)), located);
+    LocateFramesOf(start, maps.at(start.map), located);
   }
   starts_.clear();
   young_keyframes_ = 0;
@@ -133,7 +136,7 @@ void MonocularStart::LocateFramesOf(const Start& start,
     Rigid3 predicted;
     if (tracked) {
       nearest.MoveTo(frame->reference);
-      predicted = frame->cam_from_reference * map.PoseOf(frame->reference);
+      predicted = PoseBeside(map.PlaceOf(frame->reference), frame->from_reference);
       missed = 0;
     } else {
       if (!prediction.Known() || missed >= kMaxMissed) continue;
@@ -152,11 +155,8 @@ void MonocularStart::LocateFramesOf(const Start& start,
     }
     missed = 0;
     prediction.Add(frame->stamp_ns, pose->cam_from_world);
-    located.push_back({frame->id,
-                       start.map,
-                       nearest.id(),
-                       pose->cam_from_world * Inverse(nearest.cam_from_world()),
-                       pose->counts});
+    located.push_back(
+        {frame->id, start.map, nearest.id(), nearest.Relative(pose->cam_from_world), pose->counts});
   }
 }
 

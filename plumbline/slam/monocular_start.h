@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct EarlierFrame {
   FrameId id;
   MapId map;
   KeyFrameId reference;
-  Rigid3 cam_from_reference;
+  RelativePose from_reference;
   FrameCounts counts;
 };
 
@@ -53,7 +54,7 @@ class MonocularStart {
   // waited are searched near the place that their successors predict, those that were tracked near
   // their place of then, among the landmarks around the next keyframe and their own. Left out are
   // keyframes, and frames that are not found.
-  std::vector<EarlierFrame> Locate(const std::vector<Map>& maps);
+  std::vector<EarlierFrame> Locate(const std::map<MapId, Map>& maps);
 
  private:
   struct KeptFrame {
@@ -61,7 +62,7 @@ class MonocularStart {
     std::int64_t stamp_ns = 0;
     std::shared_ptr<const IndexedFeatures> indexed;
     KeyFrameId reference;  // none while the frame has no pose
-    Rigid3 cam_from_reference;
+    RelativePose from_reference;
   };
   struct Start {
     MapId map;

@@ -149,7 +149,7 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) c
   record.status = FrameStatus::kTracked;
   record.map = MapId{maps_started_ - 1};
   record.reference = result.reference;
-  record.cam_from_reference = result.cam_from_reference;
+  record.from_reference = result.from_reference;
   record.causal_world_from_camera = AsDelivered(*result.cam_from_world);
 }
 
@@ -175,7 +175,7 @@ void System::Finish() {
     record.reason.clear();
     record.map = earlier.map;
     record.reference = earlier.reference;
-    record.cam_from_reference = earlier.cam_from_reference;
+    record.from_reference = earlier.from_reference;
     record.counts = earlier.counts;
   }
 }
@@ -188,11 +188,12 @@ Rigid3 System::AsDelivered(const Rigid3& rectified_cam_from_world) const {
 
 Trajectory System::FinalTrajectory(MapId map) const {
   Trajectory trajectory;
-  const Map& owner = maps().at(static_cast<std::size_t>(map.value));
+  const Map& owner = maps().at(map);
   for (const FrameRecord& record : frames_) {
     if (record.status != FrameStatus::kTracked || record.map != map) continue;
     trajectory.push_back(
-        {record.stamp_ns, AsDelivered(record.cam_from_reference * owner.PoseOf(record.reference))});
+        {record.stamp_ns,
+         AsDelivered(PoseBeside(owner.PlaceOf(record.reference), record.from_reference))});
   }
   return trajectory;
 }
@@ -200,13 +201,13 @@ Trajectory System::FinalTrajectory(MapId map) const {
 const std::vector<MappedLine>& System::LineMap(MapId map) const {
   const auto made = line_maps_.find(map);
   if (made != line_maps_.end()) return made->second;
-  const Map& owner = maps().at(static_cast<std::size_t>(map.value));
+  const Map& owner = maps().at(map);
   return line_maps_[map] = MakeLineMap(owner, imaging_, options_.mapping.line_map);
 }
 
 Trajectory System::KeyFrameTrajectory(MapId map) const {
   Trajectory trajectory;
-  const Map& owner = maps().at(static_cast<std::size_t>(map.value));
+  const Map& owner = maps().at(map);
   for (const auto& [id, keyframe] : owner.keyframes()) {
     trajectory.push_back({keyframe.frame.stamp_ns, AsDelivered(keyframe.frame.cam_from_world)});
   }

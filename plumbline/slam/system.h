@@ -40,9 +40,9 @@ struct FrameRecord {
   std::string reason;  // why there is no pose; empty where there is one
   MapId map;           // where there is a pose
   KeyFrameId reference;
-  Rigid3 cam_from_reference;
+  RelativePose from_reference;
   std::optional<Rigid3> causal_world_from_camera;  // as first reported, camera as delivered
-  FrameCounts counts;                              // of cam_from_reference
+  FrameCounts counts;                              // of from_reference
   bool keyframe = false;
   // In order, "total" last: from the frame's arrival to its end. map_* are steps of mapping that
   // ended since the last frame, inline within "map", otherwise beside.
@@ -86,7 +86,8 @@ class System {
 
   const std::vector<FrameRecord>& frames() const { return frames_; }
   // Complete after Finish, and not to be asked for before but inline (BugError).
-  const std::vector<Map>& maps() const { return mapping_.maps(); }
+  const Atlas& atlas() const { return mapping_.atlas(); }
+  const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
   const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
   const SlamOptions& options() const { return options_; }
   const RectifiedCamera& camera() const { return rectifier().camera(); }

@@ -131,7 +131,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   frame.cam_from_world = first_cam_from_world_;
   scores_ = {};
   TrackingResult result;
-  result.keyframe = MakeKeyFrame(frame, KeyFrameId{});
+  result.keyframe = MakeKeyFrame(frame, KeyFrameId{}, {});
   result.starts_map = true;
   result.cam_from_world = frame.cam_from_world;
   result.frame = frame;
@@ -143,7 +143,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   spread_.reset();
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
-  last_ = Tracked{{std::move(frame), FrameAssociation(points, lines)}, newest_keyframe_, Rigid3{}};
+  last_ = Tracked{{std::move(frame), FrameAssociation(points, lines)}, {newest_keyframe_, {}}, {}};
   return result;
 }
 
@@ -166,14 +166,15 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   result.cam_from_world = frame.cam_from_world;
   result.reference = newest_keyframe_;
   result.frame = frame;
-  last_ = Tracked{{frame, std::move(association)}, newest_keyframe_, Rigid3{}};
+  result.from_reference.unit = snapshot.reference->unit;
+  last_ = Tracked{{frame, std::move(association)}, {newest_keyframe_, result.from_reference}, {}};
   return result;
 }
 
 TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind) {
   ++frames_since_keyframe_;
-  const Rigid3 last_pose = LastPose(snapshot);
-  last_->frame.cam_from_world = last_pose;
+  FollowAnchor(snapshot);
+  const Rigid3 last_pose = last_->frame.cam_from_world;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
   FrameCounts counts;
   std::optional<PoseAttempt> attempt =
@@ -216,16 +217,19 @@ TrackingResult Tracker::Succeed(Frame frame,
   result.state = state_;
   result.cam_from_world = frame.cam_from_world;
   result.reference = snapshot.centre;
-  result.cam_from_reference =
-      frame.cam_from_world * Inverse(snapshot.cam_from_world.at(snapshot.centre));
+  const Placement& centre = snapshot.places.at(snapshot.centre);
+  result.from_reference = {frame.cam_from_world * Inverse(centre.cam_from_world), centre.unit};
+  Anchor parent;
   if (WantsKeyFrame(frame, association, snapshot, mapping_behind)) {
-    result.keyframe = MakeKeyFrame(frame, snapshot.centre);
+    parent = {snapshot.centre, result.from_reference};
+    result.keyframe = MakeKeyFrame(frame, snapshot.centre, result.from_reference);
     result.reference = newest_keyframe_;
-    result.cam_from_reference = Rigid3{};
+    result.from_reference = {Rigid3{}, centre.unit};
   }
   result.frame = frame;
-  last_ = Tracked{
-      {std::move(frame), std::move(association)}, result.reference, result.cam_from_reference};
+  last_ = Tracked{{std::move(frame), std::move(association)},
+                  {result.reference, result.from_reference},
+                  parent};
   return result;
 }
 
@@ -280,11 +284,29 @@ PoseAttempt Tracker::Settle(const Frame& frame,
              : search_.WithLocalMap(frame, first, prior, snapshot, found);
 }
 
-// The last frame's pose, moved with its reference keyframe by what optimization has done since.
-Rigid3 Tracker::LastPose(const MapSnapshot& snapshot) const {
-  const auto it = snapshot.cam_from_world.find(last_->reference);
-  if (it == snapshot.cam_from_world.end()) return last_->frame.cam_from_world;
-  return last_->cam_from_reference * it->second;
+// Moves the last frame with its keyframe by what mapping has done to it since.
+void Tracker::FollowAnchor(const MapSnapshot& snapshot) {
+  const bool arrived = snapshot.places.contains(last_->anchor.keyframe);
+  Anchor& anchor = arrived ? last_->anchor : last_->parent;
+  const auto place = snapshot.places.find(anchor.keyframe);
+  if (place == snapshot.places.end()) return;  // the first keyframe of a map, on its way
+  last_->frame.cam_from_world = PoseBeside(place->second, anchor.relative);
+  const double scale = place->second.unit / anchor.relative.unit;
+  if (scale == 1) return;
+  for (Anchor* each : {&last_->anchor, &last_->parent}) {
+    each->relative = {InUnit(each->relative, scale * each->relative.unit),
+                      scale * each->relative.unit};
+  }
+  ChangeUnit(scale);
+}
+
+// Takes what is known of the motion into a unit in which lengths are `scale` times what they were.
+void Tracker::ChangeUnit(double scale) {
+  if (velocity_) velocity_->tail<3>() *= scale;
+  if (!spread_) return;
+  spread_->covariance.bottomRows<3>() *= scale;
+  spread_->covariance.rightCols<3>() *= scale;
+  spread_->scene_depth *= scale;
 }
 
 // Constant velocity; it may change by motion_sigma a second, the translation in the unit of the
@@ -344,12 +366,14 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   return result;
 }
 
-NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame, KeyFrameId parent) {
+NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame,
+                                  KeyFrameId parent,
+                                  const RelativePose& from_parent) {
   newest_keyframe_ = next_keyframe_;
   next_keyframe_ = KeyFrameId{next_keyframe_.value + 1};
   frames_since_keyframe_ = 0;
   if (trial_keyframes_ > 0) --trial_keyframes_;
-  return {{newest_keyframe_, parent, frame}, std::exchange(scores_, {})};
+  return {{newest_keyframe_, parent, frame}, std::exchange(scores_, {}), from_parent};
 }
 
 }  // namespace plumbline

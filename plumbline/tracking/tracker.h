@@ -4,6 +4,7 @@
 
 #include "plumbline/cutting/cut_lines.h"
 #include "plumbline/map/frame.h"
+#include "plumbline/map/placement.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/keyframe_policy.h"
 #include "plumbline/tracking/options.h"
@@ -45,9 +46,12 @@ constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
 // The next state after a frame. With too many lost frames in a row a new map is to be started.
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after);
 
+// A keyframe as the tracker made it: its pose is that beside the parent in the snapshot it was
+// tracked against, wherever the parent is when the keyframe comes into the map.
 struct NewKeyFrame {
   KeyFrame keyframe;
   TrackingScores scores;
+  RelativePose from_parent;  // where there is a parent
 };
 
 struct TrackingResult {
@@ -56,7 +60,7 @@ struct TrackingResult {
   FrameCounts counts;
   std::optional<Rigid3> cam_from_world;  // where the frame has a pose
   KeyFrameId reference;                  // the keyframe it moves with from now on
-  Rigid3 cam_from_reference;
+  RelativePose from_reference;
   std::optional<NewKeyFrame> keyframe;
   bool starts_map = false;  // the keyframe is the first of a new map
   Frame frame;              // as tracked: features, and matches where it has a pose
@@ -100,9 +104,14 @@ class Tracker {
   KeyFrameId next_keyframe() const { return next_keyframe_; }
 
  private:
+  // What the last pose hangs on.
+  struct Anchor {
+    KeyFrameId keyframe;
+    RelativePose relative;
+  };
   struct Tracked : LastFrame {
-    KeyFrameId reference;
-    Rigid3 cam_from_reference;
+    Anchor anchor;
+    Anchor parent;  // where the frame became the keyframe itself, until it is in the map
   };
 
   TrackingResult StartMap(Frame frame);
@@ -126,7 +135,8 @@ class Tracker {
                      const FrameAssociation& association,
                      const MapSnapshot& snapshot,
                      bool mapping_behind) const;
-  Rigid3 LastPose(const MapSnapshot& snapshot) const;
+  void FollowAnchor(const MapSnapshot& snapshot);
+  void ChangeUnit(double scale);
   // No information where the velocity is not known.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;
   void Score(const ExpectedLandmarks& expected, const FrameAssociation& association);
@@ -134,7 +144,7 @@ class Tracker {
                               const FrameAssociation& association,
                               const MapSnapshot& snapshot) const;
   TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
-  NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent);
+  NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, const RelativePose& from_parent);
 
   TrackingOptions options_;
   PoseSearch search_;

@@ -42,7 +42,7 @@ TEST(AdjustWholeMap, BringsKeyFramesToTheirPlaces) {
   TrueMap scene = MovedMap(world);
   const double before = WorstPose(scene.map, TruePoses());
   ASSERT_GT(before, 0.004);
-  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   scene.map.CheckInvariants();
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.4 * before);
   EXPECT_LT(CentreDistance(scene.map.Find(KeyFrameId{0})->frame.cam_from_world, PoseOnPath(0)),
@@ -53,7 +53,7 @@ TEST(AdjustWholeMap, NeedsNoPoints) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 150);
   TrueMap scene = MovedMap(world);
   const double before = WorstPose(scene.map, TruePoses());
-  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.7 * before);
 }
 
@@ -63,7 +63,7 @@ TEST(AdjustWholeMap, LeavesKeyFramesInTheirPlacesThatNothingFixes) {
   TrueMap scene = MovedMap(world);
   const Map before = scene.map;
   ASSERT_FALSE(MakeLineMap(before, world.Imaging(), {}).empty());
-  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   for (const auto& [id, keyframe] : scene.map.keyframes()) {
     const Rigid3& old = before.Find(id)->frame.cam_from_world;
     EXPECT_LT(LogSe3(keyframe.frame.cam_from_world * Inverse(old)).norm(), 1e-9) << id.value;
@@ -84,7 +84,7 @@ TEST(AdjustWholeMap, KeepsHalvesTogetherThatParallelLinesTie) {
   }
   scene.map.Apply(edit);
   const Map before = scene.map;
-  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   const auto motion = [](const Map& map) {
     return map.Find(KeyFrameId{5})->frame.cam_from_world *
            Inverse(map.Find(KeyFrameId{4})->frame.cam_from_world);
@@ -96,7 +96,7 @@ TEST(AdjustWholeMap, MovesALineLandmarkWithTheNewestKeyFrameThatShowsIt) {
   const SyntheticWorld world = MakeSyntheticWorld(150, 100);
   TrueMap scene = MovedMap(world);
   const Map before = scene.map;
-  scene.map.Apply(AdjustWholeMap(scene.map, world.Imaging(), {}, {}));
+  scene.map.Apply(Rebased(AdjustWholeMap(scene.map, world.Imaging(), {}, {}), scene.map));
   for (const auto& [id, line] : scene.map.lines()) {
     const MapLine& old = *before.Find(id);
     const KeyFrameId newest = line.observations.newest().first;
@@ -143,10 +143,10 @@ TEST(AdjustWholeMap, TakesLongPathsForTheSmallerMapsThatTakeAsLong) {
   TrueMap scene = MovedMap(world);
   EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
   ForgetAfterFourKeyFrames(scene);
-  const MapEdit edit = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
-  ASSERT_FALSE(edit.empty());
+  const Correction correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
+  ASSERT_FALSE(correction.empty());
   const double before = WorstPose(scene.map, TruePoses());
-  scene.map.Apply(edit);
+  scene.map.Apply(Rebased(correction, scene.map));
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
   options.final_adjustment_keyframes = 4;
   EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());

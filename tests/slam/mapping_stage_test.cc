@@ -54,7 +54,7 @@ TEST(MappingStage, AMapThatBeginsWithSeveralKeyFramesTakesEffectAtOnce) {
   EXPECT_EQ(snapshot->cam_from_world.size(), 3U);
   EXPECT_EQ(snapshot->reference->frame.id, FrameId{16});
   ASSERT_EQ(stage.maps().size(), 1U);
-  stage.maps()[0].CheckInvariants();
+  stage.maps().at(MapId{0}).CheckInvariants();
 }
 
 TEST(MappingStage, OthersTakeEffectAfterTheLag) {
@@ -81,8 +81,8 @@ TEST(MappingStage, TheResultDoesNotDependOnWhenItIsAsked) {
   }
   asked.Finish();
   not_asked.Finish();
-  const auto& a = asked.maps().back().points();
-  const auto& b = not_asked.maps().back().points();
+  const auto& a = asked.maps().rbegin()->second.points();
+  const auto& b = not_asked.maps().rbegin()->second.points();
   ASSERT_EQ(a.size(), b.size());
   for (auto i = a.begin(), j = b.begin(); i != a.end(); ++i, ++j) {
     EXPECT_EQ(i->second.position, j->second.position);
@@ -95,9 +95,9 @@ TEST(MappingStage, FinishDoesWhatIsLeft) {
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
   EXPECT_EQ(stage.SnapshotFor(2)->centre, KeyFrameId{0});
-  EXPECT_EQ(stage.maps().back().keyframes().size(), 1U);
+  EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 1U);
   stage.Finish();
-  EXPECT_EQ(stage.maps().back().keyframes().size(), 2U);
+  EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 2U);
 }
 
 TEST(MappingStage, ANewMapBeginsAfterTheOldOneIsComplete) {
@@ -108,10 +108,10 @@ TEST(MappingStage, ANewMapBeginsAfterTheOldOneIsComplete) {
   stage.Submit(2, KeyFrameAt(world, 2, -1), true);
   EXPECT_EQ(stage.SnapshotFor(3)->centre, KeyFrameId{2});
   ASSERT_EQ(stage.maps().size(), 2U);
-  EXPECT_EQ(stage.maps()[0].id(), MapId{0});
-  EXPECT_EQ(stage.maps()[1].id(), MapId{1});
-  EXPECT_EQ(stage.maps()[0].keyframes().size(), 2U);
-  EXPECT_EQ(stage.maps()[1].keyframes().size(), 1U);
+  EXPECT_EQ(stage.maps().at(MapId{0}).id(), MapId{0});
+  EXPECT_EQ(stage.maps().at(MapId{1}).id(), MapId{1});
+  EXPECT_EQ(stage.maps().at(MapId{0}).keyframes().size(), 2U);
+  EXPECT_EQ(stage.maps().at(MapId{1}).keyframes().size(), 1U);
 }
 
 class MappingStageWithThread : public ::testing::TestWithParam<RunMode> {};
@@ -131,7 +131,7 @@ TEST_P(MappingStageWithThread, WaitsForTheFirstKeyFrameOfAMap) {
   EXPECT_EQ(stage.SnapshotFor(3)->centre, KeyFrameId{2});
   stage.Finish();
   ASSERT_EQ(stage.maps().size(), 2U);
-  EXPECT_EQ(stage.maps()[0].keyframes().size(), 2U);
+  EXPECT_EQ(stage.maps().at(MapId{0}).keyframes().size(), 2U);
 }
 
 TEST_P(MappingStageWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
@@ -141,8 +141,8 @@ TEST_P(MappingStageWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
   for (std::int64_t k = 1; k < 8; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
   EXPECT_THROW(stage.maps(), BugError);
   stage.Finish();
-  EXPECT_EQ(stage.maps().back().keyframes().size(), 8U);
-  stage.maps().back().CheckInvariants();
+  EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 8U);
+  stage.maps().rbegin()->second.CheckInvariants();
 }
 
 TEST_P(MappingStageWithThread, RethrowsWhatMappingThrew) {
@@ -194,7 +194,7 @@ std::vector<Rigid3> Poses(int lag, RunMode mode = RunMode::kInline) {
     poses.push_back(result.cam_from_world.value_or(Rigid3{}));
   }
   run.Finish();
-  run.maps().back().CheckInvariants();
+  run.maps().rbegin()->second.CheckInvariants();
   return poses;
 }
 

@@ -29,7 +29,7 @@ double ErrorMetres(const Rigid3& cam_from_world, FrameId frame) {
 struct WaitingRun {
   SyntheticWorld world = MakeMonocularWorld(500, 80);
   MonocularStart start{world.Imaging(), {}};
-  std::vector<Map> maps{Map(MapId{0})};
+  std::map<MapId, Map> maps{{MapId{0}, Map(MapId{0})}};
 
   WaitingRun() {
     for (int i = 2; i <= 22; ++i) {
@@ -37,7 +37,7 @@ struct WaitingRun {
     }
     const InitialMap initial = InitialMapOf(world, {10, 14, 22});
     const MapStart map_start = MakeMapStart(initial, world.Imaging(), Rigid3{}, KeyFrameId{0});
-    maps[0].Apply(map_start.edit);
+    maps.at(MapId{0}).Apply(map_start.edit);
     start.MapStarted(MapId{0}, map_start);
   }
 };
@@ -53,7 +53,8 @@ TEST(MonocularStart, LocatesTheFramesThatWaited) {
     const auto number = frame.id.value;
     EXPECT_EQ(frame.reference, KeyFrameId{number > 14 ? 2 : number > 10 ? 1 : 0});
     EXPECT_GT(frame.counts.inlier_points, 50);
-    const Rigid3 pose = frame.cam_from_reference * run.maps[0].PoseOf(frame.reference);
+    const Rigid3 pose =
+        PoseBeside(run.maps.at(MapId{0}).PlaceOf(frame.reference), frame.from_reference);
     EXPECT_LT(ErrorMetres(pose, frame.id), 0.02) << frame.id.value;
   }
   // All but the keyframes, those before the first one included.
@@ -75,9 +76,9 @@ TrackingResult TrackedOf(const SyntheticWorld& world, int frame, KeyFrameId id, 
     result.keyframe = NewKeyFrame{};
     return result;
   }
-  result.cam_from_reference =
+  result.from_reference.cam_from_keyframe =
       InMapUnit(PoseOnPath(frame)) * Inverse(InMapUnit(PoseOnPath(of_frame)));
-  result.cam_from_reference.translation *= 0.5;
+  result.from_reference.cam_from_keyframe.translation *= 0.5;
   return result;
 }
 
@@ -86,14 +87,14 @@ TrackingResult TrackedOf(const SyntheticWorld& world, int frame, KeyFrameId id, 
 struct YoungRun {
   SyntheticWorld world = MakeMonocularWorld(500, 80);
   MonocularStart start{world.Imaging(), {}};
-  std::vector<Map> maps{Map(MapId{0})};
+  std::map<MapId, Map> maps{{MapId{0}, Map(MapId{0})}};
 
   YoungRun() {
     const auto begin = [&](const std::vector<int>& frames) {
       return MakeMapStart(InitialMapOf(world, frames), world.Imaging(), Rigid3{}, KeyFrameId{0});
     };
-    maps[0].Apply(begin({10, 14, 22, 30}).edit);
-    maps[0].Apply({edit::RemoveKeyFrame{KeyFrameId{3}}});
+    maps.at(MapId{0}).Apply(begin({10, 14, 22, 30}).edit);
+    maps.at(MapId{0}).Apply({edit::RemoveKeyFrame{KeyFrameId{3}}});
     start.MapStarted(MapId{0}, begin({10, 14}));
   }
 
@@ -110,8 +111,9 @@ TEST(MonocularStart, LocatesTheFramesTrackedInAYoungMap) {
   std::set<FrameId> found;
   for (const EarlierFrame& frame : run.start.Locate(run.maps)) {
     found.insert(frame.id);
-    EXPECT_NE(run.maps[0].Find(frame.reference), nullptr);
-    const Rigid3 pose = frame.cam_from_reference * run.maps[0].PoseOf(frame.reference);
+    EXPECT_NE(run.maps.at(MapId{0}).Find(frame.reference), nullptr);
+    const Rigid3 pose =
+        PoseBeside(run.maps.at(MapId{0}).PlaceOf(frame.reference), frame.from_reference);
     EXPECT_LT(ErrorMetres(pose, frame.id), 0.02) << frame.id.value;
   }
   // All but the keyframe that is left.
@@ -121,7 +123,8 @@ TEST(MonocularStart, LocatesTheFramesTrackedInAYoungMap) {
   // It was needed.
   const TrackingResult tracked = TrackedOf(run.world, 21, KeyFrameId{1}, 14);
   EXPECT_GT(
-      ErrorMetres(tracked.cam_from_reference * run.maps[0].PoseOf(KeyFrameId{1}), FrameId{21}),
+      ErrorMetres(PoseBeside(run.maps.at(MapId{0}).PlaceOf(KeyFrameId{1}), tracked.from_reference),
+                  FrameId{21}),
       0.06);
 }
 

@@ -46,7 +46,7 @@ TEST(System, FollowsTheCamera) {
   }
   const Trajectory keyframes = system->KeyFrameTrajectory(*map);
   EXPECT_EQ(keyframes.front().stamp_ns, MovingPoster::StampNs(0));
-  system->maps().back().CheckInvariants();
+  system->maps().rbegin()->second.CheckInvariants();
 }
 
 TEST(System, RefusesFramesThatAreNoLaterThanTheLast) {
@@ -70,7 +70,7 @@ TEST(System, TheWorldIsTheFirstKeyFramesCameraAsDelivered) {
     EXPECT_LT(LogSe3(final[0].world_from_camera).norm(), 1e-12);
     EXPECT_LT(LogSe3(system.KeyFrameTrajectory(MapId{0})[0].world_from_camera).norm(), 1e-12);
     // Inside, the camera is the rectified one.
-    const auto& keyframe = system.maps()[0].keyframes().begin()->second;
+    const auto& keyframe = system.maps().at(MapId{0}).keyframes().begin()->second;
     EXPECT_NEAR(LogSo3(keyframe.frame.cam_from_world.rotation).norm(), yaw, 1e-6);
   }
 }
@@ -170,7 +170,8 @@ TEST(System, LocatesFramesOfAYoungMonocularMapAgain) {
   system.Finish();
   const FrameRecord& first = tracked.front();
   const FrameRecord& now = system.frames()[static_cast<std::size_t>(first.id.value)];
-  EXPECT_NE(now.cam_from_reference.translation, first.cam_from_reference.translation);
+  EXPECT_NE(now.from_reference.cam_from_keyframe.translation,
+            first.from_reference.cam_from_keyframe.translation);
   EXPECT_TRUE(SameBits(system.CausalTrajectory(MapId{0}), causal));
   const Trajectory final = system.FinalTrajectory(MapId{0});
   ASSERT_EQ(final.size(), static_cast<std::size_t>(kFrames));

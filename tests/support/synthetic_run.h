@@ -53,7 +53,7 @@ class SyntheticRun {
   TrackingResult StepBlind() { return Step({IndexFeatures(world_.camera, {}), {}, {}}); }
 
   void Finish() { mapping_.Finish(); }
-  const std::vector<Map>& maps() const { return mapping_.maps(); }
+  const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
   const Tracker& tracker() const { return tracker_; }
 
  private:

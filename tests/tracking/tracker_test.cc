@@ -79,7 +79,7 @@ TEST(Tracker, FollowsTheLastFrameAlone) {
       EXPECT_GT(result.counts.inlier_lines, 10);
     }
   }
-  EXPECT_EQ(run.maps()[0].keyframes().size(), 1U);
+  EXPECT_EQ(run.maps().at(MapId{0}).keyframes().size(), 1U);
   // What looks like the last frame is found again, where the prediction does not lead.
   for (int i = 31; i <= 33; ++i) EXPECT_FALSE(run.StepBlind().cam_from_world);
   const TrackingResult back = run.Step(PoseOnPath(32), {});
@@ -168,7 +168,7 @@ TEST(Tracker, GoesOnFromAMapOfSeveralFramesWithoutDepth) {
         << i;
   }
   EXPECT_EQ(run.maps().size(), 1U);
-  EXPECT_GT(run.maps()[0].keyframes().size(), 4U);
+  EXPECT_GT(run.maps().at(MapId{0}).keyframes().size(), 4U);
 }
 
 TEST(Tracker, GivesUpAYoungMapOfASingleCameraAtOnce) {
@@ -206,7 +206,7 @@ TEST(Tracker, ReportsPosesRelativeToTheReference) {
     ASSERT_TRUE(result.cam_from_world);
     if (result.keyframe) {
       EXPECT_EQ(result.reference, result.keyframe->keyframe.id);
-      EXPECT_LT(LogSe3(result.cam_from_reference).norm(), 1e-12);
+      EXPECT_LT(LogSe3(result.from_reference.cam_from_keyframe).norm(), 1e-12);
     }
     EXPECT_GE(result.counts.matched_points, result.counts.inlier_points);
     EXPECT_GE(result.counts.matched_lines, result.counts.inlier_lines);
@@ -298,8 +298,8 @@ TEST(Tracker, StartsANewMapAfterTooManyLostFrames) {
               0.02);
   }
   ASSERT_EQ(run.maps().size(), 2U);
-  EXPECT_EQ(run.maps()[1].id(), MapId{1});
-  run.maps()[1].CheckInvariants();
+  EXPECT_EQ(run.maps().at(MapId{1}).id(), MapId{1});
+  run.maps().at(MapId{1}).CheckInvariants();
 }
 
 TEST(Tracker, ReportsWhenTooFewMatchesAgree) {

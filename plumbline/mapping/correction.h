@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/sim3.h"
+#include "plumbline/map/edit.h"
+#include "plumbline/map/map.h"
+
+#include <map>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// What a computation beside the map found: where its keyframes and points belong. The map may have
+// changed since the computation began; Rebased() says what to do with the map of today.
+struct Correction {
+  struct KeyFramePlace {
+    Rigid3 before, after;  // cam_from_world
+    double scale = 1;      // lengths around it, after / before
+  };
+  struct PointPlace {
+    Eigen::Vector3d before = Eigen::Vector3d::Zero();
+    Eigen::Vector3d after = Eigen::Vector3d::Zero();
+  };
+  std::map<KeyFrameId, KeyFramePlace> keyframes;
+  std::map<PointId, PointPlace> points;
+  std::vector<edit::RemovePointObservation> outliers;
+
+  bool empty() const { return keyframes.empty(); }
+};
+
+// The correction as changes of a map that may have grown, shrunk and been adjusted since.
+//
+// Every keyframe takes part in the motion, a similarity of the world, that the correction found for
+// it: what happened to it meanwhile stays, seen from the moved world. A keyframe that came later
+// moves with the nearest ancestor that the correction knows, so that nothing tears between old and
+// new. Landmarks go with the newest keyframe that shows them. Keyframes and points that nobody has
+// touched meanwhile get exactly the place that was computed. What left the map is left out.
+MapEdit Rebased(const Correction& correction, const Map& today);
+
+}  // namespace plumbline
