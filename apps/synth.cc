@@ -47,9 +47,11 @@ void List(const std::string& name) {
     const WorldEntry& world = FindWorld(name);
     std::cout << world.name << ": " << world.help << "\nFor " << world.purpose << ".\n";
     options = DefaultsOf(world);
-    const double seconds = world.make(options.seed).path.duration / options.speed;
+    const World made = world.make(options.seed);
+    const double seconds = made.path.duration / options.speed;
     std::cout << "The whole path takes " << std::fixed << std::setprecision(1) << seconds << " s, "
-              << std::llround(std::floor(seconds * options.rate_hz)) << " frames.\n";
+              << std::llround(std::floor(seconds * options.rate_hz)) << " frames"
+              << (made.second_path ? "; there is a second one" : "") << ".\n";
   }
   std::cout << "\noptions (--set KEY=VALUE) with their default values:\n"
             << OptionTable(options).Dump();

@@ -84,6 +84,12 @@ Calibration MakeCalibration(const SynthOptions& options) {
 
 World MakeWorld(std::string_view name, const SynthOptions& options) {
   World world = FindWorld(name).make(options.seed);
+  if (options.path == 2) {
+    if (!world.second_path) {
+      throw InputError("path: expected 1, found 2: " + std::string(name) + " has one way only");
+    }
+    world.path = *std::move(world.second_path);
+  }
   if (options.speed != 1) world.path = Faster(std::move(world.path), options.speed);
   return world;
 }

@@ -12,6 +12,7 @@ namespace plumbline {
 struct SynthOptions {
   int frames = 0;  // 0: the whole path
   double rate_hz = 20;
+  int path = 1;            // 2: the second visit, where the world has one
   double speed = 1;        // of the path, 1 as the world has it
   double scale = 1;        // of the image, 1 is 752 x 480
   double baseline = 0.11;  // metres
@@ -38,6 +39,7 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("frames", o.frames, "number of frames, at most; 0: the whole path", Range{0, 1e6});
   visit("rate_hz", o.rate_hz, "frames per second", Range{0.1, 1000});
+  visit("path", o.path, "the way of the camera; 2: that of a second visit", Range{1, 2});
   visit("speed", o.speed, "of the path, 1 as the world has it", Range{0.05, 20});
   visit("scale", o.scale, "of the image, 1 is 752 x 480", Range{0.1, 4});
   visit("baseline", o.baseline, "distance of the two cameras [m]", Range{0.01, 1});

@@ -7,15 +7,17 @@
 #include "plumbline/synth/synth_options.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
 namespace plumbline {
 
-// A scene and the way of a camera through it.
+// A scene and the way of a camera through it; some have another one, for a second visit.
 struct World {
   Scene scene;
   CameraPath path;
+  std::optional<CameraPath> second_path = {};
 };
 
 // A world that can be rendered as a recorded sequence.

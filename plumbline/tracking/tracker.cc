@@ -112,6 +112,7 @@ TrackingResult Tracker::Track(FrameId id,
   frame.indexed = snapshot != nullptr ? WithCorrection(indexed, snapshot->stereo_correction)
                                       : std::move(indexed);
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
+  if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
   return Follow(std::move(frame), *snapshot, mapping_behind);
 }
@@ -169,6 +170,22 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   result.from_reference.unit = snapshot.reference->unit;
   last_ = Tracked{{frame, std::move(association)}, {newest_keyframe_, result.from_reference}, {}};
   return result;
+}
+
+void Tracker::BeginLost(KeyFrameId next) {
+  state_ = TrackerState::kLost;
+  next_keyframe_ = next;
+}
+
+void Tracker::Resume(const Relocalized& found, const MapSnapshot& snapshot) {
+  const Placement& place = snapshot.places.at(snapshot.centre);
+  const RelativePose relative{found.frame.cam_from_world * Inverse(place.cam_from_world),
+                              place.unit};
+  velocity_.reset();
+  spread_.reset();
+  newest_keyframe_ = snapshot.centre;
+  frames_since_keyframe_ = 0;
+  last_ = Tracked{{found.frame, found.association}, {snapshot.centre, relative}, {}};
 }
 
 TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind) {

@@ -9,6 +9,7 @@
 #include "plumbline/tracking/keyframe_policy.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_search.h"
+#include "plumbline/tracking/relocalization.h"
 
 #include <array>
 #include <map>
@@ -31,6 +32,7 @@ constexpr auto EnumNames(std::type_identity<TrackerState>) {
 enum class TrackingFailure {
   kNone,
   kTooFewFeatures,    // to start a map
+  kNotRelocalized,    // nothing is known of the camera's place in the map yet
   kTooFewMatches,     // landmarks found in the image
   kTooFewInliers,     // of them agree on a pose
   kPoseNotObservable  // the inliers do not fix the pose to tracking.max_pose_sigma
@@ -38,6 +40,7 @@ enum class TrackingFailure {
 constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
   return std::array{std::pair{TrackingFailure::kNone, ""},
                     std::pair{TrackingFailure::kTooFewFeatures, "too_few_features"},
+                    std::pair{TrackingFailure::kNotRelocalized, "not_relocalized"},
                     std::pair{TrackingFailure::kTooFewMatches, "too_few_matches"},
                     std::pair{TrackingFailure::kTooFewInliers, "too_few_inliers"},
                     std::pair{TrackingFailure::kPoseNotObservable, "pose_not_observable"}};
@@ -98,6 +101,12 @@ class Tracker {
   // keyframe, which is made of the frame of today.
   //   velocity  of the camera there, as a left tangent per second
   TrackingResult StartFrom(const MapSnapshot& snapshot, const Vector6d& velocity);
+
+  // Begins lost in a map that there is already. Keyframes get ids from `next` on.
+  void BeginLost(KeyFrameId next);
+  // Goes on, lost as it is, from a frame whose place was found in the map; `snapshot` is taken
+  // around the keyframe that showed the way.
+  void Resume(const Relocalized& found, const MapSnapshot& snapshot);
 
   TrackerState state() const { return state_; }
   // The id that the next keyframe will get.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -53,7 +54,7 @@ Eigen::Vector4d TangentTo(const PluckerLine& line, const PluckerLine& other) {
   const OrthonormalLine from = ToOrthonormal(line);
   Eigen::Matrix<double, 6, 1> h = ToOrthonormal(other).Homogeneous();
   if (h.dot(from.Homogeneous()) < 0) h = -h;
-  return HomogeneousJacobian(from).transpose() * (h - from.Homogeneous());
+  return HomogeneousJacobian(from).completeOrthogonalDecomposition().solve(h - from.Homogeneous());
 }
 
 // What the information says of a small error of the line does not depend on where the line lies.

@@ -364,6 +364,27 @@ TEST(Office, ComesBackToWhatItHasSeen) {
   EXPECT_GT(ShareSeenAgain(Made(FindWorld("office"), 1).path), 0.3);
 }
 
+TEST(Office, IsVisitedASecondTimeByAnotherWayAlongWhatTheFirstHasSeen) {
+  const World& world = Made(FindWorld("office"), 1);
+  ASSERT_TRUE(world.second_path);
+  int near = 0, all = 0;
+  double apart = 0;
+  for (double time = 0; time < world.second_path->duration; time += 0.5) {
+    const Rigid3 now = world.second_path->world_from_camera(time);
+    double nearest = 1.3;
+    for (double before = 0; before < world.path.duration; before += 0.25) {
+      const Rigid3 then = world.path.world_from_camera(before);
+      if (AngularDistance(now.rotation, then.rotation) > 0.6) continue;
+      nearest = std::min(nearest, (now.translation - then.translation).norm());
+    }
+    ++all;
+    near += nearest < 1.3;
+    apart += nearest;
+  }
+  EXPECT_GT(near, 0.9 * all);
+  EXPECT_GT(apart, 0.1 * all);  // another way, not the same one again
+}
+
 // In the second round the camera comes within a metre of where it was, looking alike.
 TEST(Loop, IsWalkedTwice) {
   const CameraPath& path = Made(FindWorld("loop"), 1).path;

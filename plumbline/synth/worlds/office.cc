@@ -188,6 +188,34 @@ CameraPath Walk(SceneBuilder& random, std::uint64_t seed) {
       SplinePath(WalkAlong({5.7, 0.9}, legs, 1.55, 0.8), {1.0, 0.9}), Carrier::kHand, seed);
 }
 
+// Another day: the rooms of the first walk in another order of lanes, a step aside, from a lower
+// height and with a gaze of its own. What it shows, the first walk has shown from somewhere near.
+CameraPath SecondWalk(SceneBuilder& random, std::uint64_t seed) {
+  std::vector<Leg> legs = {{{10.1, 2.35}},
+                           {{12.45, 2.35}},
+                           {{12.45, 1.35}},
+                           {{12.1, 1.35}},  // the meeting room
+                           {{12.1, 2.35}},
+                           {{10.35, 2.35}},
+                           {{10.35, 5.85}},  // and out
+                           {{13.35, 5.85}},
+                           {{13.35, 9.05}},
+                           {{9.65, 9.05}},  // kitchen, corridor
+                           {{9.65, 5.6}},
+                           {{5.9, 5.45}},
+                           {{1.15, 5.4}},
+                           {{1.1, 0.7}},  // around the desks
+                           {{5.5, 0.95}},
+                           {{10.1, 0.95}},
+                           {{10.1, 2.2}}};
+  for (Leg& leg : legs) {
+    leg.gaze = random.Random(-0.2, 0.2);
+    leg.pitch = random.Random(0.0, 0.12);
+  }
+  return WithCarrier(
+      SplinePath(WalkAlong({5.9, 0.95}, legs, 1.45, 0.8), {0.9, 0.8}), Carrier::kHand, seed + 1000);
+}
+
 }  // namespace
 
 World MakeOffice(std::uint64_t seed) {
@@ -202,7 +230,8 @@ World MakeOffice(std::uint64_t seed) {
   AddLamps(scene, rooms);
   scene.SetAmbient(0.55);
   CameraPath path = Walk(scene, seed);
-  return {scene.Take(), std::move(path)};
+  CameraPath second = SecondWalk(scene, seed);
+  return {scene.Take(), std::move(path), std::move(second)};
 }
 
 }  // namespace plumbline
