@@ -26,7 +26,8 @@ NewKeyFrame KeyFrameAt(const SyntheticWorld& world, std::int64_t id, std::int64_
   return {{KeyFrameId{id},
            KeyFrameId{parent},
            MakeFrame(FrameId{id}, pose, Sense(world, pose, {}, rng))},
-          {}};
+          {},
+          {pose * Inverse(PoseOnPath(static_cast<int>(4 * parent))), 1}};
 }
 
 TEST(MappingStage, TheFirstKeyFrameTakesEffectAtOnce) {
