@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/eval/line_map_figure.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
@@ -68,7 +69,8 @@ RelativeWindow ParseWindow(const std::string& text) {
     window.frames = static_cast<int>(*number);
     return window;
   }
-  throw InputError("--delta: expected seconds such as 3s or frames such as 1f, found " + text);
+  throw InputError("--delta: expected seconds such as 3s or frames such as 1f, found " +
+                   Printable(text));
 }
 
 TrajectoryErrorOptions ErrorOptions(const CommandLine& line,

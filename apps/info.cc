@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/printable.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -38,7 +39,7 @@ std::string NameOf(Enum value) {
 }
 
 void Row(const std::string& name, const std::string& text) {
-  std::cout << fmt::format("{:<13} {}\n", name, text);
+  std::cout << fmt::format("{:<13} {}\n", name, Printable(text, kLongestMessage));
 }
 
 void PrintTimes(const DatasetInfo& info) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/nearest_name.h"
+#include "plumbline/base/printable.h"
 
 #include "apps/commands.h"
 #include <array>
@@ -43,7 +44,7 @@ const Command& FindCommand(const std::string& name) {
     names.emplace_back(command.name);
   }
   const std::optional<std::string> nearest = NearestName(name, names);
-  throw InputError("unknown command '" + name + "'" +
+  throw InputError("unknown command " + InQuotes(name) +
                    (nearest ? "; did you mean '" + *nearest + "'?" : "; see plumbline help"));
 }
 
@@ -103,10 +104,12 @@ int main(int argc, char** argv) {
     if (!std::cout.flush()) throw plumbline::InputError("cannot write to standard output");
     return code;
   } catch (const plumbline::InputError& error) {
-    std::cerr << "plumbline: " << error.what() << "\n";
+    std::cerr << "plumbline: " << plumbline::Printable(error.what(), plumbline::kLongestMessage)
+              << "\n";
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << "plumbline: internal error: " << error.what() << "\n";
+    std::cerr << "plumbline: internal error: "
+              << plumbline::Printable(error.what(), plumbline::kLongestMessage) << "\n";
     return 1;
   }
 }

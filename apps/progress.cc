@@ -3,6 +3,7 @@
 #include "apps/progress.h"
 
 #include "plumbline/base/options.h"
+#include "plumbline/base/printable.h"
 
 #include <algorithm>
 #include <iostream>
@@ -49,7 +50,8 @@ void ProgressLine::Show(std::size_t done, std::size_t total, const std::string& 
 }
 
 void ProgressLine::Say(const std::string& message) const {
-  std::cerr << (terminal_ ? "\n" : "") + ("plumbline: " + message + '\n');
+  std::cerr << (terminal_ ? "\n" : "") +
+                   ("plumbline: " + Printable(message, kLongestMessage) + '\n');
 }
 
 void Countdown::Show(std::size_t done, const std::string& note) {

@@ -3,11 +3,11 @@
 #include "apps/reference_trajectory.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/text_rows.h"
 
-#include <fstream>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -89,8 +89,8 @@ std::optional<std::size_t> FramesOfRun(const fs::path& trajectory) {
 
 bool IsMonocularRun(const fs::path& trajectory) {
   const fs::path summary = fs::absolute(trajectory).parent_path() / "summary.json";
-  std::ifstream file(summary);
-  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!IsFile(summary)) return false;
+  const auto json = nlohmann::json::parse(ReadInputFile(summary), nullptr, false);
   return json.is_object() && json.contains("sensor") && json["sensor"] == "mono";
 }
 

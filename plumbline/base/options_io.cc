@@ -3,14 +3,16 @@
 #include "plumbline/base/options_io.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/base/nearest_name.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/base/yaml_document.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <map>
 #include <system_error>
 
 #include <yaml-cpp/yaml.h>
@@ -198,42 +200,43 @@ void OptionTable::SetField(const std::string& key,
   for (const OptionField& field : fields_) {
     if (field.key != key) continue;
     if (std::visit(Store{field, text}, field.target)) return;
-    throw InputError(where + ": " + key + ": expected " + Allowed(field) + ", found '" + text +
-                     "'");
+    throw InputError(where + ": " + key + ": expected " + Allowed(field) + ", found " +
+                     InQuotes(text));
   }
   if (IsGroup(key)) {
-    throw InputError(where + ": " + key + ": expected a group of options, found '" + text + "'");
+    throw InputError(where + ": " + key + ": expected a group of options, found " + InQuotes(text));
   }
   const std::vector<std::string> keys = Keys();
   const std::optional<std::string> nearest = NearestName(key, keys);
-  throw InputError(where + ": unknown option '" + key + "'" +
+  throw InputError(where + ": unknown option " + InQuotes(key) +
                    (nearest ? "; did you mean '" + *nearest + "'?" : ""));
 }
 
 void OptionTable::LoadFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || std::filesystem::is_directory(path) || !(text << file.rdbuf())) {
-    throw InputError(path.string() + ": cannot read the options file");
+  const std::string text = ReadInputFile(path, kLargestSettings);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw InputError(path.string() + ": expected options as 'key: value', found an empty file");
   }
-  LoadText(text.str(), path.string());
+  LoadText(text, path.string());
 }
 
 void OptionTable::LoadText(const std::string& text, const std::string& source) {
-  YAML::Node root;
-  try {
-    root = YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(source + ":" + std::to_string(error.mark.line + 1) +
-                     ": expected YAML, found an error: " + error.msg);
-  }
+  const YAML::Node root = ParseYaml(text, source);
   if (!root.IsMap() && !root.IsNull()) {
     throw InputError(source + ":1: expected options as 'key: value', found other YAML");
   }
   Flattener flattener(source);
   flattener.Add(root, "");
+  std::map<std::string, int> lines;
   for (const Setting& setting : flattener.settings()) {
     const std::string where = source + ":" + std::to_string(setting.line);
+    // `ba: {huber_px: 2}` and `ba.huber_px: 2` are the same option.
+    const auto [first, added] = lines.emplace(setting.key, setting.line);
+    if (!added) {
+      throw InputError(where + ": " + Printable(setting.key) +
+                       ": expected each option once, found it in line " +
+                       std::to_string(first->second) + ", too");
+    }
     // A group without options, e.g. all of them commented out, is allowed.
     if (setting.text || !IsGroup(setting.key)) {
       SetField(setting.key, setting.text.value_or(""), where);
@@ -244,11 +247,11 @@ void OptionTable::LoadText(const std::string& text, const std::string& source) {
 void OptionTable::Set(std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0) {
-    throw InputError("--set: expected KEY=VALUE, found '" + std::string(assignment) + "'");
+    throw InputError("--set: expected KEY=VALUE, found " + InQuotes(assignment));
   }
   SetField(std::string(assignment.substr(0, equals)),
            std::string(assignment.substr(equals + 1)),
-           "--set " + std::string(assignment));
+           "--set " + Printable(assignment));
 }
 
 std::string OptionTable::Dump() const {
@@ -272,7 +275,7 @@ std::string OptionTable::Value(std::string_view key) const {
   for (const OptionField& field : fields_) {
     if (field.key == key) return std::visit(ToText{}, field.target);
   }
-  throw InputError("unknown option '" + std::string(key) + "'");
+  throw InputError("unknown option " + InQuotes(key));
 }
 
 std::vector<std::string> OptionTable::Keys() const {

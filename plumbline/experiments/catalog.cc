@@ -3,6 +3,7 @@
 #include "plumbline/experiments/catalog.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/experiments/computed.h"
 
 #include <array>
@@ -326,7 +327,7 @@ const Experiment& FindExperiment(std::string_view name) {
   }
   for (const ComputedExperiment& experiment : ComputedExperiments())
     names += ", " + experiment.name;
-  throw InputError("there is no experiment '" + std::string(name) + "'; there are: " + names);
+  throw InputError("there is no experiment " + InQuotes(name) + "; there are: " + names);
 }
 
 }  // namespace plumbline

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/metrics.h"
 
+#include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -220,11 +221,11 @@ constexpr auto kMetrics = [] {
 }();
 
 std::optional<std::string> ReadText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  try {
+    return ReadInputFile(path);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 std::optional<double> NumberAt(const Json& summary, const char* where) {

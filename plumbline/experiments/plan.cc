@@ -3,6 +3,7 @@
 #include "plumbline/experiments/plan.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/experiments/metrics.h"
 #include "plumbline/io/atomic_file.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -27,11 +27,11 @@ namespace fs = std::filesystem;
 const std::string kMark = "job.txt";
 
 std::optional<std::string> ReadText(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  try {
+    return ReadInputFile(path);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 template <class Options>

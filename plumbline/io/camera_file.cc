@@ -3,12 +3,12 @@
 #include "plumbline/io/camera_file.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/builtin_cameras.h"
 #include "plumbline/io/camera_section.h"
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/kalibr.h"
 #include "plumbline/io/orb_slam_settings.h"
-#include "plumbline/io/text_rows.h"
 #include "plumbline/io/yaml_section.h"
 
 #include <algorithm>
@@ -163,7 +163,7 @@ Calibration ParseCamera(const std::string& yaml, const std::string& source) {
 }
 
 CameraFile ReadCameraFile(const std::filesystem::path& path) {
-  const YamlSection root = YamlSection::Parse(ReadTextFile(path), path.string());
+  const YamlSection root = YamlSection::Parse(ReadInputFile(path, kLargestSettings), path.string());
   const CameraFormat& format = FormatOf(root);
   return {format.read(root), fmt::format("{} ({})", path.string(), format.name)};
 }

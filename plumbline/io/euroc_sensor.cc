@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/euroc_sensor.h"
 
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/camera_section.h"
-#include "plumbline/io/text_rows.h"
 
 namespace plumbline {
 
 EurocSensor ReadEurocSensor(const std::filesystem::path& path) {
-  return ReadEurocSensor(YamlSection::Parse(ReadTextFile(path), path.string()));
+  return ReadEurocSensor(YamlSection::Parse(ReadInputFile(path, kLargestSettings), path.string()));
 }
 
 EurocSensor ReadEurocSensor(const YamlSection& root) {

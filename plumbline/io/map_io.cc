@@ -3,10 +3,10 @@
 #include "plumbline/io/map_io.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/byte_stream.h"
 #include "plumbline/io/crc32.h"
-#include "plumbline/io/text_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -320,7 +320,8 @@ void SaveMap(const std::filesystem::path& path,
 }
 
 SavedMap LoadMap(const std::filesystem::path& path) {
-  const std::string file = ReadTextFile(path);
+  constexpr std::uint64_t kLargestMap = std::uint64_t{1} << 36;
+  const std::string file = ReadInputFile(path, kLargestMap);
   const std::string source = path.string();
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(file.data()),
                                             file.size());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/obj_lines.h"
 
+#include "plumbline/base/printable.h"
 #include "plumbline/io/text_rows.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ const Eigen::Vector3d& VertexNamed(const path& file,
            line,
            count == 0 ? std::string("vertices above the line")
                       : fmt::format("a vertex from 1 to {}", count),
-           "'" + word + "'");
+           InQuotes(word));
   }
   return vertices[static_cast<std::size_t>(index - 1)];
 }
@@ -73,7 +74,7 @@ std::vector<Segment3> ReadObjLines(const path& file) {
                             VertexNamed(file, row.line, row.fields[i], vertices)});
       }
     } else if (std::find(kOthers.begin(), kOthers.end(), record) == kOthers.end()) {
-      FailAt(file, row.line, "a record of OBJ such as v or l", "'" + record + "'");
+      FailAt(file, row.line, "a record of OBJ such as v or l", InQuotes(record));
     }
   }
   return segments;

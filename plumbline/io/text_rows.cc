@@ -3,14 +3,13 @@
 #include "plumbline/io/text_rows.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+#include "plumbline/base/printable.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
-#include <system_error>
 
 namespace plumbline {
 namespace {
@@ -38,25 +37,8 @@ bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
 
-std::string ReadTextFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    throw InputError(path.string() + ": no such file");
-  }
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError(path.string() + ": expected a file, found a folder");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (file.bad() || !text || !file.is_open()) {
-    throw InputError(path.string() + ": cannot be read");
-  }
-  return std::move(text).str();
-}
-
 std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator) {
-  const std::string text = ReadTextFile(path);
+  const std::string text = ReadInputFile(path);
   std::string_view rest = text;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // byte order mark
   std::vector<TextRow> rows;
@@ -107,7 +89,7 @@ double NumberField(const std::filesystem::path& path, const TextRow& row, std::s
     FailAt(path,
            row.line,
            "a number in column " + std::to_string(field + 1),
-           "'" + row.fields[field] + "'");
+           InQuotes(row.fields[field]));
   }
   return *value;
 }

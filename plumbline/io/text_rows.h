@@ -17,9 +17,6 @@ struct TextRow {
   std::vector<std::string> fields;
 };
 
-// The whole contents of a file. InputError "path: ..." when it is missing or cannot be read.
-std::string ReadTextFile(const std::filesystem::path& path);
-
 // The rows of a text file without empty lines and comments (from '#' at the start of a line).
 // Fields end at `separator`, or at any run of blanks where that is ' '. Line ends may be CR LF.
 std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator);

@@ -3,6 +3,7 @@
 #include "plumbline/io/trajectory_io.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
 
@@ -48,7 +49,7 @@ std::int64_t Stamp(const path& file, const TextRow& row, TrajectoryFormat format
     FailAt(file,
            row.line,
            seconds ? "a time stamp in seconds" : "a time stamp in whole nanoseconds",
-           "'" + text + "'");
+           InQuotes(text));
   }
   return *stamp;
 }

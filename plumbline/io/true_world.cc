@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
 
@@ -35,7 +36,7 @@ TrueLineKind KindAt(const path& file, const TextRow& row) {
   for (const auto& [kind, name] : EnumNames(std::type_identity<TrueLineKind>{})) {
     if (text == name) return kind;
   }
-  FailAt(file, row.line, "geometry, texture or shadow", "'" + text + "'");
+  FailAt(file, row.line, "geometry, texture or shadow", InQuotes(text));
 }
 
 std::optional<int> ParseFrame(std::string_view text) {
@@ -66,13 +67,13 @@ std::vector<FrameRange> RangesAt(const path& file, const TextRow& row) {
     rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(kBlanks, word.size())));
     const std::optional<FrameRange> range = ParseRange(word);
     if (!range) {
-      FailAt(file, row.line, "frames such as 0-17 25 30-44", "'" + std::string(word) + "'");
+      FailAt(file, row.line, "frames such as 0-17 25 30-44", InQuotes(word));
     }
     if (!ranges.empty() && range->first <= ranges.back().last) {
       FailAt(file,
              row.line,
              "frames that increase",
-             fmt::format("'{}' after frame {}", word, ranges.back().last));
+             fmt::format("{} after frame {}", InQuotes(word), ranges.back().last));
     }
     ranges.push_back(*range);
   }

@@ -3,6 +3,7 @@
 #include "plumbline/io/tum_rgbd.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/text_rows.h"
@@ -36,7 +37,7 @@ std::vector<ListedImage> ReadList(const fs::path& list) {
              std::to_string(row.fields.size()) + " columns");
     }
     const std::optional<std::int64_t> stamp = ParseSeconds(row.fields[0]);
-    if (!stamp) FailAt(list, row.line, "a time stamp in seconds", "'" + row.fields[0] + "'");
+    if (!stamp) FailAt(list, row.line, "a time stamp in seconds", InQuotes(row.fields[0]));
     CheckStampOrder(list,
                     row.line,
                     images.empty() ? std::nullopt : std::optional(images.back().stamp_ns),

@@ -4,6 +4,8 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/nearest_name.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/base/yaml_document.h"
 #include "plumbline/io/text_rows.h"
 
 #include <algorithm>
@@ -89,20 +91,14 @@ struct YamlSection::Place {
     for (const YAML::Node& item : list) {
       const std::string text = Scalar(key, item);
       const std::optional<double> value = ParseNumber(text);
-      if (!value) Fail(item, key, expected + ", found '" + text + "'");
+      if (!value) Fail(item, key, expected + ", found " + InQuotes(text));
       numbers.push_back(*value);
     }
   }
 };
 
 YamlSection YamlSection::Parse(const std::string& yaml, const std::string& source) {
-  YAML::Node node;
-  try {
-    node = YAML::Load(IsOpenCvDialect(yaml) ? FromOpenCvDialect(yaml) : yaml);
-  } catch (const YAML::Exception& error) {
-    throw InputError(fmt::format(
-        "{}:{}: expected YAML, found an error: {}", source, error.mark.line + 1, error.msg));
-  }
+  const YAML::Node node = ParseYaml(IsOpenCvDialect(yaml) ? FromOpenCvDialect(yaml) : yaml, source);
   if (!node.IsMap()) throw InputError(source + ":1: expected 'key: value' rows of a camera file");
   return YamlSection(std::make_shared<const Place>(Place{node, source, ""}));
 }
@@ -126,21 +122,22 @@ std::string YamlSection::Text(const std::string& key) const {
 
 bool YamlSection::Bool(const std::string& key) const {
   const std::string text = Text(key);
-  if (text != "true" && text != "false") Fail(key, "expected true or false, found " + text);
+  if (text != "true" && text != "false")
+    Fail(key, "expected true or false, found " + Printable(text));
   return text == "true";
 }
 
 double YamlSection::Number(const std::string& key) const {
   const std::string text = Text(key);
   const std::optional<double> value = ParseNumber(text);
-  if (!value) Fail(key, "expected a number, found '" + text + "'");
+  if (!value) Fail(key, "expected a number, found " + InQuotes(text));
   return *value;
 }
 
 double YamlSection::Positive(const std::string& key) const {
   const std::string text = Text(key);
   const std::optional<double> value = ParseNumber(text);
-  if (!value || *value <= 0) Fail(key, "expected a number above 0, found '" + text + "'");
+  if (!value || *value <= 0) Fail(key, "expected a number above 0, found " + InQuotes(text));
   return *value;
 }
 
@@ -163,7 +160,7 @@ Eigen::MatrixXd YamlSection::Matrix(const std::string& key, int rows, int cols) 
     const YamlSection group = Child(key);
     for (const auto& [name, size] : {std::pair{"rows", rows}, std::pair{"cols", cols}}) {
       if (group.Has(name) && group.Number(name) != size) {
-        group.Fail(name, fmt::format("expected {}, found {}", size, group.Text(name)));
+        group.Fail(name, fmt::format("expected {}, found {}", size, Printable(group.Text(name))));
       }
     }
     return group.Matrix("data", rows, cols);
@@ -213,11 +210,10 @@ void YamlSection::RejectUnknown(const std::vector<std::string>& known) const {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "[...]";
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     const std::optional<std::string> nearest = NearestName(key, known);
-    throw InputError(fmt::format("{}:{}: unknown key '{}{}'{}",
+    throw InputError(fmt::format("{}:{}: unknown key {}{}",
                                  place_->source,
                                  entry.first.Mark().line + 1,
-                                 place_->prefix,
-                                 key,
+                                 InQuotes(place_->prefix + key),
                                  nearest ? "; did you mean '" + *nearest + "'?" : ""));
   }
 }

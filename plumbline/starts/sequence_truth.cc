@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/starts/sequence_truth.h"
 
+#include "plumbline/base/input_file.h"
 #include "plumbline/features/extractor.h"
-#include "plumbline/io/text_rows.h"
 #include "plumbline/io/yaml_section.h"
 
 #include <algorithm>
@@ -64,8 +64,8 @@ SequenceTruth::SequenceTruth(const Dataset& mono,
 
 void SequenceTruth::OpenDepthImages(const fs::path& folder) {
   const fs::path sensor = folder / "sensor.yaml", list = folder / "data.csv";
-  depth_factor_ =
-      YamlSection::Parse(ReadTextFile(sensor), sensor.string()).Positive("depth_factor");
+  depth_factor_ = YamlSection::Parse(ReadInputFile(sensor, kLargestSettings), sensor.string())
+                      .Positive("depth_factor");
   for (const TextRow& row : ReadRows(list, ',')) {
     const auto stamp = ParseNanoseconds(row.fields.front());
     if (!stamp || row.fields.size() != 2)

@@ -3,6 +3,7 @@
 #include "plumbline/synth/world.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/synth/worlds/worlds.h"
 
 #include <array>
@@ -106,7 +107,7 @@ const WorldEntry& FindWorld(std::string_view name) {
     if (name == known.name) return known;
     names += std::string(names.empty() ? "" : ", ") + known.name;
   }
-  throw InputError("world: expected one of " + names + ", found " + std::string(name));
+  throw InputError("world: expected one of " + names + ", found " + Printable(name));
 }
 
 }  // namespace plumbline

@@ -37,6 +37,11 @@ TEST(NearestName, IsSilentWhenNothingIsNear) {
   EXPECT_EQ(NearestName("lines.weighting", names), std::nullopt);
 }
 
+TEST(NearestName, TakesNoTimeForNamesThatAreNone) {
+  const std::vector<std::string> names(1000, "slam.seed");
+  EXPECT_EQ(NearestName(std::string(10'000'000, 'x'), names), std::nullopt);
+}
+
 TEST(NearestName, TakesTheFirstOfEquallyNear) {
   const std::vector<std::string> names = {"abd", "abe"};
   EXPECT_EQ(NearestName("abc", names), "abd");

@@ -183,6 +183,12 @@ TEST(OptionTable, BadYamlIsNamedByFileLineKeyAndWhatIsAllowed) {
       {"- 1\n- 2", "my.yaml:1: expected options as 'key: value', found other YAML"},
       {"seed: 1\nba: [1, 2", "my.yaml:"},
       {"seed: 1\n\tba: 2", "my.yaml:2: expected YAML, found an error"},
+      {"seed: 1\nlines: true\nseed: 2",
+       "my.yaml:3: expected each key once, found 'seed' again, which is in line 1, too"},
+      {"ba: {huber_px: 2}\nba.huber_px: 3",
+       "my.yaml:2: ba.huber_px: expected each option once, found it in line 1, too"},
+      {"seed: 1\n---\nseed: 2", "expected one YAML document, found a second one"},
+      {"seed: \"\\e[31m\"", "seed: expected a whole number, at least 0, found '\\x1b[31m'"},
   };
   for (const Case& c : cases) EXPECT_THAT(ErrorOfYaml(c.yaml), HasSubstr(c.message)) << c.yaml;
 }
@@ -226,6 +232,12 @@ TEST(OptionTable, ReadsFilesAndNamesMissingOnes) {
   std::filesystem::remove(path);
   EXPECT_THROW(table.LoadFile(path), InputError);
   EXPECT_THROW(table.LoadFile(testing::TempDir()), InputError);
+  // An empty file is one that was cut off; one of comments alone is written on purpose.
+  std::ofstream(path) << "# nothing yet\n";
+  table.LoadFile(path);
+  std::ofstream(path) << "\n \n";
+  EXPECT_THROW(table.LoadFile(path), InputError);
+  std::filesystem::remove(path);
 }
 
 TEST(OptionTable, GivesSingleValues) {

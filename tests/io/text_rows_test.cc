@@ -89,12 +89,6 @@ TEST(ReadRows, CutsAtRunsOfBlanks) {
   EXPECT_TRUE(ReadRows(folder.Write("empty.txt", ""), ' ').empty());
 }
 
-TEST(ReadTextFile, NamesWhatCannotBeRead) {
-  const ScratchFolder folder;
-  EXPECT_THAT(MessageOf([&] { ReadTextFile(folder / "none"); }), HasSubstr("none: no such file"));
-  EXPECT_THAT(MessageOf([&] { ReadTextFile(folder.path()); }), HasSubstr("found a folder"));
-}
-
 TEST(Crc32, AgreesWithTheCheckValueAtEveryLength) {
   const std::string digits = "123456789";
   const std::vector<std::uint8_t> bytes(digits.begin(), digits.end());

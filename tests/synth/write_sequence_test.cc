@@ -3,9 +3,9 @@
 #include "plumbline/synth/write_sequence.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
-#include "plumbline/io/text_rows.h"
 
 #include "tests/io/scratch_folder.h"
 #include <algorithm>
@@ -31,7 +31,7 @@ std::map<std::string, std::string> AllFiles(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) {
-      files[fs::relative(entry.path(), folder).string()] = ReadTextFile(entry.path());
+      files[fs::relative(entry.path(), folder).string()] = ReadInputFile(entry.path());
     }
   }
   return files;
@@ -151,7 +151,7 @@ TEST(WriteSequence, WorldYamlSaysHowItWasMade) {
   SynthOptions options = Small();
   options.frames = 1;
   WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kEuroc, folder / "room", 1);
-  const std::string world = ReadTextFile(folder / "room" / "world.yaml");
+  const std::string world = ReadInputFile(folder / "room" / "world.yaml");
   EXPECT_THAT(world, testing::HasSubstr("world: room\nformat: euroc\n"));
   EXPECT_THAT(world, testing::HasSubstr("\nframes: 1"));
   EXPECT_FALSE(fs::exists(folder / "room" / "world.yaml.part"));
@@ -183,7 +183,7 @@ TEST(WriteSequence, TouchesNoFolderOfOthers) {
   for (const char* name : {"mine", "mine/diary.txt"}) {
     EXPECT_THROW(WriteSequence(sequence, SequenceFormat::kEuroc, folder / name, 1), InputError);
   }
-  EXPECT_EQ(ReadTextFile(folder / "mine" / "diary.txt"), "dear");
+  EXPECT_EQ(ReadInputFile(folder / "mine" / "diary.txt"), "dear");
 }
 
 TEST(SyntheticSequence, RefusesWhatCannotBe) {

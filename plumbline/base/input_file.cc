@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/input_file.h"
+
+#include "plumbline/base/error.h"
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Size(std::uint64_t bytes) {
+  constexpr std::uint64_t kMega = std::uint64_t{1} << 20;
+  return bytes < kMega ? fmt::format("{} bytes", bytes) : fmt::format("{} MB", bytes / kMega);
+}
+
+}  // namespace
+
+std::string KindOf(const fs::path& path) {
+  std::error_code error;
+  switch (fs::status(path, error).type()) {
+    case fs::file_type::regular:
+      return "a file";
+    case fs::file_type::directory:
+      return "a folder";
+    case fs::file_type::fifo:
+      return "a pipe";
+    case fs::file_type::socket:
+      return "a socket";
+    case fs::file_type::block:
+    case fs::file_type::character:
+      return "a device";
+    default:
+      return "nothing";
+  }
+}
+
+std::string ReadInputFile(const fs::path& path, std::uint64_t largest) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) throw InputError(path.string() + ": no such file");
+  if (error) throw InputError(path.string() + ": cannot be read: " + error.message());
+  if (!fs::is_regular_file(status)) {
+    throw InputError(path.string() + ": expected a file, found " + KindOf(path));
+  }
+  // Some file systems tell no sizes: what is read counts.
+  const auto too_large = [&] {
+    throw InputError(path.string() + ": expected a file of at most " + Size(largest) +
+                     ", found a larger one");
+  };
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size > largest) too_large();
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw InputError(path.string() + ": cannot be read: " + std::generic_category().message(errno));
+  }
+  std::string contents;
+  if (!error) contents.reserve(static_cast<std::size_t>(size));
+  std::string block(std::size_t{1} << 16, '\0');
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0) {
+    contents.append(block, 0, static_cast<std::size_t>(file.gcount()));
+    if (contents.size() > largest) too_large();
+  }
+  if (file.bad()) throw InputError(path.string() + ": cannot be read");
+  return contents;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace plumbline {
+
+// Largest files that are read whole, in bytes: what is written by hand, and tables.
+constexpr std::uint64_t kLargestSettings = std::uint64_t{1} << 20;
+constexpr std::uint64_t kLargestTable = std::uint64_t{1} << 30;
+
+// The contents of a file that somebody named. InputError "path: ..." when there is none, when it is
+// a folder, a pipe or a device (reading might wait for ever), larger than `largest` bytes or cannot
+// be read.
+std::string ReadInputFile(const std::filesystem::path& path, std::uint64_t largest = kLargestTable);
+
+// What is at a path that is there: "a folder", "a file", "a pipe", "a device", "a socket".
+std::string KindOf(const std::filesystem::path& path);
+
+}  // namespace plumbline

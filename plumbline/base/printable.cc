@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/printable.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+std::uint8_t Byte(std::string_view text, std::size_t at) {
+  return static_cast<std::uint8_t>(text[at]);
+}
+
+bool Continues(std::string_view text, std::size_t at) {
+  return at < text.size() && (Byte(text, at) & 0xC0U) == 0x80U;
+}
+
+// A character of UTF-8; `bytes` is 0 where there is none.
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 0;
+};
+
+Character CharacterAt(std::string_view text, std::size_t at) {
+  constexpr std::uint32_t kFewest[] = {0, 0, 0x80, 0x800, 0x10000};  // that so many bytes are for
+  const std::uint8_t first = Byte(text, at);
+  if (first < 0x80) return {first, 1};
+  const std::size_t bytes = first >= 0xF8   ? 0
+                            : first >= 0xF0 ? 4
+                            : first >= 0xE0 ? 3
+                            : first >= 0xC0 ? 2
+                                            : 0;
+  if (bytes == 0) return {};
+  std::uint32_t code = first & (0x7FU >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if (!Continues(text, at + i)) return {};
+    code = (code << 6) | (Byte(text, at + i) & 0x3FU);
+  }
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  if (code < kFewest[bytes] || code > 0x10FFFF || surrogate) return {};
+  return {code, bytes};
+}
+
+// Whether a terminal only shows the character: it is no control character, and it does not turn the
+// direction of the text around it.
+bool IsShown(std::uint32_t code) {
+  const auto within = [code](std::uint32_t first, std::uint32_t last) {
+    return code >= first && code <= last;
+  };
+  return !(code < 0x20 || within(0x7F, 0x9F) || within(0x200B, 0x200F) || within(0x2028, 0x202E) ||
+           within(0x2060, 0x206F) || code == 0xFEFF);
+}
+
+void AppendEscape(std::uint8_t byte, std::string& out) {
+  switch (byte) {
+    case '\n':
+      out += "\\n";
+      return;
+    case '\r':
+      out += "\\r";
+      return;
+    case '\t':
+      out += "\\t";
+      return;
+    default:
+      out += fmt::format("\\x{:02x}", byte);
+  }
+}
+
+std::string Escaped(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const Character character = CharacterAt(text, at);
+    const std::size_t bytes = std::max<std::size_t>(1, character.bytes);
+    if (character.bytes > 0 && IsShown(character.code)) {
+      out += text.substr(at, bytes);
+    } else {
+      for (std::size_t i = 0; i < bytes; ++i) AppendEscape(Byte(text, at + i), out);
+    }
+    at += bytes;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string Printable(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return Escaped(text);
+  // No character of UTF-8 is cut in two.
+  std::size_t head = longest * 2 / 3;
+  std::size_t tail = text.size() - (longest - head);
+  while (head > 0 && Continues(text, head)) --head;
+  while (Continues(text, tail)) ++tail;
+  return fmt::format("{} ... ({} bytes) ... {}",
+                     Escaped(text.substr(0, head)),
+                     text.size(),
+                     Escaped(text.substr(tail)));
+}
+
+std::string InQuotes(std::string_view text) { return "'" + Printable(text) + "'"; }
+
+}  // namespace plumbline

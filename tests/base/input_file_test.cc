@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/input_file.h"
+
+#include "tests/io/scratch_folder.h"
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace plumbline {
+namespace {
+
+std::string ErrorOf(const std::filesystem::path& path, std::uint64_t largest = kLargestTable) {
+  return MessageOf([&] { ReadInputFile(path, largest); });
+}
+
+TEST(ReadInputFile, GivesAllBytes) {
+  const ScratchFolder folder;
+  std::string contents = std::string("a\0\r\n", 4) + std::string(200'000, 'x');
+  EXPECT_EQ(ReadInputFile(folder.Write("file", contents)), contents);
+  EXPECT_EQ(ReadInputFile(folder.Write("empty", "")), "");
+  std::filesystem::create_symlink(folder / "file", folder / "link");
+  EXPECT_EQ(ReadInputFile(folder / "link"), contents);
+}
+
+TEST(ReadInputFile, RefusesWhatIsNoFile) {
+  const ScratchFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink(folder / "none", folder / "dangling");
+  EXPECT_EQ(ErrorOf(folder / "none"), (folder / "none").string() + ": no such file");
+  EXPECT_EQ(ErrorOf(folder / "dangling"), (folder / "dangling").string() + ": no such file");
+  EXPECT_EQ(ErrorOf(folder.path()), folder.path().string() + ": expected a file, found a folder");
+  // Nobody writes into the pipe: opening it would never come back.
+  EXPECT_EQ(ErrorOf(folder / "pipe"),
+            (folder / "pipe").string() + ": expected a file, found a pipe");
+  EXPECT_EQ(ErrorOf("/dev/zero"), "/dev/zero: expected a file, found a device");
+  const std::filesystem::path file = folder.Write("file", "");
+  EXPECT_EQ(ErrorOf(file / "below"), (file / "below").string() + ": no such file");
+}
+
+TEST(ReadInputFile, RefusesFilesThatAreTooLarge) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.Write("file", std::string(1000, 'x'));
+  EXPECT_EQ(ReadInputFile(file, 1000).size(), 1000U);
+  EXPECT_EQ(ErrorOf(file, 999),
+            file.string() + ": expected a file of at most 999 bytes, found a larger one");
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 36);  // takes no place on the disk
+  EXPECT_EQ(ErrorOf(file),
+            file.string() + ": expected a file of at most 1024 MB, found a larger one");
+}
+
+TEST(ReadInputFile, SaysWhyAFileCannotBeRead) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read anything";
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.Write("file", "x");
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  EXPECT_EQ(ErrorOf(file), file.string() + ": cannot be read: Permission denied");
+}
+
+}  // namespace
+}  // namespace plumbline
