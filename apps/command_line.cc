@@ -4,10 +4,13 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/nearest_name.h"
+#include "plumbline/base/printable.h"
 
 #include <algorithm>
 #include <charconv>
 #include <system_error>
+
+#include <fmt/format.h>
 
 namespace plumbline {
 namespace {
@@ -24,7 +27,7 @@ const CommandOption* FindOption(const CommandSyntax& syntax, std::string_view na
   std::vector<std::string> names = {"--help"};
   for (const CommandOption& option : syntax.options) names.push_back(option.name);
   const std::optional<std::string> nearest = NearestName(name, names);
-  throw InputError(syntax.name + ": unknown option " + name +
+  throw InputError(syntax.name + ": unknown option " + Printable(name) +
                    (nearest ? "; the nearest is " + *nearest : ""));
 }
 
@@ -37,6 +40,8 @@ CommandLine::CommandLine(const CommandSyntax& syntax, std::span<const std::strin
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (options_end || argument.size() < 2 || argument.front() != '-') {
+      // An empty one comes from a variable of a script that is not set.
+      if (argument.empty()) throw InputError(syntax.name + ": found an empty argument");
       positionals_.push_back(argument);
       continue;
     }
@@ -56,23 +61,30 @@ CommandLine::CommandLine(const CommandSyntax& syntax, std::span<const std::strin
       if (equals != std::string::npos) throw InputError(name + ": takes no value");
       values_[name].emplace_back();
     } else if (equals != std::string::npos) {
-      values_[name].push_back(argument.substr(equals + 1));
+      AddValue(*option, argument.substr(equals + 1));
     } else {
       if (i + 1 == arguments.size()) throw InputError(name + ": expected " + option->value);
-      values_[name].push_back(arguments[++i]);
+      AddValue(*option, arguments[++i]);
     }
   }
   const auto wanted = syntax.positionals.size();
   const auto optional = static_cast<std::size_t>(
       std::count_if(syntax.positionals.begin(), syntax.positionals.end(), MayBeLeftOut));
   if (positionals_.size() > wanted) {
-    throw InputError(syntax.name + ": unexpected argument " + positionals_[wanted]);
+    throw InputError(syntax.name + ": unexpected argument " + Printable(positionals_[wanted]));
   }
   if (positionals_.size() + optional < wanted) {
     throw InputError(syntax.name + ": expected " + syntax.positionals[positionals_.size()] +
                      "; see plumbline " + syntax.name + " --help");
   }
   positionals_.resize(wanted);
+}
+
+void CommandLine::AddValue(const CommandOption& option, std::string value) {
+  if (value.empty()) {
+    throw InputError(option.name + ": expected " + option.value + ", found an empty argument");
+  }
+  values_[option.name].push_back(std::move(value));
 }
 
 bool CommandLine::Has(std::string_view option) const { return values_.contains(option); }
@@ -88,21 +100,28 @@ std::vector<std::string> CommandLine::Values(std::string_view option) const {
   return found == values_.end() ? std::vector<std::string>{} : found->second;
 }
 
-int CommandLine::Count(std::string_view option, int fallback, int min) const {
+int CommandLine::Count(std::string_view option, int fallback, CountRange range) const {
   const auto text = Value(option);
-  if (!text) return fallback;
-  int value = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc() || end != text->data() + text->size() || value < min) {
-    throw InputError(std::string(option) + ": expected a whole number of at least " +
-                     std::to_string(min) + ", found " + *text);
-  }
-  return value;
+  return text ? ParseCount(option, *text, range) : fallback;
 }
 
 const std::string& CommandLine::Positional(std::size_t index) const {
   PLUMBLINE_CHECK(index < positionals_.size(), "positional argument of the syntax");
   return positionals_[index];
+}
+
+int ParseCount(std::string_view option, std::string_view text, CountRange range) {
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || value < range.min || value > range.max) {
+    throw InputError(fmt::format("{}: expected a whole number from {} to {}, found {}",
+                                 option,
+                                 range.min,
+                                 range.max,
+                                 Printable(text)));
+  }
+  return value;
 }
 
 std::string HelpText(const CommandSyntax& syntax) {
@@ -134,7 +153,7 @@ void FailChoice(std::string_view option,
     const bool last = i + 1 == names.size();
     text += (i == 0 ? "" : last ? " or " : ", ") + names[i];
   }
-  throw InputError(std::string(option) + ": expected " + text + ", found " + std::string(found));
+  throw InputError(std::string(option) + ": expected " + text + ", found " + Printable(found));
 }
 
 }  // namespace plumbline

@@ -30,12 +30,22 @@ struct CommandSyntax {
   std::vector<CommandOption> options;    // --help is understood always
 };
 
+// Whole numbers that an option takes, both ends included. What is beyond is no wish that anybody
+// has but a slip, and would keep the program busy or ask for memory without end.
+struct CountRange {
+  int min = 0;
+  int max = 0;
+};
+
+// Frames by index, as --from, --to, --stride and the like take them.
+constexpr int kMostFrames = 1'000'000'000;
+
 // The arguments of a subcommand, taken apart: `--name value`, `--name=value`, switches and
 // positional arguments in any order; everything behind `--` is positional.
 class CommandLine {
  public:
   // Throws InputError for an unknown option (with the nearest one there is), a value that is
-  // missing or not wanted, or a wrong number of positional arguments. With --help among the
+  // missing, empty or not wanted, or a wrong number of positional arguments. With --help among the
   // arguments nothing else is checked.
   CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments);
 
@@ -45,16 +55,22 @@ class CommandLine {
   std::optional<std::string> Value(std::string_view option) const;
   // All values given, in order, for options that may be repeated.
   std::vector<std::string> Values(std::string_view option) const;
-  // A whole number of at least `min`, or `fallback` where the option is not given. Throws
-  // InputError for anything else.
-  int Count(std::string_view option, int fallback, int min) const;
+  // A whole number within the range, or `fallback` where the option is not given. Throws InputError
+  // for anything else.
+  int Count(std::string_view option, int fallback, CountRange range) const;
   // Empty when a positional argument that may be left out is.
   const std::string& Positional(std::size_t index) const;
 
  private:
+  void AddValue(const CommandOption& option, std::string value);
+
   std::map<std::string, std::vector<std::string>, std::less<>> values_;
   std::vector<std::string> positionals_;
 };
+
+// A whole number within the range; InputError "--start: expected a whole number from 0 to 9, found
+// x" for any other text.
+int ParseCount(std::string_view option, std::string_view text, CountRange range);
 
 // The text of --help.
 std::string HelpText(const CommandSyntax& syntax);

@@ -24,6 +24,10 @@ namespace plumbline {
 namespace {
 
 constexpr const char* kProgram = "/proc/self/exe";
+// Of what may be asked for. A run is one of a variant on a sequence, a repeat a part of what is
+// computed.
+constexpr int kMostRuns = 1000, kMostRepeats = 100'000, kMostJobs = 1000;
+constexpr int kLongestRun = 10'000'000;  // seconds, 116 days
 
 CommandSyntax Syntax() {
   return {"experiment",
@@ -105,7 +109,7 @@ PlanRequest ReadRequest(const CommandLine& line, const Experiment& experiment) {
   if (const auto size = line.Value("--size")) {
     request.sources.size = ParseChoice<WorldSize>("--size", *size);
   }
-  if (line.Has("--runs")) request.runs = line.Count("--runs", 1, 1);
+  if (line.Has("--runs")) request.runs = line.Count("--runs", 1, {1, kMostRuns});
   request.only = line.Values("--only");
   request.settings = line.Values("--set");
   request.program = ProgramId(kProgram);
@@ -130,9 +134,11 @@ std::string Duration(double seconds) {
 RunnerOptions ReadRunnerOptions(const CommandLine& line) {
   RunnerOptions options;
   options.program = std::filesystem::read_symlink(kProgram);
-  options.jobs = line.Count("--jobs", 1, 1);
+  options.jobs = line.Count("--jobs", 1, {1, kMostJobs});
   options.force = line.Has("--force");
-  if (line.Has("--time-limit")) options.time_limit_s = line.Count("--time-limit", 1, 1);
+  if (line.Has("--time-limit")) {
+    options.time_limit_s = line.Count("--time-limit", 1, {1, kLongestRun});
+  }
   options.stop = StopRequested;
   return options;
 }
@@ -192,7 +198,7 @@ int RunComputed(const ComputedExperiment& experiment, const CommandLine& line) {
   RefuseFlagsOfRuns(line, experiment.name);
   const auto out = line.Value("--out");
   if (!out) throw InputError("experiment: expected --out DIR");
-  const int repeats = line.Has("--runs") ? line.Count("--runs", 1, 1) : experiment.repeats;
+  const int repeats = line.Count("--runs", experiment.repeats, {1, kMostRepeats});
   const bool quiet = line.Has("--quiet");
   ProgressLine progress(quiet);
   CatchStopSignals();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/options_io.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/image/box_filter.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
@@ -21,7 +22,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -38,6 +38,8 @@ namespace plumbline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int kWidestBlur = 1001;  // pixels; nothing is left to see by then
 
 CommandSyntax Syntax() {
   return {"run",
@@ -61,11 +63,10 @@ CommandSyntax Syntax() {
 
 // The frames to process, by index in the data set.
 std::vector<std::size_t> ChooseFrames(const CommandLine& line, const Dataset& dataset) {
-  const auto from = static_cast<std::size_t>(line.Count("--from", 0, 0));
-  const auto stride = static_cast<std::size_t>(line.Count("--stride", 1, 1));
-  const auto to =
-      std::min(dataset.size(),
-               static_cast<std::size_t>(line.Count("--to", std::numeric_limits<int>::max(), 1)));
+  const auto from = static_cast<std::size_t>(line.Count("--from", 0, {0, kMostFrames}));
+  const auto stride = static_cast<std::size_t>(line.Count("--stride", 1, {1, kMostFrames}));
+  const auto to = std::min(
+      dataset.size(), static_cast<std::size_t>(line.Count("--to", kMostFrames, {1, kMostFrames})));
   if (from >= to) {
     throw InputError(fmt::format(
         "--from {}: the sequence has {} frames, and --to is {}", from, dataset.size(), to));
@@ -92,7 +93,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   if (const auto seed = line.Value("--seed")) table.Set("slam.seed=" + *seed);
   setup.options_yaml = table.Dump();
   setup.folder = line.Value("--out").value_or("plumbline_run");
-  setup.blur = line.Count("--blur", 0, 1);
+  setup.blur = line.Count("--blur", 0, {1, kWidestBlur});
   setup.quiet = line.Has("--quiet");
   return setup;
 }
@@ -270,7 +271,7 @@ void PrintResult(const System& system, const Dataset& dataset, const RunSetup& s
     std::cout << (dataset.info().ground_truth ? "no errors: the ground truth covers no pose\n"
                                               : "no errors: no ground truth with the data\n");
   }
-  std::cout << "results in " << setup.folder.string() << '\n';
+  std::cout << "results in " << Printable(setup.folder.string(), kLongestMessage) << '\n';
 }
 
 }  // namespace
@@ -289,7 +290,7 @@ int RunCommand(std::span<const std::string> arguments) {
   WriteFileAtomically(setup.folder / "options.yaml", setup.options_yaml);
   if (!setup.quiet) {
     for (const std::string& note : dataset->info().notes)
-      std::cerr << "plumbline: " << note << '\n';
+      std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
   }
   CatchStopSignals();
   System system(dataset->calibration(), setup.options);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/options_io.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/text_rows.h"
@@ -17,6 +18,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +32,8 @@ namespace plumbline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int kLongestStart = 3600;  // seconds of video
 
 CommandSyntax Syntax() {
   return {"starts",
@@ -74,7 +78,7 @@ Setup ReadSetup(const CommandLine& line) {
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
   setup.options_yaml = table.Dump();
   setup.camera = line.Value("--camera");
-  setup.seed = line.Count("--seed", 0, 0);
+  setup.seed = line.Count("--seed", 0, {0, std::numeric_limits<int>::max()});
   const auto folder = line.Value("--out");
   if (!folder) throw InputError("starts: expected --out DIR");
   setup.folder = *folder;
@@ -82,23 +86,24 @@ Setup ReadSetup(const CommandLine& line) {
   return setup;
 }
 
-double ReadNumber(const CommandLine& line, const std::string& option) {
-  const auto text = line.Value(option);
+double ReadParallax(const CommandLine& line) {
+  const auto text = line.Value("--least-parallax");
   if (!text) return 0;
   const auto number = ParseNumber(*text);
-  if (!number || *number < 0) {
-    throw InputError(option + ": expected a number of at least 0, found " + *text);
+  if (!number || *number < 0 || *number > 180) {
+    throw InputError("--least-parallax: expected a number from 0 to 180, found " +
+                     Printable(*text));
   }
   return *number;
 }
 
 StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
   StartPlan plan;
-  plan.seconds = line.Count("--seconds", static_cast<int>(plan.seconds), 1);
-  plan.patience = line.Count("--patience", static_cast<int>(plan.patience), 1);
-  plan.limits.parallax_deg = ReadNumber(line, "--least-parallax");
-  const int from = line.Count("--from", 0, 0);
-  plan.frames = EveryStart(dataset.size(), from, line.Count("--every", 5, 1));
+  plan.seconds = line.Count("--seconds", static_cast<int>(plan.seconds), {1, kLongestStart});
+  plan.patience = line.Count("--patience", static_cast<int>(plan.patience), {1, kLongestStart});
+  plan.limits.parallax_deg = ReadParallax(line);
+  const int from = line.Count("--from", 0, {0, kMostFrames});
+  plan.frames = EveryStart(dataset.size(), from, line.Count("--every", 5, {1, kMostFrames}));
   if (const auto path = line.Value("--poses")) plan.poses = ReadTrajectory(*path).poses;
   if (plan.frames.empty()) {
     throw InputError(fmt::format(
@@ -106,16 +111,9 @@ StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
   }
   if (!line.Has("--start")) return plan;
   plan.frames.clear();
+  const int last = static_cast<int>(dataset.size()) - 2;  // that has a frame behind it
   for (const std::string& text : line.Values("--start")) {
-    const auto number = ParseNumber(text);
-    const auto frame = static_cast<int>(number.value_or(-1));
-    if (!number || frame != *number || frame < 0 || frame + 1 >= static_cast<int>(dataset.size())) {
-      throw InputError(
-          fmt::format("--start: expected a frame with one behind it, 0 to {}, found {}",
-                      static_cast<int>(dataset.size()) - 2,
-                      text));
-    }
-    plan.frames.push_back(frame);
+    plan.frames.push_back(ParseCount("--start", text, {0, last}));
   }
   std::sort(plan.frames.begin(), plan.frames.end());
   return plan;

@@ -17,7 +17,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 CommandSyntax Syntax() {
-  return {"do", "Does.", {"A", "[B]"}, {{"--set", "K=V", "sets"}, {"--quiet", "", "says less"}}};
+  return {"do",
+          "Does.",
+          {"A", "[B]"},
+          {{"--set", "K=V", "sets"}, {"--count", "N", "counts"}, {"--quiet", "", "says less"}}};
 }
 
 CommandLine Parse(const std::vector<std::string>& arguments) {
@@ -61,10 +64,44 @@ TEST(CommandLine, NamesWrongUse) {
   EXPECT_THAT(MessageOf({}), HasSubstr("do: expected A"));
 }
 
+TEST(CommandLine, TextsThatAreEmptyAreNone) {
+  EXPECT_EQ(MessageOf({"x", "--set", ""}), "--set: expected K=V, found an empty argument");
+  EXPECT_EQ(MessageOf({"x", "--set="}), "--set: expected K=V, found an empty argument");
+  EXPECT_EQ(MessageOf({""}), "do: found an empty argument");
+}
+
+TEST(CommandLine, WhatIsRepeatedToTheUserIsShortAndPrintable) {
+  const std::string megabyte(1'000'000, 'x');
+  for (const std::string& message : {MessageOf({"x", "--" + megabyte}),
+                                     MessageOf({"x", "y", "\x1b[31m\n" + megabyte}),
+                                     MessageOf({"x", "--count", megabyte})}) {
+    EXPECT_LT(message.size(), 300U);
+    EXPECT_EQ(message.find_first_of("\n\x1b"), std::string::npos) << message;
+  }
+}
+
+TEST(CommandLine, CountsAreWholeNumbersOfARange) {
+  const auto count = [](const std::string& text) {
+    return Parse({"x", "--count", text}).Count("--count", 5, {1, 100});
+  };
+  EXPECT_EQ(Parse({"x"}).Count("--count", 5, {1, 100}), 5);
+  EXPECT_EQ(count("1"), 1);
+  EXPECT_EQ(count("100"), 100);
+  for (const std::string text :
+       {"0", "-1", "101", "2147483647", "99999999999999999999", "1e2", "5 ", "0x5", "1.0", "nan"}) {
+    try {
+      count(text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), "--count: expected a whole number from 1 to 100, found " + text);
+    }
+  }
+}
+
 TEST(HelpText, ListsTheOptions) {
   const std::string help = HelpText(Syntax());
   EXPECT_THAT(help, HasSubstr("plumbline do A [B] [options]\nDoes.\n"));
-  EXPECT_THAT(help, HasSubstr("--set K=V  sets\n"));
+  EXPECT_THAT(help, HasSubstr("--set K=V  sets\n  --count N  counts\n"));
 }
 
 }  // namespace

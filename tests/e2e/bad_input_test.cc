@@ -185,7 +185,7 @@ TEST(BadInput, OptionsThatAreWrong) {
         " --mode outline"},
        {"half a frame",
         nothing,
-        "--stride: expected a whole number of at least 1",
+        "--stride: expected a whole number from 1 to 1000000000, found 0.5",
         " --stride 0.5"},
        {"a sensor that is not there",
         nothing,
