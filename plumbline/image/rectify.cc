@@ -3,6 +3,7 @@
 #include "plumbline/image/rectify.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
@@ -22,11 +23,6 @@ constexpr double kMinZoom = 0.5;
 constexpr double kMaxZoom = 1.3;
 // Tangent of the widest half angle that the ideal image may need (75 degrees).
 constexpr double kMaxTangent = 3.732;
-
-// Rotations of a declared-rectified pair: what rounding in a calibration file may leave.
-constexpr double kMinBaseline = 1e-6;  // metres
-constexpr double kMaxRectifiedAngle = 1e-3;
-constexpr double kMaxRectifiedTilt = 0.02;
 
 struct View {
   const Camera* camera = nullptr;
@@ -120,32 +116,9 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-void CheckPair(const Calibration& calibration) {
-  const Camera& left = calibration.left;
-  const Camera& right = *calibration.right;
-  if (left.width() != right.width() || left.height() != right.height()) {
-    throw InputError("calibration: expected a right camera of " +
-                     SizeText(left.width(), left.height()) + " pixels like the left one, found " +
-                     SizeText(right.width(), right.height()));
-  }
-  const Eigen::Vector3d centre = Inverse(calibration.right_from_left).translation;
-  // Written so that NaN fails.
-  if (!(centre.x() > kMinBaseline && centre.x() > centre.tail<2>().norm() &&
-        std::isfinite(centre.x()))) {
-    throw InputError(
-        "calibration: expected the right camera to the right (+x) of the left one, found it at (" +
-        std::to_string(centre.x()) + ", " + std::to_string(centre.y()) + ", " +
-        std::to_string(centre.z()) + ") m");
-  }
-  if (!calibration.rectified) return;
-  const double angle = LogSo3(calibration.right_from_left.rotation).norm();
-  if (angle > kMaxRectifiedAngle || centre.tail<2>().norm() > kMaxRectifiedTilt * centre.x()) {
-    throw InputError(
-        "calibration: expected a right camera displaced along x and not turned, since the images "
-        "are declared rectified, found a turn of " +
-        std::to_string(angle) + " rad and a centre at (" + std::to_string(centre.x()) + ", " +
-        std::to_string(centre.y()) + ", " + std::to_string(centre.z()) + ") m");
-  }
+// Throws InputError where a fault was found. A calibration read from a file was checked with it.
+void Refuse(const std::optional<std::string>& fault) {
+  if (fault) throw InputError("calibration: " + *fault);
 }
 
 template <class T>
@@ -219,14 +192,11 @@ Rectifier::Rectifier(const Calibration& calibration, const RectifierOptions& opt
   const Camera& left = calibration_.left;
   const bool stereo = calibration_.right.has_value();
   const bool with_depth = calibration_.depth_factor.has_value();
-  if (calibration_.rectified && !(left.IsIdeal() && (!stereo || calibration_.right->IsIdeal()))) {
-    throw InputError(
-        "calibration: expected no lens distortion, since the images are declared rectified");
-  }
+  Refuse(RectifiedFault(calibration_));
   bool unchanged = left.IsIdeal();
   double baseline = with_depth ? options.virtual_baseline : 0;
   if (stereo) {
-    CheckPair(calibration_);
+    Refuse(PairFault(calibration_));
     const Rigid3 left_from_right = Inverse(calibration_.right_from_left);
     baseline = left_from_right.translation.norm();
     if (!calibration_.rectified) {

@@ -4,6 +4,8 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/builtin_cameras.h"
 #include "plumbline/io/camera_section.h"
 #include "plumbline/io/euroc_sensor.h"
@@ -38,7 +40,7 @@ Camera ReadOurCamera(const YamlSection& section) {
     }
     return ReadListedCamera(section, {"size", "intrinsics", "distortion_coefficients"}, model);
   }
-  section.Fail("distortion", "expected none, radtan or equidistant, found '" + name + "'");
+  section.Fail("distortion", "expected none, radtan or equidistant, found " + InQuotes(name));
 }
 
 std::vector<std::string> CameraKeyNames() {
@@ -67,6 +69,7 @@ void ReadRight(const YamlSection& root, Calibration& calibration) {
   } else if (calibration.right) {
     root.Fail("right", "expected right_from_left (or baseline) with it, found none");
   }
+  if (const auto fault = RectifiedFault(calibration)) root.Fail("rectified", *fault);
   if (calibration.rectified && calibration.right) {
     CheckRectifiedPair(root, "right_from_left", calibration.right_from_left);
   }
@@ -136,18 +139,35 @@ struct CameraFormat {
   std::string_view name;
   std::vector<std::string> keys;
   Calibration (*read)(const YamlSection& root);
+  CalibrationKeys numbers;
 };
 
 // The first that fits; ours has no keys here and is the last.
 const CameraFormat& FormatOf(const YamlSection& root) {
   static const std::vector<CameraFormat> formats = {
-      {"Kalibr camchain", {"cam0", "cam1"}, ReadKalibr},
+      {"Kalibr camchain",
+       {"cam0", "cam1"},
+       ReadKalibr,
+       {.pair = {"cam1/T_cn_cnm1"}, .rate = {}, .depth_factor = {}, .lever = {}}},
       {"ORB-SLAM settings",
        {"File.version", "Camera.type", "Camera.fx", "Camera1.fx", "LEFT.K"},
-       ReadOrbSlamSettings},
-      {"EuRoC sensor.yaml", {"camera_model", "T_BS"}, ReadEuroc},
-      {"KITTI calib.txt", {"P0"}, RefuseKitti},
-      {"Plumbline camera file", {}, ReadOurs}};
+       ReadOrbSlamSettings,
+       {.pair = {"RIGHT.P", "Stereo.T_c1_c2", "Tlr", "Stereo.b", "Camera.bf"},
+        .rate = {"Camera.fps"},
+        .depth_factor = {"RGBD.DepthMapFactor", "DepthMapFactor"},
+        .lever = {}}},
+      {"EuRoC sensor.yaml",
+       {"camera_model", "T_BS"},
+       ReadEuroc,
+       {.pair = {}, .rate = {"rate_hz"}, .depth_factor = {}, .lever = {"T_BS"}}},
+      {"KITTI calib.txt", {"P0"}, RefuseKitti, {}},
+      {"Plumbline camera file",
+       {},
+       ReadOurs,
+       {.pair = {"baseline", "right_from_left"},
+        .rate = {"rate_hz"},
+        .depth_factor = {"depth_factor"},
+        .lever = {"body_from_left"}}}};
   for (const CameraFormat& format : formats) {
     const auto has = [&](const std::string& key) { return root.Has(key); };
     if (std::any_of(format.keys.begin(), format.keys.end(), has)) return format;
@@ -155,20 +175,26 @@ const CameraFormat& FormatOf(const YamlSection& root) {
   return formats.back();
 }
 
+Calibration ReadAs(const CameraFormat& format, const YamlSection& root, bool use_pair) {
+  Calibration calibration = format.read(root);
+  CheckCalibration(root, format.numbers, calibration, use_pair);
+  return calibration;
+}
+
 }  // namespace
 
-Calibration ParseCamera(const std::string& yaml, const std::string& source) {
+Calibration ParseCamera(const std::string& yaml, const std::string& source, bool use_pair) {
   const YamlSection root = YamlSection::Parse(yaml, source);
-  return FormatOf(root).read(root);
+  return ReadAs(FormatOf(root), root, use_pair);
 }
 
-CameraFile ReadCameraFile(const std::filesystem::path& path) {
+CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair) {
   const YamlSection root = YamlSection::Parse(ReadInputFile(path, kLargestSettings), path.string());
   const CameraFormat& format = FormatOf(root);
-  return {format.read(root), fmt::format("{} ({})", path.string(), format.name)};
+  return {ReadAs(format, root, use_pair), fmt::format("{} ({})", path.string(), format.name)};
 }
 
-CameraFile FindCamera(const std::string& path_or_name) {
+CameraFile FindCamera(const std::string& path_or_name, bool use_pair) {
   std::error_code error;
   if (!std::filesystem::exists(path_or_name, error)) {
     for (const BuiltInCamera& file : BuiltInCameraFiles()) {
@@ -176,10 +202,10 @@ CameraFile FindCamera(const std::string& path_or_name) {
       return {ParseCamera(file.yaml, file.name + ".yaml"), file.name + " (built-in camera)"};
     }
     throw InputError(fmt::format("{}: no such camera file; built-in cameras: {}",
-                                 path_or_name,
+                                 Printable(path_or_name),
                                  fmt::join(BuiltInCameras(), ", ")));
   }
-  return ReadCameraFile(path_or_name);
+  return ReadCameraFile(path_or_name, use_pair);
 }
 
 std::optional<std::filesystem::path> CameraFileIn(const std::filesystem::path& folder) {

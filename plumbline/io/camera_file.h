@@ -31,17 +31,20 @@ namespace plumbline {
 // camchain.yaml (kalibr.h) and settings of ORB-SLAM2 and 3 (orb_slam_settings.h).
 //
 // Throws InputError "source:line: key: expected ..., found ...".
-Calibration ParseCamera(const std::string& yaml, const std::string& source);
+//
+// Numbers that no real sensor has (plausible_calibration.h) are refused, those of the second camera
+// only where `use_pair`.
+Calibration ParseCamera(const std::string& yaml, const std::string& source, bool use_pair = true);
 
 // A calibration and what it was read from, for people: "rig/camchain.yaml (Kalibr camchain)".
 struct CameraFile {
   Calibration calibration;
   std::string source;
 };
-CameraFile ReadCameraFile(const std::filesystem::path& path);
+CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair = true);
 
 // The same for a path or, where there is no such file, the name of a built-in camera.
-CameraFile FindCamera(const std::string& path_or_name);
+CameraFile FindCamera(const std::string& path_or_name, bool use_pair = true);
 
 // The camera file that lies in a folder of images: camera.yaml or camchain.yaml, of any format.
 std::optional<std::filesystem::path> CameraFileIn(const std::filesystem::path& folder);

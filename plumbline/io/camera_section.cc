@@ -3,14 +3,43 @@
 #include "plumbline/io/camera_section.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/geometry/plausible_calibration.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <vector>
 
-#include <fmt/core.h>
-
 namespace plumbline {
+namespace {
+
+bool HasPath(const YamlSection& section, const std::string& path) {
+  const std::size_t slash = path.find('/');
+  if (slash == std::string::npos) return section.Has(path);
+  const std::string group = path.substr(0, slash);
+  return section.Has(group) && HasPath(section.Child(group), path.substr(slash + 1));
+}
+
+[[noreturn]] void FailAtPath(const YamlSection& section,
+                             const std::string& path,
+                             const std::string& message) {
+  const std::size_t slash = path.find('/');
+  if (slash == std::string::npos) section.Fail(path, message);
+  FailAtPath(section.Child(path.substr(0, slash)), path.substr(slash + 1), message);
+}
+
+// Fails at the first of the keys that the file has, where there is a fault.
+void FailOn(const std::optional<std::string>& fault,
+            const YamlSection& root,
+            const std::vector<std::string>& keys) {
+  if (!fault) return;
+  PLUMBLINE_CHECK(!keys.empty(), "a number that no key gave");
+  const auto found = std::find_if(
+      keys.begin(), keys.end(), [&](const std::string& key) { return HasPath(root, key); });
+  FailAtPath(root, found == keys.end() ? keys.front() : *found, *fault);
+}
+
+}  // namespace
 
 Camera ReadListedCamera(const YamlSection& section,
                         const CameraListKeys& keys,
@@ -31,7 +60,7 @@ Camera ReadListedCamera(const YamlSection& section,
         keys.coefficients, radtan ? std::vector<std::size_t>{4, 5} : std::vector<std::size_t>{4});
     std::copy(d.begin(), d.end(), intrinsics.distortion.begin());
   }
-  return CheckedCamera(section, keys.intrinsics, intrinsics);
+  return CheckedCamera(section, keys, intrinsics);
 }
 
 Camera ReadModelCamera(const YamlSection& section,
@@ -43,29 +72,42 @@ Camera ReadModelCamera(const YamlSection& section,
   if (name == "equidistant") return ReadListedCamera(section, keys, DistortionModel::kEquidistant);
   if (name == "none") return ReadListedCamera(section, keys, DistortionModel::kNone);
   section.Fail("distortion_model",
-               "expected " + radtan_name + ", equidistant or none, found '" + name + "'");
+               "expected " + radtan_name + ", equidistant or none, found " + InQuotes(name));
 }
 
 void CheckPinhole(const YamlSection& section, const std::string& key) {
   const std::string name = section.Text(key);
-  if (name != "pinhole") section.Fail(key, "expected pinhole, found '" + name + "'");
+  if (name != "pinhole") section.Fail(key, "expected pinhole, found " + InQuotes(name));
 }
 
 Camera CheckedCamera(const YamlSection& section,
-                     const std::string& key,
+                     const CameraListKeys& keys,
                      const CameraIntrinsics& intrinsics) {
-  try {
-    return Camera(intrinsics);
-  } catch (const InputError& error) {
-    section.Fail(key, error.what());
+  if (const auto fault = SizeFault(intrinsics.width, intrinsics.height)) {
+    section.Fail(keys.size, *fault);
   }
+  if (const auto fault = IntrinsicsFault(intrinsics)) section.Fail(keys.intrinsics, *fault);
+  if (const auto fault = DistortionFault(intrinsics)) section.Fail(keys.coefficients, *fault);
+  return Camera(intrinsics);
 }
 
 int CheckedLength(const YamlSection& section, const std::string& key, double length) {
-  if (length < 1 || length > 100000 || length != std::floor(length)) {
-    section.Fail(key, fmt::format("expected whole numbers above 0, found {}", length));
-  }
+  if (const auto fault = SizeFault(length, 1)) section.Fail(key, *fault);
   return static_cast<int>(length);
+}
+
+void CheckCalibration(const YamlSection& root,
+                      const CalibrationKeys& keys,
+                      const Calibration& calibration,
+                      bool use_pair) {
+  if (calibration.rate_hz) FailOn(RateFault(*calibration.rate_hz), root, keys.rate);
+  if (calibration.depth_factor) {
+    FailOn(DepthFactorFault(*calibration.depth_factor), root, keys.depth_factor);
+  }
+  if (calibration.body_from_left) {
+    FailOn(LeverFault(*calibration.body_from_left), root, keys.lever);
+  }
+  if (calibration.right && use_pair) FailOn(PairFault(calibration), root, keys.pair);
 }
 
 void CheckRectifiedPair(const YamlSection& section,

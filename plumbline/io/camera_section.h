@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/camera.h"
+#include "plumbline/geometry/calibration.h"
 #include "plumbline/io/yaml_section.h"
 
 #include <string>
+#include <vector>
 
 namespace plumbline {
 
@@ -32,13 +33,28 @@ Camera ReadModelCamera(const YamlSection& section,
 // Fails unless the text of `key` is pinhole.
 void CheckPinhole(const YamlSection& section, const std::string& key);
 
-// Camera(intrinsics), its errors as those of `key`.
+// Camera(intrinsics) where the numbers can be those of a camera (plausible_calibration.h);
+// InputError at the keys of its size, its first intrinsics or its first coefficients otherwise.
 Camera CheckedCamera(const YamlSection& section,
-                     const std::string& key,
+                     const CameraListKeys& keys,
                      const CameraIntrinsics& intrinsics);
 
-// A width or height as `key` gives it: InputError unless it is a whole number from 1 to 100000.
+// A width or height as `key` gives it: InputError unless it is a whole number of pixels.
 int CheckedLength(const YamlSection& section, const std::string& key, double length);
+
+// Where a file of some format has the numbers of a calibration: of each the keys it may stand at,
+// of which the file has one; "cam1/T_cn_cnm1" is a key of a group.
+struct CalibrationKeys {
+  std::vector<std::string> pair, rate, depth_factor, lever;
+};
+
+// Fails at the key of the first number that no real sensor has (plausible_calibration.h). The pair
+// is checked only where it is to be used: a rig that is no pair of ours has a left camera all the
+// same.
+void CheckCalibration(const YamlSection& root,
+                      const CalibrationKeys& keys,
+                      const Calibration& calibration,
+                      bool use_pair);
 
 // Fails at `key` unless `right_from_left` is that of a rectified pair: a motion along -x.
 void CheckRectifiedPair(const YamlSection& section,

@@ -3,6 +3,9 @@
 #include "plumbline/io/euroc.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/image_dataset.h"
@@ -35,7 +38,7 @@ std::vector<ListedImage> ReadList(const fs::path& camera_folder) {
     }
     const std::optional<std::int64_t> stamp = ParseNanoseconds(row.fields[0]);
     if (!stamp) {
-      FailAt(csv, row.line, "a time stamp in whole nanoseconds", "'" + row.fields[0] + "'");
+      FailAt(csv, row.line, "a time stamp in whole nanoseconds", InQuotes(row.fields[0]));
     }
     CheckStampOrder(csv,
                     row.line,
@@ -89,9 +92,13 @@ CameraFile ReadCalibration(const fs::path& path,
   camera.calibration.rate_hz = left.rate_hz;
   camera.calibration.body_from_left = left.body_from_camera;
   if (sensor == SensorKind::kStereo) {
-    const EurocSensor right = ReadEurocSensor(mav / "cam1" / "sensor.yaml");
+    const fs::path right_file = mav / "cam1" / "sensor.yaml";
+    const YamlSection right_root =
+        YamlSection::Parse(ReadInputFile(right_file, kLargestSettings), right_file.string());
+    const EurocSensor right = ReadEurocSensor(right_root);
     camera.calibration.right = right.camera;
     camera.calibration.right_from_left = Inverse(right.body_from_camera) * left.body_from_camera;
+    if (const auto fault = PairFault(camera.calibration)) right_root.Fail("T_BS", *fault);
     camera.source += " and that of cam1";
   }
   camera.source += " (EuRoC sensor.yaml)";

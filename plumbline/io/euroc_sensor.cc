@@ -3,6 +3,7 @@
 #include "plumbline/io/euroc_sensor.h"
 
 #include "plumbline/base/input_file.h"
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/camera_section.h"
 
 namespace plumbline {
@@ -20,6 +21,8 @@ EurocSensor ReadEurocSensor(const YamlSection& root) {
                                   short_name ? "radtan" : "radial-tangential");
   sensor.body_from_camera = root.Child("T_BS").Motion("data");
   sensor.rate_hz = root.Positive("rate_hz");
+  if (const auto fault = LeverFault(sensor.body_from_camera)) root.Fail("T_BS", *fault);
+  if (const auto fault = RateFault(sensor.rate_hz)) root.Fail("rate_hz", *fault);
   return sensor;
 }
 

@@ -188,8 +188,10 @@ std::optional<CameraFile> GivenCamera(const fs::path& folder,
                                       std::optional<SensorKind> sensor) {
   const std::optional<fs::path> file = CameraFileIn(folder);
   if (!options.camera && !file) return std::nullopt;
-  CameraFile camera = options.camera ? FindCamera(*options.camera) : ReadCameraFile(*file);
-  if (sensor == SensorKind::kStereo && !camera.calibration.right) {
+  const bool stereo = sensor == SensorKind::kStereo;
+  CameraFile camera =
+      options.camera ? FindCamera(*options.camera, stereo) : ReadCameraFile(*file, stereo);
+  if (stereo && !camera.calibration.right) {
     throw InputError((options.camera ? *options.camera : file->string()) +
                      ": expected a stereo camera, found one camera");
   }

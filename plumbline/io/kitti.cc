@@ -3,6 +3,7 @@
 #include "plumbline/io/kitti.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/text_rows.h"
@@ -24,8 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
+// A row of calib.txt.
+struct Projection {
+  Matrix34 matrix;
+  int line = 0;
+};
+
 // One row `P0: 12 numbers` of calib.txt, an ideal pinhole; InputError otherwise.
-Matrix34 ReadProjection(const fs::path& file, const std::string& name) {
+Projection ReadProjection(const fs::path& file, const std::string& name) {
   for (const TextRow& row : ReadRows(file, ' ')) {
     if (row.fields[0] != name + ":") continue;
     if (row.fields.size() != 13) {
@@ -41,12 +48,18 @@ Matrix34 ReadProjection(const fs::path& file, const std::string& name) {
         p.row(2).head<3>() != Eigen::RowVector3d(0, 0, 1)) {
       FailAt(file, row.line, "the projection of a rectified camera", "another matrix");
     }
-    return p;
+    return {p, row.line};
   }
   throw InputError(file.string() + ": expected a row '" + name + ":', found none");
 }
 
-Camera ToCamera(const Matrix34& p, int width, int height) {
+// Throws InputError at the line of the file where there is a fault (plausible_calibration.h).
+void Refuse(const std::optional<std::string>& fault, const fs::path& file, int line) {
+  if (fault) throw InputError(fmt::format("{}:{}: {}", file.string(), line, *fault));
+}
+
+Camera ToCamera(const Projection& projection, const fs::path& file, int width, int height) {
+  const Matrix34& p = projection.matrix;
   CameraIntrinsics k;
   k.fx = p(0, 0);
   k.fy = p(1, 1);
@@ -54,6 +67,8 @@ Camera ToCamera(const Matrix34& p, int width, int height) {
   k.cy = p(1, 2);
   k.width = width;
   k.height = height;
+  Refuse(SizeFault(width, height), file, projection.line);
+  Refuse(IntrinsicsFault(k), file, projection.line);
   return Camera(k);
 }
 
@@ -74,19 +89,19 @@ CameraFile ReadCalibration(const fs::path& path,
   const fs::path file = path / "calib.txt";
   CameraFile camera{{}, file.string() + " (KITTI calib.txt)"};
   Calibration& calibration = camera.calibration;
-  const Matrix34 left = ReadProjection(file, "P0");
+  const Projection left = ReadProjection(file, "P0");
   const auto [width, height] = ImageSize(path, files);
-  calibration.left = ToCamera(left, width, height);
+  calibration.left = ToCamera(left, file, width, height);
   calibration.rectified = true;
   if (sensor == SensorKind::kStereo) {
-    const Matrix34 right = ReadProjection(file, "P1");
-    calibration.right = ToCamera(right, width, height);
-    const double baseline = -right(0, 3) / right(0, 0);
-    if (!(baseline > 0) || right.leftCols<3>() != left.leftCols<3>()) {
-      throw InputError(file.string() +
-                       ": expected P1 to be P0 with a baseline above 0, found another camera");
+    const Projection right = ReadProjection(file, "P1");
+    calibration.right = ToCamera(right, file, width, height);
+    const double baseline = -right.matrix(0, 3) / right.matrix(0, 0);
+    if (!(baseline > 0) || right.matrix.leftCols<3>() != left.matrix.leftCols<3>()) {
+      FailAt(file, right.line, "P1 to be P0 with a baseline above 0", "another camera");
     }
     calibration.right_from_left.translation.x() = -baseline;
+    Refuse(PairFault(calibration), file, right.line);
   }
   return camera;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/orb_slam_settings.h"
 
+#include "plumbline/base/printable.h"
 #include "plumbline/io/camera_section.h"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ Projection ReadProjection(const YamlSection& root) {
   if (name == "PinHole" || name == "Pinhole") return Projection::kPinhole;
   if (name == "KannalaBrandt8") return Projection::kFisheye;
   if (name == "Rectified") return Projection::kRectified;
-  root.Fail("Camera.type", "expected PinHole, KannalaBrandt8 or Rectified, found '" + name + "'");
+  root.Fail("Camera.type",
+            "expected PinHole, KannalaBrandt8 or Rectified, found " + InQuotes(name));
 }
 
 // One of two keys of a size: the first that is there.
@@ -66,7 +68,8 @@ Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection
   intrinsics.cx = root.Number(prefix + "cx");
   intrinsics.cy = root.Number(prefix + "cy");
   ReadDistortion(root, prefix, projection, intrinsics);
-  return CheckedCamera(root, prefix + "fx", intrinsics);
+  const std::string width = root.Has("Camera.width") ? "Camera.width" : "LEFT.width";
+  return CheckedCamera(root, {width, prefix + "fx", prefix + "k1"}, intrinsics);
 }
 
 // A camera of the old stereo form, and how it is turned and shifted into the rectified pair.
@@ -96,8 +99,9 @@ RectifiedBy ReadRectification(const YamlSection& root, const std::string& side) 
   if (!(P(0, 0) > 0) || P(1, 3) != 0 || P(2, 3) != 0) {
     root.Fail(side + "P", "expected the projection of a camera shifted along x");
   }
-  return {
-      CheckedCamera(root, side + "K", intrinsics), root.Rotation(side + "R"), P(0, 3) / P(0, 0)};
+  return {CheckedCamera(root, {side + "width", side + "K", side + "D"}, intrinsics),
+          root.Rotation(side + "R"),
+          P(0, 3) / P(0, 0)};
 }
 
 void ReadRectifiedPair(const YamlSection& root, Calibration& calibration) {

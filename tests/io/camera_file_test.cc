@@ -82,9 +82,11 @@ TEST(ParseCamera, BadFilesAreNamedByLineAndKey) {
       {"size: [640, 480]\n", "intrinsics: expected 4 numbers, found no list"},
       {"size: [640]\nintrinsics: [1,1,1,1]\n", "c.yaml:1: size: expected 2 numbers, found 1"},
       {"size: [640, a]\nintrinsics: [1,1,1,1]\n", "c.yaml:1: size: expected 2 numbers, found 'a'"},
-      {"size: [640, 0]\nintrinsics: [1,1,1,1]\n", "size: expected whole numbers above 0, found 0"},
-      {"size: [640.5, 9]\nintrinsics: [1,1,1,1]\n", "size: expected whole numbers above 0"},
-      {"size: [640, 480]\nintrinsics: [-5,1,1,1]\n", "c.yaml:2: intrinsics: camera: expected fx"},
+      {"size: [640, 0]\nintrinsics: [1,1,1,1]\n",
+       "c.yaml:1: size: expected whole numbers from 1 to 100000, found 0"},
+      {"size: [640.5, 9]\nintrinsics: [1,1,1,1]\n", "size: expected whole numbers from 1 to"},
+      {"size: [640, 480]\nintrinsics: [-5,1,1,1]\n",
+       "c.yaml:2: intrinsics: expected fx from 6.4 to 640000 px, found -5"},
       {mono + "distortion: fisheye\n",
        "c.yaml:4: distortion: expected none, radtan or equidistant, found 'fisheye'"},
       {mono + "distortion: radtan\n", "distortion_coefficients: expected 4 or 5 numbers"},
@@ -97,20 +99,90 @@ TEST(ParseCamera, BadFilesAreNamedByLineAndKey) {
       {mono + "baseline: 0.1\n", "c.yaml:4: baseline: expected `rectified: true`"},
       {mono + "rectified: true\nbaseline: -0.1\n", "baseline: expected a number above 0"},
       {mono + pair, "right_from_left: expected a camera `right` with it"},
-      {mono + "right: {size: [640, 480], intrinsics: [1, 1, 1, 1]}\n",
+      {mono + "right: {size: [640, 480], intrinsics: [500, 500, 1, 1]}\n",
        "c.yaml:4: right: expected right_from_left"},
       {mono + "right: 5\n", "c.yaml:4: right: expected a group of keys"},
       {mono + "right:\n  siez: [640, 480]\n", "c.yaml:5: unknown key 'right.siez'"},
       {mono + "right:\n  size: [640, 480]\n" + pair, "right.intrinsics: expected 4 numbers"},
       {mono + "body_from_left: [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n",
        "c.yaml:4: body_from_left: expected a rigid motion"},
-      {mono + "rectified: true\nright: {size: [640, 480], intrinsics: [1, 1, 1, 1]}\n"
-              "right_from_left: [1,0,0,-0.1, 0,1,0,0.1, 0,0,1,0, 0,0,0,1]\n",
+      {mono + "rectified: true\nright: {size: [640, 480], intrinsics: [500, 500, 1, 1]}\n"
+              "right_from_left: [1,0,0,-0.1, 0,1,0,0.01, 0,0,1,0, 0,0,0,1]\n",
        "c.yaml:6: right_from_left: expected a motion along -x"},
   };
   for (const Case& c : cases) {
     EXPECT_THAT(MessageOf([&] { ParseCamera(c.yaml, "c.yaml"); }), HasSubstr(c.message)) << c.yaml;
   }
+}
+
+TEST(ParseCamera, NumbersThatNoCameraHasAreNamedByLineAndKey) {
+  struct Case {
+    std::string yaml;
+    std::string message;
+  };
+  const std::string mono = kMono;
+  const auto intrinsics = [](const std::string& numbers) {
+    return "size: [640, 480]\nintrinsics: [" + numbers + "]\n";
+  };
+  const auto pair = [&](const std::string& motion) {
+    return mono + "right: {size: [640, 480], intrinsics: [500, 500, 320, 240]}\n" +
+           "right_from_left: [" + motion + ", 0,0,0,1]\n";
+  };
+  const std::string lens = mono + "distortion: radtan\ndistortion_coefficients: ";
+  const std::vector<Case> cases = {
+      {intrinsics("1e300, 500, 320, 240"),
+       "c.yaml:2: intrinsics: expected fx from 6.4 to 640000 px"},
+      {intrinsics("500, 1e-300, 320, 240"),
+       "c.yaml:2: intrinsics: expected fy from 6.4 to 640000 px"},
+      {intrinsics("500, 500, 1e300, 240"),
+       "c.yaml:2: intrinsics: expected cx from -6400 to 7040 px"},
+      {intrinsics("500, 500, 320, nan"), "c.yaml:2: intrinsics: expected 4 numbers, found 'nan'"},
+      {"size: [30000, 30000]\nintrinsics: [500, 500, 1, 1]\n",
+       "c.yaml:1: size: expected an image of at most 100 million pixels, found one of 30000x30000"},
+      {lens + "[1e300, 0, 0, 0]\n",
+       "c.yaml:5: distortion_coefficients: expected coefficients from -1e+06 to 1e+06, found"},
+      {lens + "[-40, 0, 0, 0]\n",
+       "c.yaml:5: distortion_coefficients: expected a distortion that has a ray for the pixels"},
+      {mono + "rate_hz: 1e300\n", "c.yaml:4: rate_hz: expected a rate from 0.0001 to 100000 Hz"},
+      {mono + "rate_hz: 1e-300\n", "c.yaml:4: rate_hz: expected a rate from 0.0001 to 100000 Hz"},
+      {mono + "depth_factor: 1e-300\n", "c.yaml:4: depth_factor: expected a depth factor from"},
+      {mono + "rectified: true\nbaseline: 0\n", "c.yaml:5: baseline: expected a number above 0"},
+      {mono + "rectified: true\nbaseline: 1e-9\n",
+       "c.yaml:5: baseline: expected a baseline from 0.0001 to 1000 m, found 1e-09"},
+      {mono + "rectified: true\nbaseline: 1e30\n",
+       "c.yaml:5: baseline: expected a baseline from 0.0001 to 1000 m, found 1e+30"},
+      {mono + "rectified: true\ndistortion: radtan\ndistortion_coefficients: [0.1, 0, 0, 0]\n",
+       "c.yaml:4: rectified: expected no lens distortion"},
+      {pair("1,0,0,0, 0,1,0,0, 0,0,1,0"),
+       "c.yaml:5: right_from_left: expected the right camera to the right (+x) of the left one, "
+       "found it at (0, 0, 0) m"},
+      {pair("1,0,0,0, 0,1,0,-0.1, 0,0,1,0"), "found it at (0, 0.1, 0) m"},
+      {pair("1,0,0,0.1, 0,1,0,0, 0,0,1,0"), "found it at (-0.1, 0, 0) m"},
+      {pair("-1,0,0,0.1, 0,1,0,0, 0,0,-1,0"), "found its axis 180 degrees off"},
+      {pair("1,0,0,-0.1, 0,1,0,0, 0,0,1,0") + "body_from_left: [1,0,0,1e99, 0,1,0,0, 0,0,1,0, "
+                                              "0,0,0,1]\n",
+       "c.yaml:6: body_from_left: expected a body at most 10000 m from the camera"},
+  };
+  for (const Case& c : cases) {
+    EXPECT_THAT(MessageOf([&] { ParseCamera(c.yaml, "c.yaml"); }), HasSubstr(c.message)) << c.yaml;
+  }
+}
+
+// A rig whose second camera is no right one of ours has a left camera all the same.
+TEST(ParseCamera, APairThatIsNotUsedMayStandAnyhow) {
+  const std::string vertical = std::string(kMono) +
+                               "right: {size: [640, 480], intrinsics: [500, 500, 320, 240]}\n" +
+                               "right_from_left: [1,0,0,0, 0,1,0,-0.1, 0,0,1,0, 0,0,0,1]\n";
+  EXPECT_EQ(ParseCamera(vertical, "c.yaml", false).left.intrinsics().fx, 500);
+  EXPECT_THAT(MessageOf([&] { ParseCamera(vertical, "c.yaml", true); }),
+              HasSubstr("c.yaml:5: right_from_left: expected the right camera to the right"));
+}
+
+TEST(ParseCamera, KeysAndDocumentsComeOnce) {
+  EXPECT_THAT(MessageOf([] { ParseCamera(std::string(kMono) + "size: [1, 1]\n", "c.yaml"); }),
+              HasSubstr("c.yaml:4: expected each key once, found 'size' again"));
+  EXPECT_THAT(MessageOf([] { ParseCamera(std::string(kMono) + "---\n" + kMono, "c.yaml"); }),
+              HasSubstr("c.yaml:4: expected one YAML document, found a second one"));
 }
 
 // The stereo pair of EuRoC as other programs write it down. The ORB-SLAM2 form holds a
@@ -252,10 +324,10 @@ TEST(ParseCamera, TheSameRigInEveryFormatIsTheSameCalibration) {
 TEST(ParseCamera, ASensorOfEurocIsOneCamera) {
   const Calibration c = ParseCamera(
       "T_BS: {rows: 4, cols: 4, data: [1,0,0,2, 0,1,0,0, 0,0,1,0, 0,0,0,1]}\n"
-      "camera_model: pinhole\nrate_hz: 20\nresolution: [752, 480]\nintrinsics: [5, 6, 7, 8]\n"
-      "distortion_model: radial-tangential\ndistortion_coefficients: [1, 2, 3, 4]\n",
+      "camera_model: pinhole\nrate_hz: 20\nresolution: [752, 480]\nintrinsics: [450, 460, 7, 8]\n"
+      "distortion_model: radial-tangential\ndistortion_coefficients: [0.1, 0.2, 0, 0]\n",
       "sensor.yaml");
-  EXPECT_EQ(c.left.intrinsics().fy, 6);
+  EXPECT_EQ(c.left.intrinsics().fy, 460);
   EXPECT_EQ(c.body_from_left->translation.x(), 2);
   EXPECT_EQ(c.rate_hz, 20);
   EXPECT_FALSE(c.right);

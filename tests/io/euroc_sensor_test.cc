@@ -34,7 +34,8 @@ TEST(ReadEurocSensor, BadFilesAreNamed) {
   const ScratchFolder folder;
   const std::string good =
       "T_BS:\n  cols: 4\n  rows: 4\n  data: [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n"
-      "rate_hz: 20\nresolution: [752, 480]\ncamera_model: pinhole\nintrinsics: [1, 1, 1, 1]\n"
+      "rate_hz: 20\nresolution: [752, 480]\ncamera_model: pinhole\nintrinsics: [450, 450, 376, "
+      "240]\n"
       "distortion_model: equidistant\ndistortion_coefficients: [0, 0, 0, 0]\n";
   const auto message = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -48,6 +49,10 @@ TEST(ReadEurocSensor, BadFilesAreNamed) {
               HasSubstr("sensor.yaml:9: distortion_model: expected"));
   EXPECT_THAT(message("T_BS", "T_SB"), HasSubstr("T_BS: expected a group of keys"));
   EXPECT_THAT(message("0,0,0,1]", "0,0,0]"), HasSubstr("T_BS.data: expected 16 numbers, found 15"));
+  EXPECT_THAT(message("rate_hz: 20", "rate_hz: 1e300"),
+              HasSubstr("sensor.yaml:5: rate_hz: expected a rate from 0.0001 to 100000 Hz"));
+  EXPECT_THAT(message("1,0,0,0, ", "1,0,0,1e99, "),
+              HasSubstr("sensor.yaml:2: T_BS: expected a body at most 10000 m from the camera"));
   EXPECT_THAT(message("rate_hz: 20\n", ""), HasSubstr("rate_hz: expected a value, found none"));
 }
 

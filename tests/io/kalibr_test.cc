@@ -76,6 +76,9 @@ TEST(ReadKalibr, BadFilesAreNamedByLineAndKey) {
               HasSubstr("cam1.T_cn_cnm1: expected 4 rows of 4 numbers, found a row of 3"));
   EXPECT_THAT(message("[0, 1, 0, 0.03]", "[0, 2, 0, 0.03]"),
               HasSubstr("cam1.T_cn_cnm1: expected a rigid motion"));
+  EXPECT_THAT(
+      message("[1, 0, 0, -0.1]", "[1, 0, 0, 0.1]"),
+      HasSubstr("camchain.yaml:16: cam1.T_cn_cnm1: expected the right camera to the right"));
   EXPECT_THAT(message("cam0:", "cam2:"), HasSubstr("cam0: expected a group of keys, found none"));
 }
 

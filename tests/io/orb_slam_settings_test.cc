@@ -143,8 +143,9 @@ TEST(ReadOrbSlamSettings, BadFilesAreNamedByLineAndKey) {
   };
   EXPECT_EQ(message(kOld, "fx: 500", "fx: five"),
             "settings.yaml:2: Camera.fx: expected a number, found 'five'");
-  EXPECT_THAT(message(kOld, "fx: 500", "fx: -500"),
-              HasSubstr("settings.yaml:2: Camera.fx: camera: expected fx > 0, found -500"));
+  EXPECT_THAT(
+      message(kOld, "fx: 500", "fx: -500"),
+      HasSubstr("settings.yaml:2: Camera.fx: expected fx from 6.4 to 640000 px, found -500"));
   EXPECT_THAT(message(kOld, "Camera.cx: 320\n", ""),
               HasSubstr("Camera.cx: expected a value, found none"));
   EXPECT_THAT(message(kOld, "Camera.width: 640\n", ""),
@@ -156,6 +157,15 @@ TEST(ReadOrbSlamSettings, BadFilesAreNamedByLineAndKey) {
               HasSubstr("settings.yaml:9: Camera.bf: expected a rectified camera with it"));
   EXPECT_THAT(message(kOld, "RGB: 1", "bf: -40"),
               HasSubstr("Camera.bf: expected a number above 0"));
+  EXPECT_THAT(message(kOld, "RGB: 1", "bf: 1e300"),
+              HasSubstr("settings.yaml:9: Camera.bf: expected a baseline from 0.0001 to 1000 m"));
+  EXPECT_THAT(message(kOld, "fps: 30.0", "fps: 1e300"),
+              HasSubstr("settings.yaml:8: Camera.fps: expected a rate from"));
+  EXPECT_THAT(message(kOld, "RGB: 1", "fps: 30"),
+              HasSubstr("settings.yaml:9: expected each key once, found 'Camera.fps' again"));
+  EXPECT_THAT(
+      message(kFisheye, "-1, 0, 0.1", "-1, 0, -0.1"),
+      HasSubstr("settings.yaml:25: Stereo.T_c1_c2: expected the right camera to the right"));
   EXPECT_THAT(message(kFisheye, "KannalaBrandt8", "Omni"),
               HasSubstr("settings.yaml:4: Camera.type: expected PinHole, KannalaBrandt8 or "
                         "Rectified, found 'Omni'"));

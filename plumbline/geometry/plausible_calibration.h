@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/calibration.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace plumbline {
+
+// What the numbers of a calibration must be for any real sensor, generously. Numbers beyond are
+// slips of a file (a missing decimal point, other units, keys exchanged); some would overflow
+// later, others end in results that mean nothing. All of it stands here, so that every format of
+// files is held to the same; who reads a file says where in it the number stands.
+//
+// Each function returns what was expected and what was found, "expected rate_hz from 0.0001 to
+// 100000 Hz, found 1e+300", or nullopt where nothing is wrong. NaN is wrong everywhere.
+
+constexpr int kLongestSide = 100'000;              // pixels
+constexpr std::int64_t kMostPixels = 100'000'000;  // of an image
+constexpr double kMinBaseline = 1e-4;              // metres
+constexpr double kMaxBaseline = 1e3;
+constexpr double kLongestLever = 1e4;              // metres, from the camera to the body
+constexpr double kMinRate = 1e-4, kMaxRate = 1e5;  // Hz
+constexpr double kMinDepthFactor = 1e-3, kMaxDepthFactor = 1e7;
+
+// Of a width and height in pixels, whole numbers or not.
+std::optional<std::string> SizeFault(double width, double height);
+
+// Focal lengths and the principal point against the size of the image, which SizeFault took.
+std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& intrinsics);
+
+// Whether the lens model has a ray for at least half of the image, whose intrinsics IntrinsicsFault
+// took. O(1).
+std::optional<std::string> DistortionFault(const CameraIntrinsics& intrinsics);
+
+// Whether the right camera stands to the right of the left one, at a baseline of kMinBaseline to
+// kMaxBaseline, looks the same way, has images of the same size and, where these are declared
+// rectified, is not turned. Of a calibration with `right`.
+std::optional<std::string> PairFault(const Calibration& calibration);
+
+// Whether images that are declared rectified have no distortion.
+std::optional<std::string> RectifiedFault(const Calibration& calibration);
+
+std::optional<std::string> RateFault(double rate_hz);
+std::optional<std::string> DepthFactorFault(double depth_factor);
+// Of the translation between the camera and the body of the ground truth.
+std::optional<std::string> LeverFault(const Rigid3& body_from_left);
+
+}  // namespace plumbline
