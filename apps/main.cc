@@ -3,6 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/nearest_name.h"
 #include "plumbline/base/printable.h"
+#include "plumbline/io/decoder_messages.h"
 
 #include "apps/commands.h"
 #include <array>
@@ -60,6 +61,7 @@ void PrintHelp(std::ostream& out) {
 
 // What holds for the whole program, whatever the command.
 void SetUpProcess() {
+  DropDecoderMessages();
   cv::setNumThreads(1);  // the threads are ours: OpenCV's would get in the way of other stages
 #ifdef __GLIBC__
   // Images come and go at frame rate. Keeping their memory, rather than have the kernel hand out

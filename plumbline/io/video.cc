@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/decoder_messages.h"
 #include "plumbline/io/image_dataset.h"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 cv::VideoCapture OpenCapture(const fs::path& path) {
+  const DecoderCall call;
   cv::VideoCapture capture;
   try {
     capture.open(path.string(), cv::CAP_FFMPEG);  // others talk to the terminal
@@ -54,6 +56,7 @@ bool Increasing(const std::vector<std::int64_t>& stamps) {
 }
 
 VideoContent Scan(const fs::path& path) {
+  const DecoderCall call;
   cv::VideoCapture capture = OpenCapture(path);
   VideoContent content;
   content.width = static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH));
@@ -87,6 +90,7 @@ class VideoDataset : public Dataset {
 
   Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
     const std::lock_guard lock(mutex_);
+    const DecoderCall call;
     SensorFrame frame;
     frame.stamp_ns = stamp_ns(i);
     if (i < next_) {
