@@ -3,6 +3,7 @@
 #include "plumbline/io/dataset.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/euroc.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/image_folder.h"
@@ -51,8 +52,11 @@ std::optional<DatasetFormat> FindFormat(const fs::path& path) {
 std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
-  const DatasetFormat format = options.format ? *options.format : DetectFormat(path);
   const bool folder = fs::is_directory(path, error);
+  if (!folder && !fs::is_regular_file(path, error)) {
+    throw InputError(path.string() + ": expected a folder or a video file, found " + KindOf(path));
+  }
+  const DatasetFormat format = options.format ? *options.format : DetectFormat(path);
   if (folder != (format != DatasetFormat::kVideo)) {
     throw InputError(path.string() + (folder ? ": expected a video file, found a folder"
                                              : ": expected a folder, found a file"));

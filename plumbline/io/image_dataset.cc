@@ -20,18 +20,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class T>
-void CheckSize(const Image<T>& image, const Camera& camera, const fs::path& path) {
-  if (image.width() == camera.width() && image.height() == camera.height()) return;
+// The failure of one image, unless it is of another size than the calibration's, which no image of
+// a sequence may be.
+ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted) {
+  if (!failure.other_size) return failure;
   throw InputError(
       fmt::format("{}: expected an image of {}x{} pixels as in the calibration, "
                   "found {}x{}",
-                  path.string(),
-                  camera.width(),
-                  camera.height(),
-                  image.width(),
-                  image.height()));
+                  failure.path.string(),
+                  wanted.width,
+                  wanted.height,
+                  failure.other_size->width,
+                  failure.other_size->height));
 }
+
+ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
 
 class ImageDataset : public Dataset {
  public:
@@ -40,24 +43,25 @@ class ImageDataset : public Dataset {
 
   Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
     const FrameFiles& files = files_.at(i);
-    const bool check = info().has_calibration;
+    const ImageSize size = SizeOf(calibration().left);
+    const ImageSize right_size = calibration().right ? SizeOf(*calibration().right) : size;
+    const auto wanted = [&](ImageSize of) {
+      return info().has_calibration ? std::optional(of) : std::nullopt;
+    };
     SensorFrame frame;
     frame.stamp_ns = stamp_ns(i);
-    const Expected<GrayImage, ImageFailure> left = ReadGrayImage(files.left);
-    if (!left) return left.error();
-    if (check) CheckSize(*left, calibration().left, files.left);
+    const Expected<GrayImage, ImageFailure> left = ReadGrayImage(files.left, wanted(size));
+    if (!left) return FailureOf(left.error(), size);
     frame.left = *left;
     if (files.right) {
-      const Expected<GrayImage, ImageFailure> right = ReadGrayImage(*files.right);
-      if (!right) return right.error();
-      if (check && calibration().right) CheckSize(*right, *calibration().right, *files.right);
+      const auto right = ReadGrayImage(*files.right, wanted(right_size));
+      if (!right) return FailureOf(right.error(), right_size);
       frame.right = *right;
     }
     if (files.depth) {
       const double factor = calibration().depth_factor.value_or(1);
-      const Expected<DepthImage, ImageFailure> depth = ReadDepthImage(*files.depth, factor);
-      if (!depth) return depth.error();
-      if (check) CheckSize(*depth, calibration().left, *files.depth);
+      const auto depth = ReadDepthImage(*files.depth, factor, wanted(size));
+      if (!depth) return FailureOf(depth.error(), size);
       frame.depth = *depth;
     }
     return frame;
@@ -88,13 +92,14 @@ std::string_view DigitRun(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
-bool NaturalLess(std::string_view a, std::string_view b) {
-  const std::pair whole{a, b};
+// Below 0 where a comes first, above 0 where b does; 0 for names that differ in zeros before
+// numbers at most, such as 1 and 01.
+int NaturalOrder(std::string_view a, std::string_view b) {
   while (!a.empty() && !b.empty()) {
     std::string_view run_a = DigitRun(a);
     std::string_view run_b = DigitRun(b);
     if (run_a.empty() || run_b.empty()) {
-      if (a.front() != b.front()) return a.front() < b.front();
+      if (a.front() != b.front()) return a.front() < b.front() ? -1 : 1;
       a.remove_prefix(1);
       b.remove_prefix(1);
       continue;
@@ -104,10 +109,26 @@ bool NaturalLess(std::string_view a, std::string_view b) {
     run_a.remove_prefix(std::min(run_a.find_first_not_of('0'), run_a.size()));
     run_b.remove_prefix(std::min(run_b.find_first_not_of('0'), run_b.size()));
     const auto key = [](std::string_view run) { return std::tuple(run.size(), run); };
-    if (run_a != run_b) return key(run_a) < key(run_b);
+    if (run_a != run_b) return key(run_a) < key(run_b) ? -1 : 1;
   }
-  if (a.empty() != b.empty()) return a.empty();
-  return whole.first < whole.second;  // 1.png and 01.png
+  return a.empty() == b.empty() ? 0 : a.empty() ? -1 : 1;
+}
+
+bool NaturalLess(const std::string& a, const std::string& b) {
+  const int order = NaturalOrder(a, b);
+  return order != 0 ? order < 0 : a < b;
+}
+
+// Nobody can tell which of 3.png, 000003.png and 3.jpg is the image of that number.
+void CheckNumbersComeOnce(const fs::path& folder, const std::vector<std::string>& names) {
+  const auto stem = [](const std::string& name) { return fs::path(name).stem().string(); };
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    if (NaturalOrder(stem(names[i - 1]), stem(names[i])) != 0) continue;
+    throw InputError(fmt::format("{}: expected one image of each number, found {} and {}",
+                                 folder.string(),
+                                 names[i - 1],
+                                 names[i]));
+  }
 }
 
 std::string NameOf(const fs::path& path) {
@@ -230,6 +251,7 @@ std::vector<std::string> ListImages(const fs::path& folder) {
   }
   if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
   std::sort(names.begin(), names.end(), NaturalLess);
+  CheckNumbersComeOnce(folder, names);
   return names;
 }
 

@@ -57,7 +57,8 @@ void UseCamera(CameraFile camera, DatasetInfo& info);
 std::string SensorName(SensorKind sensor);
 
 // The names of the image files in a folder, by natural order: runs of digits count as numbers, so
-// that 2.png comes before 10.png. InputError when there is no such folder.
+// that 2.png comes before 10.png. InputError when there is no such folder, and when two names have
+// the same number (3.png, 000003.png).
 std::vector<std::string> ListImages(const std::filesystem::path& folder);
 
 // The message of a data set without calibration, telling what to do.

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/image_file.h"
 
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/io/crc32.h"
+#include "plumbline/io/decoder_messages.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +14,7 @@
 #include <system_error>
 #include <vector>
 
+#include <fmt/core.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -21,6 +24,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 constexpr std::string_view kEndsEarly = "the file ends early";
+constexpr const char* kNoImage = "not an image this program can decode";
 
 std::uint32_t BigEndian32(Bytes bytes, std::size_t at) {
   return (std::uint32_t{bytes[at]} << 24) | (std::uint32_t{bytes[at + 1]} << 16) |
@@ -85,6 +89,7 @@ std::optional<std::string> WebpDamage(Bytes bytes) {
 
 // Empty when the decoder refuses.
 cv::Mat Decode(const std::vector<std::uint8_t>& bytes, int flags) {
+  const DecoderCall call;
   try {
     return cv::imdecode(bytes, flags);
   } catch (const cv::Exception&) {
@@ -92,20 +97,53 @@ cv::Mat Decode(const std::vector<std::uint8_t>& bytes, int flags) {
   }
 }
 
-Expected<cv::Mat, ImageFailure> ReadMat(const std::filesystem::path& path, int flags) {
+// The bytes of a file that holds a whole image, by its structure.
+Expected<std::vector<std::uint8_t>, ImageFailure> ReadBytes(const std::filesystem::path& path) {
+  constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
     return ImageFailure{path, std::filesystem::exists(path, error) ? "not a file" : "no such file"};
   }
+  if (size > kLargestFile) return ImageFailure{path, "the file is larger than 1 GB"};
   std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!file) return ImageFailure{path, "cannot be read"};
   if (bytes.empty()) return ImageFailure{path, "the file is empty"};
   if (std::optional<std::string> damage = FindDamage(bytes)) return ImageFailure{path, *damage};
-  cv::Mat mat = Decode(bytes, flags);
-  if (mat.empty()) return ImageFailure{path, "not an image this program can decode"};
+  return bytes;
+}
+
+Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
+                                              const std::vector<std::uint8_t>& bytes) {
+  const std::optional<ImageSize> size = SizeInHeader(bytes);
+  if (!size) return ImageFailure{path, kNoImage};
+  if (std::int64_t{size->width} * size->height > kMostPixels) {
+    return ImageFailure{path,
+                        fmt::format("an image of {}x{} pixels, expected at most {} million",
+                                    size->width,
+                                    size->height,
+                                    kMostPixels / 1'000'000)};
+  }
+  return *size;
+}
+
+Expected<cv::Mat, ImageFailure> ReadMat(const std::filesystem::path& path,
+                                        int flags,
+                                        std::optional<ImageSize> wanted) {
+  const auto bytes = ReadBytes(path);
+  if (!bytes) return bytes.error();
+  const auto size = CheckedSize(path, *bytes);
+  if (!size) return size.error();
+  if (wanted && *size != *wanted) {
+    return ImageFailure{
+        path, fmt::format("an image of {}x{} pixels", size->width, size->height), *size};
+  }
+  cv::Mat mat = Decode(*bytes, flags);
+  if (mat.empty() || mat.cols != size->width || mat.rows != size->height) {
+    return ImageFailure{path, kNoImage};
+  }
   return mat;
 }
 
@@ -118,10 +156,17 @@ std::optional<std::string> FindDamage(std::span<const std::uint8_t> bytes) {
   return std::nullopt;
 }
 
-Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path) {
+Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& path) {
+  const auto bytes = ReadBytes(path);
+  if (!bytes) return bytes.error();
+  return CheckedSize(path, *bytes);
+}
+
+Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
+                                                std::optional<ImageSize> wanted) {
   // Decoders that turn colour to grey themselves round differently: take the colours.
   const Expected<cv::Mat, ImageFailure> mat =
-      ReadMat(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+      ReadMat(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
   if (!mat) return mat.error();
   if (mat->type() == CV_8UC1) return ToImage<std::uint8_t>(*mat);
   if (mat->type() != CV_8UC3) return ImageFailure{path, "neither a grey nor a colour image"};
@@ -132,9 +177,10 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 }
 
 Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,
-                                                  double factor) {
+                                                  double factor,
+                                                  std::optional<ImageSize> wanted) {
   PLUMBLINE_CHECK(factor > 0, "depth factor");
-  const Expected<cv::Mat, ImageFailure> mat = ReadMat(path, cv::IMREAD_UNCHANGED);
+  const Expected<cv::Mat, ImageFailure> mat = ReadMat(path, cv::IMREAD_UNCHANGED, wanted);
   if (!mat) return mat.error();
   if (mat->type() != CV_16UC1) return ImageFailure{path, "not a 16-bit image of one channel"};
   DepthImage depth(mat->cols, mat->rows);

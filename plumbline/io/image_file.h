@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/image/image.h"
+#include "plumbline/io/image_header.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,14 +18,24 @@ namespace plumbline {
 struct ImageFailure {
   std::filesystem::path path;
   std::string why;  // e.g. "the file ends early", without the path
+  // Set where the file is of another size than wanted, which is all that is wrong.
+  std::optional<ImageSize> other_size = std::nullopt;
 };
 
+// The size that the header of an image file tells. Failures as of ReadGrayImage.
+Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& path);
+
 // Decodes an 8-bit grey image; colour is converted by 0.299 R + 0.587 G + 0.114 B, in the same way
-// whatever the file type. An EXIF orientation is ignored: the calibration is of the raw pixels.
-Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path);
+// whatever the file type (those of image_header.h). An EXIF orientation is ignored: the calibration
+// is of the raw pixels. An image whose header tells another size than `wanted`, or more than
+// kMostPixels, is not decoded.
+Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
+                                                std::optional<ImageSize> wanted = std::nullopt);
 
 // Decodes a 16-bit depth image to metres, value / factor; 0 stays 0 (no measurement).
-Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path, double factor);
+Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,
+                                                  double factor,
+                                                  std::optional<ImageSize> wanted = std::nullopt);
 
 // Why the bytes of a PNG, JPEG or WebP file cannot be whole, found from the structure of the file
 // without decoding; nullopt where nothing is wrong or the type is another one. Decoders return

@@ -9,6 +9,7 @@
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -72,13 +73,34 @@ Camera ToCamera(const Projection& projection, const fs::path& file, int width, i
   return Camera(k);
 }
 
-// calib.txt has no image size: it is that of the first image that can be read.
-std::pair<int, int> ImageSize(const fs::path& path, const std::vector<FrameFiles>& files) {
-  for (const FrameFiles& frame : files) {
-    const Expected<GrayImage, ImageFailure> image = ReadGrayImage(frame.left);
-    if (image) return {image->width(), image->height()};
+// calib.txt has no image size: it is that of most images, by a few that are spread over the
+// sequence. One that is wrong is then the one to blame, also where it is the first.
+ImageSize SizeOfMost(const fs::path& path, const std::vector<FrameFiles>& files) {
+  constexpr std::size_t kAsked = 9;
+  const std::size_t step = std::max<std::size_t>(1, files.size() / kAsked);
+  std::vector<std::pair<ImageSize, int>> votes;
+  // The others are asked only where none of the few can be read.
+  for (std::size_t first = 0; first < step && votes.empty(); ++first) {
+    for (std::size_t i = first; i < files.size(); i += step) {
+      const Expected<ImageSize, ImageFailure> size = ReadImageSize(files[i].left);
+      if (!size) continue;
+      const auto same = std::find_if(
+          votes.begin(), votes.end(), [&](const auto& vote) { return vote.first == *size; });
+      if (same == votes.end()) {
+        votes.emplace_back(*size, 1);
+      } else {
+        ++same->second;
+      }
+    }
   }
-  throw InputError(path.string() + ": expected images in image_0, found none that can be decoded");
+  if (votes.empty()) {
+    throw InputError(path.string() +
+                     ": expected images in image_0, found none that can be decoded");
+  }
+  return std::max_element(votes.begin(),
+                          votes.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 CameraFile ReadCalibration(const fs::path& path,
@@ -90,7 +112,7 @@ CameraFile ReadCalibration(const fs::path& path,
   CameraFile camera{{}, file.string() + " (KITTI calib.txt)"};
   Calibration& calibration = camera.calibration;
   const Projection left = ReadProjection(file, "P0");
-  const auto [width, height] = ImageSize(path, files);
+  const auto [width, height] = SizeOfMost(path, files);
   calibration.left = ToCamera(left, file, width, height);
   calibration.rectified = true;
   if (sensor == SensorKind::kStereo) {

@@ -11,6 +11,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace plumbline {
 namespace {
@@ -64,6 +65,16 @@ TEST(OpenDataset, NamesFaultsOfEuroc) {
        {csv, std::nullopt, "cam0/data.csv: no such file"},
        {csv, "105,1.png\n", "expected equal time stamps in cam0/data.csv and cam1/data.csv"},
        {"mav0/cam1/data.csv", "x,1.png\n", "cam1/data.csv:1: expected a time stamp"},
+       {"mav0/cam1/sensor.yaml",
+        EurocSensorYaml(0.5, 0),
+        "cam1/sensor.yaml:2: T_BS: expected the right camera to the right (+x) of the left one, "
+        "found it at (0, 0, 0) m"},
+       {"mav0/cam1/sensor.yaml", EurocSensorYaml(0.5, 0.1), "found it at (0, 0.1, 0) m"},
+       {"mav0/cam1/sensor.yaml", EurocSensorYaml(0.4, 0), "found it at (-0.1, 0, 0) m"},
+       {"mav0/cam0/data/1.png",
+        Png(9, 6, 1),
+        "1.png: expected an image of 8x6 pixels as in the "
+        "calibration, found 9x6"},
        {"mav0/cam0", std::nullopt, "expected a EuRoC folder, found no mav0/cam0"},
        {"mav0/cam0/data", std::nullopt, "expected images, found none of the 3 listed"},
        {"mav0/cam0/sensor.yaml", std::nullopt, "cam0/sensor.yaml: no such file"},
@@ -85,7 +96,13 @@ TEST(OpenDataset, NamesFaultsOfKitti) {
        {"calib.txt", "P0: 700 9 4 0 0 710 3 0 0 0 1 0\n", "the projection of a rectified camera"},
        {"calib.txt",
         "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 4 380 0 710 3 0 0 0 1 0\n",
-        "expected P1 to be P0 with a baseline above 0"},
+        "calib.txt:2: expected P1 to be P0 with a baseline above 0"},
+       {"calib.txt",
+        "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 4 -1e-9 0 710 3 0 0 0 1 0\n",
+        "calib.txt:2: expected a baseline from 0.0001 to 1000 m, found 1.42857e-12"},
+       {"calib.txt",
+        "P0: 1e300 0 4 0 0 710 3 0 0 0 1 0\n",
+        "calib.txt:1: expected fx from 0.08 to 8000 px, found 1e+300"},
        {"times.txt", std::nullopt, "times.txt: no such file"},
        {"times.txt", "0\n1 2\n", "times.txt:2: expected one time, found 2 columns"},
        {"times.txt", "0\n0\n1\n", "times.txt:2: expected time stamps that increase"},
@@ -95,6 +112,13 @@ TEST(OpenDataset, NamesFaultsOfKitti) {
         "times.txt: expected a time for each image up to 000002.png, found 2"},
        {"image_0", std::nullopt, "image_0: no such folder"},
        {"image_0/left.png", "x", "left.png: expected a number as file name"},
+       {"image_0/2.png",
+        Png(8, 6, 1),
+        "image_0: expected one image of each number, found 000002.png and 2.png"},
+       // The other images say which size is right, also where it is the first one that is wrong.
+       {"image_0/000000.png",
+        Png(4, 3, 1),
+        "image_0/000000.png: expected an image of 8x6 pixels as in the calibration, found 4x3"},
        {"poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n", "poses.txt: expected 3 poses"}});
 }
 
@@ -118,6 +142,55 @@ TEST(OpenDataset, NamesFaultsOfImageFolders) {
                {{"camera.yaml", std::nullopt, "expected a calibration, found none"},
                 {"camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\n", "expected rate_hz"},
                 {"1.png", std::nullopt, "expected a EuRoC folder (mav0/), a TUM or ICL folder"}});
+}
+
+TEST(OpenDataset, ANumberComesOnceInAFolderOfImages) {
+  const auto write = [](const ScratchFolder& folder) {
+    folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+    for (const char* name : {"a_09.png", "a_10.png", "b.png"}) folder.Write(name, Png(8, 6, 1));
+  };
+  ExpectErrors(write,
+               {{"none", "", "no error"},
+                {"a_9.png",
+                 Png(8, 6, 1),
+                 ": expected one image of each number, found a_09.png and "
+                 "a_9.png"},
+                {"a_010.png", Png(8, 6, 1), "found a_010.png and a_10.png"},
+                {"b.jpg", Png(8, 6, 1), "found b.jpg and b.png"}});
+}
+
+// 30000x30000 pixels take 1.8 GB as 16 bits; the file has a few bytes.
+TEST(OpenDataset, AnImageIsNotDecodedBeforeItsSizeIsRight) {
+  const std::string bomb = "P5\n30000 30000\n255\n";
+  ExpectErrors(
+      [](const ScratchFolder& folder) { folder.Write("1.png", Png(8, 6, 1)); },
+      {{"camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n", "no error"}});
+  ExpectErrors(
+      [](const ScratchFolder& folder) {
+        folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+      },
+      {{"1.pgm", bomb, "1.pgm: an image of 30000x30000 pixels, expected at most 100 million"},
+       {"1.pgm",
+        "P5\n9000 9000\n255\n",
+        "1.pgm: expected an image of 8x6 pixels as in the calibration, found 9000x9000"}});
+}
+
+TEST(OpenDataset, APipeIsNotWaitedFor) {
+  const ScratchFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder / "pipe"); }),
+              HasSubstr("pipe: expected a folder or a video file, found a pipe"));
+  EXPECT_THAT(MessageOf([] { OpenDataset("/dev/null"); }),
+              HasSubstr("/dev/null: expected a folder or a video file, found a device"));
+  ExpectErrors(WriteEuroc, {{"none", "", "no error"}});
+  WriteEuroc(folder);
+  for (const char* name : {"mav0/cam0/data.csv", "mav0/cam0/sensor.yaml"}) {
+    std::filesystem::rename(folder / name, folder / "kept");
+    ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
+    EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
+                HasSubstr(std::string(name) + ": expected a file, found a pipe"));
+    std::filesystem::rename(folder / "kept", folder / name);
+  }
 }
 
 TEST(OpenDataset, NamesWrongPathsAndWishes) {

@@ -50,6 +50,28 @@ TEST(ReadGrayImage, ReadsLosslessTypesAlike) {
   }
 }
 
+TEST(ReadGrayImage, DecodesTheWantedSizeAlone) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("a.png", Encoded(Pattern(), ".png"));
+  EXPECT_TRUE(ReadGrayImage(file, ImageSize{64, 48}));
+  const auto other = ReadGrayImage(file, ImageSize{64, 47});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().other_size, (ImageSize{64, 48}));
+  EXPECT_EQ(*ReadImageSize(file), (ImageSize{64, 48}));
+  const auto bomb = ReadGrayImage(folder.Write("b.pgm", "P5\n30000 30000\n255\n"));
+  ASSERT_FALSE(bomb);
+  EXPECT_EQ(bomb.error().why, "an image of 30000x30000 pixels, expected at most 100 million");
+  EXPECT_FALSE(bomb.error().other_size);
+}
+
+// What a decoder of OpenCV takes that we know no header of might be of any size.
+TEST(ReadGrayImage, TakesTheKnownKindsAlone) {
+  const ScratchFolder folder;
+  const auto read = ReadGrayImage(folder.Write("a.png", Encoded(Pattern(), ".sr")));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().why, "not an image this program can decode");
+}
+
 TEST(ReadGrayImage, TurnsColourToGreyAlikeForAllTypes) {
   const ScratchFolder folder;
   cv::Mat color(8, 8, CV_8UC3);

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_header.h"
+
+#include <cstddef>
+#include <limits>
+#include <string_view>
+
+namespace plumbline {
+namespace {
+
+// The bytes of a file; those beyond its end count as 0.
+class Header {
+ public:
+  explicit Header(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  std::size_t size() const { return bytes_.size(); }
+  std::uint32_t Byte(std::size_t at) const { return at < bytes_.size() ? bytes_[at] : 0; }
+  // Numbers of so many bytes, the highest first or last.
+  std::uint32_t Big(std::size_t at, std::size_t count) const {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) value = (value << 8) | Byte(at + i);
+    return value;
+  }
+  std::uint32_t Little(std::size_t at, std::size_t count) const {
+    std::uint32_t value = 0;
+    for (std::size_t i = count; i-- > 0;) value = (value << 8) | Byte(at + i);
+    return value;
+  }
+  bool Has(std::size_t at, std::string_view text) const {
+    if (at > bytes_.size() || bytes_.size() - at < text.size()) return false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (bytes_[at + i] != static_cast<std::uint8_t>(text[i])) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+std::optional<ImageSize> Size(std::uint64_t width, std::uint64_t height) {
+  constexpr auto kMax = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+  if (width == 0 || height == 0 || width > kMax || height > kMax) return std::nullopt;
+  return ImageSize{static_cast<int>(width), static_cast<int>(height)};
+}
+
+std::optional<ImageSize> SizeOfPng(const Header& file) {
+  if (!file.Has(12, "IHDR")) return std::nullopt;
+  return Size(file.Big(16, 4), file.Big(20, 4));
+}
+
+// The size stands in the start-of-frame segment, before the first scan.
+std::optional<ImageSize> SizeOfJpeg(const Header& file) {
+  std::size_t at = 2;
+  while (at + 9 <= file.size() && file.Byte(at) == 0xFF) {
+    const std::uint32_t marker = file.Byte(at + 1);
+    if (marker == 0xFF) {  // fill byte
+      ++at;
+      continue;
+    }
+    const bool frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (frame) return Size(file.Big(at + 7, 2), file.Big(at + 5, 2));
+    if (marker == 0xDA) break;
+    at += 2 + file.Big(at + 2, 2);
+  }
+  return std::nullopt;
+}
+
+std::optional<ImageSize> SizeOfWebp(const Header& file) {
+  constexpr std::uint32_t kSide = 0x3FFF;  // 14 bits
+  if (file.Has(12, "VP8X")) return Size(file.Little(24, 3) + 1, file.Little(27, 3) + 1);
+  if (file.Has(12, "VP8L") && file.Byte(20) == 0x2F) {
+    const std::uint32_t bits = file.Little(21, 4);
+    return Size((bits & kSide) + 1, ((bits >> 14) & kSide) + 1);
+  }
+  if (file.Has(12, "VP8 ") && file.Has(23, "\x9D\x01\x2A")) {
+    return Size(file.Little(26, 2) & kSide, file.Little(28, 2) & kSide);
+  }
+  return std::nullopt;
+}
+
+// "P5", then width and height, with blanks and comments (from # to the end of the line) between.
+std::optional<ImageSize> SizeOfPnm(const Header& file) {
+  constexpr std::uint64_t kFar = std::uint64_t{1} << 40;
+  std::size_t at = 2;
+  const auto is_digit = [&] { return file.Byte(at) >= '0' && file.Byte(at) <= '9'; };
+  std::uint64_t numbers[2] = {};
+  for (std::uint64_t& number : numbers) {
+    while (at < file.size() && !is_digit()) {
+      if (file.Byte(at) == '#') {
+        while (at < file.size() && file.Byte(at) != '\n') ++at;
+      } else if (file.Byte(at) > ' ') {
+        return std::nullopt;
+      } else {
+        ++at;
+      }
+    }
+    for (; at < file.size() && is_digit() && number < kFar; ++at) {
+      number = 10 * number + (file.Byte(at) - '0');
+    }
+  }
+  return Size(numbers[0], numbers[1]);
+}
+
+std::optional<ImageSize> SizeOfBmp(const Header& file) {
+  constexpr std::uint32_t kOldHeader = 12, kSign = 0x80000000U;
+  if (file.Little(14, 4) == kOldHeader) return Size(file.Little(18, 2), file.Little(20, 2));
+  const std::uint32_t height = file.Little(22, 4);  // below 0 where the first row is the top one
+  return Size(file.Little(18, 4), (height & kSign) != 0 ? 0U - height : height);
+}
+
+// Tags 256 and 257 of the first directory.
+std::optional<ImageSize> SizeOfTiff(const Header& file) {
+  const bool big = file.Byte(0) == 'M';
+  const auto number = [&](std::size_t at, std::size_t count) {
+    return big ? file.Big(at, count) : file.Little(at, count);
+  };
+  constexpr std::uint32_t kWidth = 256, kHeight = 257, kShort = 3, kLong = 4;
+  const std::size_t directory = number(4, 4);
+  const std::size_t entries = number(directory, 2);
+  std::uint32_t width = 0, height = 0;
+  for (std::size_t i = 0; i < entries && directory + 2 + 12 * i < file.size(); ++i) {
+    const std::size_t entry = directory + 2 + 12 * i;
+    const std::uint32_t type = number(entry + 2, 2);
+    if (type != kShort && type != kLong) continue;
+    const std::uint32_t value = number(entry + 8, type == kShort ? 2 : 4);
+    if (number(entry, 2) == kWidth) width = value;
+    if (number(entry, 2) == kHeight) height = value;
+  }
+  return Size(width, height);
+}
+
+}  // namespace
+
+std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes) {
+  const Header file(bytes);
+  if (file.Has(0, "\x89PNG\r\n\x1a\n")) return SizeOfPng(file);
+  if (file.Has(0, "\xFF\xD8\xFF")) return SizeOfJpeg(file);
+  if (file.Has(0, "RIFF") && file.Has(8, "WEBP")) return SizeOfWebp(file);
+  if (file.Has(0, "BM")) return SizeOfBmp(file);
+  if (file.Has(0, std::string_view("II*\0", 4)) || file.Has(0, std::string_view("MM\0*", 4))) {
+    return SizeOfTiff(file);
+  }
+  if (file.Byte(0) == 'P' && file.Byte(1) >= '1' && file.Byte(1) <= '6') return SizeOfPnm(file);
+  return std::nullopt;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace plumbline {
+
+struct ImageSize {
+  int width = 0, height = 0;
+
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+
+// The size that a PNG, JPEG, WebP, PGM, PPM, PBM, BMP or TIFF file says its image has, found
+// without decoding it: a file of a megabyte may hold an image of gigabytes. nullopt for files of
+// another kind, and where the header is broken or the size is none.
+std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes);
+
+}  // namespace plumbline

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_header.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+namespace plumbline {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes Encoded(const std::string& extension, int width, int height, std::vector<int> how = {}) {
+  Bytes bytes;
+  const cv::Mat image(height, width, extension == ".pbm" ? CV_8UC1 : CV_8UC3, cv::Scalar::all(77));
+  cv::Mat gray(height, width, CV_8UC1, cv::Scalar(77));
+  EXPECT_TRUE(cv::imencode(extension, extension == ".pgm" ? gray : image, bytes, how)) << extension;
+  return bytes;
+}
+
+Bytes Text(const std::string& text) { return {text.begin(), text.end()}; }
+
+TEST(SizeInHeader, IsThatOfTheDecodedImage) {
+  const std::vector<ImageSize> sizes = {{1, 1}, {37, 5}, {752, 480}, {300, 700}};
+  for (const ImageSize& size : sizes) {
+    for (const char* extension : {".png", ".jpg", ".webp", ".pgm", ".ppm", ".bmp", ".tiff"}) {
+      EXPECT_EQ(SizeInHeader(Encoded(extension, size.width, size.height)), size) << extension;
+    }
+    EXPECT_EQ(
+        SizeInHeader(Encoded(".webp", size.width, size.height, {cv::IMWRITE_WEBP_QUALITY, 50})),
+        size);
+    EXPECT_EQ(
+        SizeInHeader(Encoded(".jpg", size.width, size.height, {cv::IMWRITE_JPEG_PROGRESSIVE, 1})),
+        size);
+  }
+}
+
+TEST(SizeInHeader, ReadsRarerForms) {
+  EXPECT_EQ(SizeInHeader(Text("P5 # made by hand\n# twice\n 8\t6 255\n")), (ImageSize{8, 6}));
+  // An extended WebP file; an upside-down BMP; a TIFF file of the other byte order.
+  EXPECT_EQ(
+      SizeInHeader(Text(std::string("RIFF\0\0\0\0WEBPVP8X\12\0\0\0\0\0\0\0\7\0\0\5\0\0", 30))),
+      (ImageSize{8, 6}));
+  Bytes bmp = Encoded(".bmp", 8, 6);
+  for (std::size_t i = 0; i < 4; ++i) bmp[22 + i] = i == 0 ? 0xFA : 0xFF;  // -6
+  EXPECT_EQ(SizeInHeader(bmp), (ImageSize{8, 6}));
+  EXPECT_EQ(SizeInHeader(Text(std::string("MM\0*\0\0\0\10\0\2"
+                                          "\1\0\0\3\0\0\0\1\0\10\0\0"
+                                          "\1\1\0\4\0\0\0\1\0\0\0\6",
+                                          34))),
+            (ImageSize{8, 6}));
+}
+
+TEST(SizeInHeader, IsNoneWhereThereIsNoHeader) {
+  EXPECT_EQ(SizeInHeader({}), std::nullopt);
+  EXPECT_EQ(SizeInHeader(Text("not an image at all")), std::nullopt);
+  EXPECT_EQ(SizeInHeader(Text("P5\nx 6\n255\n")), std::nullopt);
+  EXPECT_EQ(SizeInHeader(Text("P5\n0 6\n255\n")), std::nullopt);
+  EXPECT_EQ(SizeInHeader(Text("P5\n99999999999999999999999 6\n255\n")), std::nullopt);
+  EXPECT_EQ(SizeInHeader(Text("GIF89a")), std::nullopt);
+}
+
+// Whatever is cut off, nothing is read beyond the end, and no other size is made up.
+TEST(SizeInHeader, TakesHeadersThatEndEarly) {
+  for (const char* extension : {".png", ".jpg", ".webp", ".bmp", ".tiff"}) {
+    Bytes bytes = Encoded(extension, 300, 200);
+    const std::size_t longest = std::min<std::size_t>(bytes.size(), 2000);
+    for (std::size_t size = 0; size < longest; ++size) {
+      (void)SizeInHeader(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
