@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/image_dataset.h"
+#include "plumbline/io/text_rows.h"
 
 #include <cmath>
 #include <optional>
@@ -41,7 +42,12 @@ std::unique_ptr<Dataset> OpenImageFolder(const fs::path& path, const DatasetOpti
   const double period_ns = 1e9 / info.calibration.rate_hz.value_or(1);
   std::vector<FrameFiles> files;
   for (const std::string& name : ListImages(path)) {
-    info.stamps_ns.push_back(std::llround(static_cast<double>(files.size()) * period_ns));
+    const double stamp_ns = static_cast<double>(files.size()) * period_ns;
+    if (stamp_ns > static_cast<double>(kLatestStampNs)) {
+      throw InputError(path.string() + ": expected a higher rate_hz, found one by which image " +
+                       name + " is taken after 126 years");
+    }
+    info.stamps_ns.push_back(std::llround(stamp_ns));
     files.push_back({path / name, std::nullopt, std::nullopt});
   }
   return MakeImageDataset(std::move(info), std::move(files));

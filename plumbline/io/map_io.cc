@@ -57,6 +57,11 @@ struct Format {
   requires(std::is_integral_v<T> ||
            std::is_same_v<T, double>) static void Transfer(Archive& archive, T& value) {
     archive(value);
+    if constexpr (Archive::kReading && std::is_same_v<T, double>) {
+      if (!std::isfinite(value)) {
+        throw InputError(archive.source() + ": expected finite numbers, found another");
+      }
+    }
   }
 
   template <class Archive, class Tag>
@@ -66,7 +71,7 @@ struct Format {
 
   template <class Archive, class Scalar, int kRows, int kColumns>
   static void Transfer(Archive& archive, Eigen::Matrix<Scalar, kRows, kColumns>& matrix) {
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) archive(matrix.data()[i]);
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) Transfer(archive, matrix.data()[i]);
   }
 
   template <class Archive>

@@ -32,7 +32,7 @@ Eigen::Vector3d VertexOf(const path& file, const TextRow& row) {
   if (row.fields.size() < 4 || row.fields.size() > 8) {
     FailAt(file, row.line, "a vertex (v x y z)", fmt::format("{} numbers", row.fields.size() - 1));
   }
-  return {NumberField(file, row, 1), NumberField(file, row, 2), NumberField(file, row, 3)};
+  return PlaceFields(file, row, 1);
 }
 
 // The vertex that a word of an `l` record names, such as 7, -1 or 7/2.

@@ -9,7 +9,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
+
+#include <fmt/core.h>
 
 namespace plumbline {
 namespace {
@@ -94,6 +95,24 @@ double NumberField(const std::filesystem::path& path, const TextRow& row, std::s
   return *value;
 }
 
+Eigen::Vector3d PlaceFields(const std::filesystem::path& path,
+                            const TextRow& row,
+                            std::size_t first,
+                            std::size_t step) {
+  Eigen::Vector3d place;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const std::size_t field = first + step * static_cast<std::size_t>(i);
+    place(i) = NumberField(path, row, field);
+    if (std::abs(place(i)) > kFarthest) {
+      FailAt(path,
+             row.line,
+             fmt::format("a coordinate within {:g} of 0 in column {}", kFarthest, field + 1),
+             InQuotes(row.fields[field]));
+    }
+  }
+  return place;
+}
+
 std::optional<std::int64_t> ParseSeconds(std::string_view text) {
   std::string digits;
   std::ptrdiff_t point = -1;  // how many digits stand before the decimal point
@@ -128,14 +147,14 @@ std::optional<std::int64_t> ParseSeconds(std::string_view text) {
   if (digits.empty()) return round_up ? 1 : 0;
   const std::optional<std::int64_t> whole = ParseNanoseconds(digits);
   if (!whole || !round_up) return whole;
-  if (*whole == std::numeric_limits<std::int64_t>::max()) return std::nullopt;
-  return *whole + 1;
+  return *whole < kLatestStampNs ? std::optional(*whole + 1) : std::nullopt;
 }
 
 std::optional<std::int64_t> ParseNanoseconds(std::string_view text) {
   std::int64_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || value < 0) {
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || value < 0 ||
+      value > kLatestStampNs) {
     return std::nullopt;
   }
   return value;

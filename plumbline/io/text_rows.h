@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace plumbline {
 
 // One row of a text table, cut into fields without surrounding blanks.
@@ -37,11 +39,22 @@ void CheckStampOrder(const std::filesystem::path& path,
 std::optional<double> ParseNumber(std::string_view text);
 // FailAt unless the field of the row is a finite number. `what` names it: "the x position".
 double NumberField(const std::filesystem::path& path, const TextRow& row, std::size_t field);
+// FailAt unless the fields from `first` on are the coordinates of a place: finite and within
+// kFarthest of the origin. Squares of larger ones would overflow.
+constexpr double kFarthest = 1e9;  // metres
+Eigen::Vector3d PlaceFields(const std::filesystem::path& path,
+                            const TextRow& row,
+                            std::size_t first,
+                            std::size_t step = 1);
 
-// A time not before 0 as nanoseconds, read from the decimal text without loss (rounded to the
-// nearest nanosecond where there are more than nine decimals): "1305031102.175304", "1.037e-01".
+// The latest time stamp that is read, in the year 2096. The sum of two fits into 64 bits.
+constexpr std::int64_t kLatestStampNs = 4'000'000'000'000'000'000;
+
+// A time not before 0 and not after kLatestStampNs as nanoseconds, read from the decimal text
+// without loss (rounded to the nearest nanosecond where there are more than nine decimals):
+// "1305031102.175304", "1.037e-01".
 std::optional<std::int64_t> ParseSeconds(std::string_view text);
-// A whole number of nanoseconds, not negative.
+// A whole number of nanoseconds, not negative and at most kLatestStampNs.
 std::optional<std::int64_t> ParseNanoseconds(std::string_view text);
 
 }  // namespace plumbline

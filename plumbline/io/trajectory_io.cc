@@ -22,18 +22,12 @@ using std::filesystem::path;
 
 std::string Count(std::size_t count) { return std::to_string(count) + " columns"; }
 
-Eigen::Vector3d VectorAt(const path& file, const TextRow& row, std::size_t first) {
-  return {NumberField(file, row, first),
-          NumberField(file, row, first + 1),
-          NumberField(file, row, first + 2)};
-}
-
 // The quaternion whose parts stand in the given columns.
 Eigen::Quaterniond QuaternionAt(const path& file,
                                 const TextRow& row,
                                 std::size_t w,
                                 std::size_t x) {
-  const Eigen::Vector3d v = VectorAt(file, row, x);
+  const Eigen::Vector3d v = PlaceFields(file, row, x);
   const Eigen::Quaterniond q(NumberField(file, row, w), v.x(), v.y(), v.z());
   if (std::abs(q.norm() - 1) > 0.01) {
     FailAt(file, row.line, "a unit quaternion", fmt::format("one of norm {:.6g}", q.norm()));
@@ -56,9 +50,9 @@ std::int64_t Stamp(const path& file, const TextRow& row, TrajectoryFormat format
 
 Rigid3 PoseOfRow(const path& file, const TextRow& row, TrajectoryFormat format) {
   if (format == TrajectoryFormat::kTum) {
-    return {QuaternionAt(file, row, 7, 4), VectorAt(file, row, 1)};
+    return {QuaternionAt(file, row, 7, 4), PlaceFields(file, row, 1)};
   }
-  return {QuaternionAt(file, row, 4, 5), VectorAt(file, row, 1)};
+  return {QuaternionAt(file, row, 4, 5), PlaceFields(file, row, 1)};
 }
 
 Rigid3 PoseOfMatrixRow(const path& file, const TextRow& row) {
@@ -66,11 +60,10 @@ Rigid3 PoseOfMatrixRow(const path& file, const TextRow& row) {
     FailAt(file, row.line, "12 numbers, a 3x4 matrix", Count(row.fields.size()));
   }
   Eigen::Matrix3d rotation;
-  Eigen::Vector3d translation;
+  const Eigen::Vector3d translation = PlaceFields(file, row, 3, 4);
   for (std::size_t r = 0; r < 3; ++r) {
     const auto i = static_cast<Eigen::Index>(r);
-    rotation.row(i) = VectorAt(file, row, 4 * r).transpose();
-    translation(i) = NumberField(file, row, 4 * r + 3);
+    rotation.row(i) = PlaceFields(file, row, 4 * r).transpose();
   }
   const double off = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
   if (off > 1e-3 || rotation.determinant() < 0) {

@@ -23,12 +23,6 @@ using std::filesystem::path;
 
 constexpr std::size_t kEnds = 6, kWithKind = 7, kWithFrames = 8, kSurfaceColumns = 9;
 
-Eigen::Vector3d VectorAt(const path& file, const TextRow& row, std::size_t first) {
-  return {NumberField(file, row, first),
-          NumberField(file, row, first + 1),
-          NumberField(file, row, first + 2)};
-}
-
 std::string Columns(const TextRow& row) { return fmt::format("{} columns", row.fields.size()); }
 
 TrueLineKind KindAt(const path& file, const TextRow& row) {
@@ -112,7 +106,7 @@ std::vector<TrueLine> ReadTrueLines(const path& file) {
       FailAt(file, row.line, Columns(rows.front()) + " as in the rows above", Columns(row));
     }
     TrueLine line;
-    line.segment = {VectorAt(file, row, 0), VectorAt(file, row, 3)};
+    line.segment = {PlaceFields(file, row, 0), PlaceFields(file, row, 3)};
     if (line.segment.start == line.segment.end) {
       FailAt(file, row.line, "two ends in different places", "the same point twice");
     }
@@ -145,7 +139,8 @@ std::vector<Parallelogram> ReadSurfaces(const path& file) {
     if (row.fields.size() != kSurfaceColumns) {
       FailAt(file, row.line, "9 columns (ox,oy,oz,ux,uy,uz,vx,vy,vz)", Columns(row));
     }
-    surfaces.push_back({VectorAt(file, row, 0), VectorAt(file, row, 3), VectorAt(file, row, 6)});
+    surfaces.push_back(
+        {PlaceFields(file, row, 0), PlaceFields(file, row, 3), PlaceFields(file, row, 6)});
     if (!(surfaces.back().side_u.cross(surfaces.back().side_v).norm() > 0)) {
       FailAt(file, row.line, "two sides that span an area", "sides of no length, or parallel");
     }

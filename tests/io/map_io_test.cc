@@ -206,6 +206,24 @@ TEST(LoadMap, CountsDoNotAllocateWhatTheFileDoesNotHold) {
   EXPECT_LT(peak_mb() - before, 200);
 }
 
+TEST(LoadMap, RefusesNumbersThatAreNotFinite) {
+  const ScratchFolder folder;
+  SaveMap(folder / "m.plb", kCamera, kRotation, MakeMap());
+  const std::string body = Contents(folder / "m.plb").substr(24);
+  const std::string infinity("\0\0\0\0\0\0\xF0\x7F", 8);
+  // The focal length; the x of the first point, 1 / 3, found by its bytes.
+  const std::string third("\x55\x55\x55\x55\x55\x55\xD5\x3F", 8);
+  for (const std::size_t at : {std::size_t{0}, body.find(third)}) {
+    ASSERT_NE(at, std::string::npos);
+    std::string forged = body;
+    forged.replace(at, 8, infinity);
+    const auto file = folder.Write("forged.plb", WithHeader(forged));
+    EXPECT_THAT(MessageOf([&] { LoadMap(file); }),
+                HasSubstr("forged.plb: expected finite numbers, found another"))
+        << at;
+  }
+}
+
 // Any body with a right checksum: an error or a map that agrees with itself, never a crash.
 TEST(LoadMap, SurvivesForgedContents) {
   const ScratchFolder folder;

@@ -36,7 +36,7 @@ TEST(ParseSeconds, IsExact) {
       {"1.234567e+02", 123'456'700'000},
       {"5E-10", 1},
       {"4e-10", 0},
-      {"9223372036.854775807", INT64_MAX},
+      {"4000000000.0", kLatestStampNs},
   };
   for (const auto& [text, stamp] : cases) EXPECT_EQ(ParseSeconds(text), stamp) << text;
 }
@@ -54,9 +54,11 @@ TEST(ParseSeconds, RefusesWhatIsNotATime) {
                            "inf",
                            ".",
                            "1 2",
-                           "9223372036.854775808",
+                           "4000000000.000000001",
                            "1403636584763555584.0",
-                           "9223372036.8547758075",
+                           "4000000000.0000000005",
+                           "9223372036.854775807",
+                           "99999999999999999999999999",
                            "1e-2147483648"}) {
     EXPECT_EQ(ParseSeconds(text), std::nullopt) << text;
   }
@@ -68,6 +70,24 @@ TEST(ParseNumber, TakesWholeFiniteNumbersOnly) {
   for (const char* text : {"", "1.5x", "nan", "inf", "1e999", " 1", "0x10"}) {
     EXPECT_EQ(ParseNumber(text), std::nullopt) << text;
   }
+}
+
+TEST(ParseNanoseconds, EndsWhereSumsWouldOverflow) {
+  EXPECT_EQ(ParseNanoseconds("0"), 0);
+  EXPECT_EQ(ParseNanoseconds("4000000000000000000"), kLatestStampNs);
+  for (const char* text : {"4000000000000000001", "9223372036854775807", "-1", "", "1.0", "nan"}) {
+    EXPECT_EQ(ParseNanoseconds(text), std::nullopt) << text;
+  }
+}
+
+TEST(PlaceFields, AreFiniteAndNotTooFar) {
+  const TextRow row{3, {"1", "-1e9", "1e9", "1e308", "nan"}};
+  EXPECT_EQ(PlaceFields("a.txt", row, 0), Eigen::Vector3d(1, -1e9, 1e9));
+  EXPECT_EQ(PlaceFields("a.txt", {1, {"1", "x", "2", "x", "3"}}, 0, 2), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(MessageOf([&] { PlaceFields("a.txt", row, 1); }),
+            "a.txt:3: expected a coordinate within 1e+09 of 0 in column 4, found '1e308'");
+  EXPECT_EQ(MessageOf([&] { PlaceFields("a.txt", row, 2); }),
+            "a.txt:3: expected a coordinate within 1e+09 of 0 in column 4, found '1e308'");
 }
 
 TEST(ReadRows, DropsCommentsBlanksAndCarriageReturns) {
