@@ -11,6 +11,7 @@
 #include "apps/evaluate_report.h"
 #include "apps/figure_file.h"
 #include "apps/line_map_input.h"
+#include "apps/reference_trajectory.h"
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -18,8 +19,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace plumbline {
 namespace {
@@ -153,6 +156,45 @@ void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
   }
 }
 
+// Figures and pictures must not take the place of what they are about.
+void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::path>& read) {
+  std::error_code error;
+  for (const char* option : {"--json", "--plot", "--plot-lines"}) {
+    const auto path = line.Value(option);
+    if (!path) continue;
+    if (std::string_view(option) != "--json") CheckFigureName(*path);
+    for (const std::filesystem::path& input : read) {
+      if (!std::filesystem::equivalent(*path, input, error)) continue;
+      throw InputError(std::string(option) + " " + *path +
+                       ": expected a file to write, found one that is compared");
+    }
+  }
+}
+
+// What the command reads, as far as it is there.
+std::vector<std::filesystem::path> FilesRead(const CommandLine& line,
+                                             const ReferenceTrajectory& reference,
+                                             const std::filesystem::path& estimate) {
+  std::vector<std::filesystem::path> files = {reference.path, estimate};
+  for (const std::filesystem::path& folder :
+       {std::filesystem::path(line.Positional(0)), estimate.parent_path()}) {
+    for (const char* name : {"lines.csv",
+                             "surfaces.csv",
+                             "lines.obj",
+                             "keyframes.txt",
+                             "frames.csv",
+                             "summary.json",
+                             "rgb.txt",
+                             "times.txt"}) {
+      files.push_back(folder / name);
+    }
+  }
+  for (const char* option : {"--true-lines", "--lines", "--surfaces"}) {
+    if (const auto path = line.Value(option)) files.emplace_back(*path);
+  }
+  return files;
+}
+
 }  // namespace
 
 int EvaluateCommand(std::span<const std::string> arguments) {
@@ -169,6 +211,7 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   evaluation.reference = LoadReference(line.Positional(0), frame);
   if (line.Has("--mirror-y")) evaluation.reference.poses = MirroredY(evaluation.reference.poses);
   const std::filesystem::path estimate_file = EstimateFile(line.Positional(1));
+  CheckOutputs(line, FilesRead(line, evaluation.reference, estimate_file));
   const Trajectory estimate = ReadTrajectory(estimate_file).poses;
   evaluation.options = ErrorOptions(line, evaluation.reference.format, estimate_file);
   const auto error = CompareTrajectories(evaluation.reference.poses, estimate, evaluation.options);

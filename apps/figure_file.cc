@@ -55,15 +55,15 @@ std::string ToPng(const Figure& figure) {
 
 }  // namespace
 
+void CheckFigureName(const std::filesystem::path& path) {
+  const std::filesystem::path extension = path.extension();
+  if (extension == ".svg" || extension == ".png") return;
+  throw InputError(path.string() + ": expected a file name ending in .svg or .png");
+}
+
 void WriteFigure(const std::filesystem::path& path, const Figure& figure) {
-  const std::string extension = path.extension().string();
-  if (extension == ".svg") {
-    WriteFileAtomically(path, ToSvg(figure));
-  } else if (extension == ".png") {
-    WriteFileAtomically(path, ToPng(figure));
-  } else {
-    throw InputError(path.string() + ": expected a file name ending in .svg or .png");
-  }
+  CheckFigureName(path);
+  WriteFileAtomically(path, path.extension() == ".svg" ? ToSvg(figure) : ToPng(figure));
 }
 
 }  // namespace plumbline

@@ -137,6 +137,45 @@ TEST(Evaluate, WritesTableJsonAndFigures) {
   EXPECT_THAT(Contents(folder / "plot.png"), StartsWith("\x89PNG"));
 }
 
+TEST(Evaluate, WritesOverNothingThatItReads) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("a/truth.txt", kTum).string();
+  const auto estimate = folder.Write("b/trajectory.txt", kTum).string();
+  folder.Write("b/summary.json", "{}");
+  std::filesystem::create_symlink(estimate, folder / "link.json");
+  for (const std::string& output : {reference,
+                                    estimate,
+                                    (folder / "b/../b/trajectory.txt").string(),
+                                    (folder / "link.json").string(),
+                                    (folder / "b/summary.json").string()}) {
+    EXPECT_THAT(EvaluateMessage({reference, estimate, "--json", output}),
+                HasSubstr("--json " + output +
+                          ": expected a file to write, found one that is "
+                          "compared"));
+  }
+  EXPECT_EQ(Contents(estimate), kTum);
+  EXPECT_EQ(Contents(reference), kTum);
+  // The name of a figure is looked at before the other results are written.
+  EXPECT_THAT(EvaluateMessage({reference,
+                               estimate,
+                               "--json",
+                               (folder / "out.json").string(),
+                               "--plot",
+                               (folder / "out.gif").string()}),
+              HasSubstr("out.gif: expected a file name ending in .svg or .png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
+}
+
+TEST(Evaluate, PlacesTooFarToCompareAreRefused) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  const auto far =
+      folder.Write("far.txt", "1 1e308 0 0 0 0 0 1\n1.05 -1e308 0 0 0 0 0 1\n").string();
+  EXPECT_THAT(EvaluateMessage({reference, far}),
+              HasSubstr("far.txt:1: expected a coordinate within 1e+09 of 0 in column 2, found "
+                        "'1e308'"));
+}
+
 TEST(Evaluate, NamesWhatIsWrong) {
   const ScratchFolder folder;
   const std::string sequence = WriteEuroc(folder).string();
@@ -152,7 +191,7 @@ TEST(Evaluate, NamesWhatIsWrong) {
       {{sequence, estimate, "--delta", "3"}, "--delta: expected seconds such as 3s"},
       {{sequence, estimate, "--delta", "1.5f"}, "found 1.5f"},
       {{sequence, estimate, "--delta", "-1s"}, "found -1s"},
-      {{sequence, estimate, "--delta", ""}, "--delta: expected seconds"},
+      {{sequence, estimate, "--delta", ""}, "--delta: expected 3s|1f, found an empty argument"},
       {{sequence, estimate, "--reference-frame", "imu"}, "expected camera or body, found imu"},
       {{sequence, estimate, "--associate", "far"}, "expected interpolate or nearest, found far"},
       {{sequence, estimate, "--aling", "se3"}, "the nearest is --align"},
