@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -257,6 +258,26 @@ std::string WhyMissing(const Json& summary, const char* pointer) {
   return "no two poses are 3 s apart";
 }
 
+// A whole number, not negative.
+std::optional<double> CountAt(const Json& summary, const char* where) {
+  const auto number = NumberAt(summary, where);
+  return number && *number >= 0 && *number == std::floor(*number) ? number : std::nullopt;
+}
+
+bool IsSummaryOfRun(const Json& summary) {
+  const auto all = CountAt(summary, "/frames/in");
+  const auto tracked = CountAt(summary, "/frames/tracked");
+  const auto lost = CountAt(summary, "/frames/lost");
+  const auto wall = NumberAt(summary, "/wall_seconds");
+  return all && *all > 0 && tracked && lost && *tracked + *lost <= *all && wall && *wall >= 0 &&
+         CountAt(summary, "/keyframes").has_value();
+}
+
+bool IsSummaryOfStarts(const Json& summary) {
+  const auto wall = NumberAt(summary, "/wall_seconds");
+  return CountAt(summary, "/starts/starts").has_value() && wall && *wall >= 0;
+}
+
 }  // namespace
 
 std::span<const Metric> Metrics() { return kMetrics; }
@@ -271,7 +292,9 @@ std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
   const auto text = ReadText(folder / "summary.json");
   if (!text) return std::nullopt;
   const Json summary = Json::parse(*text, nullptr, false);
-  if (!summary.is_object()) return std::nullopt;
+  if (!summary.is_object() || !(IsSummaryOfRun(summary) || IsSummaryOfStarts(summary))) {
+    return std::nullopt;
+  }
   RunFigures figures;
   for (const Entry& entry : kEntries) {
     const std::string name(entry.metric.name);

@@ -39,9 +39,9 @@ struct RunFigures {
   std::string trajectory;
 };
 
-// The figures of a run from the files in its folder (summary.json; trajectory.txt or
-// starts.csv); nullopt where
-// summary.json is missing or not whole.
+// The figures of a run from the files in its folder (summary.json; trajectory.txt or starts.csv);
+// nullopt where summary.json is missing, not whole, or not the summary of a run or of starts: its
+// version, frames and times, or the counts of its starts, are missing or cannot be.
 std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder);
 
 }  // namespace plumbline

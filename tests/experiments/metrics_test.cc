@@ -30,7 +30,8 @@ TEST(Metrics, AreReadInTheirUnits) {
 TEST(Metrics, TellTheMemoryOfALine) {
   const ScratchFolder folder;
   folder.Write("summary.json",
-               R"({"frames": {"tracked": 1}, "line_bytes": {"map": 512.5, "adjustment": null}})");
+               R"({"frames": {"in": 1, "tracked": 1, "lost": 0}, "keyframes": 1, "wall_seconds": 1,
+                   "line_bytes": {"map": 512.5, "adjustment": null}})");
   const auto figures = ReadFigures(folder.path());
   ASSERT_TRUE(figures.has_value());
   EXPECT_DOUBLE_EQ(figures->values.at("map_line_bytes"), 512.5);
@@ -41,7 +42,8 @@ TEST(Metrics, TellTheMemoryOfALine) {
 TEST(Metrics, OfStartsAreReadFromTheirSummary) {
   const ScratchFolder folder;
   folder.Write("summary.json",
-               R"({"starts": {"success": 97.5, "wrong": 0}, "add": {"median_ms": 1.5}})");
+               R"({"starts": {"starts": 40, "success": 97.5, "wrong": 0},
+                   "add": {"median_ms": 1.5}, "wall_seconds": 9})");
   folder.Write("starts.csv", "frame\n1\n");
   const auto figures = ReadFigures(folder.path());
   ASSERT_TRUE(figures.has_value());
@@ -71,6 +73,38 @@ TEST(Metrics, AFileThatIsNotWholeIsNoResult) {
   EXPECT_FALSE(ReadFigures(folder.path()).has_value());
   folder.Write("summary.json", "[]");
   EXPECT_FALSE(ReadFigures(folder.path()).has_value());
+}
+
+// What a run never writes was written by something else, or is damaged.
+TEST(Metrics, AMeaninglessSummaryIsNoResult) {
+  const ScratchFolder folder;
+  const auto result_of = [&](const std::string& summary) {
+    folder.Write("summary.json", summary);
+    return ReadFigures(folder.path());
+  };
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = Summary(0.01);
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  };
+  EXPECT_TRUE(result_of(Summary(0.01)).has_value());
+  for (const std::string& summary :
+       {std::string("{}"),
+        std::string(R"({"frames": {}})"),
+        std::string(R"({"starts": {}})"),
+        std::string(R"({"starts": {"starts": -1}, "wall_seconds": 1})"),
+        changed("\"in\": 10", "\"in\": 0"),
+        changed("\"in\": 10", "\"in\": \"ten\""),
+        changed("\"in\": 10", "\"in\": 9.5"),
+        changed("\"tracked\": 10", "\"tracked\": 11"),
+        changed("\"tracked\": 10", "\"tracked\": null"),
+        changed("\"lost\": 0", "\"lost\": -1"),
+        changed("\"keyframes\": 3", "\"keyframes\": true"),
+        changed("\"wall_seconds\": 2", "\"wall_seconds\": -2"),
+        std::string(100'000, '[')}) {
+    EXPECT_FALSE(result_of(summary).has_value()) << summary.substr(0, 200);
+  }
 }
 
 TEST(Metrics, HaveNamesOfTheirOwnAndHelp) {
