@@ -91,6 +91,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
   if (const auto mode = line.Value("--mode")) table.Set("slam.mode=" + *mode);
   if (const auto seed = line.Value("--seed")) table.Set("slam.seed=" + *seed);
+  CheckOptions(setup.options);
   setup.options_yaml = table.Dump();
   setup.folder = line.Value("--out").value_or("plumbline_run");
   setup.blur = line.Count("--blur", 0, {1, kWidestBlur});

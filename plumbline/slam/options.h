@@ -56,6 +56,10 @@ struct SlamOptions {
   ExecutionOptions slam;
 };
 
+// Throws InputError where options contradict each other, which the range of a single one does not
+// tell: neither points nor lines.
+void CheckOptions(const SlamOptions& options);
+
 template <class Visitor>
 void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("slam", o.slam, "how the stages run");

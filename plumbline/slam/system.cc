@@ -37,6 +37,7 @@ System::System(const Calibration& calibration, const SlamOptions& options)
                options_.lines,
                options_.cutting,
                WorldFromFirstCamera(front_end_.rectifier())) {
+  CheckOptions(options_);
   if (imaging_.camera.baseline == 0) {
     if (options_.tracking.reference == TrackingReference::kLastFrame) {
       throw InputError(

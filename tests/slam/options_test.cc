@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/options.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <variant>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+bool IsRefused(const SlamOptions& options) {
+  try {
+    CheckOptions(options);
+    return false;
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
+TEST(CheckOptions, AsksForPointsOrLines) {
+  SlamOptions options;
+  EXPECT_FALSE(IsRefused(options));
+  options.features.points = false;
+  EXPECT_FALSE(IsRefused(options));
+  options.features.line_count = 0;
+  EXPECT_TRUE(IsRefused(options));
+  options.features.points = true;
+  EXPECT_FALSE(IsRefused(options));
+  options.features.point_count = 0;
+  EXPECT_TRUE(IsRefused(options));
+  options.features.line_count = 100;
+  options.features.lines = false;
+  EXPECT_TRUE(IsRefused(options));
+}
+
+// A number without an upper bound keeps the program busy, or asks for memory, without end.
+TEST(SlamOptions, EveryNumberHasBounds) {
+  SlamOptions options;
+  const OptionTable table(options);
+  for (const OptionField& field : table.fields()) {
+    const bool number = std::visit(
+        [](const auto& target) {
+          using T = std::decay_t<decltype(target)>;
+          return std::is_same_v<T, int*> || std::is_same_v<T, double*> ||
+                 std::is_same_v<T, std::int64_t*>;
+        },
+        field.target);
+    if (!number) continue;
+    ASSERT_TRUE(field.range) << field.key;
+    EXPECT_TRUE(std::isfinite(field.range->min) && std::isfinite(field.range->max)) << field.key;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
