@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace plumbline {
@@ -187,10 +188,146 @@ TEST(BadInput, OptionsThatAreWrong) {
         nothing,
         "--stride: expected a whole number from 1 to 1000000000, found 0.5",
         " --stride 0.5"},
+       {"a filter wider than any image",
+        nothing,
+        "--blur: expected a whole number from 1 to 1001, found 2147483647",
+        " --blur 2147483647"},
+       {"more frames than there are",
+        nothing,
+        "--to: expected a whole number from 1 to 1000000000, found 99999999999999999999",
+        " --to 99999999999999999999"},
+       {"a seed out of range",
+        nothing,
+        "slam.seed: expected a whole number, 0 to 2147483647, found '2147483648'",
+        " --seed 2147483648"},
+       {"a name that is empty",
+        nothing,
+        "--config: expected FILE, found an empty argument",
+        " --config ''"},
+       {"a file of options without any",
+        Put("sequence/options.yaml", ""),
+        "options.yaml: expected options as 'key: value', found an empty file",
+        " --config FOLDER/sequence/options.yaml"},
+       {"an option that comes twice",
+        Put("sequence/options.yaml", "slam:\n  seed: 1\n  seed: 2\n"),
+        "options.yaml:3: expected each key once, found 'seed' again, which is in line 2, too",
+        " --config FOLDER/sequence/options.yaml"},
+       {"two documents",
+        Put("sequence/options.yaml", "slam:\n  seed: 1\n---\nslam:\n  seed: 2\n"),
+        "expected one YAML document, found a second one",
+        " --config FOLDER/sequence/options.yaml"},
+       {"neither points nor lines",
+        nothing,
+        "features.points, features.lines: expected at least one of them, found both off",
+        " --set features.points=false --set features.lines=false"},
        {"a sensor that is not there",
         nothing,
         "expected data for rgbd, found data for stereo, mono only",
         " --sensor rgbd"}});
+}
+
+std::string Pair(const std::string& intrinsics, const std::string& more) {
+  return "size: [400, 300]\nintrinsics: [" + intrinsics + "]\nrectified: true\n" + more;
+}
+
+TEST(BadInput, CalibrationsThatCannotBe) {
+  const std::string camera = "sequence/camera.yaml";
+  const std::string good = "300, 300, 200, 150", base = "baseline: 0.1\n";
+  const std::string right = "right: {size: [400, 300], intrinsics: [" + good + "]}\n";
+  const std::string sensor = "sequence/mav0/cam1/sensor.yaml";
+  const auto turned = [&](const std::string& from, const std::string& to) {
+    return [=](const ScratchFolder& folder) {
+      std::string text = Contents(folder / sensor);
+      text.replace(text.find(from), from.size(), to);
+      folder.Write(sensor, text);
+    };
+  };
+  ExpectRefused(
+      {{"no baseline",
+        Put(camera, Pair(good, "baseline: 0\n")),
+        "camera.yaml:4: baseline: expected a number above 0, found '0'"},
+       {"hardly any",
+        Put(camera, Pair(good, "baseline: 1e-9\n")),
+        "camera.yaml:4: baseline: expected a baseline from 0.0001 to 1000 m, found 1e-09"},
+       {"one of light years",
+        Put(camera, Pair(good, "baseline: 1e30\n")),
+        "camera.yaml:4: baseline: expected a baseline from 0.0001 to 1000 m, found 1e+30"},
+       {"a vertical pair",
+        Put(camera,
+            Pair(good, right + "right_from_left: [1,0,0,0, 0,1,0,-0.1, 0,0,1,0, 0,0,0,1]\n")),
+        "camera.yaml:5: right_from_left: expected "},
+       {"a pair that is exchanged",
+        Put(camera,
+            Pair(good, right + "right_from_left: [1,0,0,0.1, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n")),
+        "camera.yaml:5: right_from_left: expected "},
+       {"cameras in one place",
+        turned("[1,0,0,", "[1,0,0,-9"),
+        "cam1/sensor.yaml:2: T_BS: expected the right camera to the right (+x) of the left one"},
+       {"a focal length that overflows",
+        Put(camera, Pair("1e300, 300, 200, 150", base)),
+        "camera.yaml:2: intrinsics: expected fx from 4 to 400000 px, found 1e+300"},
+       {"one that is nothing",
+        Put(camera, Pair("1e-300, 300, 200, 150", base)),
+        "camera.yaml:2: intrinsics: expected fx from 4 to 400000 px, found 1e-300"},
+       {"a rate without end",
+        Put(camera, Pair(good, base + "rate_hz: 1e300\n")),
+        "camera.yaml:5: rate_hz: expected a rate from 0.0001 to 100000 Hz, found 1e+300"},
+       {"a rate of nothing",
+        Put(camera, Pair(good, base + "rate_hz: 1e-300\n")),
+        "camera.yaml:5: rate_hz: expected a rate from 0.0001 to 100000 Hz, found 1e-300"}});
+}
+
+// Input reaches the terminal in one line without commands to it, and not a megabyte of it.
+TEST(BadInput, InputIsRepeatedPrintableAndShort) {
+  const ScratchFolder folder;
+  const std::string megabyte(100'000, 'x');
+  const std::string red = "\x1b[31m\x1b]0;title\x07\n";
+  const auto file = [&](const std::string& contents) {
+    return Quoted(folder.Write("bad", contents));
+  };
+  fs::create_directories(folder / "a\x1b[2J\nb");
+  for (const std::string& arguments :
+       {"run " + Quoted("/" + red),
+        "run " + Quoted(folder / "a\x1b[2J\nb"),
+        "run /none --sensor " + Quoted(red + megabyte),
+        "run /none --" + megabyte,
+        "run /" + megabyte,
+        Quoted(red),
+        megabyte,
+        "config --set " + Quoted(red + "=1"),
+        "config --set slam.seed=" + megabyte,
+        "config --set " + megabyte + "=1",
+        "config --config " + file("slam: {seed: \"\\e[31m" + megabyte + "\"}\n"),
+        "config --config " + file("\"\\e[31m\\n" + megabyte + "\": 1\n"),
+        "config --config " + file(std::string("a: \0\x1b[31m]", 10)),
+        "evaluate " + file(red + megabyte + " 0 0 0 0 0 0 1\n") + " /none"}) {
+    const Outcome outcome = RunProgram(folder, arguments);
+    ExpectRefused(outcome, "", arguments.substr(0, 60));
+    EXPECT_LT(outcome.err.size(), 2200U);
+    const bool printable = std::all_of(outcome.err.begin(), outcome.err.end() - 1, [](char c) {
+      return static_cast<unsigned char>(c) >= 0x20 && c != 0x7F;
+    });
+    EXPECT_TRUE(printable) << outcome.err;
+  }
+}
+
+// Nothing is waited for, and libraries say nothing of their own.
+TEST(BadInput, FilesThatAreNoneOrNotWhatTheySeem) {
+  const ScratchFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const fs::path video =
+      folder.Write("video.mp4", std::string("\0\0\0\x18", 4) + "ftypmp42" + std::string(2000, 'x'));
+  const std::string pipe = Quoted(folder / "pipe");
+  const std::string found = "pipe: expected a file, found a pipe";
+  ExpectRefused(RunProgram(folder, "run " + pipe), "found a pipe", "a pipe as data");
+  ExpectRefused(RunProgram(folder, "info " + pipe), "found a pipe", "a pipe to look at");
+  ExpectRefused(RunProgram(folder, "config --config " + pipe), found, "a pipe of options");
+  ExpectRefused(RunProgram(folder, "run / --format images --camera " + pipe), found, "a camera");
+  ExpectRefused(RunProgram(folder, "evaluate " + pipe + " " + pipe), found, "trajectories");
+  ExpectRefused(RunProgram(folder, "config --config /dev/zero"), "found a device", "a device");
+  ExpectRefused(RunProgram(folder, "run " + Quoted(video) + " --camera tum_fr1"),
+                "video.mp4: expected a folder or a video, found a file that cannot be decoded",
+                "a video without frames");
 }
 
 TEST(BadInput, OutputThatCannotBeWritten) {
