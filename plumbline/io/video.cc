@@ -3,10 +3,12 @@
 #include "plumbline/io/video.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/decoder_messages.h"
 #include "plumbline/io/image_dataset.h"
+#include "plumbline/io/text_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,10 +65,12 @@ VideoContent Scan(const fs::path& path) {
   content.height = static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT));
   content.announced_frames = capture.get(cv::CAP_PROP_FRAME_COUNT);
   const double rate = capture.get(cv::CAP_PROP_FPS);
-  if (std::isfinite(rate) && rate > 0) content.rate_hz = rate;
+  if (!RateFault(rate)) content.rate_hz = rate;
   while (capture.grab()) {
     const double milliseconds = capture.get(cv::CAP_PROP_POS_MSEC);
-    content.stamps_ns.push_back(std::isfinite(milliseconds) ? std::llround(1e6 * milliseconds) : 0);
+    // Times that cannot be do not increase, so that the rate takes their place.
+    const bool plausible = std::abs(1e6 * milliseconds) <= static_cast<double>(kLatestStampNs);
+    content.stamps_ns.push_back(plausible ? std::llround(1e6 * milliseconds) : 0);
   }
   if (content.stamps_ns.empty()) {
     throw InputError(path.string() + ": expected a video, found one without frames");
