@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/rectified_camera.h"
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// A rectified camera and how it is turned against the left camera as delivered.
+struct TurnedCamera {
+  RectifiedCamera camera;
+  Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
+};
+
+// What tells two cameras apart, such as "fx 458.6 and 460.1" or "images of 752x480 and 640x480
+// pixels"; nullopt where they are the same but for rounding (1e-9 of each number; 1e-9 radians).
+std::optional<std::string> CameraDifference(const TurnedCamera& a, const TurnedCamera& b);
+
+}  // namespace plumbline
