@@ -65,6 +65,34 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
   file.Commit();
 }
 
+AtomicFolder::AtomicFolder(std::filesystem::path path) : path_(path.lexically_normal()) {
+  if (!path_.has_filename()) path_ = path_.parent_path();  // "out/" is "out"
+  std::error_code error;
+  if (std::filesystem::exists(path_, error)) {
+    const bool folder = std::filesystem::is_directory(path_, error);
+    if (!folder || !std::filesystem::is_empty(path_, error)) {
+      throw InputError(path.string() + ": expected a new or empty folder, found " +
+                       (folder ? "files in it" : "a file of this name"));
+    }
+  }
+  if (path_.has_parent_path()) MakeFolder(path_.parent_path());
+  temporary_ =
+      path_.parent_path() / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
+  MakeFolder(temporary_);
+}
+
+AtomicFolder::~AtomicFolder() {
+  std::error_code ignored;
+  if (!committed_) std::filesystem::remove_all(temporary_, ignored);
+}
+
+void AtomicFolder::Commit() {
+  std::error_code error;
+  std::filesystem::rename(temporary_, path_, error);
+  if (error) FailWrite(path_, error);
+  committed_ = true;
+}
+
 void MakeFolder(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);

@@ -32,6 +32,27 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+// A folder that appears whole or not at all: construct, let files be written below
+// temporary_path(), which is beside the final place, then Commit(). Without Commit all of it is
+// removed.
+class AtomicFolder {
+ public:
+  // Makes the folders above it. Throws InputError where something is at `path` already, an empty
+  // folder excepted, or the temporary folder cannot be made.
+  explicit AtomicFolder(std::filesystem::path path);
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+  ~AtomicFolder();
+
+  const std::filesystem::path& temporary_path() const { return temporary_; }
+  void Commit();  // throws InputError where the folder cannot take its name
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  bool committed_ = false;
+};
+
 // Makes a folder and those above it; InputError when that is impossible.
 void MakeFolder(const std::filesystem::path& path);
 

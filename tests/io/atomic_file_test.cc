@@ -62,6 +62,37 @@ TEST(WriteFileAtomically, ReportsAFullDisk) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
 }
 
+TEST(AtomicFolder, AppearsWithAllItsFilesOrNotAtAll) {
+  const ScratchFolder folder;
+  for (const bool commit : {false, true}) {
+    AtomicFolder made(folder / "a/b/");
+    EXPECT_EQ(made.temporary_path().parent_path(), folder / "a");
+    WriteFileAtomically(made.temporary_path() / "x.txt", "x");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a/b"));
+    if (commit) made.Commit();
+  }
+  EXPECT_EQ(Contents(folder / "a/b/x.txt"), "x");
+  EXPECT_EQ(FileCount(folder / "a"), 1);
+}
+
+TEST(AtomicFolder, TakesThePlaceOfAnEmptyFolderOnly) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "empty");
+  {
+    AtomicFolder made(folder / "empty");
+    WriteFileAtomically(made.temporary_path() / "x.txt", "x");
+    made.Commit();
+  }
+  EXPECT_EQ(Contents(folder / "empty/x.txt"), "x");
+  EXPECT_THAT(MessageOf([&] { AtomicFolder again(folder / "empty"); }),
+              HasSubstr("empty: expected a new or empty folder, found files in it"));
+  EXPECT_THAT(MessageOf([&] { AtomicFolder again(folder / "empty/x.txt"); }),
+              HasSubstr("x.txt: expected a new or empty folder, found a file of this name"));
+  EXPECT_THAT(MessageOf([&] { AtomicFolder again(folder / "empty/x.txt/y"); }),
+              HasSubstr("cannot make the folder"));
+  EXPECT_EQ(FileCount(folder.path()), 1);
+}
+
 TEST(MakeFolder, MakesThoseAboveAndRefusesFiles) {
   const ScratchFolder folder;
   MakeFolder(folder / "a/b/c");
