@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/ply.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <cstddef>
@@ -12,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::string_view kPointColor = "128 128 128";
+constexpr int kPointGrey = 128;
 constexpr std::string_view kLineColor = "255 140 0";
 
 // Fixed decimals, without a minus sign before zero.
@@ -30,7 +31,9 @@ std::string Position(const Eigen::Vector3d& p) {
 
 void WritePly(const std::filesystem::path& path,
               std::span<const Eigen::Vector3d> points,
-              std::span<const Segment3> segments) {
+              std::span<const Segment3> segments,
+              std::span<const std::uint8_t> greys) {
+  PLUMBLINE_CHECK(greys.empty() || greys.size() == points.size(), "a grey for each point");
   std::string out = fmt::format(
       "ply\nformat ascii 1.0\ncomment Plumbline map, metres (of a single camera: units of its "
       "own)\nelement vertex {}\n"
@@ -39,8 +42,9 @@ void WritePly(const std::filesystem::path& path,
       "element edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n",
       points.size() + 2 * segments.size(),
       segments.size());
-  for (const Eigen::Vector3d& point : points) {
-    out += fmt::format("{} {}\n", Position(point), kPointColor);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int grey = greys.empty() ? kPointGrey : greys[i];
+    out += fmt::format("{} {} {} {}\n", Position(points[i]), grey, grey, grey);
   }
   for (const Segment3& segment : segments) {
     out += fmt::format("{} {}\n", Position(segment.start), kLineColor);

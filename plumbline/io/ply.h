@@ -4,6 +4,7 @@
 
 #include "plumbline/geometry/segment.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -13,10 +14,12 @@ namespace plumbline {
 
 // Writes points and line segments as an ASCII PLY file: the points grey, then the two ends of each
 // segment in orange, joined by an `edge` element. Coordinates in metres, 6 decimals. The same input
-// gives the same bytes. Throws InputError when the file cannot be written.
+// gives the same bytes. `greys`, where not empty, is how bright each point is. Throws InputError
+// when the file cannot be written.
 void WritePly(const std::filesystem::path& path,
               std::span<const Eigen::Vector3d> points,
-              std::span<const Segment3> segments);
+              std::span<const Segment3> segments,
+              std::span<const std::uint8_t> greys = {});
 
 // Writes line segments as a Wavefront OBJ file of `l` elements. Otherwise as WritePly.
 void WriteObjLines(const std::filesystem::path& path, std::span<const Segment3> segments);
