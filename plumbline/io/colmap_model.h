@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+#include "plumbline/io/map_io.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// A sparse model in the terms of COLMAP: pixel centres at (0.5, 0.5), one camera (id 1, model
+// PINHOLE), poses cam_from_world, camera frame x right, y down, z forward.
+struct ColmapModel {
+  static constexpr std::uint32_t kCameraId = 1;
+  static constexpr std::int64_t kNoPoint = -1;
+
+  struct Camera {
+    int width = 0, height = 0;
+    double fx = 0, fy = 0, cx = 0, cy = 0;
+    friend bool operator==(const Camera&, const Camera&) = default;
+  };
+  struct Keypoint {
+    Eigen::Vector2d px = Eigen::Vector2d::Zero();
+    std::int64_t point = kNoPoint;  // id of the 3D point
+  };
+  struct Image {
+    std::uint32_t id = 0;
+    Rigid3 cam_from_world;
+    std::string name;
+    std::vector<Keypoint> keypoints;
+  };
+  struct View {
+    std::uint32_t image = 0;     // id
+    std::uint32_t keypoint = 0;  // index
+    friend bool operator==(const View&, const View&) = default;
+  };
+  struct Point {
+    std::int64_t id = 0;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    std::uint8_t grey = 0;
+    double error = 0;  // mean reprojection error of the track, pixels
+    std::vector<View> track;
+  };
+
+  Camera camera;
+  std::vector<Image> images;  // by id
+  std::vector<Point> points;  // by id
+};
+
+using PointGreys = std::map<PointId, std::uint8_t>;
+
+// A map as such a model: the rectified left camera, an image for each keyframe with all of its
+// point features, and the points that two keyframes or more show: COLMAP refuses to adjust a model
+// with others. Ids are those of the map plus 1. An observation of a point that is not before the
+// camera does not count.
+//
+//   names  of the images of all keyframes
+//   greys  of points, where known; others get 128
+ColmapModel MakeColmapModel(const SavedMap& saved,
+                            const std::map<KeyFrameId, std::string>& names,
+                            const PointGreys& greys = {});
+
+// The id of the image of a keyframe.
+inline std::uint32_t ColmapImageId(KeyFrameId id) {
+  return static_cast<std::uint32_t>(id.value + 1);
+}
+
+// Write cameras, images and points3D as .txt or .bin into a folder that exists. Both keep every
+// number to the last bit. Throw InputError when a file cannot be written.
+void WriteColmapText(const std::filesystem::path& folder, const ColmapModel& model);
+void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& model);
+
+}  // namespace plumbline

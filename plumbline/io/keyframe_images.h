@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/rectify.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/io/map_io.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace plumbline {
+
+// How the images of keyframes are called when a map is exported: the time stamp in nanoseconds,
+// "1403636580863555584.png". Further keyframes of one time, in the order of their ids, get
+// "<stamp>_2.png", "<stamp>_3.png" and so on.
+std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
+
+// The images of a map's keyframes, found by their time stamps in the data that the map was made
+// from, as the camera of the map sees them: without distortion, rectified for stereo.
+class KeyFrameImages {
+ public:
+  // `options` without a sensor: the one whose images fit the map. Throws InputError where the
+  // data's camera is not that of the map, or the data has no frame at the time of a keyframe.
+  KeyFrameImages(const std::filesystem::path& path,
+                 const DatasetOptions& options,
+                 const SavedMap& saved);
+
+  // The left image. Throws InputError when it cannot be read.
+  GrayImage Read(const KeyFrame& keyframe) const;
+
+ private:
+  std::unique_ptr<Dataset> dataset_;
+  std::unique_ptr<Rectifier> rectifier_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/colmap_model.h"
+
+#include "plumbline/io/keyframe_images.h"
+#include "plumbline/map/reprojection.h"
+
+#include "tests/io/scratch_folder.h"
+#include "tests/support/read_colmap.h"
+#include "tests/support/true_map.h"
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+SavedMap NoisyMap() {
+  const SyntheticWorld world = MakeSyntheticWorld(120, 10);
+  SavedMap saved;
+  saved.camera = world.camera;
+  saved.map =
+      MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(10), PoseOnPath(25), PoseOnPath(40)}, {}).map;
+  // Ids with gaps, and a feature that shows nothing.
+  saved.map.Apply({edit::RemoveKeyFrame{KeyFrameId{1}}, edit::RemovePoint{PointId{3}}});
+  return saved;
+}
+
+void ExpectEqual(const ColmapModel& a, const ColmapModel& b) {
+  EXPECT_EQ(a.camera, b.camera);
+  ASSERT_EQ(a.images.size(), b.images.size());
+  for (std::size_t i = 0; i < a.images.size(); ++i) {
+    EXPECT_EQ(a.images[i].id, b.images[i].id);
+    EXPECT_EQ(a.images[i].name, b.images[i].name);
+    EXPECT_EQ(a.images[i].cam_from_world.rotation.coeffs(),
+              b.images[i].cam_from_world.rotation.coeffs());
+    EXPECT_EQ(a.images[i].cam_from_world.translation, b.images[i].cam_from_world.translation);
+    ASSERT_EQ(a.images[i].keypoints.size(), b.images[i].keypoints.size());
+    for (std::size_t k = 0; k < a.images[i].keypoints.size(); ++k) {
+      EXPECT_EQ(a.images[i].keypoints[k].px, b.images[i].keypoints[k].px);
+      EXPECT_EQ(a.images[i].keypoints[k].point, b.images[i].keypoints[k].point);
+    }
+  }
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    EXPECT_EQ(a.points[i].id, b.points[i].id);
+    EXPECT_EQ(a.points[i].position, b.points[i].position);
+    EXPECT_EQ(a.points[i].grey, b.points[i].grey);
+    EXPECT_EQ(a.points[i].error, b.points[i].error);
+    EXPECT_EQ(a.points[i].track, b.points[i].track);
+  }
+}
+
+TEST(ColmapModel, TextAndBinaryGiveItBackToTheLastBit) {
+  const ScratchFolder folder;
+  const SavedMap saved = NoisyMap();
+  const ColmapModel model =
+      MakeColmapModel(saved, KeyFrameImageNames(saved.map), {{PointId{5}, 17}});
+  WriteColmapText(folder.path(), model);
+  WriteColmapBinary(folder.path(), model);
+  ExpectEqual(ReadColmapText(folder.path()), model);
+  ExpectEqual(ReadColmapBinary(folder.path()), model);
+}
+
+TEST(ColmapModel, HasTheReprojectionErrorsOfTheMap) {
+  const ScratchFolder folder;
+  const SavedMap saved = NoisyMap();
+  WriteColmapText(folder.path(), MakeColmapModel(saved, KeyFrameImageNames(saved.map)));
+  const ColmapModel model = ReadColmapText(folder.path());
+  ASSERT_GT(model.points.size(), 60U);
+  double largest = 0;
+  for (const ColmapModel::Point& point : model.points) {
+    const MapPoint* original = saved.map.Find(PointId{point.id - 1});
+    ASSERT_NE(original, nullptr);
+    const double from_files = ReprojectionErrorOf(model, point);
+    EXPECT_NEAR(from_files, point.error, 1e-9);
+    EXPECT_NEAR(from_files, *MeanReprojectionError(saved.camera, saved.map, *original), 1e-9);
+    largest = std::max(largest, from_files);
+  }
+  EXPECT_GT(largest, 0.5);  // there is something to compare
+  EXPECT_LT(largest, 20);
+}
+
+TEST(ColmapModel, KeypointsAndTracksNameEachOther) {
+  const SavedMap saved = NoisyMap();
+  const ColmapModel model = MakeColmapModel(saved, KeyFrameImageNames(saved.map));
+  std::map<std::uint32_t, const ColmapModel::Image*> images;
+  std::size_t matched = 0, unmatched = 0, in_tracks = 0;
+  for (const ColmapModel::Image& image : model.images) {
+    EXPECT_TRUE(images.emplace(image.id, &image).second);
+    for (const ColmapModel::Keypoint& keypoint : image.keypoints) {
+      (keypoint.point == ColmapModel::kNoPoint ? unmatched : matched) += 1;
+    }
+  }
+  for (const ColmapModel::Point& point : model.points) {
+    EXPECT_EQ(point.grey, 128);
+    for (const ColmapModel::View& view : point.track) {
+      EXPECT_EQ(images.at(view.image)->keypoints.at(view.keypoint).point, point.id);
+      ++in_tracks;
+    }
+  }
+  EXPECT_EQ(matched, in_tracks);
+  EXPECT_GT(unmatched, 0U);
+  EXPECT_FALSE(images.contains(ColmapImageId(KeyFrameId{1})));
+}
+
+// Each image has two lines, one without features as well.
+TEST(WriteColmapText, WritesTheForm) {
+  const ScratchFolder folder;
+  ColmapModel model;
+  model.camera = {752, 480, 435, 420.25, 367.5, 252.5};
+  model.images.push_back({1, {{1, 0, 0, 0}, {0, -0.5, 2}}, "a.png", {{{1.5, 2.5}, 9}, {{3, 4}}}});
+  model.images.push_back({3, {{0, 1, 0, 0}, {0, 0, 0}}, "b.png", {}});
+  model.points.push_back({9, {1, 2, 0.1}, 77, 0.25, {{1, 0}}});
+  WriteColmapText(folder.path(), model);
+  const auto rows = [&](const std::string& name) {
+    std::string text, line;
+    std::istringstream file(Contents(folder / name));
+    while (std::getline(file, line)) {
+      if (!line.starts_with('#')) text += line + "|";
+    }
+    return text;
+  };
+  EXPECT_EQ(rows("cameras.txt"), "1 PINHOLE 752 480 435 420.25 367.5 252.5|");
+  EXPECT_EQ(rows("images.txt"),
+            "1 1 0 0 0 0 -0.5 2 1 a.png|1.5 2.5 9 3 4 -1|3 0 1 0 0 0 0 0 1 b.png||");
+  EXPECT_EQ(rows("points3D.txt"), "9 1 2 0.1 77 77 77 0.25 1 0|");
+  WriteColmapBinary(folder.path(), model);
+  ExpectEqual(ReadColmapText(folder.path()), model);
+  ExpectEqual(ReadColmapBinary(folder.path()), model);
+}
+
+TEST(ColmapModel, LeavesOutPointsThatFewerThanTwoImagesShow) {
+  SavedMap saved = NoisyMap();
+  const auto seen_twice = [](const auto& entry) { return entry.second.observations.size() >= 2; };
+  const auto& points = saved.map.points();
+  const auto expected = std::count_if(points.begin(), points.end(), seen_twice);
+  EXPECT_LT(expected, std::ssize(points));
+  const auto count = [&] {
+    return std::ssize(MakeColmapModel(saved, KeyFrameImageNames(saved.map)).points);
+  };
+  EXPECT_EQ(count(), expected);
+  const PointId id = std::find_if(points.begin(), points.end(), seen_twice)->first;
+  saved.map.Apply({edit::MovePoint{id, {0, 0, -50}}});  // behind all cameras
+  EXPECT_EQ(count(), expected - 1);
+  for (const ColmapModel::Image& image :
+       MakeColmapModel(saved, KeyFrameImageNames(saved.map)).images) {
+    for (const ColmapModel::Keypoint& keypoint : image.keypoints) {
+      EXPECT_NE(keypoint.point, id.value + 1);
+    }
+  }
+}
+
+TEST(WriteColmapText, NamesTheFileThatCannotBeWritten) {
+  const ScratchFolder folder;
+  EXPECT_THAT(MessageOf([&] { WriteColmapText(folder / "none", {}); }),
+              HasSubstr("none/cameras.txt: No such file or directory"));
+  EXPECT_THAT(MessageOf([&] { WriteColmapBinary(folder / "none", {}); }),
+              HasSubstr("none/cameras.bin: No such file or directory"));
+}
+
+}  // namespace
+}  // namespace plumbline

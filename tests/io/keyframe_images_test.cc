@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/keyframe_images.h"
+
+#include "tests/e2e/poster_sequence.h"
+#include "tests/io/scratch_folder.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+// A map with keyframes at these times, made with a camera of the poster sequence.
+SavedMap MapAt(const std::vector<std::int64_t>& stamps_ns, const Calibration& calibration) {
+  const Rectifier rectifier(calibration);
+  SavedMap saved;
+  saved.camera = rectifier.camera();
+  saved.rectified_from_left = rectifier.rectified_left_from_left();
+  std::int64_t id = 0;
+  for (const std::int64_t stamp : stamps_ns) {
+    KeyFrame keyframe{KeyFrameId{id}, KeyFrameId{id - 1}, {}};
+    keyframe.frame.stamp_ns = stamp;
+    keyframe.frame.indexed = std::make_shared<IndexedFeatures>();
+    saved.map.Apply({edit::AddKeyFrame{keyframe}});
+    ++id;
+  }
+  return saved;
+}
+
+TEST(KeyFrameImageNames, AreTimesAndDifferEach) {
+  const SavedMap saved =
+      MapAt({1'403'636'580'863'555'584, 7, 8, 7, 7}, MovingPoster::MakeCalibration());
+  std::vector<std::string> names;
+  for (const auto& [id, name] : KeyFrameImageNames(saved.map)) names.push_back(name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "1403636580863555584.png", "7.png", "8.png", "7_2.png", "7_3.png"}));
+}
+
+TEST(KeyFrameImages, AreThoseOfTheirTimes) {
+  const ScratchFolder folder;
+  const std::filesystem::path sequence = WritePosterSequence(folder, 12);
+  const SavedMap saved =
+      MapAt({MovingPoster::StampNs(2), MovingPoster::StampNs(9)}, MovingPoster::MakeCalibration());
+  const KeyFrameImages images(sequence, {}, saved);
+  const MovingPoster poster;
+  for (const auto& [id, frame] : {std::pair{0, 2}, std::pair{1, 9}}) {
+    const GrayImage image = images.Read(*saved.map.Find(KeyFrameId{id}));
+    const GrayImage expected = poster.Frame(frame).left;
+    ASSERT_EQ(image.width(), expected.width());
+    EXPECT_TRUE(
+        std::equal(image.data(), image.data() + image.width() * image.height(), expected.data()));
+  }
+}
+
+// A map of one camera is not of the rectified pair: where that differs, the data are looked at as
+// the sensor that fits.
+TEST(KeyFrameImages, FindTheSensorThatTheMapWasMadeWith) {
+  const ScratchFolder folder;
+  const std::filesystem::path sequence = WritePosterSequence(folder, 3);
+  std::string turned = PosterSensor(MovingPoster::kBaseline);
+  turned.replace(turned.find("0,0,1,0,"), 8, "0,0,1,0.02,");  // the pair is to be rectified
+  folder.Write("sequence/mav0/cam1/sensor.yaml", turned);
+  Calibration single = MovingPoster::MakeCalibration();
+  single.right.reset();
+  single.rectified = false;
+  const SavedMap mono = MapAt({MovingPoster::StampNs(1)}, single);
+  const KeyFrameImages images(sequence, {}, mono);
+  EXPECT_EQ(images.Read(*mono.map.Find(KeyFrameId{0})).at(30, 40),
+            MovingPoster().Frame(1).left.at(30, 40));
+  EXPECT_THAT(MessageOf([&] { KeyFrameImages(sequence, {.sensor = SensorKind::kStereo}, mono); }),
+              HasSubstr("sequence: expected the camera that the map was made with, found another "
+                        "one: "));
+}
+
+TEST(KeyFrameImages, NamesWhatDoesNotFit) {
+  const ScratchFolder folder;
+  const std::filesystem::path sequence = WritePosterSequence(folder, 3);
+  SavedMap saved = MapAt({MovingPoster::StampNs(1), 7}, MovingPoster::MakeCalibration());
+  EXPECT_THAT(
+      MessageOf([&] { KeyFrameImages(sequence, {}, saved); }),
+      HasSubstr(
+          "sequence: expected a frame at 0.000000007 s, where the map has keyframe 1, found"));
+  saved.camera.fx = 310;
+  EXPECT_THAT(MessageOf([&] { KeyFrameImages(sequence, {}, saved); }),
+              HasSubstr("found another one: fx 310 and 300"));
+  EXPECT_THAT(MessageOf([&] { KeyFrameImages(folder / "none", {}, saved); }),
+              HasSubstr("none: no such file or folder"));
+  const SavedMap whole = MapAt({MovingPoster::StampNs(1)}, MovingPoster::MakeCalibration());
+  const KeyFrameImages images(sequence, {}, whole);
+  folder.Write("sequence/mav0/cam0/data/1.png", "text");
+  EXPECT_THAT(MessageOf([&] { images.Read(*whole.map.Find(KeyFrameId{0})); }),
+              HasSubstr("cam0/data/1.png: not an image"));
+}
+
+}  // namespace
+}  // namespace plumbline
