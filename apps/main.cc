@@ -35,6 +35,7 @@ constexpr std::array kCommands = {
     Command{"synth", SynthCommand, "render a stereo sequence of an invented world"},
     Command{"experiment", ExperimentCommand, "make the tables and plots of an experiment"},
     Command{"info", InfoCommand, "what is at a path: format, sensors, frames, calibration"},
+    Command{"map", MapCommand, "look into saved maps, export them, make one of two"},
     Command{"config", ConfigCommand, "all options with values and help, as a config file"},
 };
 

@@ -97,9 +97,11 @@ def known_commands(root):
     """Subcommand -> text of the sources that parse its flags."""
     names = re.findall(r'Command\{"(\w+)"', (root / "apps/main.cc").read_text())
     common = (root / "apps/command_line.cc").read_text()
-    files = {name: root / f"apps/{name}.cc" for name in names}
-    return {name: common + (file.read_text() if file.is_file() else "")
-            for name, file in files.items()} | {"help": ""}
+    # The sources of `map` are map.cc and those of its own commands, map_info.cc and so on.
+    files = {name: sorted((root / "apps").glob(f"{name}.cc")) +
+             sorted((root / "apps").glob(f"{name}_*.cc")) for name in names}
+    return {name: common + "".join(file.read_text() for file in files[name])
+            for name in names} | {"help": ""}
 
 
 def command_problems(root, documents):

@@ -357,7 +357,7 @@ SavedMap LoadMap(const std::filesystem::path& path) {
   Check(stored, source);
   const RectifiedCamera camera = stored.camera;
   const Eigen::Quaterniond rotation = stored.rectified_from_left;
-  return {camera, rotation, BuildMap(std::move(stored))};
+  return {camera, rotation, BuildMap(std::move(stored)), version};
 }
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/map/map.h"
 
+#include <cstdint>
 #include <filesystem>
 
 #include <Eigen/Geometry>
@@ -16,6 +17,7 @@ struct SavedMap {
   RectifiedCamera camera;
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
   Map map;
+  std::uint32_t version = 0;  // of the file's format
 };
 
 // Writes keyframes with their features, points and lines (docs/adr/0009-map-file-format.md). All

@@ -45,7 +45,8 @@ TEST(Program, HelpListsTheCommands) {
 }
 
 TEST(Program, EveryCommandHasHelp) {
-  for (const std::string name : {"run", "evaluate", "synth", "experiment", "info", "config"}) {
+  for (const std::string name :
+       {"run", "evaluate", "synth", "experiment", "info", "map", "config"}) {
     const Outcome outcome = RunProgram(name + " --help");
     EXPECT_EQ(outcome.code, 0) << name;
     EXPECT_THAT(outcome.out, StartsWith("plumbline " + name));

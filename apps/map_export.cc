@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/colmap_model.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/io/dxf.h"
+#include "plumbline/io/keyframe_images.h"
+#include "plumbline/io/limap_lines.h"
+#include "plumbline/io/map_io.h"
+#include "plumbline/io/nerfstudio.h"
+#include "plumbline/io/ply.h"
+#include "plumbline/io/png.h"
+#include "plumbline/io/trajectory_io.h"
+#include "plumbline/mapping/line_map.h"
+
+#include "apps/command_line.h"
+#include "apps/map_commands.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+enum class ExportFormat { kPly, kObj, kDxf, kTum, kColmap, kNerfstudio };
+constexpr auto EnumNames(std::type_identity<ExportFormat>) {
+  return std::array{std::pair{ExportFormat::kPly, "ply"},
+                    std::pair{ExportFormat::kObj, "obj"},
+                    std::pair{ExportFormat::kDxf, "dxf"},
+                    std::pair{ExportFormat::kTum, "tum"},
+                    std::pair{ExportFormat::kColmap, "colmap"},
+                    std::pair{ExportFormat::kNerfstudio, "nerfstudio"}};
+}
+
+enum class ColmapFiles { kText, kBinary, kBoth };
+constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
+  return std::array{std::pair{ColmapFiles::kText, "text"},
+                    std::pair{ColmapFiles::kBinary, "binary"},
+                    std::pair{ColmapFiles::kBoth, "both"}};
+}
+
+CommandSyntax Syntax() {
+  return {"map export",
+          "Writes a map in the form of another program: points and lines (ply), lines (obj, dxf), "
+          "the\ntrajectory of the keyframes (tum), or a folder with a sparse model (colmap) or a "
+          "data set\n(nerfstudio) with undistorted images.",
+          {"FILE"},
+          {{"--to", "ply|obj|dxf|tum|colmap|nerfstudio", "the form"},
+           {"--out", "PATH", "file, or new folder for colmap and nerfstudio"},
+           {"--images", "PATH", "the data that the map was made from: its images are written, too"},
+           {"--format", "auto|euroc|tum|kitti|images|video", "of --images (found out from PATH)"},
+           {"--camera", "FILE", "of --images: camera file, or the name of a built-in camera"},
+           {"--model", "text|binary|both", "files of a COLMAP model (both)"}}};
+}
+
+struct ExportRequest {
+  ExportFormat format = ExportFormat::kPly;
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> images;
+  DatasetOptions images_options;
+  ColmapFiles colmap_files = ColmapFiles::kBoth;
+};
+
+void RefuseWithout(const CommandLine& line, const char* option, bool fits, const char* where) {
+  if (line.Has(option) && !fits) {
+    throw InputError(std::string(option) + ": goes with " + where + " only");
+  }
+}
+
+ExportRequest ReadRequest(const CommandLine& line) {
+  const auto to = line.Value("--to");
+  const auto out = line.Value("--out");
+  if (!to) throw InputError("map export: expected --to ply|obj|dxf|tum|colmap|nerfstudio");
+  if (!out) throw InputError("map export: expected --out PATH");
+  ExportRequest request;
+  request.format = ParseChoice<ExportFormat>("--to", *to);
+  request.out = *out;
+  const bool colmap = request.format == ExportFormat::kColmap;
+  const bool with_images = colmap || request.format == ExportFormat::kNerfstudio;
+  RefuseWithout(line, "--images", with_images, "--to colmap and --to nerfstudio");
+  RefuseWithout(line, "--format", line.Has("--images"), "--images");
+  RefuseWithout(line, "--camera", line.Has("--images"), "--images");
+  RefuseWithout(line, "--model", colmap, "--to colmap");
+  if (const auto images = line.Value("--images")) request.images = *images;
+  if (const auto text = line.Value("--format"); text && *text != "auto") {
+    request.images_options.format = ParseChoice<DatasetFormat>("--format", *text);
+  }
+  request.images_options.camera = line.Value("--camera");
+  if (const auto text = line.Value("--model")) {
+    request.colmap_files = ParseChoice<ColmapFiles>("--model", *text);
+  }
+  if (request.format == ExportFormat::kNerfstudio && !request.images) {
+    throw InputError(
+        "--to nerfstudio: expected --images PATH, the data that the map was made from: a data set "
+        "of nerfstudio consists of images");
+  }
+  RefuseToReplaceInput(request.out, line.Positional(0));
+  return request;
+}
+
+// The lines that a run gives out, too.
+std::vector<Segment3> LinesOf(const SavedMap& saved) {
+  std::vector<Segment3> segments;
+  for (const MappedLine& line : MakeLineMap(saved.map, {saved.camera}, {})) {
+    segments.push_back(line.segment);
+  }
+  return segments;
+}
+
+std::vector<Eigen::Vector3d> PointsOf(const Map& map) {
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& [id, point] : map.points()) points.push_back(point.position);
+  return points;
+}
+
+// Poses of the left camera as delivered, in the order of time. Of keyframes of one time, which a
+// merged map may have, the one with the lowest number.
+Trajectory KeyFrameTrajectory(const SavedMap& saved) {
+  const Rigid3 rectified_from_left{saved.rectified_from_left, Eigen::Vector3d::Zero()};
+  std::map<std::int64_t, Rigid3> poses;
+  for (const auto& [id, keyframe] : saved.map.keyframes()) {
+    poses.emplace(keyframe.frame.stamp_ns,
+                  Inverse(keyframe.frame.cam_from_world) * rectified_from_left);
+  }
+  Trajectory trajectory;
+  for (const auto& [stamp_ns, pose] : poses) trajectory.push_back({stamp_ns, pose});
+  return trajectory;
+}
+
+// Writes the image of each keyframe into a folder. Returns the mean grey of each point in them.
+PointGreys WriteImages(const SavedMap& saved,
+                       const KeyFrameImages& images,
+                       const std::map<KeyFrameId, std::string>& names,
+                       const std::filesystem::path& folder) {
+  MakeFolder(folder);
+  std::map<PointId, std::pair<int, int>> sums;  // of greys, and their number
+  for (const auto& [id, keyframe] : saved.map.keyframes()) {
+    const GrayImage image = images.Read(keyframe);
+    WriteGrayPng(folder / names.at(id), image);
+    const Frame& frame = keyframe.frame;
+    for (std::size_t i = 0; i < frame.points.size(); ++i) {
+      if (!frame.points[i].valid()) continue;
+      const Eigen::Vector2d& px = frame.features().points[i].px;
+      const auto x = std::clamp<long>(std::lround(px.x()), 0, image.width() - 1);
+      const auto y = std::clamp<long>(std::lround(px.y()), 0, image.height() - 1);
+      auto& [sum, count] = sums[frame.points[i]];
+      sum += image.at(static_cast<int>(x), static_cast<int>(y));
+      ++count;
+    }
+  }
+  PointGreys greys;
+  for (const auto& [id, sum] : sums) {
+    greys[id] = static_cast<std::uint8_t>(sum.first / sum.second);
+  }
+  return greys;
+}
+
+// sparse/0/ with the model, lines/ with the lines, images/.
+void ExportColmap(const SavedMap& saved, const ExportRequest& request) {
+  const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
+  std::optional<KeyFrameImages> images;
+  if (request.images) images.emplace(*request.images, request.images_options, saved);
+  AtomicFolder folder(request.out);
+  PointGreys greys;
+  if (images) greys = WriteImages(saved, *images, names, folder.temporary_path() / "images");
+  const ColmapModel model = MakeColmapModel(saved, names, greys);
+  const std::filesystem::path sparse = folder.temporary_path() / "sparse" / "0";
+  MakeFolder(sparse);
+  if (request.colmap_files != ColmapFiles::kBinary) WriteColmapText(sparse, model);
+  if (request.colmap_files != ColmapFiles::kText) WriteColmapBinary(sparse, model);
+  MakeFolder(folder.temporary_path() / "lines");
+  WriteLimapLines(folder.temporary_path() / "lines", saved.map, names);
+  folder.Commit();
+  const std::size_t left_out = saved.map.points().size() - model.points.size();
+  std::cout << fmt::format(
+      "{}: {} images{}, {} points{}, {} lines\n",
+      request.out.string(),
+      model.images.size(),
+      images ? "" : " (not written; --images PATH writes them)",
+      model.points.size(),
+      left_out == 0 ? std::string() : fmt::format(" ({} of one image left out)", left_out),
+      saved.map.lines().size());
+}
+
+void ExportNerfstudio(const SavedMap& saved, const ExportRequest& request) {
+  const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
+  const KeyFrameImages images(*request.images, request.images_options, saved);
+  AtomicFolder folder(request.out);
+  const PointGreys greys = WriteImages(saved, images, names, folder.temporary_path() / "images");
+  std::vector<std::uint8_t> brightness;
+  for (const auto& [id, point] : saved.map.points()) brightness.push_back(greys.at(id));
+  WritePly(folder.temporary_path() / "points.ply", PointsOf(saved.map), {}, brightness);
+  WriteNerfstudioTransforms(
+      folder.temporary_path() / "transforms.json", saved, "images", names, "points.ply");
+  folder.Commit();
+  std::cout << fmt::format(
+      "{}: {} images, {} points\n", request.out.string(), names.size(), saved.map.points().size());
+}
+
+void ExportFile(const SavedMap& saved, const ExportRequest& request) {
+  const std::string out = request.out.string();
+  if (request.format == ExportFormat::kTum) {
+    const Trajectory trajectory = KeyFrameTrajectory(saved);
+    WriteTum(request.out, trajectory);
+    const std::size_t left_out = saved.map.keyframes().size() - trajectory.size();
+    std::cout << fmt::format(
+        "{}: {} keyframes{}\n",
+        out,
+        trajectory.size(),
+        left_out == 0 ? std::string() : fmt::format(" ({} of the same times left out)", left_out));
+    return;
+  }
+  const std::vector<Segment3> lines = LinesOf(saved);
+  std::string what;
+  if (request.format == ExportFormat::kPly) {
+    WritePly(request.out, PointsOf(saved.map), lines);
+    what = fmt::format("{} points, ", saved.map.points().size());
+  } else if (request.format == ExportFormat::kObj) {
+    WriteObjLines(request.out, lines);
+  } else {
+    WriteDxfLines(request.out, lines);
+  }
+  std::cout << fmt::format("{}: {}{} lines\n", out, what, lines.size());
+}
+
+}  // namespace
+
+int MapExportCommand(std::span<const std::string> arguments) {
+  const CommandLine line(Syntax(), arguments);
+  if (line.help()) {
+    std::cout << HelpText(Syntax());
+    return 0;
+  }
+  const ExportRequest request = ReadRequest(line);
+  const SavedMap saved = LoadMap(line.Positional(0));
+  if (request.format == ExportFormat::kColmap) {
+    ExportColmap(saved, request);
+  } else if (request.format == ExportFormat::kNerfstudio) {
+    ExportNerfstudio(saved, request);
+  } else {
+    ExportFile(saved, request);
+  }
+  return 0;
+}
+
+}  // namespace plumbline

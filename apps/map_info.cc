@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/map_io.h"
+
+#include "apps/command_line.h"
+#include "apps/map_commands.h"
+#include "apps/map_summary.h"
+#include <iostream>
+#include <span>
+#include <string>
+
+namespace plumbline {
+namespace {
+
+CommandSyntax Syntax() {
+  return {"map info",
+          "Tells what is in a map file: version, camera, keyframes, points, lines, extent.",
+          {"FILE"},
+          {{"--json", "FILE", "write the figures as JSON"}}};
+}
+
+}  // namespace
+
+int MapInfoCommand(std::span<const std::string> arguments) {
+  const CommandLine line(Syntax(), arguments);
+  if (line.help()) {
+    std::cout << HelpText(Syntax());
+    return 0;
+  }
+  const std::string& path = line.Positional(0);
+  const SavedMap saved = LoadMap(path);
+  if (const auto json = line.Value("--json")) {
+    RefuseToReplaceInput(*json, path);
+    WriteFileAtomically(*json, MapInfoJson(path, saved));
+  }
+  std::cout << MapInfoTable(path, saved);
+  return 0;
+}
+
+}  // namespace plumbline

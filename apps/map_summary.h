@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/io/map_io.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// What is in a map, in figures. Lengths are in metres, of a single camera in the map's unit.
+struct MapSummary {
+  std::size_t keyframes = 0, points = 0, lines = 0;
+  std::size_t point_observations = 0, line_observations = 0;
+  std::optional<std::pair<std::int64_t, std::int64_t>> time_ns;  // first and last keyframe
+  double path_length = 0;  // along the keyframes, tracked one after the other
+  // Of points and of the ends of lines: of all, and of the middle 90 % along each axis.
+  Eigen::AlignedBox3d bounds, middle_bounds;
+  std::optional<double> reprojection_px;  // mean over the points (MeanReprojectionError)
+};
+
+MapSummary Summarize(const SavedMap& saved);
+
+// The whole of `plumbline map info`: for people, and as JSON.
+std::string MapInfoTable(const std::filesystem::path& path, const SavedMap& saved);
+std::string MapInfoJson(const std::filesystem::path& path, const SavedMap& saved);
+
+}  // namespace plumbline

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/map_io.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include "tests/e2e/poster_run.h"
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(MapInfo, TellsWhatIsInTheFile) {
+  const ScratchFolder folder;
+  const SavedMap saved = LoadMap(Posters().map);
+  ASSERT_GT(saved.map.keyframes().size(), 2U);
+  const Outcome outcome = RunProgram(
+      folder, "map info " + Quoted(Posters().map) + " --json " + Quoted(folder / "i.json"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(fmt::format("version {}, ", saved.version)));
+  EXPECT_THAT(outcome.out, HasSubstr("400x300, fx 300 fy 300 cx 200 cy 150"));
+  EXPECT_THAT(outcome.out, HasSubstr("baseline      0.1200 m"));
+  EXPECT_THAT(outcome.out, HasSubstr("time          1.000000000 to "));
+  const auto json = nlohmann::json::parse(Contents(folder / "i.json"));
+  EXPECT_EQ(json["bytes"], fs::file_size(Posters().map));
+  EXPECT_EQ(json["camera"]["fx"], 300.0);
+  ASSERT_EQ(json["maps"].size(), 1U);
+  const auto& map = json["maps"][0];
+  EXPECT_EQ(map["keyframes"], saved.map.keyframes().size());
+  EXPECT_EQ(map["points"], saved.map.points().size());
+  EXPECT_EQ(map["lines"], saved.map.lines().size());
+  EXPECT_EQ(map["first_keyframe_s"], "1.000000000");
+  EXPECT_GT(map["mean_reprojection_px"], 0.0);
+  EXPECT_LT(map["mean_reprojection_px"], 2.0);
+  // The camera goes sideways, 3 cm a frame, before a poster at 3 m.
+  EXPECT_NEAR(map["path_length"].get<double>(),
+              PathLength(ReadTrajectory(Posters().out / "keyframes.txt").poses),
+              1e-6);
+  EXPECT_NEAR(map["bounds_of_middle_90_percent"]["min"][2].get<double>(), 3, 0.3);
+  EXPECT_NEAR(map["bounds_of_middle_90_percent"]["max"][2].get<double>(), 3, 0.3);
+  EXPECT_LE(map["bounds"]["min"][0], map["bounds_of_middle_90_percent"]["min"][0]);
+}
+
+TEST(MapMerge, PutsTheSecondBehindTheFirst) {
+  const ScratchFolder folder;
+  const std::string files = Quoted(Posters().map) + " " + Quoted(Posters().map);
+  const Outcome outcome =
+      RunProgram(folder,
+                 "map merge " + files + " --transform '0 -2 0  0 0 0.6 0.8' --out " +
+                     Quoted(folder / "both.plb"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const SavedMap one = LoadMap(Posters().map), both = LoadMap(folder / "both.plb");
+  both.map.CheckInvariants();
+  EXPECT_EQ(both.map.keyframes().size(), 2 * one.map.keyframes().size());
+  EXPECT_EQ(both.map.points().size(), 2 * one.map.points().size());
+  const auto& [id, point] = *one.map.points().begin();
+  const MapPoint* moved = both.map.Find(PointId{id.value + one.map.NextPointId().value});
+  ASSERT_NE(moved, nullptr);
+  const Eigen::Vector3d& p = point.position;
+  const double c = 0.8 * 0.8 - 0.6 * 0.6, s = 2 * 0.6 * 0.8;  // half angles in the quaternion
+  const Eigen::Vector3d expected(c * p.x() - s * p.y(), s * p.x() + c * p.y() - 2, p.z());
+  EXPECT_LT((moved->position - expected).norm(), 1e-9);
+
+  // The merged map is one like any other.
+  const Outcome info = RunProgram(folder, "map info " + Quoted(folder / "both.plb"));
+  EXPECT_EQ(info.code, 0);
+  EXPECT_THAT(info.out, HasSubstr(fmt::format("keyframes     {}\n", both.map.keyframes().size())));
+  const std::string rest = Quoted(folder / "both.plb") + " --out ";
+  const Outcome tum =
+      RunProgram(folder, "map export --to tum " + rest + Quoted(folder / "both.txt"));
+  EXPECT_THAT(tum.out, HasSubstr("of the same times left out"));
+  EXPECT_EQ(Contents(folder / "both.txt"), Contents(Posters().out / "keyframes.txt"));
+  const Outcome colmap =
+      RunProgram(folder,
+                 "map export --to colmap --images " + Quoted(Posters().sequence) + " " + rest +
+                     Quoted(folder / "both"));
+  EXPECT_EQ(colmap.code, 0) << colmap.err;
+  EXPECT_EQ(FilesOf(folder / "both/images").size(), both.map.keyframes().size());
+}
+
+TEST(MapCommands, RefuseFilesThatAreNoWholeMaps) {
+  const ScratchFolder folder;
+  const std::string whole = Contents(Posters().map);
+  std::string changed = whole, version = whole;
+  changed[whole.size() / 2] = static_cast<char>(changed[whole.size() / 2] ^ 4);
+  version[8] = 77;
+  folder.Write("cut.plb", whole.substr(0, whole.size() / 3));
+  folder.Write("changed.plb", changed);
+  folder.Write("version.plb", version);
+  folder.Write("other.plb", "ply\nformat ascii 1.0\n");
+  fs::create_directories(folder / "folder.plb");
+  const std::pair<const char*, const char*> files[] = {
+      {"cut.plb", "cut.plb: "},
+      {"changed.plb", "changed.plb: damaged"},
+      {"version.plb", "found version 77"},
+      {"other.plb", "other.plb: expected a Plumbline map, found another file"},
+      {"none.plb", "none.plb: no such file"},
+      {"folder.plb", "folder.plb: "}};
+  const auto before = FilesOf(folder.path());
+  for (const auto& [name, message] : files) {
+    const std::string file = Quoted(folder / name);
+    const std::string out = " --out " + Quoted(folder / "out");
+    ExpectRefusal(RunProgram(folder, "map info " + file), message);
+    ExpectRefusal(RunProgram(folder, "map export " + file + " --to colmap" + out), message);
+    ExpectRefusal(RunProgram(folder,
+                             "map merge " + Quoted(Posters().map) + " " + file +
+                                 " --transform '0 0 0 0 0 0 1'" + out),
+                  message);
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+  EXPECT_EQ(FilesOf(folder.path()).size(), before.size() + 2);  // stdout and stderr
+}
+
+struct Refusal {
+  std::string arguments;  // MAP, SEQUENCE and FOLDER stand for paths
+  std::string message;
+};
+
+void ExpectRefusals(const ScratchFolder& folder, const std::vector<Refusal>& refusals) {
+  const auto put = [](std::string text, const std::string& name, const fs::path& path) {
+    for (auto at = text.find(name); at != std::string::npos; at = text.find(name)) {
+      text.replace(at, name.size(), path.string());
+    }
+    return text;
+  };
+  for (const Refusal& refusal : refusals) {
+    std::string arguments = put(refusal.arguments, "MAP", Posters().map);
+    arguments = put(arguments, "SEQUENCE", Posters().sequence);
+    arguments = put(arguments, "FOLDER", folder.path());
+    ExpectRefusal(RunProgram(folder, "map " + arguments), refusal.message);
+  }
+}
+
+TEST(MapCommands, NameWhatIsMissingOrUnknown) {
+  const ScratchFolder folder;
+  ExpectRefusals(
+      folder,
+      {{"", "map: expected a command; see plumbline map --help"},
+       {"inof MAP", "map: unknown command 'inof'; did you mean 'info'?"},
+       {"info", "map info: expected FILE; see plumbline map info --help"},
+       {"info MAP MAP", "map info: unexpected argument"},
+       {"export MAP --out FOLDER/x", "map export: expected --to ply|obj|dxf|tum|colmap|nerfstudio"},
+       {"export MAP --to ply", "map export: expected --out PATH"},
+       {"export MAP --to stl --out FOLDER/x",
+        "--to: expected ply, obj, dxf, tum, colmap or nerfstudio, found stl"},
+       {"export MAP --to nerfstudio --out FOLDER/x", "--to nerfstudio: expected --images PATH"},
+       {"export MAP --to ply --images SEQUENCE --out FOLDER/x",
+        "--images: goes with --to colmap and --to nerfstudio only"},
+       {"export MAP --to colmap --camera euroc --out FOLDER/x",
+        "--camera: goes with --images only"},
+       {"export MAP --to tum --model text --out FOLDER/x", "--model: goes with --to colmap only"},
+       {"export MAP --to colmap --model xml --out FOLDER/x",
+        "--model: expected text, binary or both, found xml"},
+       {"export MAP --to colmap --images FOLDER/none --out FOLDER/x",
+        "none: no such file or folder"},
+       {"export MAP --to colmap --images SEQUENCE --camera tum_vi_512 --out FOLDER/x",
+        "expected an image of 512x512 pixels as in the calibration, found 400x300"},
+       {"merge MAP MAP --out FOLDER/x", "map merge: expected --transform"},
+       {"merge MAP MAP --transform '0 0 0 0 0 0 1'", "map merge: expected --out FILE"},
+       {"merge MAP MAP --transform '0 0 0 0 0 1' --out FOLDER/x",
+        "--transform: expected \"tx ty tz qx qy qz qw [scale]\", found 6 numbers"},
+       {"merge MAP MAP --transform '0 0 0 0 0 0 one' --out FOLDER/x", "found 'one'"},
+       {"merge MAP MAP --transform '0 0 0 0 0 1 1' --out FOLDER/x", "a quaternion of norm 1.41421"},
+       {"merge MAP MAP --transform '0 0 0 0 0 0 1 -1' --out FOLDER/x", "found the scale -1"},
+       {"merge MAP MAP --transform '0 0 0 0 0 0 1 2' --out FOLDER/x",
+        "found the scale 2 for maps of measured depth, whose scale is 1"}});
+  EXPECT_FALSE(fs::exists(folder / "x"));
+}
+
+TEST(MapCommands, RefuseMapsAndDataOfOtherCameras) {
+  const ScratchFolder folder;
+  SavedMap other = LoadMap(Posters().map);
+  other.camera.fx = 310;
+  SaveMap(folder / "other.plb", other.camera, other.rectified_from_left, other.map);
+  ExpectRefusals(folder,
+                 {{"merge MAP FOLDER/other.plb --transform '0 0 0 0 0 0 1' --out FOLDER/x",
+                   "found another one: fx 300 and 310"},
+                  {"export FOLDER/other.plb --to colmap --images SEQUENCE --out FOLDER/x",
+                   "expected the camera that the map was made with, found another one: fx 310"}});
+  EXPECT_EQ(FilesOf(folder.path()), (std::set<std::string>{"other.plb", "stderr", "stdout"}));
+}
+
+TEST(MapCommands, RefuseOutputThatCannotBeWrittenOrIsRead) {
+  const ScratchFolder folder;
+  fs::copy_file(Posters().map, folder / "map.plb");
+  fs::create_symlink("map.plb", folder / "link.plb");
+  folder.Write("full/file", "text");
+  const std::string transform = " --transform '0 0 0 0 0 0 1'";
+  ExpectRefusals(
+      folder,
+      {{"export FOLDER/map.plb --to ply --out FOLDER/link.plb", "which is read"},
+       {"export FOLDER/map.plb --to colmap --out FOLDER/map.plb", "which is read"},
+       {"info FOLDER/map.plb --json FOLDER/map.plb", "which is read"},
+       {"merge MAP FOLDER/link.plb --out FOLDER/map.plb" + transform, "which is read"},
+       {"merge FOLDER/map.plb MAP --out FOLDER/./map.plb" + transform, "which is read"},
+       {"export MAP --to ply --out FOLDER/none/x.ply", "none/x.ply: No such file or directory"},
+       {"export MAP --to tum --out FOLDER/full", "full: Is a directory"},
+       {"export MAP --to colmap --out FOLDER/full",
+        "full: expected a new or empty folder, found files in it"},
+       {"export MAP --to colmap --out FOLDER/full/file",
+        "file: expected a new or empty folder, found a file of this name"},
+       {"export MAP --to colmap --out /proc/plumbline/x", "cannot make the folder /proc/plumbline"},
+       {"merge MAP MAP --out FOLDER/full/file/x" + transform, "file/x: Not a directory"},
+       {"info MAP --json FOLDER/none/i.json", "none/i.json: No such file or directory"}});
+  EXPECT_EQ(Contents(folder / "map.plb"), Contents(Posters().map));
+  EXPECT_EQ(FilesOf(folder.path()),
+            (std::set<std::string>{"full", "link.plb", "map.plb", "stderr", "stdout"}));
+  EXPECT_EQ(FilesOf(folder / "full"), (std::set<std::string>{"file"}));
+}
+
+}  // namespace
+}  // namespace plumbline

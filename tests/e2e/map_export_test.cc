@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/map_io.h"
+
+#include "tests/e2e/poster_run.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/read_colmap.h"
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Outcome Export(const ScratchFolder& folder, const std::string& form, const std::string& name) {
+  return RunProgram(
+      folder,
+      "map export " + Quoted(Posters().map) + " --to " + form + " --out " + Quoted(folder / name));
+}
+
+// What a run writes itself comes out again, in the same bytes.
+void ExpectFilesOfTheRun(const ScratchFolder& folder, const fs::path& run) {
+  const std::pair<const char*, const char*> files[] = {
+      {"ply", "map.ply"}, {"obj", "lines.obj"}, {"dxf", "lines.dxf"}, {"tum", "keyframes.txt"}};
+  for (const auto& [form, name] : files) {
+    const Outcome outcome = RunProgram(folder,
+                                       "map export " + Quoted(run / "map.plb") + " --to " + form +
+                                           " --out " + Quoted(folder / name));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, StartsWith((folder / name).string() + ": "));
+    EXPECT_TRUE(Contents(folder / name) == Contents(run / name)) << name;
+  }
+}
+
+TEST(MapExport, GivesTheFilesOfTheRunAgain) {
+  const ScratchFolder folder;
+  ExpectFilesOfTheRun(folder, Posters().out);
+  EXPECT_GT(Contents(folder / "map.ply").size(), 2000U);
+}
+
+// Real lines, and the sensors whose images are rectified in other ways.
+TEST(MapExport, OfRealSequences) {
+  const std::tuple<const char*, const char*, bool> runs[] = {
+      {"euroc/MH_01_easy_first250", "--to 30", true},
+      {"euroc/MH_01_easy_first250", "--sensor mono --from 60 --to 110", false},
+      {"tum/rgbd_dataset_freiburg1_floor_first90", "--to 30", false}};
+  for (const auto& [sequence, frames, has_lines] : runs) {
+    const auto data = FindData(sequence);
+    if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+    const ScratchFolder folder;
+    const Outcome run = RunProgram(
+        folder, "run " + Quoted(*data) + " " + frames + " --quiet --out " + Quoted(folder / "run"));
+    ASSERT_EQ(run.code, 0) << run.err;
+    ExpectFilesOfTheRun(folder, folder / "run");
+    if (has_lines) {
+      EXPECT_GT(Contents(folder / "lines.obj").size(), 1000U);
+    }
+    const Outcome colmap =
+        RunProgram(folder,
+                   "map export " + Quoted(folder / "run/map.plb") + " --to colmap --images " +
+                       Quoted(*data) + " --out " + Quoted(folder / "model"));
+    EXPECT_EQ(colmap.code, 0) << colmap.err;
+    const ColmapModel model = ReadColmapBinary(folder / "model/sparse/0");
+    EXPECT_GT(model.points.size(), 100U);
+    EXPECT_EQ(FilesOf(folder / "model/images").size(), model.images.size());
+    for (const ColmapModel::Point& point : model.points) {
+      EXPECT_NEAR(ReprojectionErrorOf(model, point), point.error, 1e-6);
+    }
+  }
+}
+
+TEST(MapExport, ColmapModelsHaveTheErrorsOfTheMap) {
+  const ScratchFolder folder;
+  const Outcome outcome = Export(folder, "colmap", "model");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("--images PATH writes them"));
+  EXPECT_EQ(FilesOf(folder / "model"), (std::set<std::string>{"lines", "sparse"}));
+  EXPECT_EQ(FilesOf(folder / "model/sparse/0").size(), 6U);
+  EXPECT_EQ(FilesOf(folder / "model/lines"),
+            (std::set<std::string>{"alltracks.txt", "detections.txt", "image_list.txt"}));
+  const ColmapModel text = ReadColmapText(folder / "model/sparse/0");
+  const ColmapModel binary = ReadColmapBinary(folder / "model/sparse/0");
+  const SavedMap saved = LoadMap(Posters().map);
+  EXPECT_EQ(text.images.size(), saved.map.keyframes().size());
+  EXPECT_GT(text.points.size(), saved.map.points().size() / 2);
+  EXPECT_THAT(outcome.out,
+              HasSubstr(fmt::format("), {} points ({} of one image left out), {} lines",
+                                    text.points.size(),
+                                    saved.map.points().size() - text.points.size(),
+                                    saved.map.lines().size())));
+  ASSERT_EQ(binary.points.size(), text.points.size());
+  for (std::size_t i = 0; i < text.points.size(); ++i) {
+    EXPECT_EQ(text.points[i].error, binary.points[i].error);
+    EXPECT_EQ(text.points[i].track, binary.points[i].track);
+    EXPECT_NEAR(ReprojectionErrorOf(text, text.points[i]), text.points[i].error, 1e-6);
+  }
+  for (const auto& [model, files] : {std::pair{"text", 3U}, std::pair{"binary", 3U}}) {
+    EXPECT_EQ(Export(folder, std::string("colmap --model ") + model, model).code, 0);
+    EXPECT_EQ(FilesOf(folder / model / "sparse/0").size(), files);
+  }
+  EXPECT_TRUE(fs::exists(folder / "text/sparse/0/images.txt"));
+  EXPECT_TRUE(fs::exists(folder / "binary/sparse/0/images.bin"));
+}
+
+TEST(MapExport, ImagesComeWithTheModel) {
+  const ScratchFolder folder;
+  const std::string images = " --images " + Quoted(Posters().sequence);
+  for (const char* form : {"colmap", "nerfstudio"}) {
+    const Outcome outcome = Export(folder, form + images, form);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find("--images"), std::string::npos);
+  }
+  EXPECT_EQ(FilesOf(folder / "nerfstudio"),
+            (std::set<std::string>{"images", "points.ply", "transforms.json"}));
+  const ColmapModel model = ReadColmapText(folder / "colmap/sparse/0");
+  const auto json = nlohmann::json::parse(Contents(folder / "nerfstudio/transforms.json"));
+  ASSERT_EQ(json["frames"].size(), model.images.size());
+  std::set<int> greys;
+  for (const ColmapModel::Point& point : model.points) greys.insert(point.grey);
+  EXPECT_GT(greys.size(), 20U);
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    const std::string name = "images/" + model.images[i].name;
+    EXPECT_EQ(json["frames"][i]["file_path"], name);
+    EXPECT_GT(fs::file_size(folder / "colmap" / name), 1000U);
+    EXPECT_EQ(Contents(folder / "colmap" / name), Contents(folder / "nerfstudio" / name));
+  }
+  EXPECT_EQ(FilesOf(folder / "colmap/images").size(), model.images.size());
+}
+
+TEST(MapExport, WritesTheSameBytesAgain) {
+  const ScratchFolder folder;
+  for (const char* name : {"a", "b"}) EXPECT_EQ(Export(folder, "colmap", name).code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "a")) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_TRUE(Contents(entry.path()) ==
+                Contents(folder / "b" / fs::relative(entry.path(), folder / "a").string()))
+        << entry.path();
+  }
+}
+
+// Half the sum of the squared reprojection errors of a model for each of its residuals, and the
+// root of it: what COLMAP calls the cost of a bundle adjustment.
+double ColmapCost(const ColmapModel& model) {
+  double sum = 0;
+  std::size_t residuals = 0;
+  for (ColmapModel::Point point : model.points) {
+    const std::vector<ColmapModel::View> track = point.track;
+    for (const ColmapModel::View& view : track) {
+      point.track = {view};
+      const double error = ReprojectionErrorOf(model, point);
+      sum += error * error / 2;
+      residuals += 2;
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(residuals));
+}
+
+// What the program colmap prints.
+std::string Colmap(const ScratchFolder& folder, const std::string& arguments) {
+  const std::string command = "colmap " + arguments + " > " + Quoted(folder / "said") + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;  // NOLINT(concurrency-mt-unsafe)
+  return Contents(folder / "said");
+}
+
+// COLMAP itself, where it is installed, counts what is there and projects the points to where the
+// map has them.
+TEST(MapExport, ColmapReadsTheModel) {
+  if (std::system("command -v colmap > /dev/null 2>&1") != 0) {  // NOLINT(concurrency-mt-unsafe)
+    GTEST_SKIP() << "the program colmap is not installed";
+  }
+  const ScratchFolder folder;
+  for (const char* files : {"text", "binary"}) {
+    ASSERT_EQ(Export(folder, std::string("colmap --model ") + files, files).code, 0);
+    const fs::path path = folder / files / "sparse/0";
+    const ColmapModel model =
+        files == std::string("text") ? ReadColmapText(path) : ReadColmapBinary(path);
+    double error = 0;
+    for (const ColmapModel::Point& point : model.points) error += point.error;
+    error /= static_cast<double>(model.points.size());
+    const std::string counts = Colmap(folder, "model_analyzer --path " + Quoted(path));
+    EXPECT_THAT(counts, HasSubstr("Cameras: 1\n"));
+    EXPECT_THAT(counts, HasSubstr(fmt::format("Images: {}\n", model.images.size())));
+    EXPECT_THAT(counts, HasSubstr(fmt::format("Points: {}\n", model.points.size())));
+    EXPECT_THAT(counts, HasSubstr(fmt::format("Mean reprojection error: {:.4f}", error)));
+    fs::create_directories(folder / "adjusted");
+    const std::string adjustment =
+        Colmap(folder,
+               "bundle_adjuster --input_path " + Quoted(path) + " --output_path " +
+                   Quoted(folder / "adjusted") + " --BundleAdjustment.max_num_iterations 1");
+    const std::string title = "Initial cost : ";
+    ASSERT_THAT(adjustment, HasSubstr(title));
+    EXPECT_NEAR(std::stod(adjustment.substr(adjustment.find(title) + title.size())),
+                ColmapCost(model),
+                1e-5);
+  }
+}
+
+// An image that cannot be read ends an export without a trace.
+TEST(MapExport, LeavesNothingWhenAnImageIsBroken) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 24);
+  folder.Write("sequence/mav0/cam0/data/0.png", "text");
+  const Outcome outcome = Export(folder, "nerfstudio --images " + Quoted(sequence), "data");
+  ExpectRefusal(outcome, "cam0/data/0.png: not an image this program can decode");
+  EXPECT_EQ(FilesOf(folder.path()), (std::set<std::string>{"sequence", "stderr", "stdout"}));
+}
+
+}  // namespace
+}  // namespace plumbline
