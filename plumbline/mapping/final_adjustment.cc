@@ -140,25 +140,28 @@ Correction CorrectionOf(const Map& map, const MapProblem& whole, const BaResult&
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,
-                          const MappingOptions& options) {
+                          const MappingOptions& options,
+                          const StopCheck& stop) {
   constexpr std::size_t kMinKeyFrames = 3;
   const int limit = options.final_adjustment_keyframes;
   const std::size_t count = map.keyframes().size();
-  if (count < kMinKeyFrames || limit == 0) return {};
+  if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
   const bool large = count > static_cast<std::size_t>(limit);
   // The points alone tell of many maps, before the search for lines.
   if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weighting, {}), limit)) return {};
-  const MapProblem whole =
-      MakeWholeMap(map, imaging, lines.weighting, FindWellSeenLines(map, imaging, kAdjustedLines));
+  const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
+  if (IsToStop(stop)) return {};
+  const MapProblem whole = MakeWholeMap(map, imaging, lines.weighting, well_seen);
   if (large && TakesTooLong(whole, limit)) return {};
   BaProblem problem = whole.problem;
   // Poses that are held are free in `whole`: a new unit is for all.
-  const std::optional<BaResult> result =
-      SolveInOnePiece(problem,
-                      options.ba,
-                      lines.parametrization,
-                      options.window.final_limits(),
-                      [&](BaResult& solution) { KeepUnitOfTheOldest(whole.problem, solution); });
+  const std::optional<BaResult> result = SolveInOnePiece(
+      problem,
+      options.ba,
+      lines.parametrization,
+      options.window.final_limits(),
+      [&](BaResult& solution) { KeepUnitOfTheOldest(whole.problem, solution); },
+      stop);
   if (!result) return {};
   return CorrectionOf(map, whole, *result);
 }

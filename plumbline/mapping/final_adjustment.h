@@ -4,6 +4,7 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
+#include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/correction.h"
 #include "plumbline/mapping/options.h"
@@ -22,11 +23,13 @@ namespace plumbline {
 // the depths it shows have changed (KeyFrame::unit).
 //
 // Nothing for a map of less than three keyframes, or one whose equations take longer than those of
-// mapping.final_adjustment_keyframes that all share landmarks (EnvelopeSize). Cost:
+// mapping.final_adjustment_keyframes that all share landmarks (EnvelopeSize); nothing when `stop`
+// says so before the end. Cost:
 // FindWellSeenLines, and bundle adjustment of the whole map, with the time of FactorEnvelope.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,
-                          const MappingOptions& options);
+                          const MappingOptions& options,
+                          const StopCheck& stop = {});
 
 }  // namespace plumbline

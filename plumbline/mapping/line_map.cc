@@ -193,10 +193,12 @@ std::vector<const MapLine*> ByObservations(const Map& map) {
 
 std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
                                             const ImagingModel& imaging,
-                                            const LineMapOptions& options) {
+                                            const LineMapOptions& options,
+                                            const StopCheck& stop) {
   LineSupportSearch search(map, imaging);
   std::vector<WellSeenLine> lines;
   for (const MapLine* landmark : ByObservations(map)) {
+    if (IsToStop(stop)) break;
     auto line = Support(search,
                         imaging.camera,
                         {landmark->line, {landmark->start, landmark->end}, landmark->information},
@@ -212,9 +214,10 @@ std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
 
 std::vector<MappedLine> MakeLineMap(const Map& map,
                                     const ImagingModel& imaging,
-                                    const LineMapOptions& options) {
+                                    const LineMapOptions& options,
+                                    const StopCheck& stop) {
   std::vector<MappedLine> lines;
-  for (const WellSeenLine& line : FindWellSeenLines(map, imaging, options)) {
+  for (const WellSeenLine& line : FindWellSeenLines(map, imaging, options, stop)) {
     lines.insert(lines.end(), line.pieces.begin(), line.pieces.end());
   }
   return lines;

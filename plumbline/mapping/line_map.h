@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/association/projection_search.h"
+#include "plumbline/base/stop_check.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/line_map_options.h"
@@ -39,15 +40,18 @@ struct WellSeenLine {
 // has the figures.
 //
 //   map     in one frame with its keyframes' poses; not changed
+//   stop    asked before each landmark; what was found until then is the result
 //   result  in the order in which the lines were made
 //   cost    O(landmarks x keyframes); 1 to 2 s for 150 keyframes and 2000 landmarks
 std::vector<MappedLine> MakeLineMap(const Map& map,
                                     const ImagingModel& imaging,
-                                    const LineMapOptions& options);
+                                    const LineMapOptions& options,
+                                    const StopCheck& stop = {});
 
 // The same with what the lines were made of.
 std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
                                             const ImagingModel& imaging,
-                                            const LineMapOptions& options);
+                                            const LineMapOptions& options,
+                                            const StopCheck& stop = {});
 
 }  // namespace plumbline

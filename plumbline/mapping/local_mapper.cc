@@ -104,12 +104,12 @@ std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFr
   return times;
 }
 
-std::vector<MappingStep> LocalMapper::Finish(Map& map) const {
+std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) const {
   constexpr int kRounds = 2;  // with better poses, lines find more of what shows them
   std::vector<MappingStep> times;
   for (int round = 0; round < kRounds; ++round) {
     Timed("finish", times, [&] {
-      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options_), map));
+      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options_, stop), map));
     });
   }
   return times;

@@ -4,6 +4,7 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
+#include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
@@ -42,9 +43,10 @@ class LocalMapper {
   // Add's.
   std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
 
-  // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap). Times as
-  // Add's.
-  std::vector<MappingStep> Finish(Map& map) const;
+  // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap). When
+  // stopped, what is not done is left out: the map is that of the last adjustment that was
+  // completed. Times as Add's.
+  std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
   // Forgets what belongs to the map worked on so far; a new, empty map begins with what was learned
   // of the camera.

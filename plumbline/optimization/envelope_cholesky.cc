@@ -52,10 +52,12 @@ double EnvelopeSize(std::span<const int> first) {
   return std::cbrt(6 * cost);
 }
 
-bool FactorEnvelope(std::vector<EnvelopePanel>& panels) {
+bool FactorEnvelope(std::vector<EnvelopePanel>& panels, const StopCheck& stop) {
   for (std::size_t i = 0; i < panels.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (panels[j].begin >= panels[i].first) Eliminate(panels[j], panels[i]);
+      if (panels[j].begin < panels[i].first) continue;
+      if (IsToStop(stop)) return false;
+      Eliminate(panels[j], panels[i]);
     }
     if (!FactorDiagonal(panels[i])) return false;
   }

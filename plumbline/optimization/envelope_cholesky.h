@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/stop_check.h"
+
 #include <span>
 #include <vector>
 
@@ -23,9 +25,10 @@ struct EnvelopePanel {
 // operations on panels; a single panel is a dense factorization.
 //
 //   panels   by row, all of them; replaced by the rows of L
-//   returns  false where the matrix is not positive definite
+//   stop     asked before each product of two panels
+//   returns  false where the matrix is not positive definite, and when stopped
 //   cost     O(size width^2) for panels of that width, at most that of a dense factorization
-bool FactorEnvelope(std::vector<EnvelopePanel>& panels);
+bool FactorEnvelope(std::vector<EnvelopePanel>& panels, const StopCheck& stop = {});
 
 // The size of the full matrix whose factorization takes as long as one within the envelope in which
 // row i begins at column first[i] <= i. At most the number of rows. O(entries of the envelope).

@@ -81,8 +81,12 @@ class BundleAdjuster {
  public:
   using Lines = std::vector<typename LineKind::State>;
 
-  BundleAdjuster(const BaProblem& problem, Lines lines, const LocalBaOptions& options)
+  BundleAdjuster(const BaProblem& problem,
+                 Lines lines,
+                 const LocalBaOptions& options,
+                 const StopCheck& stop)
       : options_(options),
+        stop_(stop),
         poses_(MakePoses(problem)),
         trial_poses_(poses_),
         points_(problem.camera, problem.points, PointObservations(problem), poses_),
@@ -110,6 +114,7 @@ class BundleAdjuster {
   HuberThresholds Thresholds(int round) const;
 
   const LocalBaOptions& options_;
+  const StopCheck& stop_;
   std::vector<BaPose> poses_, trial_poses_;
   BaLandmarks<BaPoint> points_;
   BaLandmarks<LineKind> lines_;
@@ -124,7 +129,7 @@ bool BundleAdjuster<LineKind>::ComputeStep(const HuberThresholds& huber, double 
   solver_.Reset();
   points_.Eliminate(poses_, huber, lambda, solver_);
   lines_.Eliminate(poses_, huber, lambda, solver_);
-  return solver_.Solve(lambda);
+  return solver_.Solve(lambda, stop_);
 }
 
 template <class LineKind>
@@ -157,9 +162,14 @@ BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber,
   // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
   const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
   for (int i = 0; i < options_.max_iterations; ++i) {
+    if (IsToStop(stop_)) return BaTermination::kStopped;
     ++iterations_;
     double cost = std::numeric_limits<double>::infinity();
-    if (ComputeStep(huber, lambda)) cost = Try(huber);
+    if (ComputeStep(huber, lambda)) {
+      cost = Try(huber);
+    } else if (IsToStop(stop_)) {
+      return BaTermination::kStopped;
+    }
     const double tolerance = std::max(function_tolerance * cost_, rounding);
     const bool nearly_gauss_newton = lambda <= kSmallLambda;
     if (cost <= cost_) {
@@ -206,6 +216,10 @@ BaResult BundleAdjuster<LineKind>::Solve() {
     result.termination = Optimize(
         Thresholds(round), rejecting ? options_.rejection_tolerance : options_.function_tolerance);
     result.final_cost = cost_;
+    if (result.termination == BaTermination::kStopped) {
+      Classify();
+      break;
+    }
     if (!Classify() && rejecting) round = last - 1;
   }
   for (const BaPose& pose : poses_) result.poses.push_back(pose.cam_from_world);
@@ -237,8 +251,10 @@ BaResult Unchanged(const BaProblem& problem) {
 
 // Line: BaLine or BaLineLeft.
 template <class Line>
-BaResult SolveWithLines(const BaProblem& problem, const LocalBaOptions& options) {
-  BundleAdjuster<Line> adjuster(problem, problem.lines, options);
+BaResult SolveWithLines(const BaProblem& problem,
+                        const LocalBaOptions& options,
+                        const StopCheck& stop) {
+  BundleAdjuster<Line> adjuster(problem, problem.lines, options, stop);
   BaResult result = adjuster.Solve();
   TrimToObservations(problem, result);
   result.lines = adjuster.lines();
@@ -247,7 +263,9 @@ BaResult SolveWithLines(const BaProblem& problem, const LocalBaOptions& options)
 
 // Lines with ends at fixed parameters along them.
 template <class Line>
-BaResult SolveWithProjectedLines(const BaProblem& problem, const LocalBaOptions& options) {
+BaResult SolveWithProjectedLines(const BaProblem& problem,
+                                 const LocalBaOptions& options,
+                                 const StopCheck& stop) {
   const std::vector<Segment3> ends = TrimmedEnds(problem);
   std::vector<LineWithEnds> states;
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -255,7 +273,7 @@ BaResult SolveWithProjectedLines(const BaProblem& problem, const LocalBaOptions&
     states.push_back(
         {problem.lines[i], {line.ParameterOf(ends[i].start), line.ParameterOf(ends[i].end)}});
   }
-  BundleAdjuster<BaProjectedLine<Line>> adjuster(problem, std::move(states), options);
+  BundleAdjuster<BaProjectedLine<Line>> adjuster(problem, std::move(states), options, stop);
   BaResult result = adjuster.Solve();
   for (const LineWithEnds& state : adjuster.lines()) result.lines.push_back(state.line);
   return result;
@@ -263,9 +281,11 @@ BaResult SolveWithProjectedLines(const BaProblem& problem, const LocalBaOptions&
 
 // Ends: BaLineEnds or BaProjectedEnds.
 template <class Ends>
-BaResult SolveWithEnds(const BaProblem& problem, const LocalBaOptions& options) {
+BaResult SolveWithEnds(const BaProblem& problem,
+                       const LocalBaOptions& options,
+                       const StopCheck& stop) {
   const std::vector<Segment3> ends = TrimmedEnds(problem);
-  BundleAdjuster<Ends> adjuster(problem, ends, options);
+  BundleAdjuster<Ends> adjuster(problem, ends, options, stop);
   BaResult result = adjuster.Solve();
   TrimToObservations(problem, result);
   result.lines = LinesThroughEnds(problem.lines, ends, adjuster.lines());
@@ -280,14 +300,16 @@ bool AllDiagonal(const BaProblem& problem) {
 }
 
 // Starts and ends as landmarks of their own. An observation of a line counts when both count.
-BaResult SolveWithSeparateEnds(const BaProblem& problem, const LocalBaOptions& options) {
+BaResult SolveWithSeparateEnds(const BaProblem& problem,
+                               const LocalBaOptions& options,
+                               const StopCheck& stop) {
   const std::vector<Segment3> ends = TrimmedEnds(problem);
   std::vector<BaLineEnd::State> states;
   for (const Segment3& s : ends) {
     states.push_back({s.start, s.end - s.start});
     states.push_back({s.end, s.end - s.start});
   }
-  BundleAdjuster<BaLineEnd> adjuster(problem, std::move(states), options);
+  BundleAdjuster<BaLineEnd> adjuster(problem, std::move(states), options, stop);
   BaResult result = adjuster.Solve();
   std::vector<Segment3> moved;
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -317,23 +339,24 @@ BaResult InitialState(const BaProblem& problem) {
 
 BaResult SolveLocalBa(const BaProblem& problem,
                       const LocalBaOptions& options,
-                      LineParametrization lines) {
+                      LineParametrization lines,
+                      const StopCheck& stop) {
   CheckIndices(problem);
   if (!IsFinite(problem)) return Unchanged(problem);
   const bool projected = problem.line_residual == LineResidualKind::kProjectedEnds;
   switch (lines) {
     case LineParametrization::kPluckerLeft:
-      return projected ? SolveWithProjectedLines<BaLineLeft>(problem, options)
-                       : SolveWithLines<BaLineLeft>(problem, options);
+      return projected ? SolveWithProjectedLines<BaLineLeft>(problem, options, stop)
+                       : SolveWithLines<BaLineLeft>(problem, options, stop);
     case LineParametrization::kEndpoints:
-      if (!projected) return SolveWithEnds<BaLineEnds>(problem, options);
-      return AllDiagonal(problem) ? SolveWithSeparateEnds(problem, options)
-                                  : SolveWithEnds<BaProjectedEnds>(problem, options);
+      if (!projected) return SolveWithEnds<BaLineEnds>(problem, options, stop);
+      return AllDiagonal(problem) ? SolveWithSeparateEnds(problem, options, stop)
+                                  : SolveWithEnds<BaProjectedEnds>(problem, options, stop);
     case LineParametrization::kPlucker:
       break;
   }
-  return projected ? SolveWithProjectedLines<BaLine>(problem, options)
-                   : SolveWithLines<BaLine>(problem, options);
+  return projected ? SolveWithProjectedLines<BaLine>(problem, options, stop)
+                   : SolveWithLines<BaLine>(problem, options, stop);
 }
 
 }  // namespace plumbline

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/options.h"
+#include "plumbline/base/stop_check.h"
 #include "plumbline/optimization/line_parametrization.h"
 #include "plumbline/optimization/problem.h"
 
@@ -64,6 +65,7 @@ enum class BaTermination {
   kNoProgress,     // no step lowers the cost, whatever the damping
   kNotFinite,      // the input has NaN or infinite numbers; the result repeats the input
   kNothingToDo,    // no observation has a residual at the start
+  kStopped,        // told to end; the state is the one that the last accepted step led to
 };
 
 constexpr auto EnumNames(std::type_identity<BaTermination>) {
@@ -71,7 +73,8 @@ constexpr auto EnumNames(std::type_identity<BaTermination>) {
                     std::pair{BaTermination::kMaxIterations, "max_iterations"},
                     std::pair{BaTermination::kNoProgress, "no_progress"},
                     std::pair{BaTermination::kNotFinite, "not_finite"},
-                    std::pair{BaTermination::kNothingToDo, "nothing_to_do"}};
+                    std::pair{BaTermination::kNothingToDo, "nothing_to_do"},
+                    std::pair{BaTermination::kStopped, "stopped"}};
 }
 
 struct BaResult {
@@ -113,11 +116,13 @@ BaResult InitialState(const BaProblem& problem);
 //   problem   indices must be in range (BugError otherwise)
 //   lines     the parameters that lines have meanwhile; the result is the same form of line. Where
 //             ends are needed (end points, projected ends), they are those of TrimmedEnds().
+//   stop      asked in every iteration, and while the equations of many poses are solved
 //   returns   finite numbers whenever the input is finite
 //   cost      per iteration O(sum over landmarks of their poses squared + FactorEnvelope of the
 //   free ones)
 BaResult SolveLocalBa(const BaProblem& problem,
                       const LocalBaOptions& options = {},
-                      LineParametrization lines = LineParametrization::kPlucker);
+                      LineParametrization lines = LineParametrization::kPlucker,
+                      const StopCheck& stop = {});
 
 }  // namespace plumbline

@@ -124,24 +124,32 @@ bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem
 BaResult SolveWithLoosePosesHeld(BaProblem& problem,
                                  const LocalBaOptions& options,
                                  LineParametrization lines,
-                                 double limit) {
+                                 double limit,
+                                 const StopCheck& stop) {
   HoldLoosePoses(InitialState(problem), limit, problem);
-  BaResult result = SolveLocalBa(problem, options, lines);
-  if (result.termination == BaTermination::kNotFinite) return result;
+  BaResult result = SolveLocalBa(problem, options, lines, stop);
+  if (result.termination == BaTermination::kNotFinite ||
+      result.termination == BaTermination::kStopped) {
+    return result;
+  }
   // Rejected observations may leave a pose loose that was fixed before.
   if (!HoldLoosePoses(result, limit, problem)) return result;
-  return SolveLocalBa(problem, options, lines);
+  return SolveLocalBa(problem, options, lines, stop);
 }
 
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,
                                         LineParametrization lines,
                                         const PoseLimits& limits,
-                                        const std::function<void(BaResult&)>& normalize) {
+                                        const std::function<void(BaResult&)>& normalize,
+                                        const StopCheck& stop) {
   constexpr int kAttempts = 4;
   for (int attempt = 1;; ++attempt) {
-    BaResult result = SolveWithLoosePosesHeld(problem, options, lines, limits.sigma);
-    if (result.termination == BaTermination::kNotFinite) return std::nullopt;
+    BaResult result = SolveWithLoosePosesHeld(problem, options, lines, limits.sigma, stop);
+    if (result.termination == BaTermination::kNotFinite ||
+        result.termination == BaTermination::kStopped) {
+      return std::nullopt;
+    }
     if (normalize) normalize(result);
     if (!HoldTornPoses(result, limits, problem)) return result;
     if (attempt + 1 < kAttempts) continue;

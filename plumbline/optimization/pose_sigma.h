@@ -57,16 +57,18 @@ bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem
 BaResult SolveWithLoosePosesHeld(BaProblem& problem,
                                  const LocalBaOptions& options,
                                  LineParametrization lines,
-                                 double limit);
+                                 double limit,
+                                 const StopCheck& stop = {});
 
 // The same until no two poses that follow each other are torn apart (HoldTornPoses), up to four
-// times, the last time with all poses held. nullopt where the numbers are not finite. `normalize`,
-// if any, is applied to each solution before it is looked at. Cost: most often that of one
-// SolveLocalBa, at most eight.
+// times, the last time with all poses held. nullopt where the numbers are not finite, and when
+// stopped: a solution halfway is none. `normalize`, if any, is applied to each solution before it
+// is looked at. Cost: most often that of one SolveLocalBa, at most eight.
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,
                                         LineParametrization lines,
                                         const PoseLimits& limits,
-                                        const std::function<void(BaResult&)>& normalize = {});
+                                        const std::function<void(BaResult&)>& normalize = {},
+                                        const StopCheck& stop = {});
 
 }  // namespace plumbline

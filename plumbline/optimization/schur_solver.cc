@@ -41,9 +41,9 @@ void SchurSolver::Extend(std::size_t column, BlockRow& row) const {
   row.first = first;
 }
 
-bool SchurSolver::Solve(double lambda) {
+bool SchurSolver::Solve(double lambda, const StopCheck& stop) {
   FillPanels(lambda);
-  if (!FactorEnvelope(panels_)) return false;
+  if (!FactorEnvelope(panels_, stop)) return false;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     step_.segment<6>(6 * static_cast<Eigen::Index>(i)) = complement_g_[i] - poses_[i].g;
   }

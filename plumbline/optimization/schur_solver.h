@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/stop_check.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/optimization/envelope_cholesky.h"
 
@@ -107,8 +108,9 @@ class SchurSolver {
                                      double lambda,
                                      std::span<Coupling<kDof>> couplings);
 
-  // Solves for the steps of the poses. False when the damped system is not positive definite.
-  bool Solve(double lambda);
+  // Solves for the steps of the poses. False when the damped system is not positive definite, and
+  // when stopped.
+  bool Solve(double lambda, const StopCheck& stop = {});
   Eigen::Ref<const Vector6d> step(int index) const { return step_.segment<6>(6 * index); }
 
   // Step of an eliminated landmark after Solve().

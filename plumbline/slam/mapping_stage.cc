@@ -84,7 +84,7 @@ bool MappingStage::Behind() const {
   return tasks_.size() >= kBehind;
 }
 
-void MappingStage::Finish() {
+void MappingStage::Finish(const StopCheck& stop) {
   WaitFor(submitted_);
   dues_.clear();
   const std::lock_guard lock(mutex_);
@@ -92,7 +92,7 @@ void MappingStage::Finish() {
   if (finished_ == submitted_) return;
   finished_ = submitted_;
   for (const auto& [id, map] : atlas_.maps()) {
-    const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id));
+    const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
     times_.insert(times_.end(), times.begin(), times.end());
   }
 }
@@ -100,6 +100,7 @@ void MappingStage::Finish() {
 void MappingStage::CheckComplete() const {
   if (mode_ == RunMode::kInline) return;
   const std::lock_guard lock(mutex_);
+  if (failure_) return;  // the worker has ended
   PLUMBLINE_CHECK(Done() == submitted_, "maps are complete only after Finish");
 }
 
@@ -145,7 +146,7 @@ void MappingStage::TryNext(std::unique_lock<std::mutex>& lock) {
   try {
     DoNext(lock);
   } catch (...) {
-    lock.lock();
+    if (!lock.owns_lock()) lock.lock();
     failure_ = std::current_exception();
   }
 }

@@ -53,11 +53,13 @@ class MappingStage {
   // Whether so many keyframes wait that a live tracker should make none it can do without.
   bool Behind() const;
 
-  // Does all work that is left and adjusts each map as a whole; no keyframe may follow in a map
-  // that is to be tracked against. Rethrows what mapping threw.
-  void Finish();
+  // Does all work that is left and adjusts each map as a whole (`stop` cuts the adjustment short);
+  // no keyframe may follow in a map that is to be tracked against. Rethrows what mapping threw.
+  void Finish(const StopCheck& stop = {});
 
-  // None before the first keyframe. With a thread, only after Finish (BugError).
+  // None before the first keyframe. With a thread, only after Finish (BugError). After Finish
+  // threw, the maps are as mapping left them: a keyframe that was to be taken in may be missing,
+  // and the last change may be done by half.
   const Atlas& atlas() const;
   const std::map<MapId, Map>& maps() const { return atlas().maps(); }
 

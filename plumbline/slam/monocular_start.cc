@@ -115,10 +115,11 @@ void MonocularStart::Tracked(const TrackingResult& result) {
   if (result.keyframe) --young_keyframes_;
 }
 
-std::vector<EarlierFrame> MonocularStart::Locate(const std::map<MapId, Map>& maps) {
+std::vector<EarlierFrame> MonocularStart::Locate(const std::map<MapId, Map>& maps,
+                                                 const StopCheck& stop) {
   std::vector<EarlierFrame> located;
   for (const Start& start : starts_) {
-    LocateFramesOf(start, maps.at(start.map), located);
+    LocateFramesOf(start, maps.at(start.map), stop, located);
   }
   starts_.clear();
   young_keyframes_ = 0;
@@ -127,11 +128,13 @@ std::vector<EarlierFrame> MonocularStart::Locate(const std::map<MapId, Map>& map
 
 void MonocularStart::LocateFramesOf(const Start& start,
                                     const Map& map,
+                                    const StopCheck& stop,
                                     std::vector<EarlierFrame>& located) const {
   NearestKeyFrame nearest(map);
   BackwardPrediction prediction;
   int missed = 0;
   for (auto frame = start.frames.rbegin(); frame != start.frames.rend(); ++frame) {
+    if (IsToStop(stop)) return;
     const bool tracked = frame->reference.valid();
     Rigid3 predicted;
     if (tracked) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/stop_check.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/map/map.h"
 #include "plumbline/slam/front_end.h"
@@ -53,8 +54,8 @@ class MonocularStart {
   // Poses in the maps started since the last call, each map's newest frame first. Frames that
   // waited are searched near the place that their successors predict, those that were tracked near
   // their place of then, among the landmarks around the next keyframe and their own. Left out are
-  // keyframes, and frames that are not found.
-  std::vector<EarlierFrame> Locate(const std::map<MapId, Map>& maps);
+  // keyframes, and frames that are not found, or not reached before `stop`.
+  std::vector<EarlierFrame> Locate(const std::map<MapId, Map>& maps, const StopCheck& stop = {});
 
  private:
   struct KeptFrame {
@@ -69,7 +70,10 @@ class MonocularStart {
     std::deque<KeptFrame> frames;  // by time
   };
 
-  void LocateFramesOf(const Start& start, const Map& map, std::vector<EarlierFrame>& located) const;
+  void LocateFramesOf(const Start& start,
+                      const Map& map,
+                      const StopCheck& stop,
+                      std::vector<EarlierFrame>& located) const;
 
   ImagingModel imaging_;
   TrackingOptions tracking_;

@@ -36,12 +36,15 @@ void Pipeline::Skip(std::int64_t stamp_ns, const std::string& reason) {
   Hand(std::move(job));
 }
 
-void Pipeline::Finish() {
-  if (mode_ != RunMode::kInline) {
-    std::unique_lock lock(mutex_);
-    job_taken_.wait(lock, [&] { return failure_ || (jobs_.empty() && !busy_); });
-  }
-  system_.Finish();
+void Pipeline::Drain() {
+  if (mode_ == RunMode::kInline) return;
+  std::unique_lock lock(mutex_);
+  job_taken_.wait(lock, [&] { return failure_ || (jobs_.empty() && !busy_); });
+}
+
+void Pipeline::Finish(const StopCheck& stop) {
+  Drain();
+  system_.Finish(stop);
   RethrowFailure();
 }
 

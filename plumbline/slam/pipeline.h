@@ -44,9 +44,11 @@ class Pipeline {
   void Feed(SensorFrame frame);
   // A frame that could not be read.
   void Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Does all that waits, and the mapping that belongs to it. After a failure: completes the mapping
-  // of the frames before, then rethrows.
-  void Finish();
+  // Waits until all frames handed over so far are tracked, or none will be any more for a failure.
+  void Drain();
+  // Does all that waits, and the mapping that belongs to it (System::Finish). After a failure:
+  // completes the mapping of the frames before, then rethrows.
+  void Finish(const StopCheck& stop = {});
 
  private:
   // A frame on its way to tracking: measured, raw (live), or neither: left out for `reason`.

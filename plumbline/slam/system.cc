@@ -162,15 +162,38 @@ std::vector<StageTime> System::TakeMappingTimes() {
   return times;
 }
 
-void System::Finish() {
-  mapping_.Finish();
+// A failure of mapping leaves frames without the keyframe that their poses are relative to.
+void System::LoseFramesNotMapped() {
+  const auto has_place = [&](const FrameRecord& record) {
+    if (record.map.value >= static_cast<std::int64_t>(maps().size())) return false;
+    try {
+      maps()[static_cast<std::size_t>(record.map.value)].PoseOf(record.reference);
+      return true;
+    } catch (const BugError&) {  // it never was in the map
+      return false;
+    }
+  };
+  for (FrameRecord& record : frames_) {
+    if (record.status != FrameStatus::kTracked || has_place(record)) continue;
+    record.status = FrameStatus::kLost;
+    record.reason = kNotMapped;
+  }
+}
+
+void System::Finish(const StopCheck& stop) {
   line_maps_.clear();
+  try {
+    mapping_.Finish(stop);
+  } catch (...) {
+    LoseFramesNotMapped();
+    throw;
+  }
   const std::vector<StageTime> times = TakeMappingTimes();
   if (!frames_.empty()) {
     frames_.back().times.insert(frames_.back().times.end(), times.begin(), times.end());
   }
   if (!monocular_start_) return;
-  for (const EarlierFrame& earlier : monocular_start_->Locate(mapping_.maps())) {
+  for (const EarlierFrame& earlier : monocular_start_->Locate(mapping_.maps(), stop)) {
     FrameRecord& record = frames_[static_cast<std::size_t>(earlier.id.value)];
     record.status = FrameStatus::kTracked;
     record.reason.clear();
@@ -199,11 +222,11 @@ Trajectory System::FinalTrajectory(MapId map) const {
   return trajectory;
 }
 
-const std::vector<MappedLine>& System::LineMap(MapId map) const {
+const std::vector<MappedLine>& System::LineMap(MapId map, const StopCheck& stop) const {
   const auto made = line_maps_.find(map);
   if (made != line_maps_.end()) return made->second;
   const Map& owner = maps().at(map);
-  return line_maps_[map] = MakeLineMap(owner, imaging_, options_.mapping.line_map);
+  return line_maps_[map] = MakeLineMap(owner, imaging_, options_.mapping.line_map, stop);
 }
 
 Trajectory System::KeyFrameTrajectory(MapId map) const {

@@ -81,8 +81,13 @@ class System {
   const FrameRecord& Skip(std::int64_t stamp_ns, const std::string& reason);
   // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
   // it was young, are located in the finished map (see MonocularStart): those before it get a pose,
-  // but no causal one; of the others only the causal one stays.
-  void Finish();
+  // but no causal one; of the others only the causal one stays. `stop` cuts short the adjustment of
+  // the whole maps and this search; what was not reached stays as it is.
+  //
+  // Rethrows what mapping threw; then the maps are what there was until then, frames that belong to
+  // a keyframe that mapping did not get to are lost (reason kNotMapped), and the rest holds.
+  void Finish(const StopCheck& stop = {});
+  static constexpr const char* kNotMapped = "not_mapped";
 
   const std::vector<FrameRecord>& frames() const { return frames_; }
   // Complete after Finish, and not to be asked for before but inline (BugError).
@@ -100,8 +105,8 @@ class System {
   Trajectory KeyFrameTrajectory(MapId map) const;
   Trajectory CausalTrajectory(MapId map) const;
   // The lines of a map fit to be given out, in its world, after Finish (MakeLineMap); made when
-  // first asked for.
-  const std::vector<MappedLine>& LineMap(MapId map) const;
+  // first asked for, those found before `stop`.
+  const std::vector<MappedLine>& LineMap(MapId map, const StopCheck& stop = {}) const;
   // The map in which most frames have a pose (the earlier of two); nullopt when none has.
   std::optional<MapId> MainMap() const;
 
@@ -113,6 +118,7 @@ class System {
   TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
+  void LoseFramesNotMapped();
 
   SlamOptions options_;
   FrontEnd front_end_;

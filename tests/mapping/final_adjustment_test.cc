@@ -49,6 +49,22 @@ TEST(AdjustWholeMap, BringsKeyFramesToTheirPlaces) {
             1e-9);
 }
 
+TEST(AdjustWholeMap, ChangesNothingWhenItIsStopped) {
+  const SyntheticWorld world = MakeSyntheticWorld(150, 30);
+  const TrueMap scene = MovedMap(world);
+  int questions = 0;
+  const Correction whole =
+      AdjustWholeMap(scene.map, world.Imaging(), {}, {}, [&] { return ++questions < 0; });
+  EXPECT_FALSE(whole.empty());
+  EXPECT_GT(questions, 10) << "before every line and every iteration";
+  for (const int until : {0, 1, questions / 2, questions - 2}) {
+    int asked = 0;
+    EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, {}, [&] { return asked++ >= until; })
+                    .empty())
+        << until;
+  }
+}
+
 TEST(AdjustWholeMap, NeedsNoPoints) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 150);
   TrueMap scene = MovedMap(world);

@@ -56,6 +56,20 @@ TEST(LineMap, HasTheLinesOfTheWorld) {
   EXPECT_GE(static_cast<double>(good), 0.95 * static_cast<double>(lines.size()));
 }
 
+TEST(LineMap, HasTheFirstLinesWhenItIsStopped) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 60);
+  const TrueMap scene = Scene(world);
+  const auto all = MakeLineMap(scene.map, world.Imaging(), {});
+  EXPECT_TRUE(MakeLineMap(scene.map, world.Imaging(), {}, [] { return true; }).empty());
+  int asked = 0;
+  const auto some = MakeLineMap(scene.map, world.Imaging(), {}, [&] { return asked++ >= 10; });
+  EXPECT_LT(some.size(), all.size());
+  ASSERT_FALSE(some.empty());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(some[i].segment.start, all[i].segment.start);
+  }
+}
+
 TEST(LineMap, HasALineOnceHoweverOftenItIsInTheMap) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 60);
   TrueMap scene = Scene(world);

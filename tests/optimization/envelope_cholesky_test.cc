@@ -91,6 +91,15 @@ TEST(EnvelopeCholesky, RefusesWhatIsNotPositiveDefinite) {
   }
 }
 
+TEST(EnvelopeCholesky, EndsWhenItIsTold) {
+  System system = RandomSystem(kShapes[3]);
+  int asked = 0;
+  EXPECT_FALSE(FactorEnvelope(system.panels, [&] { return ++asked == 3; }));
+  EXPECT_EQ(asked, 3);
+  system = RandomSystem(kShapes[3]);
+  EXPECT_TRUE(FactorEnvelope(system.panels, [] { return false; }));
+}
+
 TEST(EnvelopeSize, IsThatOfTheFullMatrixWithAsManyMultiplications) {
   EXPECT_NEAR(EnvelopeSize(std::vector<int>(100, 0)), 100, 0.01);
   std::vector<int> band(1000);

@@ -89,6 +89,29 @@ TEST_P(SolveLocalBaWithLines, GivesTheSameBytesEveryTime) {
   EXPECT_EQ(a.final_cost, b.final_cost);
 }
 
+// Told to end at its n-th question, it has the state of the steps until then.
+TEST_P(SolveLocalBaWithLines, EndsWhenItIsTold) {
+  BaScene scene = MakeBaScene(15, {.sigma = 1, .outliers = 0.05});
+  scene.problem.line_residual = Residual();
+  const BaResult whole = SolveLocalBa(scene.problem, {}, Lines(), [] { return false; });
+  EXPECT_NE(whole.termination, BaTermination::kStopped);
+  EXPECT_EQ(whole.final_cost, SolveLocalBa(scene.problem, {}, Lines()).final_cost);
+  for (const int questions : {0, 1, 2, 3}) {
+    int asked = 0;
+    const BaResult result =
+        SolveLocalBa(scene.problem, {}, Lines(), [&] { return asked++ >= questions; });
+    EXPECT_EQ(result.termination, BaTermination::kStopped) << questions;
+    EXPECT_LE(result.iterations, questions);
+    EXPECT_LE(result.final_cost, result.initial_cost);
+    ASSERT_EQ(result.poses.size(), scene.problem.poses.size());
+    EXPECT_EQ(result.point_inliers.size(), scene.problem.point_observations.size());
+    if (questions > 0) continue;
+    for (std::size_t i = 0; i < result.poses.size(); ++i) {
+      ExpectSame(result.poses[i], scene.problem.poses[i].cam_from_world);
+    }
+  }
+}
+
 TEST_P(SolveLocalBaWithLines, LinesWithoutObservationsStayBitByBit) {
   BaScene scene = MakeBaScene(16, {.points = 100, .lines = 20, .sigma = 1});
   scene.problem.lines.push_back(ToOrthonormal(LineThroughPoints({1, 1, 1}, {2, 1.5, 1})));

@@ -187,6 +187,18 @@ TEST(SolveInOnePiece, HoldsWhatASolutionTearsApart) {
   EXPECT_EQ(moved_by(0.04), 0);
 }
 
+TEST(SolveInOnePiece, HasNoSolutionWhenItIsStopped) {
+  for (const int questions : {0, 1}) {
+    BaProblem problem = TwoViewsOfLines(24);
+    problem.poses[0].fixed = true;
+    problem.poses[1].cam_from_world.translation.x() += 0.01;
+    int asked = 0;
+    EXPECT_FALSE(SolveInOnePiece(problem, {}, LineParametrization::kPlucker, kLimits, {}, [&] {
+      return asked++ >= questions;
+    })) << questions;
+  }
+}
+
 // However often something tears: the last time all poses are held.
 TEST(SolveInOnePiece, ComesToAnEnd) {
   BaProblem problem = TwoViewsOfLines(24);

@@ -155,6 +155,19 @@ TEST_P(MappingStageWithThread, RethrowsWhatMappingThrew) {
   EXPECT_THROW(stage.Finish(), BugError);
 }
 
+TEST_P(MappingStageWithThread, AfterAFailureTheMapsAreWhatWasDone) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
+  stage.Submit(0, KeyFrameAt(world, 0, -1), true);
+  stage.Submit(1, KeyFrameAt(world, 1, 0), false);
+  stage.Submit(2, KeyFrameAt(world, 1, 0), false);  // there already
+  stage.Submit(3, KeyFrameAt(world, 2, 1), false);
+  EXPECT_THROW(stage.Finish(), BugError);
+  ASSERT_EQ(stage.maps().size(), 1U);
+  EXPECT_EQ(stage.maps().at(MapId{0}).keyframes().size(), 2U);
+  stage.maps().at(MapId{0}).CheckInvariants();
+}
+
 TEST_P(MappingStageWithThread, EndsWithWorkLeft) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
   MappingStage stage(world.Imaging(), WithLag(0, GetParam()));

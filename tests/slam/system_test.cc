@@ -110,6 +110,16 @@ TEST(System, LostFramesSayWhyAndHaveNoPose) {
   EXPECT_EQ(system.CausalTrajectory(MapId{0}).size(), 4U);
 }
 
+TEST(System, IsCompleteWithoutTheAdjustmentThatEndsARun) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  const MovingPoster poster;
+  for (int i = 0; i < 8; ++i) system.Process(poster.Frame(i));
+  system.Finish([] { return true; });
+  EXPECT_EQ(system.FinalTrajectory(MapId{0}).size(), 8U);
+  EXPECT_TRUE(system.LineMap(MapId{0}, [] { return true; }).empty());
+  system.maps().at(MapId{0}).CheckInvariants();
+}
+
 TEST(System, RepeatsToTheLastBit) {
   const auto a = RunPoster(8);
   const auto b = RunPoster(8);
