@@ -6,23 +6,19 @@
 #include "plumbline/experiments/child_process.h"
 #include "plumbline/experiments/line_map_figures.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/folder_lock.h"
 #include "plumbline/synth/sequence_cache.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <fstream>
 #include <list>
 #include <map>
-#include <system_error>
 #include <thread>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace plumbline {
 namespace {
@@ -64,28 +60,6 @@ std::string WhyFailed(const Plan& plan, const Job& job, const ChildProcess::End&
   if (end.code != 0) return words.empty() ? fmt::format("exit code {}", end.code) : words;
   return "no summary.json";
 }
-
-// While it lives, no other program works in the folder.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / ".lock";
-    file_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (file_ < 0) {
-      throw InputError("cannot write " + file.string() + ": " +
-                       std::error_code(errno, std::generic_category()).message());
-    }
-    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-    ::close(file_);
-    throw InputError(folder.string() + ": another experiment is running in this folder");
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  ~FolderLock() { ::close(file_); }
-
- private:
-  int file_;
-};
 
 class Runner {
  public:
@@ -227,7 +201,7 @@ struct Mean {
 
 std::optional<std::vector<JobResult>> RunJobs(const Plan& plan, const RunnerOptions& options) {
   MakeFolder(plan.out);
-  const FolderLock lock(plan.out);
+  const FolderLock lock(plan.out, "another experiment is running in this folder");
   return Runner(plan, options).Run();
 }
 

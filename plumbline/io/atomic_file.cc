@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/atomic_file.h"
 
-#include "plumbline/base/error.h"
-
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -18,7 +16,7 @@ namespace plumbline {
 namespace {
 
 [[noreturn]] void FailWrite(const std::filesystem::path& path, const std::error_code& why) {
-  throw InputError("cannot write " + path.string() + ": " + why.message());
+  throw WriteError(path, why);
 }
 
 struct CloseFile {

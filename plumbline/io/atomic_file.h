@@ -2,15 +2,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/error.h"
+
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace plumbline {
 
+// A file that cannot be written: "cannot write <path>: <reason>".
+class WriteError : public InputError {
+ public:
+  WriteError(std::filesystem::path path, const std::error_code& why)
+      : InputError("cannot write " + path.string() + ": " + why.message()),
+        path_(std::move(path)),
+        why_(why.message()) {}
+  const std::filesystem::path& path() const { return path_; }
+  const std::string& why() const { return why_; }
+
+ private:
+  std::filesystem::path path_;
+  std::string why_;
+};
+
 // Writes a whole file or nothing: the contents go to a temporary file in the same folder, which
 // takes the final name once complete. A killed program leaves the old file, or none, in place.
-// Throws InputError "cannot write <path>: <reason>" (folder missing or not writable, disk full);
-// the temporary file is removed then.
+// Throws WriteError (folder missing or not writable, disk full); the temporary file is removed
+// then.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents);
 
 // The same for files that other code writes by name: construct, let it write temporary_path(),
@@ -24,7 +44,7 @@ class AtomicFile {
 
   // In the folder of the final file, with the same extension.
   const std::filesystem::path& temporary_path() const { return temporary_; }
-  void Commit();  // throws InputError as above
+  void Commit();  // throws WriteError
 
  private:
   std::filesystem::path path_;

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/folder_lock.h"
+
+#include "tests/io/scratch_folder.h"
+#include <filesystem>
+#include <optional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+TEST(FolderLock, IsHeldByOneAtATime) {
+  const ScratchFolder folder;
+  std::optional<FolderLock> first;
+  first.emplace(folder.path(), "in use");
+  EXPECT_EQ(MessageOf([&] { const FolderLock second(folder.path(), "in use"); }),
+            folder.path().string() + ": in use");
+  first.reset();
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  const FolderLock again(folder.path(), "in use");
+  EXPECT_TRUE(again.IsInPlace());
+}
+
+TEST(FolderLock, TakesOverFromAProgramThatWasKilled) {
+  const ScratchFolder folder;
+  folder.Write(".plumbline-lock", "");
+  const FolderLock lock(folder.path(), "in use");
+  EXPECT_TRUE(lock.IsInPlace());
+}
+
+TEST(FolderLock, KnowsThatItsFolderWasRemoved) {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder / "a");
+  const FolderLock lock(folder / "a", "in use");
+  std::filesystem::remove_all(folder / "a");
+  EXPECT_FALSE(lock.IsInPlace());
+  std::filesystem::create_directory(folder / "a");
+  const FolderLock other(folder / "a", "in use");
+  EXPECT_FALSE(lock.IsInPlace());
+  EXPECT_TRUE(other.IsInPlace());
+}
+
+TEST(FolderLock, SaysWhereItCannotBeMade) {
+  const ScratchFolder folder;
+  EXPECT_THAT(MessageOf([&] { const FolderLock lock(folder / "none", "in use"); }),
+              testing::StartsWith("cannot write " + (folder / "none").string()));
+}
+
+}  // namespace
+}  // namespace plumbline
