@@ -6,7 +6,9 @@
 #include "plumbline/io/decoder_messages.h"
 
 #include "apps/commands.h"
+#include "apps/shortage.h"
 #include <array>
+#include <csignal>
 #include <exception>
 #include <iomanip>
 #include <iostream>
@@ -63,6 +65,7 @@ void PrintHelp(std::ostream& out) {
 // What holds for the whole program, whatever the command.
 void SetUpProcess() {
   DropDecoderMessages();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is a file that cannot be written
   cv::setNumThreads(1);  // the threads are ours: OpenCV's would get in the way of other stages
 #ifdef __GLIBC__
   // Images come and go at frame rate. Keeping their memory, rather than have the kernel hand out
@@ -111,6 +114,10 @@ int main(int argc, char** argv) {
               << "\n";
     return 2;
   } catch (const std::exception& error) {
+    if (const char* shortage = plumbline::ShortageOf(error)) {
+      std::cerr << "plumbline: " << shortage << "\n";
+      return 2;
+    }
     std::cerr << "plumbline: internal error: "
               << plumbline::Printable(error.what(), plumbline::kLongestMessage) << "\n";
     return 1;

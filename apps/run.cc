@@ -1,34 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/image/box_filter.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/reversed_dataset.h"
-#include "plumbline/report/html_report.h"
-#include "plumbline/report/overlay.h"
-#include "plumbline/report/run_files.h"
-#include "plumbline/report/summary.h"
-#include "plumbline/slam/pipeline.h"
+#include "plumbline/report/run_folder.h"
+#include "plumbline/slam/system.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/progress.h"
+#include "apps/run_frames.h"
+#include "apps/run_results.h"
 #include "apps/stop_signal.h"
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <iostream>
-#include <map>
-#include <memory>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -110,169 +108,69 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   return options;
 }
 
-// What is fed, by index in the data set.
-struct Input {
-  std::unique_ptr<Dataset> dataset;
-  std::vector<std::size_t> frames;
-};
-
-Input OpenInput(const CommandLine& line) {
-  Input input;
-  input.dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
-  input.frames = ChooseFrames(line, *input.dataset);
-  if (!line.Has("--reverse")) return input;
-  input.dataset = PlayedBackwards(std::move(input.dataset), std::move(input.frames));
-  input.frames.resize(input.dataset->size());
-  std::iota(input.frames.begin(), input.frames.end(), std::size_t{0});
+RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
+  RunFrames input;
+  input.blur = setup.blur;
+  auto dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
+  input.frames = ChooseFrames(line, *dataset);
+  if (line.Has("--reverse")) {
+    dataset = PlayedBackwards(std::move(dataset), std::move(input.frames));
+    input.frames.resize(dataset->size());
+    std::iota(input.frames.begin(), input.frames.end(), std::size_t{0});
+  }
+  input.dataset = std::move(dataset);
   return input;
 }
 
-// Every image of the frame through the box filter of --blur (0: as it is). Depth stays.
-SensorFrame Blurred(SensorFrame frame, int size) {
-  if (size <= 1) return frame;
-  frame.left = BoxFiltered(frame.left, size);
-  if (frame.right) frame.right = BoxFiltered(*frame.right, size);
-  return frame;
-}
-
-// Frames that are shown with their features, kept until there is time to draw them.
-class KeptViews {
- public:
-  explicit KeptViews(const std::vector<std::size_t>& frames) {
-    for (std::size_t k = 0; k < kOverlays; ++k) {
-      const std::size_t position = k * (frames.size() - 1) / (kOverlays - 1);
-      wanted_[position] = frames[position];
-    }
-  }
-
-  void Offer(std::size_t position, const FrameView& view) {
-    const auto it = wanted_.find(position);
-    if (it != wanted_.end() && !view.images.left.empty()) views_.emplace_back(it->second, view);
-  }
-
-  // Writes the overlays; returns the same images for the report.
-  std::vector<SampleImage> Write(const std::filesystem::path& folder) const {
-    std::vector<SampleImage> samples;
-    for (const auto& [frame, view] : views_) {
-      const std::string name = fmt::format("overlay_{:06}.png", frame);
-      WriteFeatureOverlay(view, folder / name);
-      samples.push_back(MakeSampleImage(view, name));
-    }
-    return samples;
-  }
-
- private:
-  static constexpr std::size_t kOverlays = 6;
-  std::map<std::size_t, std::size_t> wanted_;  // position in the run -> index in the data set
-  std::vector<std::pair<std::size_t, FrameView>> views_;
-};
-
-// Waits until a frame is due that was taken `since_first_ns` after the first one. Live only: other
-// modes go as fast as they can.
-class Player {
- public:
-  explicit Player(RunMode mode) : live_(mode == RunMode::kLive) {}
-
-  void WaitFor(std::int64_t since_first_ns) {
-    if (!live_) return;
-    if (since_first_ns == 0) start_ = Clock::now();
-    std::this_thread::sleep_until(start_ + std::chrono::nanoseconds(since_first_ns));
-  }
-
- private:
-  bool live_;
-  Clock::time_point start_;
-};
-
-// Reads the frames and feeds them, until there are no more or somebody asks to stop.
-void FeedFrames(const Dataset& dataset,
-                const std::vector<std::size_t>& frames,
-                const RunSetup& setup,
-                const Progress& progress,
-                Pipeline& pipeline) {
-  Player player(setup.options.slam.mode);
-  for (std::size_t k = 0; k < frames.size() && !StopRequested(); ++k) {
-    auto frame = dataset.Read(frames[k]);
-    const std::int64_t stamp_ns = dataset.stamp_ns(frames[k]);
-    player.WaitFor(stamp_ns - dataset.stamp_ns(frames[0]));
-    if (frame) {
-      pipeline.Feed(Blurred(*frame, setup.blur));
-      continue;
-    }
-    progress.Say(fmt::format(
-        "frame {} skipped: {}: {}", frames[k], frame.error().path.string(), frame.error().why));
-    pipeline.Skip(stamp_ns, "image_unreadable");
-  }
-}
-
-struct Progressed {
-  std::optional<double> first_pose_seconds;  // from the start of the process
-  std::optional<InputError> failure;         // why not all frames were taken
-};
-
-// Bad input in the middle, such as an image of another size, ends a run; what was done until then
-// is kept. Throws when that is nothing.
-Progressed ProcessFrames(const Dataset& dataset,
-                         const std::vector<std::size_t>& frames,
-                         const RunSetup& setup,
-                         System& system,
-                         KeptViews& views) {
-  Progressed result;
-  Progress progress(frames.size(), setup.quiet);
-  Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
-    const auto position = static_cast<std::size_t>(record.id.value);
-    if (record.reason == Pipeline::kDropped) {
-      progress.Say(fmt::format("frame {} dropped: tracking is behind", frames[position]));
-    }
-    if (!result.first_pose_seconds && record.status == FrameStatus::kTracked) {
-      result.first_pose_seconds = SecondsSinceProcessStart();
-    }
-    views.Offer(position, view);
-    progress.Show(record);
-  });
-  const auto keeping_failure = [&](const auto& step) {
-    try {
-      step();
-    } catch (const InputError& error) {
-      if (!result.failure) result.failure = error;
-    }
+// What the run reads. Options that come from a pipe have no place.
+std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) {
+  std::vector<RunInput> inputs = {{line.Positional(0)}};
+  std::error_code error;
+  const auto add = [&](const std::filesystem::path& path) {
+    if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
   };
-  keeping_failure([&] { FeedFrames(dataset, frames, setup, progress, pipeline); });
-  keeping_failure([&] { pipeline.Finish(); });
-  if (result.failure && system.frames().empty()) throw InputError(*result.failure);
-  return result;
+  if (const auto camera = line.Value("--camera")) add(*camera);
+  for (const std::string& config : line.Values("--config")) add(config);
+  if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
+  return inputs;
 }
 
-void PrintResult(const System& system, const Dataset& dataset, const RunSetup& setup) {
-  const RunCounts counts = CountRun(system);
-  std::cout << fmt::format(
-      "frames {}: {} tracked, {} lost, {} skipped{}{}\n",
-      counts.frames,
-      counts.tracked,
-      counts.lost,
-      counts.skipped,
-      counts.dropped > 0 ? fmt::format(" ({} dropped)", counts.dropped) : std::string(),
-      counts.initializing > 0 ? fmt::format(", {} before a map", counts.initializing)
-                              : std::string());
-  std::cout << fmt::format(
-      "map: {} keyframes, {} points, {} lines{}\n",
-      counts.keyframes,
-      counts.points,
-      counts.lines,
-      counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
-  if (const auto error = CompareWithGroundTruth(system, dataset)) {
-    const double scale = error->reference_from_estimate.scale;
-    const bool mono = dataset.sensor() == SensorKind::kMono;
-    std::cout << fmt::format("ATE {:.4f} m RMSE{} over {} poses, coverage {:.1f} %\n",
-                             error->ate.rmse,
-                             mono ? fmt::format(" (scale {:.4g})", scale) : std::string(),
-                             error->poses.size(),
-                             100.0 * counts.tracked / std::max(counts.frames, 1));
-  } else if (counts.tracked > 0) {
-    std::cout << (dataset.info().ground_truth ? "no errors: the ground truth covers no pose\n"
-                                              : "no errors: no ground truth with the data\n");
+// The options first: where they cannot be written, nothing can.
+void WriteOptions(const RunSetup& setup, RunFolder& folder) {
+  folder.Write({"options.yaml", [&](const std::filesystem::path& path) {
+                  WriteFileAtomically(path, setup.options_yaml);
+                }});
+  if (const auto failure = folder.Failures()) throw InputError(*failure);
+}
+
+void SayBefore(const Dataset& dataset, const RunFolder& folder, bool quiet) {
+  const auto say = [](const std::string& note) {
+    std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
+  };
+  for (const std::string& note : folder.notes()) say(note);
+  if (quiet) return;
+  for (const std::string& note : dataset.info().notes) say(note);
+}
+
+// Prints the result, for whoever still listens.
+void Print(const System& system, const Dataset& dataset, const RunSetup& setup) {
+  errno = 0;
+  PrintResult(system, dataset, setup.folder.string());
+  if (!std::cout.flush() && errno == EPIPE) std::cout.clear();
+}
+
+// In one line, whatever went wrong.
+void RethrowFailures(const Processed& processed, const std::optional<std::string>& not_written) {
+  if (!not_written) {
+    if (processed.failure) std::rethrow_exception(processed.failure);
+    return;
   }
-  std::cout << "results in " << Printable(setup.folder.string(), kLongestMessage) << '\n';
+  try {
+    if (processed.failure) std::rethrow_exception(processed.failure);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + ("; " + *not_written));
+  }
+  throw InputError(*not_written);
 }
 
 }  // namespace
@@ -285,35 +183,33 @@ int RunCommand(std::span<const std::string> arguments) {
   }
   const auto start = Clock::now();
   const RunSetup setup = ReadSetup(line);
-  const auto [dataset, frames] = OpenInput(line);
-  MakeFolder(setup.folder);
-  RemoveEarlierRun(setup.folder);
-  WriteFileAtomically(setup.folder / "options.yaml", setup.options_yaml);
-  if (!setup.quiet) {
-    for (const std::string& note : dataset->info().notes)
-      std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
-  }
+  const RunFrames input = OpenInput(line, setup);
+  const Dataset& dataset = *input.dataset;
+  CheckApart(setup.folder, InputsOf(line, dataset));
+  System system(dataset.calibration(), setup.options);
+  RunFolder folder(setup.folder);
+  WriteOptions(setup, folder);
+  IgnoreBrokenPipes();
+  SayBefore(dataset, folder, setup.quiet);
   CatchStopSignals();
-  System system(dataset->calibration(), setup.options);
-  KeptViews views(frames);
-  const Progressed progressed = ProcessFrames(*dataset, frames, setup, system, views);
-
-  const auto samples = views.Write(setup.folder);
-  WriteRunFiles(system, setup.folder, dataset->info().time_mirror_ns);
-  ResourceUse resources = MeasureResources();
-  resources.first_pose_seconds = progressed.first_pose_seconds;
-  resources.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  const RunDescription description{PLUMBLINE_VERSION,
-                                   line.Positional(0),
-                                   setup.options_yaml,
-                                   setup.options.slam.seed,
-                                   {arguments.begin(), arguments.end()}};
-  WriteFileAtomically(setup.folder / "summary.json",
-                      FormatSummary(description, system, *dataset, resources));
-  WriteHtmlReport(system, *dataset, {description, resources, {}, samples}, setup.folder);
-  if (!setup.quiet) PrintResult(system, *dataset, setup);
-  if (progressed.failure) throw InputError(*progressed.failure);
-  return 0;
+  KeptViews views(input.frames);
+  const Processed processed = ProcessFrames(input, setup.quiet, system, folder, views);
+  if (system.frames().empty() && FirstStopSignal()) {
+    std::cerr << "plumbline: stopped before the first frame; nothing is written\n";
+    return FirstStopSignal()->exit_code;
+  }
+  RunDescription description{PLUMBLINE_VERSION,
+                             line.Positional(0),
+                             setup.options_yaml,
+                             setup.options.slam.seed,
+                             {arguments.begin(), arguments.end()}};
+  description.frames_chosen = input.frames.size();
+  const WrittenResults written = WriteResults(
+      {system, dataset, views, std::move(description), processed.first_pose_seconds, start},
+      folder);
+  if (!setup.quiet) Print(system, dataset, setup);
+  RethrowFailures(processed, written.failure);
+  return written.interrupted ? written.interrupted->exit_code : 0;
 }
 
 }  // namespace plumbline

@@ -92,6 +92,8 @@ Json Run(const Dataset& dataset, const ReportContext& context) {
           {"format", NameOf(dataset.info().format)},
           {"sensor", NameOf(dataset.sensor())},
           {"frames_in_sequence", dataset.size()},
+          {"frames_chosen", description.frames_chosen},
+          {"interrupted", description.interrupted ? Json(*description.interrupted) : Json(nullptr)},
           {"rate_hz", rate ? Json(*rate) : Json(nullptr)},
           {"version", description.version},
           {"date", context.date},

@@ -79,6 +79,16 @@ function changedText() {
   return ["Other than the defaults: ", ...settings.flatMap((setting) => [setting, " "])];
 }
 
+// Nothing where the run came to its end.
+function interruption() {
+  const {interrupted, frames_chosen: chosen} = data.run;
+  if (!interrupted) return [];
+  return [make(
+      "p", {class: "interrupted", role: "alert"},
+      `Interrupted by ${interrupted} after ${whole(data.counts.frames)} of ` +
+          `${plural(chosen, "frame")}. The results are of these alone.`)];
+}
+
 function buildHeader() {
   const run = data.run, c = data.counts;
   const total = data.stages.find((stage) => stage.name === "total");
@@ -94,7 +104,7 @@ function buildHeader() {
           "p", {class: "meta"},
           `${sensor} (${run.format}), ${plural(c.frames, "frame")}, ` +
               `${digits(duration)} s · ${run.date} · version ${run.version} · seed ${run.seed}`),
-      make("p", {class: "verdict"}, verdict()),
+      ...interruption(), make("p", {class: "verdict"}, verdict()),
       make(
           "div", {class: "tiles"},
           tile(

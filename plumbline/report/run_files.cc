@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/run_files.h"
 
-#include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/atomic_file.h"
@@ -12,8 +11,8 @@
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/timing.h"
 
-#include <regex>
-#include <system_error>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,100 +28,131 @@ std::vector<FrameRecord> AsRecorded(std::vector<FrameRecord> frames, TimeMirror 
   return frames;
 }
 
-void WriteTrajectories(const System& system,
-                       const std::filesystem::path& folder,
-                       TimeMirror mirror_ns) {
-  const auto write = [&](const std::string& name, const Trajectory& played) {
-    WriteTum(folder / name, mirror_ns ? TimeReversed(played, *mirror_ns) : played);
+RunFile TumFile(const std::string& name, TimeMirror mirror_ns, std::function<Trajectory()> make) {
+  return {name, [=](const std::filesystem::path& path) {
+            const Trajectory played = make();
+            WriteTum(path, mirror_ns ? TimeReversed(played, *mirror_ns) : played);
+          }};
+}
+
+void AddTrajectories(const System& system,
+                     MapId map,
+                     const TrajectoryNames& names,
+                     TimeMirror mirror_ns,
+                     std::vector<RunFile>& files) {
+  const auto add = [&](const std::string& name, Trajectory (System::*of)(MapId) const) {
+    files.push_back(TumFile(name, mirror_ns, [&system, of, map] { return (system.*of)(map); }));
   };
+  add(names.final_estimate, &System::FinalTrajectory);
+  add(names.causal, &System::CausalTrajectory);
+  add(names.keyframes, &System::KeyFrameTrajectory);
+}
+
+std::vector<RunFile> TrajectoryFiles(const System& system, TimeMirror mirror_ns) {
+  std::vector<RunFile> files;
   const auto main = system.MainMap();
   if (!main) {
-    for (const char* name : {"trajectory.txt", "trajectory_causal.txt", "keyframes.txt"}) {
-      WriteTum(folder / name, {});
+    const TrajectoryNames names;
+    for (const std::string& name : {names.final_estimate, names.causal, names.keyframes}) {
+      files.push_back(TumFile(name, mirror_ns, [] { return Trajectory(); }));
     }
-    return;
+    return files;
   }
+  AddTrajectories(system, *main, TrajectoryNames(), mirror_ns, files);
   for (const auto& [id, map] : system.maps()) {
-    const std::string suffix = id == *main ? "" : fmt::format("_map{}", id.value);
-    write("trajectory" + suffix + ".txt", system.FinalTrajectory(id));
-    write("trajectory_causal" + suffix + ".txt", system.CausalTrajectory(id));
-    write("keyframes" + suffix + ".txt", system.KeyFrameTrajectory(id));
+    if (id == *main) continue;
+    AddTrajectories(system, id, TrajectoryNames(id), mirror_ns, files);
   }
+  return files;
 }
 
-void WriteMap(const System& system, const std::filesystem::path& folder) {
-  const auto main = system.MainMap();
-  const Map none;
-  const Map& map = main ? system.maps().at(*main) : none;
-  std::vector<Eigen::Vector3d> points;
-  for (const auto& [id, point] : map.points()) points.push_back(point.position);
+template <class Format>
+RunFile FramesFile(const std::string& name,
+                   const System& system,
+                   TimeMirror mirror_ns,
+                   const Format& format) {
+  return {name, [=, &system](const std::filesystem::path& path) {
+            WriteFileAtomically(path, format(AsRecorded(system.frames(), mirror_ns)));
+          }};
+}
+
+std::vector<Segment3> LinesToSave(const System& system) {
   std::vector<Segment3> lines;
-  if (main) {
+  if (const auto main = system.MainMap()) {
     for (const MappedLine& line : system.LineMap(*main)) lines.push_back(line.segment);
   }
-  WritePly(folder / "map.ply", points, lines);
-  WriteObjLines(folder / "lines.obj", lines);
-  WriteDxfLines(folder / "lines.dxf", lines);
-  SaveMap(folder / "map.plb", system.camera(), system.rectifier().rectified_left_from_left(), map);
+  return lines;
 }
 
-// Whether a run writes a file of this name, or of a temporary name that becomes it.
-bool IsRunFile(const std::string& name) {
-  static const std::regex temporary(R"(\.(.+)\.[0-9]+\.tmp(\.[a-z]+))");
-  static const std::regex written(
-      R"((trajectory|trajectory_causal|keyframes)(_map[0-9]+)?\.txt|overlay_[0-9]+\.png|)"
-      R"(options\.yaml|(frames|timing)\.csv|(timing|summary)\.json|map\.(plb|ply)|lines\.(obj|dxf)|)"
-      R"(report\.html)");
-  std::smatch parts;
-  return std::regex_match(
-      std::regex_match(name, parts, temporary) ? parts.str(1) + parts.str(2) : name, written);
+void WriteMapPly(const System& system, const std::filesystem::path& path) {
+  std::vector<Eigen::Vector3d> points;
+  if (const auto main = system.MainMap()) {
+    const Map& map = system.maps().at(*main);
+    for (const auto& [id, point] : map.points()) points.push_back(point.position);
+  }
+  WritePly(path, points, LinesToSave(system));
 }
 
 }  // namespace
 
-void RemoveEarlierRun(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (IsRunFile(entry.path().filename().string())) old.push_back(entry.path());
-  }
-  if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
-  for (const std::filesystem::path& path : old) {
-    if (!std::filesystem::remove(path, error) && error) {
-      throw InputError("cannot remove " + path.string() + " of an earlier run: " + error.message());
-    }
-  }
+TrajectoryNames::TrajectoryNames(std::optional<MapId> map) {
+  const std::string suffix = map ? fmt::format("_map{}", map->value) : std::string();
+  final_estimate = "trajectory" + suffix + ".txt";
+  causal = "trajectory_causal" + suffix + ".txt";
+  keyframes = "keyframes" + suffix + ".txt";
+}
+
+std::string FormatFrameRow(const FrameRecord& f) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n",
+                     f.id.value,
+                     FormatStamp(f.stamp_ns),
+                     NameOf(f.status),
+                     f.map.valid() ? fmt::format("{}", f.map.value) : std::string(),
+                     f.reason,
+                     f.keyframe ? 1 : 0,
+                     f.counts.matched_points,
+                     f.counts.matched_lines,
+                     f.counts.inlier_points,
+                     f.counts.inlier_lines);
 }
 
 std::string FormatFrames(const std::vector<FrameRecord>& frames) {
   std::string text =
       "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,inlier_points,"
       "inlier_lines\n";
-  for (const FrameRecord& f : frames) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n",
-                        f.id.value,
-                        FormatStamp(f.stamp_ns),
-                        NameOf(f.status),
-                        f.map.valid() ? fmt::format("{}", f.map.value) : std::string(),
-                        f.reason,
-                        f.keyframe ? 1 : 0,
-                        f.counts.matched_points,
-                        f.counts.matched_lines,
-                        f.counts.inlier_points,
-                        f.counts.inlier_lines);
-  }
+  for (const FrameRecord& frame : frames) text += FormatFrameRow(frame);
   return text;
 }
 
-void WriteRunFiles(const System& system,
-                   const std::filesystem::path& folder,
-                   std::optional<std::int64_t> time_mirror_ns) {
-  WriteTrajectories(system, folder, time_mirror_ns);
-  const std::vector<FrameRecord> frames = AsRecorded(system.frames(), time_mirror_ns);
-  WriteFileAtomically(folder / "frames.csv", FormatFrames(frames));
-  WriteFileAtomically(folder / "timing.csv", FormatTimingCsv(frames));
-  WriteFileAtomically(folder / "timing.json", FormatTimingJson(frames));
-  WriteMap(system, folder);
+std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t> time_mirror_ns) {
+  std::vector<RunFile> files = TrajectoryFiles(system, time_mirror_ns);
+  files.push_back(FramesFile("frames.csv", system, time_mirror_ns, FormatFrames));
+  return files;
+}
+
+RunFile MapFile(const System& system) {
+  return {"map.plb", [&system](const std::filesystem::path& path) {
+            const auto main = system.MainMap();
+            const Map none;
+            const Map& map = main ? system.maps().at(*main) : none;
+            SaveMap(path, system.camera(), system.rectifier().rectified_left_from_left(), map);
+          }};
+}
+
+std::vector<RunFile> DerivedFiles(const System& system,
+                                  std::optional<std::int64_t> time_mirror_ns) {
+  std::vector<RunFile> files;
+  files.push_back(FramesFile("timing.csv", system, time_mirror_ns, FormatTimingCsv));
+  files.push_back(FramesFile("timing.json", system, time_mirror_ns, FormatTimingJson));
+  files.push_back({"lines.obj", [&system](const std::filesystem::path& path) {
+                     WriteObjLines(path, LinesToSave(system));
+                   }});
+  files.push_back({"lines.dxf", [&system](const std::filesystem::path& path) {
+                     WriteDxfLines(path, LinesToSave(system));
+                   }});
+  files.push_back(
+      {"map.ply", [&system](const std::filesystem::path& path) { WriteMapPly(system, path); }});
+  return files;
 }
 
 }  // namespace plumbline

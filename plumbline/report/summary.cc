@@ -162,7 +162,9 @@ std::string FormatSummary(const RunDescription& description,
   json["sensor"] = NameOf(dataset.sensor());
   json["mode"] = NameOf(system.options().slam.mode);
   json["seed"] = description.seed;
-  json["frames"] = {{"in", counts.frames},
+  json["interrupted"] = description.interrupted ? Json(*description.interrupted) : Json(nullptr);
+  json["frames"] = {{"of", description.frames_chosen},
+                    {"in", counts.frames},
                     {"tracked", counts.tracked},
                     {"lost", counts.lost},
                     {"skipped", counts.skipped},

@@ -6,6 +6,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/slam/system.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +59,9 @@ struct RunDescription {
   std::string options_yaml;
   int seed = 0;
   std::vector<std::string> arguments = {};  // of the command
+  std::size_t frames_chosen = 0;            // those that the run was to process
+  // The signal that ended the run early, "SIGINT"; nullopt: none did.
+  std::optional<std::string> interrupted = std::nullopt;
 };
 
 // summary.json.

@@ -165,13 +165,8 @@ std::vector<StageTime> System::TakeMappingTimes() {
 // A failure of mapping leaves frames without the keyframe that their poses are relative to.
 void System::LoseFramesNotMapped() {
   const auto has_place = [&](const FrameRecord& record) {
-    if (record.map.value >= static_cast<std::int64_t>(maps().size())) return false;
-    try {
-      maps()[static_cast<std::size_t>(record.map.value)].PoseOf(record.reference);
-      return true;
-    } catch (const BugError&) {  // it never was in the map
-      return false;
-    }
+    const Map* map = atlas().Find(record.map);
+    return map != nullptr && map->Knows(record.reference);
   };
   for (FrameRecord& record : frames_) {
     if (record.status != FrameStatus::kTracked || has_place(record)) continue;

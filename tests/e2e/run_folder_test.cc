@@ -3,12 +3,10 @@
 #include "tests/e2e/poster_sequence.h"
 #include "tests/e2e/program.h"
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <string>
-#include <thread>
-#include <utility>
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -41,14 +39,6 @@ TEST(RunFolder, HoldsTheFilesOfOneRun) {
   const fs::path sequence = WritePosterSequence(folder, 12);
   ASSERT_EQ(RunProgram(folder, RunArguments(sequence, folder / "fresh", "--to 4")).code, 0);
   ASSERT_EQ(RunProgram(folder, RunArguments(sequence, folder / "again", "--to 12")).code, 0);
-  for (const char* old : {"trajectory_map3.txt",
-                          "trajectory_causal_map3.txt",
-                          "keyframes_map3.txt",
-                          "overlay_000099.png",
-                          ".trajectory.4711.tmp.txt",
-                          ".overlay_000002.4711.tmp.png"}) {
-    folder.Write(std::string("again/") + old, "old");
-  }
   for (const char* kept : {"notes.txt", ".hidden.txt", "map.jpg", "my_trajectory.txt"}) {
     folder.Write(std::string("again/") + kept, "not of a run");
   }
@@ -59,28 +49,140 @@ TEST(RunFolder, HoldsTheFilesOfOneRun) {
   EXPECT_EQ(FilesOf(folder / "again"), expected);
 }
 
-// A limit on the size of files takes the part of a disk that is full.
-TEST(RunFolder, AFileThatDoesNotFitIsNamedAndLeavesNothing) {
+void ExpectRefused(const Outcome& outcome, const std::string& why) {
+  EXPECT_EQ(outcome.code, 2) << why;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, StartsWith("plumbline: "));
+  EXPECT_THAT(outcome.err, HasSubstr(why));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+TEST(RunFolder, FilesOfTheUserAreNotReplaced) {
   const ScratchFolder folder;
-  const fs::path sequence = WritePosterSequence(folder, 12);
-  ASSERT_EQ(RunProgram(folder, RunArguments(sequence, folder / "whole", "")).code, 0);
-  for (const char* name : {"options.yaml", "overlay_000000.png", "map.plb"}) {
-    const auto blocks = (fs::file_size(folder / "whole" / name) - 1) / 512;
-    const Outcome outcome = RunProgram(folder,
-                                       RunArguments(sequence, folder / "out", ""),
-                                       fmt::format("trap '' XFSZ; ulimit -f {}; ", blocks));
-    EXPECT_EQ(outcome.code, 2) << name;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_THAT(outcome.err,
-                StartsWith("plumbline: cannot write " + (folder / "out").string() + "/"));
-    EXPECT_THAT(outcome.err, HasSubstr(": File too large\n"));
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    ExpectWholeFiles(folder / "out", folder / "whole");
-    EXPECT_FALSE(fs::exists(folder / "out/summary.json"));
+  const fs::path sequence = WritePosterSequence(folder, 3);
+  for (const char* name :
+       {"trajectory.txt", "report.html", "options.yaml", "keyframes.txt", "overlay_000000.png"}) {
+    const fs::path mine = folder.Write(std::string("out/") + name, "mine");
+    ExpectRefused(RunProgram(folder, RunArguments(sequence, folder / "out", "")),
+                  mine.string() + ": not written by an earlier run");
+    EXPECT_EQ(FilesOf(folder / "out"), std::set<std::string>{name});
+    EXPECT_EQ(Contents(mine), "mine");
+    fs::remove_all(folder / "out");
   }
 }
 
-TEST(RunFolder, AFullDiskIsNamedAndLeavesNothing) {
+// Pictures as runs draw them, with a camera: a sequence like any other.
+TEST(RunFolder, WhatIsReadIsNotReplaced) {
+  const ScratchFolder folder;
+  const MovingPoster poster;
+  for (int i = 0; i < 4; ++i) {
+    folder.Write(fmt::format("images/overlay_{:06}.png", i), "");
+    WriteGrayPng(folder / fmt::format("images/overlay_{:06}.png", i), poster.Frame(i).left);
+  }
+  const fs::path camera =
+      folder.Write("images/camera.yaml",
+                   fmt::format("model: pinhole\nsize: [{}, {}]\nintrinsics: [{}, {}, {}, {}]\n"
+                               "distortion: none\nrate_hz: 20\n",
+                               MovingPoster::kWidth,
+                               MovingPoster::kHeight,
+                               MovingPoster::kFocal,
+                               MovingPoster::kFocal,
+                               MovingPoster::kWidth / 2.0,
+                               MovingPoster::kHeight / 2.0));
+  const fs::path config = folder.Write("settings/own.yaml", "slam:\n  seed: 3\n");
+  const fs::path images = folder / "images";
+  const auto before = FilesOf(images);
+  const fs::path link = folder / "link";
+  fs::create_directory_symlink(images, link);
+  for (const fs::path& out : {images, images / "", images / "new", link, folder.path()}) {
+    ExpectRefused(RunProgram(folder, RunArguments(images, out, "")), "which is read");
+    EXPECT_EQ(FilesOf(images), before);
+  }
+  ExpectRefused(
+      RunProgram(folder, RunArguments(images, folder / "settings", "--config " + Quoted(config))),
+      "holds " + config.string());
+  // Into another folder it goes, again and again, and is not read the second time.
+  for (const char* frames : {"first", "second"}) {
+    const Outcome outcome = RunProgram(folder, RunArguments(images, folder / "out", ""));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(Contents(folder / "out/summary.json"))["frames"]["in"], 4)
+        << frames;
+  }
+}
+
+TEST(RunFolder, ARunThatFailsAtOnceLeavesTheEarlierResults) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 6);
+  const fs::path out = folder / "out";
+  ASSERT_EQ(RunProgram(folder, RunArguments(sequence, out, "")).code, 0);
+  fs::copy(out, folder / "copy", fs::copy_options::recursive);
+  const fs::path camera = folder.Write("none.yaml", "model: pinhole\n");
+  for (const std::string& more : {"--camera " + Quoted(camera),
+                                  std::string("--set tracking.reference=none"),
+                                  std::string("--from 100"),
+                                  std::string("--sensor mono --set tracking.reference=last_frame"),
+                                  std::string("--format kitti")}) {
+    EXPECT_EQ(RunProgram(folder, RunArguments(sequence, out, more)).code, 2) << more;
+    EXPECT_EQ(FilesOf(out), FilesOf(folder / "copy")) << more;
+    for (const std::string& name : FilesOf(out)) {
+      EXPECT_TRUE(Contents(out / name) == Contents(folder / "copy" / name)) << name << more;
+    }
+  }
+}
+
+// A limit on the size of files takes the part of a disk that is full.
+TEST(RunFolder, AFileThatDoesNotFitIsNamedAndTheOthersAreWritten) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 12);
+  const fs::path whole = folder / "whole";
+  ASSERT_EQ(RunProgram(folder, RunArguments(sequence, whole, "")).code, 0);
+  for (const char* name : {"overlay_000000.png", "map.plb", "options.yaml"}) {
+    const fs::path out = folder / (std::string("out of ") + name);
+    const auto blocks = (fs::file_size(whole / name) - 1) / 512;
+    const Outcome outcome =
+        RunProgram(folder, RunArguments(sequence, out, ""), fmt::format("ulimit -f {}; ", blocks));
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_THAT(outcome.err, StartsWith("plumbline: cannot write " + out.string() + "/"));
+    EXPECT_THAT(outcome.err, HasSubstr(name));
+    EXPECT_THAT(outcome.err, HasSubstr(": File too large\n"));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    if (name == std::string("options.yaml")) {
+      EXPECT_FALSE(fs::exists(out)) << "before anything was done";
+      continue;
+    }
+    ExpectWholeFiles(out, whole);
+    for (const std::string& other : FilesOf(whole)) {
+      if (fs::file_size(whole / other) > 512 * blocks * 9 / 10) continue;
+      EXPECT_TRUE(fs::exists(out / other)) << other << " beside " << name;
+    }
+    EXPECT_TRUE(fs::exists(out / "trajectory.txt"));
+  }
+}
+
+TEST(RunFolder, LessDoesNotReplaceMore) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 12);
+  const fs::path out = folder / "out";
+  ASSERT_EQ(RunProgram(folder, RunArguments(sequence, out, "")).code, 0);
+  fs::copy(out, folder / "copy", fs::copy_options::recursive);
+  const auto blocks = (fs::file_size(out / "map.plb") - 1) / 512;
+  Outcome outcome = RunProgram(
+      folder, RunArguments(sequence, out, "--to 11"), fmt::format("ulimit -f {}; ", blocks));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("map.plb"));
+  EXPECT_THAT(outcome.err, HasSubstr(out.string() + " keeps the earlier results"));
+  for (const std::string& name : FilesOf(folder / "copy")) {
+    EXPECT_TRUE(Contents(out / name) == Contents(folder / "copy" / name)) << name;
+  }
+  const std::string poses = Contents(out / ".part/trajectory.txt");
+  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 11);
+  outcome = RunProgram(folder, RunArguments(sequence, out, "--to 10"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted-1"));
+  EXPECT_TRUE(Contents(out / "interrupted-1/trajectory.txt") == poses);
+}
+
+TEST(RunFolder, AFullDiskIsNamedAndCostsWhatIsWorthLeast) {
   const ScratchFolder folder;
   const fs::path disk = folder / "disk";
   fs::create_directories(disk);
@@ -106,6 +208,10 @@ TEST(RunFolder, AFullDiskIsNamedAndLeavesNothing) {
   EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
   ASSERT_EQ(RunProgram(folder, RunArguments(sequence, folder / "whole", "")).code, 0);
   ExpectWholeFiles(folder / "kept", folder / "whole");
+  for (const char* name :
+       {"trajectory.txt", "trajectory_causal.txt", "keyframes.txt", "frames.csv", "options.yaml"}) {
+    EXPECT_TRUE(fs::exists(folder / "kept" / name)) << name;
+  }
 }
 
 TEST(RunFolder, StandardOutputThatIsFullIsAnError) {
@@ -115,38 +221,6 @@ TEST(RunFolder, StandardOutputThatIsFullIsAnError) {
       "'" PLUMBLINE_BINARY "' config > /dev/full 2> " + Quoted(folder / "err");
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);  // NOLINT(concurrency-mt-unsafe)
   EXPECT_EQ(Contents(folder / "err"), "plumbline: cannot write to standard output\n");
-}
-
-TEST(RunFolder, ARunThatIsAskedToStopWritesEverything) {
-  for (const auto& [signal, mode] :
-       {std::pair(SIGTERM, "inline"), std::pair(SIGINT, "lockstep"), std::pair(SIGTERM, "live")}) {
-    const ScratchFolder folder;
-    const fs::path out = folder / "run";
-    const fs::path sequence = WritePosterSequence(folder, 4000);
-    const pid_t child =
-        StartProgram({"run", sequence.string(), "--mode", mode, "--quiet", "--out", out.string()});
-    // The options are written just before the first frame.
-    EXPECT_TRUE(WaitForFile(out / "options.yaml"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    ASSERT_EQ(::kill(child, signal), 0);
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 0);
-    const auto summary = nlohmann::json::parse(Contents(out / "summary.json"));
-    const int frames = summary["frames"]["in"];
-    EXPECT_GT(frames, 0);
-    EXPECT_LT(frames, 4000);
-    const std::string table = Contents(out / "frames.csv");
-    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), frames + 1);
-    const std::string poses = Contents(out / "trajectory.txt");
-    EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), summary["frames"]["tracked"]);
-    for (const char* name :
-         {"trajectory_causal.txt", "keyframes.txt", "timing.json", "map.plb", "report.html"}) {
-      EXPECT_TRUE(fs::exists(out / name)) << name;
-    }
-    for (const std::string& name : FilesOf(out)) EXPECT_NE(name.front(), '.') << name;
-  }
 }
 
 TEST(RunFolder, HoldsWhatWasDoneBeforeAnImageOfAnotherSize) {
@@ -167,30 +241,23 @@ TEST(RunFolder, HoldsWhatWasDoneBeforeAnImageOfAnotherSize) {
   }
 }
 
-// Killed once while frames are processed, once while results are written.
-TEST(RunFolder, ARunThatIsKilledLeavesWholeFilesAndAFolderToUseAgain) {
+// Ways to be removed and to be used by two at once.
+TEST(RunFolder, IsMadeAgainWhenItIsRemovedDuringTheRun) {
   const ScratchFolder folder;
-  const fs::path sequence = WritePosterSequence(folder, 12);
-  ASSERT_EQ(RunProgram(folder, RunArguments(sequence, folder / "whole", "")).code, 0);
-  const fs::path out = folder / "run";
-  for (const char* until : {"options.yaml", "trajectory.txt", "map.ply"}) {
-    const pid_t child = StartProgram({"run", sequence.string(), "--quiet", "--out", out.string()});
-    EXPECT_TRUE(WaitForFile(out / until));
-    ::kill(child, SIGKILL);
-    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
-    for (const auto& name : FilesOf(out)) {
-      if (name.starts_with('.')) fs::rename(out / name, folder / "temporary");
-    }
-    ExpectWholeFiles(out, folder / "whole");
-    if (fs::exists(folder / "temporary")) {
-      fs::rename(folder / "temporary", out / ".map.4711.tmp.plb");
-    }
-    const Outcome again = RunProgram(folder, RunArguments(sequence, out, ""));
-    EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_EQ(FilesOf(out), FilesOf(folder / "whole"));
-    ExpectWholeFiles(out, folder / "whole");
-    fs::remove_all(out);
-  }
+  const fs::path sequence = WritePosterSequence(folder, 400);
+  const fs::path out = folder / "out";
+  const pid_t child = StartProgram({"run", sequence.string(), "--quiet", "--out", out.string()});
+  EXPECT_TRUE(WaitForFile(out / ".part/trajectory_causal.txt"));
+  const Outcome second = RunProgram(folder, RunArguments(sequence, out, "--to 3"));
+  ExpectRefused(second, "another run is writing into this folder");
+  fs::remove_all(out);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const std::string poses = Contents(out / "trajectory.txt");
+  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 400);
+  EXPECT_TRUE(fs::exists(out / "report.html"));
+  EXPECT_TRUE(fs::exists(out / "options.yaml"));
 }
 
 }  // namespace

@@ -76,6 +76,20 @@ TEST(Base64, EncodesEveryLengthAsTheStandardSays) {
   EXPECT_EQ(EncodeBase64("\xff\xfe\xfd"), "//79");
 }
 
+TEST(HtmlReport, SaysWhatInterruptedTheRun) {
+  const PosterRun run;
+  ReportContext context = ContextOf(run);
+  context.description.frames_chosen = 6;
+  const auto whole = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context));
+  EXPECT_TRUE(whole["run"]["interrupted"].is_null());
+  context.description.interrupted = "SIGHUP";
+  context.description.frames_chosen = 50;
+  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), context);
+  EXPECT_EQ(DataOf(page)["run"]["interrupted"], "SIGHUP");
+  EXPECT_EQ(DataOf(page)["run"]["frames_chosen"], 50);
+  EXPECT_THAT(page, HasSubstr("Interrupted by ${interrupted}"));
+}
+
 TEST(HtmlReport, HoldsTheWholeRun) {
   const PosterRun run;
   const auto json = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));

@@ -165,6 +165,21 @@ TEST(Summary, HoldsTheFieldsOfTheInterface) {
   }
 }
 
+TEST(Summary, TellsWhetherAllFramesWereTaken) {
+  const PosterRun run;
+  RunDescription description;
+  description.frames_chosen = 6;
+  auto json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  EXPECT_TRUE(json["interrupted"].is_null());
+  EXPECT_EQ(json["frames"]["of"], 6);
+  description.frames_chosen = 200;
+  description.interrupted = "SIGTERM";
+  json = nlohmann::json::parse(FormatSummary(description, run.system(), PosterDataset(6), {}));
+  EXPECT_EQ(json["interrupted"], "SIGTERM");
+  EXPECT_EQ(json["frames"]["of"], 200);
+  EXPECT_EQ(json["frames"]["in"], 6);
+}
+
 TEST(Summary, TellsTheMemoryOfALine) {
   const PosterRun run;
   const auto line_bytes = [](const PosterRun& of) {
@@ -193,10 +208,21 @@ TEST(Summary, SaysNullWithoutGroundTruth) {
   EXPECT_TRUE(json["accuracy_causal"].is_null());
 }
 
+std::vector<RunFile> AllFiles(const System& system) {
+  std::vector<RunFile> files = PoseFiles(system);
+  files.push_back(MapFile(system));
+  const std::vector<RunFile> derived = DerivedFiles(system);
+  files.insert(files.end(), derived.begin(), derived.end());
+  return files;
+}
+
 TEST(RunFiles, AreAllThereAndComplete) {
   const PosterRun run;
   const ScratchFolder folder;
-  WriteRunFiles(run.system(), folder.path());
+  for (const RunFile& file : AllFiles(run.system())) {
+    EXPECT_TRUE(IsRunFile(file.name)) << file.name;
+    file.write(folder / file.name);
+  }
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     names.insert(entry.path().filename().string());
@@ -207,6 +233,7 @@ TEST(RunFiles, AreAllThereAndComplete) {
                            "frames.csv",
                            "timing.csv",
                            "timing.json",
+                           "map.plb",
                            "map.ply",
                            "lines.obj",
                            "lines.dxf"}) {
@@ -223,7 +250,7 @@ TEST(RunFiles, AreAllThereAndComplete) {
 TEST(RunFiles, AreThereWithoutAnyPose) {
   const System system(MovingPoster::MakeCalibration(), {});
   const ScratchFolder folder;
-  WriteRunFiles(system, folder.path());
+  for (const RunFile& file : AllFiles(system)) file.write(folder / file.name);
   EXPECT_EQ(Contents(folder / "trajectory.txt"), "");
   EXPECT_EQ(Contents(folder / "keyframes.txt"), "");
   EXPECT_EQ(Rows(Contents(folder / "frames.csv")), 1U);
@@ -233,8 +260,20 @@ TEST(RunFiles, SayWhichFileCannotBeWritten) {
   const PosterRun run;
   const ScratchFolder folder;
   const auto file = folder.Write("file", "not a folder");
-  const std::string message = MessageOf([&] { WriteRunFiles(run.system(), file / "below"); });
-  EXPECT_NE(message.find("trajectory.txt"), std::string::npos) << message;
+  for (const RunFile& written : AllFiles(run.system())) {
+    const std::string message = MessageOf([&] { written.write(file / written.name); });
+    EXPECT_NE(message.find(written.name), std::string::npos) << message;
+  }
+}
+
+TEST(RunFiles, ThoseWorthMostForTheirSizeComeFirst) {
+  const PosterRun run;
+  const std::vector<RunFile> files = PoseFiles(run.system());
+  ASSERT_EQ(files.size(), 4U);
+  EXPECT_EQ(files[0].name, "trajectory.txt");
+  EXPECT_EQ(files[1].name, "trajectory_causal.txt");
+  EXPECT_EQ(files[2].name, "keyframes.txt");
+  EXPECT_EQ(files[3].name, "frames.csv");
 }
 
 TEST(Overlay, IsWrittenForTheLastFrame) {

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/run_frames.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/image/box_filter.h"
+#include "plumbline/report/summary.h"
+#include "plumbline/slam/pipeline.h"
+
+#include "apps/frame_reader.h"
+#include "apps/progress.h"
+#include "apps/shortage.h"
+#include "apps/stop_signal.h"
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kOverlays = 6;
+
+// Every image of the frame through the box filter of --blur (0: as it is). Depth stays.
+SensorFrame Blurred(SensorFrame frame, int size) {
+  if (size <= 1) return frame;
+  frame.left = BoxFiltered(frame.left, size);
+  if (frame.right) frame.right = BoxFiltered(*frame.right, size);
+  return frame;
+}
+
+// Waits until a frame is due that was taken `since_first_ns` after the first one. Live only: other
+// modes go as fast as they can.
+class Player {
+ public:
+  explicit Player(RunMode mode) : live_(mode == RunMode::kLive) {}
+
+  // False when `go_on`, which is asked often, says so.
+  bool WaitFor(std::int64_t since_first_ns, const std::function<bool()>& go_on) {
+    constexpr std::chrono::milliseconds kAskEvery(50);
+    if (!live_) return go_on();
+    if (since_first_ns == 0) start_ = Clock::now();
+    const Clock::time_point due = start_ + std::chrono::nanoseconds(since_first_ns);
+    while (go_on()) {
+      if (Clock::now() >= due) return true;
+      std::this_thread::sleep_until(std::min(due, Clock::now() + kAskEvery));
+    }
+    return false;
+  }
+
+ private:
+  bool live_;
+  Clock::time_point start_;
+};
+
+// The work of one run.
+class FrameFeed {
+ public:
+  FrameFeed(const RunFrames& input, bool quiet, System& system, RunFolder& folder, KeptViews& views)
+      : input_(input),
+        quiet_(quiet),
+        system_(system),
+        folder_(folder),
+        views_(views),
+        progress_(input.frames.size(), quiet),
+        journal_(input.dataset->info().time_mirror_ns),
+        reader_(input.dataset),
+        pipeline_(system, [this](const FrameRecord& record, const FrameView& view) {
+          Observe(record, view);
+        }) {}
+
+  Processed Run() {
+    Report(journal_.Write(folder_));
+    Keeping([&] { Feed(); });
+    Keeping([&] { pipeline_.Drain(); });
+    NameShortage();
+    if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
+    folder_.Keep();
+    Report(journal_.Write(folder_));
+    SayStopped();
+    Keeping([&] { pipeline_.Finish(StepStop()); });
+    NameShortage();
+    return result_;
+  }
+
+ private:
+  // In the thread that tracks.
+  void Observe(const FrameRecord& record, const FrameView& view) {
+    const auto position = static_cast<std::size_t>(record.id.value);
+    if (record.reason == Pipeline::kDropped) {
+      progress_.Say(fmt::format("frame {} dropped: tracking is behind", input_.frames[position]));
+    }
+    if (!result_.first_pose_seconds && record.status == FrameStatus::kTracked) {
+      result_.first_pose_seconds = SecondsSinceProcessStart();
+    }
+    journal_.Add(record);
+    views_.Offer(position, view);
+    progress_.Show(record);
+  }
+
+  void Report(const std::optional<std::string>& failure) const {
+    if (failure) progress_.Say(*failure + "; the run goes on");
+  }
+
+  bool GoOn() {
+    Report(journal_.WriteIfDue(folder_));
+    return !StopRequested();
+  }
+
+  void Feed() {
+    const Dataset& dataset = *input_.dataset;
+    Player player(system_.options().slam.mode);
+    const auto go_on = [this] { return GoOn(); };
+    for (const std::size_t k : input_.frames) {
+      if (!go_on()) return;
+      const auto frame = reader_.Read(k, go_on);
+      if (!frame) return;
+      const std::int64_t stamp_ns = dataset.stamp_ns(k);
+      if (!player.WaitFor(stamp_ns - dataset.stamp_ns(input_.frames.front()), go_on)) return;
+      if (*frame) {
+        pipeline_.Feed(Blurred(**frame, input_.blur));
+        continue;
+      }
+      const ImageFailure& failure = frame->error();
+      progress_.Say(fmt::format("frame {} skipped: {}: {}", k, failure.path.string(), failure.why));
+      pipeline_.Skip(stamp_ns, "image_unreadable");
+    }
+  }
+
+  // Keeps the first failure.
+  template <class Step>
+  void Keeping(const Step& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      reserve_.Release();
+      if (result_.failure) return;
+      result_.failure = std::current_exception();
+      shortage_ = ShortageOf(error);
+    }
+  }
+
+  // What the machine was short of becomes an InputError, once no more frames are on their way.
+  void NameShortage() {
+    if (shortage_ == nullptr) return;
+    result_.failure = std::make_exception_ptr(InputError(fmt::format(
+        "{} after {} of {} frames", shortage_, system_.frames().size(), input_.frames.size())));
+    shortage_ = nullptr;
+  }
+
+  void SayStopped() const {
+    const auto signal = FirstStopSignal();
+    if (!signal || quiet_) return;
+    progress_.Say(fmt::format("{} after {} of {} frames: finishing (once more: at once)",
+                              signal->name,
+                              system_.frames().size(),
+                              input_.frames.size()));
+  }
+
+  const RunFrames& input_;
+  bool quiet_;
+  System& system_;
+  RunFolder& folder_;
+  KeptViews& views_;
+  Processed result_;
+  const char* shortage_ = nullptr;  // that result_.failure is about, while it has no name
+  MemoryReserve reserve_;
+  Progress progress_;
+  RunJournal journal_;
+  FrameReader reader_;
+  Pipeline pipeline_;  // last: its thread calls Observe
+};
+
+}  // namespace
+
+KeptViews::KeptViews(const std::vector<std::size_t>& frames) {
+  for (std::size_t k = 0; k < kOverlays; ++k) {
+    const std::size_t position = k * (frames.size() - 1) / (kOverlays - 1);
+    wanted_[position] = frames[position];
+  }
+}
+
+void KeptViews::Offer(std::size_t position, const FrameView& view) {
+  const auto it = wanted_.find(position);
+  if (it != wanted_.end() && !view.images.left.empty()) views_.emplace_back(it->second, view);
+}
+
+Processed ProcessFrames(
+    const RunFrames& input, bool quiet, System& system, RunFolder& folder, KeptViews& views) {
+  return FrameFeed(input, quiet, system, folder, views).Run();
+}
+
+}  // namespace plumbline

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/io/dataset.h"
+#include "plumbline/report/run_folder.h"
+#include "plumbline/report/run_journal.h"
+#include "plumbline/slam/system.h"
+
+#include <cstddef>
+#include <exception>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// What a run is fed with.
+struct RunFrames {
+  std::shared_ptr<const Dataset> dataset;
+  std::vector<std::size_t> frames;  // by index in the data set
+  int blur = 0;                     // box filter on every image; 0: none
+};
+
+// Frames that are shown with their features, kept until there is time to draw them.
+class KeptViews {
+ public:
+  explicit KeptViews(const std::vector<std::size_t>& frames);
+
+  void Offer(std::size_t position, const FrameView& view);
+  // Index in the data set, and the view.
+  const std::vector<std::pair<std::size_t, FrameView>>& views() const { return views_; }
+
+ private:
+  std::map<std::size_t, std::size_t> wanted_;  // position in the run -> index in the data set
+  std::vector<std::pair<std::size_t, FrameView>> views_;
+};
+
+// How far a run came.
+struct Processed {
+  std::optional<double> first_pose_seconds;  // from the start of the process
+  // Why not all frames were taken, or mapping is not complete: an InputError, with what the machine
+  // was short of too, or something unforeseen.
+  std::exception_ptr failure;
+};
+
+// Reads the frames and feeds them to the system until there are no more, somebody asks to stop
+// (StopRequested) or something fails, then completes the mapping. Each step ends within a second
+// when a signal asks for it. What there is so far is kept in the journal's files, all of it before
+// the maps are adjusted at the end.
+//
+// Bad input in the middle, such as an image of another size, ends a run, as do memory and threads
+// that run out; what was done until then is kept. Throws when that is nothing.
+Processed ProcessFrames(
+    const RunFrames& input, bool quiet, System& system, RunFolder& folder, KeptViews& views);
+
+}  // namespace plumbline

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/run_results.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/report/html_report.h"
+#include "plumbline/report/overlay.h"
+#include "plumbline/report/run_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+class ResultWriter {
+ public:
+  ResultWriter(const FinishedRun& run, RunFolder& folder) : run_(run), folder_(folder) {}
+
+  WrittenResults WriteAll() {
+    for (const RunFile& file : PoseFiles(run_.system, MirrorNs())) Write(file);
+    Write({"options.yaml",
+           [&](const auto& path) { WriteFileAtomically(path, run_.description.options_yaml); }});
+    Write(MapFile(run_.system));
+    MakeLineMaps();
+    NoteSignal();
+    WriteSummary();
+    for (const RunFile& file : DerivedFiles(run_.system, MirrorNs())) Write(file);
+    WriteReport();
+    DrawViews();
+    if (NoteSignal()) {  // it came after the summary was written
+      WriteSummary();
+      WriteReport();
+    }
+    return {PutInPlace(), interrupted_};
+  }
+
+ private:
+  std::optional<std::int64_t> MirrorNs() const { return run_.dataset.info().time_mirror_ns; }
+  static std::string NameOfView(std::size_t frame) {
+    return fmt::format("overlay_{:06}.png", frame);
+  }
+
+  void Write(const RunFile& file) {
+    if (folder_.Write(file)) written_.push_back(file.name);
+  }
+
+  // What does not fit into memory is left to the files that need it, which fail then.
+  void MakeLineMaps() const {
+    const StopCheck stop = StepStop();
+    try {
+      for (const Map& map : run_.system.maps()) run_.system.LineMap(map.id(), stop);
+    } catch (const std::bad_alloc&) {
+      return;
+    }
+  }
+
+  // Whether it is the first time that a signal is seen.
+  bool NoteSignal() {
+    if (interrupted_) return false;
+    interrupted_ = FirstStopSignal();
+    if (interrupted_) description_.interrupted = interrupted_->name;
+    return interrupted_.has_value();
+  }
+
+  ResourceUse Resources() const {
+    ResourceUse resources = MeasureResources();
+    resources.first_pose_seconds = run_.first_pose_seconds;
+    resources.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - run_.start).count();
+    return resources;
+  }
+
+  void WriteSummary() {
+    resources_ = Resources();
+    Write({"summary.json", [&](const auto& path) {
+             WriteFileAtomically(
+                 path, FormatSummary(description_, run_.system, run_.dataset, resources_));
+           }});
+  }
+
+  void WriteReport() {
+    Write({"report.html", [&](const auto& path) {
+             std::vector<SampleImage> samples;
+             for (const auto& [frame, view] : run_.views.views()) {
+               samples.push_back(MakeSampleImage(view, NameOfView(frame)));
+             }
+             WriteHtmlReport(run_.system,
+                             run_.dataset,
+                             {description_, resources_, {}, std::move(samples)},
+                             path.parent_path());
+           }});
+  }
+
+  void DrawViews() {
+    const StopCheck stop = StepStop();
+    for (const auto& [frame, view] : run_.views.views()) {
+      if (stop()) return;
+      Write({NameOfView(frame),
+             [&view = view](const auto& path) { WriteFeatureOverlay(view, path); }});
+    }
+  }
+
+  // The journal's files are gone but for those that are true to the end, where their final form
+  // could not be written.
+  std::optional<std::string> PutInPlace() {
+    std::vector<std::string> kept = written_;
+    kept.insert(kept.end(), {TrajectoryNames().causal, "frames.csv"});
+    folder_.KeepOnly(kept);
+    std::optional<std::string> failure = folder_.Failures();
+    if (folder_.WouldLose()) {
+      return fmt::format("{} ({} keeps the earlier results, {} has what could be written)",
+                         *failure,
+                         folder_.path().string(),
+                         folder_.part().string());
+    }
+    try {
+      folder_.Commit();
+    } catch (const InputError& error) {
+      failure = (failure ? *failure + "; " : std::string()) + error.what();
+    }
+    return failure;
+  }
+
+  const FinishedRun& run_;
+  RunFolder& folder_;
+  RunDescription description_ = run_.description;
+  std::optional<StopSignal> interrupted_;
+  ResourceUse resources_;
+  std::vector<std::string> written_;
+};
+
+}  // namespace
+
+WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder) {
+  return ResultWriter(run, folder).WriteAll();
+}
+
+void PrintResult(const System& system, const Dataset& dataset, const std::string& folder) {
+  const RunCounts counts = CountRun(system);
+  std::cout << fmt::format(
+      "frames {}: {} tracked, {} lost, {} skipped{}{}\n",
+      counts.frames,
+      counts.tracked,
+      counts.lost,
+      counts.skipped,
+      counts.dropped > 0 ? fmt::format(" ({} dropped)", counts.dropped) : std::string(),
+      counts.initializing > 0 ? fmt::format(", {} before a map", counts.initializing)
+                              : std::string());
+  std::cout << fmt::format(
+      "map: {} keyframes, {} points, {} lines{}\n",
+      counts.keyframes,
+      counts.points,
+      counts.lines,
+      counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());
+  if (const auto error = CompareWithGroundTruth(system, dataset)) {
+    const double scale = error->reference_from_estimate.scale;
+    const bool mono = dataset.sensor() == SensorKind::kMono;
+    std::cout << fmt::format("ATE {:.4f} m RMSE{} over {} poses, coverage {:.1f} %\n",
+                             error->ate.rmse,
+                             mono ? fmt::format(" (scale {:.4g})", scale) : std::string(),
+                             error->poses.size(),
+                             100.0 * counts.tracked / std::max(counts.frames, 1));
+  } else if (counts.tracked > 0) {
+    std::cout << (dataset.info().ground_truth ? "no errors: the ground truth covers no pose\n"
+                                              : "no errors: no ground truth with the data\n");
+  }
+  std::cout << "results in " << Printable(folder, kLongestMessage) << '\n';
+}
+
+}  // namespace plumbline

@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/run_folder.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/path_overlap.h"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <new>
+#include <regex>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPart = ".part";
+// Room on the disk for the manifests, given back when they are written.
+constexpr const char* kReserve = ".reserve";
+constexpr std::size_t kReserveBytes = 32 << 10;
+constexpr const char* kHeld = "another run is writing into this folder; choose another --out";
+
+void MoveFile(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) {
+    throw InputError(
+        fmt::format("cannot move {} to {}: {}", from.string(), to.string(), error.message()));
+  }
+}
+
+void RemoveFile(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw InputError("cannot remove " + path.string() + ": " + error.message());
+}
+
+bool Exists(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(fs::symlink_status(path, error));
+}
+
+// A file that a run which was killed left while it wrote (AtomicFile).
+bool IsTemporary(const std::string& name) {
+  static const std::regex temporary(R"(\.(.+)\.[0-9]+\.tmp(\.[a-z]+)?)");
+  std::smatch parts;
+  if (!std::regex_match(name, parts, temporary)) return false;
+  const std::string written = parts.str(1) + parts.str(2);
+  return written == RunManifest::kFile || IsRunFile(written);
+}
+
+// Only what a run makes; whatever else is there, and then the folder, stays.
+void RemovePart(const fs::path& part) {
+  std::error_code error;
+  std::vector<fs::path> ours;
+  for (const auto& entry : fs::directory_iterator(part, error)) {
+    const std::string name = entry.path().filename().string();
+    if (IsRunFile(name) || IsTemporary(name) || name == kReserve) ours.push_back(entry.path());
+  }
+  for (const fs::path& path : ours) fs::remove(path, error);
+  fs::remove(part / RunManifest::kFile, error);
+  fs::remove(part, error);
+}
+
+// A file that may be replaced since a run wrote it.
+bool IsOurs(const RunManifest& manifest, const fs::path& folder, const std::string& name) {
+  return manifest.Lists(name) && !IsFolder(folder / name);
+}
+
+// The first name of `names` that stands in the folder and is none of ours.
+std::optional<std::string> Foreign(const fs::path& folder,
+                                   const RunManifest& manifest,
+                                   const std::vector<std::string>& names) {
+  const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return Exists(folder / name) && !IsOurs(manifest, folder, name);
+  });
+  return found == names.end() ? std::nullopt : std::optional(*found);
+}
+
+// Begins or goes on where it was left: every step may be the last one of a killed program. The
+// files of a complete part replace those of the folder, then what else was there goes.
+void MoveIntoPlace(const fs::path& part, const fs::path& folder) {
+  const RunManifest next = ReadRunManifest(part).value_or(RunManifest{});
+  const RunManifest earlier = ReadRunManifest(folder).value_or(RunManifest{});
+  RunManifest both{true, {}};
+  std::set_union(earlier.files.begin(),
+                 earlier.files.end(),
+                 next.files.begin(),
+                 next.files.end(),
+                 std::back_inserter(both.files));
+  WriteRunManifest(folder, both);
+  for (const std::string& name : next.files) {
+    if (Exists(part / name)) MoveFile(part / name, folder / name);
+  }
+  for (const std::string& name : earlier.files) {
+    if (!next.Lists(name) && IsOurs(earlier, folder, name)) RemoveFile(folder / name);
+  }
+  WriteRunManifest(folder, next);
+  RemovePart(part);
+}
+
+}  // namespace
+
+void CheckApart(const fs::path& out, std::span<const RunInput> inputs) {
+  for (const RunInput& input : inputs) {
+    const char* how = nullptr;
+    if (IsSamePath(out, input.path)) {
+      how = "is";
+    } else if (IsWithin(out, input.path)) {
+      how = "lies in";
+    } else if (!input.may_lie_in_out && IsWithin(input.path, out)) {
+      how = "holds";
+    }
+    if (how == nullptr) continue;
+    throw InputError(fmt::format("--out {}: {} {}, which is read; choose another folder",
+                                 out.string(),
+                                 how,
+                                 input.path.string()));
+  }
+}
+
+RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), part_(folder_ / kPart) {
+  try {
+    Open();
+  } catch (...) {
+    RemoveFolders();
+    throw;
+  }
+}
+
+RunFolder::~RunFolder() {
+  if (!keep_) RemoveFolders();
+}
+
+void RunFolder::Open() {
+  fs::path above = folder_;
+  while (!above.empty() && !Exists(above) && above != above.parent_path()) {
+    made_.insert(made_.begin(), above);
+    above = above.parent_path();
+  }
+  MakeFolder(folder_);
+  lock_.emplace(folder_, kHeld);
+  RefuseForeignFiles();
+  TakeCareOfPart();
+  StartPart();
+}
+
+void RunFolder::TakeCareOfPart() {
+  std::error_code error;
+  if (!Exists(part_)) return;
+  const std::optional<RunManifest> left = IsFolder(part_) ? ReadRunManifest(part_) : std::nullopt;
+  if (!left) {
+    if (IsFolder(part_) && fs::is_empty(part_, error)) return;
+    throw InputError(part_.string() +
+                     ": not of a run of plumbline; move it away or choose another --out");
+  }
+  if (left->complete) {
+    MoveIntoPlace(part_, folder_);
+    notes_.push_back(folder_.string() +
+                     ": an earlier run was killed while its results took their places; they are "
+                     "complete now");
+    return;
+  }
+  for (int k = 1;; ++k) {
+    const fs::path kept = folder_ / fmt::format("interrupted-{}", k);
+    if (Exists(kept)) continue;
+    MoveFile(part_, kept);
+    fs::remove(kept / kReserve, error);
+    notes_.push_back(fmt::format("{}: an earlier run was killed; what it had written is in {}",
+                                 folder_.string(),
+                                 kept.string()));
+    return;
+  }
+}
+
+void RunFolder::RefuseForeignFiles() const {
+  const auto here = ReadRunManifest(folder_).value_or(RunManifest{});
+  if (const auto name = Foreign(folder_, here, RunFilesIn(folder_))) {
+    throw InputError((folder_ / *name).string() +
+                     ": not written by an earlier run, and a run would replace it; move it away or "
+                     "choose another --out");
+  }
+}
+
+void RunFolder::StartPart() {
+  MakeFolder(part_);
+  part_made_ = true;
+  WriteRunManifest(part_, {});
+  try {
+    WriteFileAtomically(part_ / kReserve, std::string(kReserveBytes, ' '));
+  } catch (const InputError&) {  // on a disk as full as that the run may end without its manifest
+    return;
+  }
+}
+
+// With the folders that are empty then.
+void RunFolder::RemoveFolders() {
+  std::error_code error;
+  if (part_made_) RemovePart(part_);
+  lock_.reset();
+  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, error);
+}
+
+void RunFolder::Restore() {
+  if (lock_->IsInPlace() && Exists(part_ / RunManifest::kFile)) return;
+  MakeFolder(folder_);
+  if (!lock_->IsInPlace()) lock_.emplace(folder_, kHeld);
+  StartPart();
+}
+
+bool RunFolder::Write(const RunFile& file) {
+  const auto fail = [&](const std::string& why) {
+    failures_.push_back({file.name, why});
+    return false;
+  };
+  try {
+    Restore();
+    file.write(part_ / file.name);
+    return true;
+  } catch (const WriteError& error) {
+    return fail(error.why());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory");
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+}
+
+std::optional<std::string> RunFolder::Failures() const {
+  if (failures_.empty()) return std::nullopt;
+  std::string text = "cannot write ";
+  for (std::size_t i = 0; i < failures_.size(); ++i) {
+    const Failure& failure = failures_[i];
+    const bool goes_on = i > 0 && failure.why == failures_[i - 1].why;
+    if (i > 0) text += goes_on ? ", " : ": " + failures_[i - 1].why + "; ";
+    text += goes_on ? failure.name : (folder_ / failure.name).string();
+  }
+  return text + ": " + failures_.back().why;
+}
+
+void RunFolder::KeepOnly(const std::vector<std::string>& names) const {
+  std::error_code ignored;
+  if (!Exists(part_)) return;
+  for (const std::string& name : RunFilesIn(part_)) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      fs::remove(part_ / name, ignored);
+    }
+  }
+}
+
+bool RunFolder::WouldLose() const {
+  if (failures_.empty()) return false;
+  const auto earlier = ReadRunManifest(folder_);
+  return earlier && !earlier->files.empty();
+}
+
+void RunFolder::Commit() {
+  Restore();
+  RemoveFile(part_ / kReserve);
+  const std::vector<std::string> names = RunFilesIn(part_);
+  const auto here = ReadRunManifest(folder_).value_or(RunManifest{});
+  if (const auto name = Foreign(folder_, here, names)) {
+    throw InputError(fmt::format("{}: came there during the run; the results are in {}",
+                                 (folder_ / *name).string(),
+                                 part_.string()));
+  }
+  WriteRunManifest(part_, {true, names});
+  MoveIntoPlace(part_, folder_);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/io/folder_lock.h"
+#include "plumbline/report/run_manifest.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// A file of a run's results: its name, and what writes it to a path.
+struct RunFile {
+  std::string name;
+  std::function<void(const std::filesystem::path&)> write;
+};
+
+// Something that a run reads.
+struct RunInput {
+  std::filesystem::path path;
+  bool may_lie_in_out = false;  // it is read whole before anything is replaced
+};
+
+// Throws InputError, which says what to do, when a folder for results is, holds or lies in
+// something that is read. Touches nothing.
+void CheckApart(const std::filesystem::path& out, std::span<const RunInput> inputs);
+
+// The folder of a run's results (--out DIR), of which nothing is lost.
+//
+// A run writes into DIR/.part. At the end Commit() puts its files in the places of those of an
+// earlier run, which the manifest of DIR lists (RunManifest); what it does not list is never
+// touched. Killed at any moment, a run leaves the earlier results as they were and its own in
+// DIR/.part, or, from the first step of Commit() on, its own whole: the next RunFolder in DIR
+// completes the exchange. What a run that was killed before left in DIR/.part is kept as
+// DIR/interrupted-1, -2 and so on. One program at a time works in DIR (FolderLock).
+class RunFolder {
+ public:
+  // Makes DIR where it is missing, and DIR/.part. Throws InputError, which says what to do, when
+  // another run writes there, when DIR has files with names of ours that no run wrote, or when it
+  // cannot be written to; then DIR is as it was.
+  explicit RunFolder(std::filesystem::path folder);
+  // Takes away what it made in DIR unless Keep() was called.
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  const std::filesystem::path& path() const { return folder_; }
+  // Where the files are until Commit().
+  const std::filesystem::path& part() const { return part_; }
+  // What was found of runs that were killed, one sentence each.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  // From now on the part holds something of worth.
+  void Keep() { keep_ = true; }
+
+  // Makes the folders again where somebody removed them. Throws InputError when that fails.
+  void Restore();
+
+  // Writes a file into the part. What goes wrong is kept as a failure, so that the files after it
+  // are written all the same. Returns whether it was written.
+  bool Write(const RunFile& file);
+  // "cannot write DIR/map.plb, report.html: <reason>" in one line; nullopt: all could be written.
+  std::optional<std::string> Failures() const;
+
+  // Removes from the part the files of a run that are not among `names`.
+  void KeepOnly(const std::vector<std::string>& names) const;
+
+  // Whether Commit() would replace whole results by some of which files are missing.
+  bool WouldLose() const;
+
+  // Puts the files of the part into DIR, removes those of the earlier run, then the part. Throws
+  // InputError when that is impossible, for instance because DIR has got a file of such a name
+  // meanwhile; the files are in the part then, or some already in DIR.
+  void Commit();
+
+ private:
+  struct Failure {
+    std::string name;
+    std::string why;
+  };
+
+  void Open();
+  void TakeCareOfPart();
+  void RefuseForeignFiles() const;
+  void StartPart();
+  void RemoveFolders();
+
+  std::filesystem::path folder_;
+  std::filesystem::path part_;
+  std::vector<std::filesystem::path> made_;  // folders that were not there before, outermost first
+  std::optional<FolderLock> lock_;
+  std::vector<std::string> notes_;
+  std::vector<Failure> failures_;
+  bool keep_ = false;
+  bool part_made_ = false;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/run_manifest.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/io/atomic_file.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kKey = "plumbline_run";
+constexpr int kVersion = 1;
+
+std::optional<std::string> TextOf(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+}
+
+// Versions without manifests wrote the text of options.yaml into summary.json, too.
+bool IsOfOlderVersion(const fs::path& folder) {
+  const auto options = TextOf(folder / "options.yaml");
+  const auto summary = TextOf(folder / "summary.json");
+  if (!options || !summary) return false;
+  const Json json = Json::parse(*summary, nullptr, false);
+  return json.is_object() && json.contains("version") && json.contains("line_bytes") &&
+         json.contains("options") && json["options"] == *options;
+}
+
+[[noreturn]] void FailManifest(const fs::path& file) {
+  throw InputError(file.string() +
+                   ": expected the list of files that a run writes, found something else; choose "
+                   "another --out");
+}
+
+}  // namespace
+
+bool RunManifest::Lists(const std::string& name) const {
+  return std::find(files.begin(), files.end(), name) != files.end();
+}
+
+bool IsRunFile(const std::string& name) {
+  static const std::regex written(
+      R"((trajectory|trajectory_causal|keyframes)(_map[0-9]+)?\.txt|overlay_[0-9]{6,}\.png|)"
+      R"(options\.yaml|(frames|timing)\.csv|(timing|summary)\.json|map\.(plb|ply)|lines\.(obj|dxf)|)"
+      R"(report\.html)");
+  return std::regex_match(name, written);
+}
+
+std::vector<std::string> RunFilesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    std::string name = entry.path().filename().string();
+    if (IsRunFile(name)) names.push_back(std::move(name));
+  }
+  if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::optional<RunManifest> ReadRunManifest(const fs::path& folder) {
+  const fs::path file = folder / RunManifest::kFile;
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) {
+    if (!IsOfOlderVersion(folder)) return std::nullopt;
+    return RunManifest{true, RunFilesIn(folder)};
+  }
+  const auto text = TextOf(file);
+  if (!text) FailManifest(file);
+  const Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object() || json.value(kKey, Json()) != kVersion ||
+      !json.value("complete", Json()).is_boolean() || !json.value("files", Json()).is_array()) {
+    FailManifest(file);
+  }
+  RunManifest manifest;
+  manifest.complete = json["complete"];
+  for (const Json& name : json["files"]) {
+    if (name.is_string() && IsRunFile(name)) manifest.files.push_back(name);
+  }
+  return manifest;
+}
+
+void WriteRunManifest(const fs::path& folder, const RunManifest& manifest) {
+  const Json json = {{kKey, kVersion}, {"complete", manifest.complete}, {"files", manifest.files}};
+  WriteFileAtomically(folder / RunManifest::kFile, json.dump(1) + "\n");
+}
+
+}  // namespace plumbline

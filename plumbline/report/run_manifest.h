@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// What a run says of the files that it wrote into a folder: the file .plumbline-run beside them, in
+// JSON. Only files that are listed there belong to us and may be replaced or removed.
+struct RunManifest {
+  static constexpr const char* kFile = ".plumbline-run";
+
+  bool complete = false;           // false while the run is under way
+  std::vector<std::string> files;  // names in the folder, ascending
+
+  bool Lists(const std::string& name) const;
+};
+
+// Whether a run may write a file of this name: trajectory.txt, trajectory_map2.txt,
+// overlay_000010.png and so on.
+bool IsRunFile(const std::string& name);
+
+// The names in a folder for which IsRunFile holds, ascending. Throws InputError when the folder
+// cannot be listed.
+std::vector<std::string> RunFilesIn(const std::filesystem::path& folder);
+
+// The manifest of a folder. nullopt where there is none. A folder that a version without manifests
+// wrote has one, too: it holds all files of such names, when its summary.json repeats its
+// options.yaml. Names that are none of a run are left out, whatever the file says. Throws
+// InputError "<file>: expected ..., found ..." when it is no manifest.
+std::optional<RunManifest> ReadRunManifest(const std::filesystem::path& folder);
+
+// Replaces the manifest of a folder. Throws WriteError.
+void WriteRunManifest(const std::filesystem::path& folder, const RunManifest& manifest);
+
+}  // namespace plumbline

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/report/run_folder.h"
+
+#include "plumbline/io/atomic_file.h"
+
+#include "tests/io/scratch_folder.h"
+#include <filesystem>
+#include <new>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+RunFile Text(const std::string& name, const std::string& text) {
+  return {name, [text](const fs::path& path) { WriteFileAtomically(path, text); }};
+}
+
+RunFile Failing(const std::string& name, std::errc why) {
+  return {name, [why](const fs::path& path) { throw WriteError(path, std::make_error_code(why)); }};
+}
+
+std::set<std::string> FilesOf(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+  }
+  return names;
+}
+
+// A run that writes these files, each with the same text.
+void WriteRun(const fs::path& out, const std::vector<std::string>& names, const std::string& text) {
+  RunFolder folder(out);
+  folder.Keep();
+  for (const std::string& name : names) folder.Write(Text(name, text));
+  folder.Commit();
+}
+
+TEST(RunFolder, ReplacesTheFilesOfTheEarlierRunAtTheEnd) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch / "deep/out";
+  WriteRun(out, {"trajectory.txt", "trajectory_map1.txt"}, "old");
+  scratch.Write("deep/out/notes.txt", "mine");
+  {
+    RunFolder folder(out);
+    folder.Keep();
+    folder.Write(Text("trajectory.txt", "new"));
+    folder.Write(Text("map.plb", "new"));
+    EXPECT_EQ(Contents(out / "trajectory.txt"), "old");
+    EXPECT_EQ(Contents(out / "trajectory_map1.txt"), "old");
+    folder.Commit();
+  }
+  EXPECT_EQ(FilesOf(out),
+            (std::set<std::string>{".plumbline-run", "map.plb", "notes.txt", "trajectory.txt"}));
+  EXPECT_EQ(Contents(out / "trajectory.txt"), "new");
+  EXPECT_EQ(Contents(out / "notes.txt"), "mine");
+}
+
+TEST(RunFolder, LeavesEverythingAsItWasWhenNothingIsKept) {
+  const ScratchFolder scratch;
+  WriteRun(scratch / "out", {"trajectory.txt"}, "old");
+  const auto before = FilesOf(scratch / "out");
+  { RunFolder(scratch / "out").Write(Text("trajectory.txt", "new")); }
+  EXPECT_EQ(FilesOf(scratch / "out"), before);
+  EXPECT_EQ(Contents(scratch / "out/trajectory.txt"), "old");
+  { RunFolder(scratch / "fresh/out").Write(Text("trajectory.txt", "new")); }
+  EXPECT_FALSE(fs::exists(scratch / "fresh"));
+}
+
+TEST(RunFolder, RefusesFilesThatNoRunWrote) {
+  const ScratchFolder scratch;
+  WriteRun(scratch / "out", {"trajectory.txt"}, "old");
+  for (const char* name : {"keyframes.txt", "overlay_000003.png", "trajectory_map2.txt"}) {
+    for (const std::string out : {"out", "plain"}) {
+      const fs::path mine = scratch.Write(out + "/" + name, "mine");
+      const auto before = FilesOf(scratch / out);
+      const std::string message = MessageOf([&] { const RunFolder folder(scratch / out); });
+      EXPECT_THAT(message, StartsWith(mine.string() + ": not written by an earlier run"));
+      EXPECT_THAT(message, HasSubstr("choose another --out"));
+      EXPECT_EQ(FilesOf(scratch / out), before);
+      EXPECT_EQ(Contents(mine), "mine");
+      fs::remove(mine);
+    }
+  }
+  for (const char* other : {"overlay_0.png", "my_trajectory.txt", "map.jpg"}) {
+    scratch.Write(std::string("out/") + other, "mine");
+  }
+  WriteRun(scratch / "out", {"trajectory.txt"}, "new");
+  EXPECT_EQ(Contents(scratch / "out/overlay_0.png"), "mine");
+}
+
+TEST(RunFolder, RefusesAFolderOfTheUserByTheNameOfAFile) {
+  const ScratchFolder scratch;
+  WriteRun(scratch / "out", {"map.plb"}, "old");
+  fs::remove(scratch / "out/map.plb");
+  scratch.Write("out/map.plb/thing", "mine");
+  EXPECT_THAT(MessageOf([&] { const RunFolder folder(scratch / "out"); }),
+              HasSubstr("not written by an earlier run"));
+}
+
+TEST(RunFolder, RefusesAPartThatIsNotOfARun) {
+  const ScratchFolder scratch;
+  scratch.Write("out/.part/thing", "mine");
+  EXPECT_THAT(MessageOf([&] { const RunFolder folder(scratch / "out"); }),
+              HasSubstr(".part: not of a run of plumbline; move it away"));
+  EXPECT_EQ(Contents(scratch / "out/.part/thing"), "mine");
+}
+
+TEST(RunFolder, DoesNotReplaceWhatCameDuringTheRun) {
+  const ScratchFolder scratch;
+  RunFolder folder(scratch / "out");
+  folder.Keep();
+  folder.Write(Text("trajectory.txt", "new"));
+  const fs::path mine = scratch.Write("out/trajectory.txt", "mine");
+  EXPECT_THAT(MessageOf([&] { folder.Commit(); }),
+              HasSubstr("came there during the run; the results are in " + folder.part().string()));
+  EXPECT_EQ(Contents(mine), "mine");
+  EXPECT_EQ(Contents(folder.part() / "trajectory.txt"), "new");
+}
+
+TEST(RunFolder, IsForOneRunAtATime) {
+  const ScratchFolder scratch;
+  const RunFolder first(scratch / "out");
+  EXPECT_THAT(MessageOf([&] { const RunFolder second(scratch / "out"); }),
+              HasSubstr("another run is writing into this folder"));
+  EXPECT_TRUE(fs::exists(first.part()));
+}
+
+TEST(RunFolder, KeepsWhatAKilledRunLeft) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch / "out";
+  WriteRun(out, {"trajectory.txt"}, "old");
+  for (const std::string kept : {"interrupted-1", "interrupted-2"}) {
+    {
+      RunFolder killed(out);
+      killed.Keep();
+      killed.Write(Text("trajectory_causal.txt", "some of " + kept));
+    }
+    const RunFolder next(out);
+    EXPECT_THAT(next.notes(),
+                ElementsAre(HasSubstr("what it had written is in " + (out / kept).string())));
+    EXPECT_EQ(Contents(out / kept / "trajectory_causal.txt"), "some of " + kept);
+    EXPECT_EQ(Contents(out / "trajectory.txt"), "old");
+  }
+}
+
+// What each step of the exchange leaves when the program is killed after it.
+TEST(RunFolder, CompletesAnExchangeThatWasInterrupted) {
+  const std::vector<std::string> old_names = {"map.ply", "trajectory.txt"};
+  const std::vector<std::string> names = {"keyframes.txt", "map.plb", "trajectory.txt"};
+  for (std::size_t moved = 0; moved <= names.size() + 2; ++moved) {
+    const ScratchFolder scratch;
+    const fs::path out = scratch / "out";
+    WriteRun(out, old_names, "old");
+    {
+      RunFolder killed(out);
+      killed.Keep();
+      for (const std::string& name : names) killed.Write(Text(name, "new"));
+    }
+    WriteRunManifest(out / ".part", {true, names});
+    if (moved > 0) {
+      WriteRunManifest(out, {true, {"keyframes.txt", "map.plb", "map.ply", "trajectory.txt"}});
+    }
+    for (std::size_t i = 0; i + 1 < moved && i < names.size(); ++i) {
+      fs::rename(out / ".part" / names[i], out / names[i]);
+    }
+    if (moved > names.size() + 1) fs::remove(out / "map.ply");
+    {
+      const RunFolder next(out);
+      EXPECT_THAT(next.notes(), ElementsAre(HasSubstr("they are complete now"))) << moved;
+    }
+    EXPECT_EQ(
+        FilesOf(out),
+        (std::set<std::string>{".plumbline-run", "keyframes.txt", "map.plb", "trajectory.txt"}))
+        << moved;
+    for (const std::string& name : names) EXPECT_EQ(Contents(out / name), "new") << moved;
+    EXPECT_EQ(ReadRunManifest(out)->files, names) << moved;
+  }
+}
+
+TEST(RunFolder, AFileThatCannotBeWrittenDoesNotHinderTheOthers) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch / "out";
+  RunFolder folder(out);
+  folder.Keep();
+  EXPECT_FALSE(folder.Failures());
+  EXPECT_TRUE(folder.Write(Text("trajectory.txt", "new")));
+  EXPECT_FALSE(folder.Write(Failing("map.plb", std::errc::no_space_on_device)));
+  EXPECT_FALSE(folder.Write(Failing("map.ply", std::errc::no_space_on_device)));
+  EXPECT_FALSE(folder.Write({"report.html", [](const auto&) { throw std::bad_alloc(); }}));
+  EXPECT_TRUE(folder.Write(Text("summary.json", "new")));
+  EXPECT_EQ(*folder.Failures(),
+            "cannot write " + (out / "map.plb").string() + ", map.ply: No space left on device; " +
+                (out / "report.html").string() + ": out of memory");
+  EXPECT_FALSE(folder.WouldLose());
+  folder.Commit();
+  EXPECT_EQ(FilesOf(out),
+            (std::set<std::string>{
+                ".plumbline-lock", ".plumbline-run", "summary.json", "trajectory.txt"}));
+}
+
+TEST(RunFolder, KnowsWhenLessWouldReplaceMore) {
+  const ScratchFolder scratch;
+  WriteRun(scratch / "out", {"trajectory.txt", "map.plb"}, "old");
+  RunFolder folder(scratch / "out");
+  folder.Write(Text("trajectory.txt", "new"));
+  EXPECT_FALSE(folder.WouldLose());
+  folder.Write(Failing("map.plb", std::errc::no_space_on_device));
+  EXPECT_TRUE(folder.WouldLose());
+}
+
+TEST(RunFolder, IsMadeAgainWhereItWasRemoved) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch / "out";
+  {
+    RunFolder folder(out);
+    folder.Keep();
+    folder.Write(Text("trajectory.txt", "lost"));
+    fs::remove_all(out);
+    EXPECT_TRUE(folder.Write(Text("trajectory.txt", "new")));
+    EXPECT_THAT(MessageOf([&] { const RunFolder second(out); }), HasSubstr("another run"));
+    folder.Commit();
+  }
+  EXPECT_EQ(Contents(out / "trajectory.txt"), "new");
+  EXPECT_EQ(FilesOf(out), (std::set<std::string>{".plumbline-run", "trajectory.txt"}));
+}
+
+TEST(CheckApart, RefusesToWriteAmongWhatIsRead) {
+  const ScratchFolder scratch;
+  const fs::path image = scratch.Write("data/images/1.png", "");
+  const fs::path map = scratch.Write("run/map.plb", "");
+  const std::vector<RunInput> folder = {{scratch / "data"}};
+  const auto message = [&](const fs::path& out, const std::vector<RunInput>& inputs) {
+    return MessageOf([&] { CheckApart(out, inputs); });
+  };
+  EXPECT_THAT(message(scratch / "data", folder), HasSubstr("is " + (scratch / "data").string()));
+  EXPECT_THAT(message(scratch / "data/new", folder), HasSubstr("lies in"));
+  EXPECT_THAT(message(scratch.path(), folder), HasSubstr("holds"));
+  EXPECT_THAT(message(scratch / "data/images", {{image}}), HasSubstr("holds " + image.string()));
+  EXPECT_THAT(message(scratch / "data", folder), HasSubstr("choose another folder"));
+  EXPECT_EQ(message(scratch / "run", {{scratch / "data"}, {map, true}}), "no error");
+  EXPECT_THAT(message(scratch / "run", {{map}}), HasSubstr("holds"));
+}
+
+}  // namespace
+}  // namespace plumbline
