@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/association/projection_search.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,7 +18,7 @@ constexpr double kDisparityGateSigmas = 4;
 double Radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 bool SeenFromNear(const Eigen::Vector3d& usual, const Eigen::Vector3d& now, double max_angle_deg) {
-  return usual.isZero() || usual.dot(now.normalized()) >= std::cos(Radians(max_angle_deg));
+  return usual.isZero() || usual.dot(now.normalized()) >= math::Cos(Radians(max_angle_deg));
 }
 
 // Cuts the parameter interval [lo, hi] of p + t d to p.axis + t d.axis >= min.
@@ -96,13 +98,13 @@ std::optional<ProjectedPoint> ProjectPoint(const ImagingModel& imaging,
   if (!SeenFromNear(point.view_direction, now, options.max_view_angle_deg)) return std::nullopt;
   double octave = point.reference_octave;
   if (point.reference_distance > 0) {
-    octave += std::log(point.reference_distance / p.norm()) / std::log(imaging.octave_scale);
+    octave += math::Log(point.reference_distance / p.norm()) / math::Log(imaging.octave_scale);
   }
   const int nearest_octave = std::max(0, static_cast<int>(std::lround(octave)));
   return ProjectedPoint{px,
                         imaging.camera.DisparityFromDepth(p.z()),
                         nearest_octave,
-                        std::pow(imaging.octave_scale, nearest_octave),
+                        math::Pow(imaging.octave_scale, nearest_octave),
                         point.descriptor};
 }
 
@@ -179,7 +181,7 @@ std::vector<LandmarkMatch> MatchProjectedLines(
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options) {
   const std::vector<LineFeature>& lines = image.features.lines;
-  const double min_cosine = std::cos(Radians(options.line_angle_deg));
+  const double min_cosine = math::Cos(Radians(options.line_angle_deg));
   std::vector<Wish> wishes;
   for (std::size_t l = 0; l < landmarks.size(); ++l) {
     if (!landmarks[l]) continue;

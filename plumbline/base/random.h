@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 
 #include <array>
@@ -64,8 +65,8 @@ class Rng {
 
   // Normal with mean 0 and the given standard deviation (Box-Muller, one of the two values).
   double Normal(double sigma = 1) {
-    const double radius = std::sqrt(-2 * std::log(1 - Uniform()));
-    return sigma * radius * std::cos(2 * std::numbers::pi * Uniform());
+    const double radius = std::sqrt(-2 * math::Log(1 - Uniform()));
+    return sigma * radius * math::Cos(2 * std::numbers::pi * Uniform());
   }
 
   // Every order equally likely (Fisher-Yates).

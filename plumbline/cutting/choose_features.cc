@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting/choose_features.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/cutting/pose_information.h"
 #include "plumbline/cutting/single_line.h"
@@ -26,7 +27,7 @@ double GainOf(const Eigen::LLT<Matrix6d>& rest, const Rows& rows, const Weight& 
                                Rows::MaxRowsAtCompileTime>;
   const Square one = Square::Identity(rows.rows(), rows.rows());
   const Square spread = rows * rest.solve(rows.transpose());
-  return std::log((one + weight * spread).determinant());
+  return math::Log((one + weight * spread).determinant());
 }
 
 bool CutsLines(CuttingMethod method) {

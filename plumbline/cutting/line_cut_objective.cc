@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting/line_cut_objective.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -79,7 +81,7 @@ double IndependentLineObjective::operator()(const Vector2d& ratios, Vector2d& gr
       pp_slope * (1 + qq) - cross * p.power_by_ratio.dot(gq) + pq2 * p.variance_by_ratio * ip,
       qq_slope * (1 + pp) - cross * q.power_by_ratio.dot(gp) + pq2 * q.variance_by_ratio * iq};
   gradient /= determinant;
-  return std::log(determinant);
+  return math::Log(determinant);
 }
 
 double GeneralLineObjective::operator()(const Vector2d& ratios, Vector2d& gradient) const {

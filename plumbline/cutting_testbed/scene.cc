@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting_testbed/scene.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/cutting/endpoint_covariance.h"
 #include "plumbline/geometry/se3.h"
 
@@ -32,7 +33,7 @@ Vector3d RandomNormal(Rng& rng) { return {rng.Normal(), rng.Normal(), rng.Normal
 Rigid3 LookAt(const Vector3d& centre, const Vector3d& target, double roll) {
   const Vector3d z = (target - centre).normalized();
   const Vector3d side = z.unitOrthogonal();
-  const Vector3d x = std::cos(roll) * side + std::sin(roll) * z.cross(side);
+  const Vector3d x = math::Cos(roll) * side + math::Sin(roll) * z.cross(side);
   Eigen::Matrix3d cam_from_world;
   cam_from_world << x.transpose(), z.cross(x).transpose(), z.transpose();
   const Eigen::Quaterniond rotation(cam_from_world);
@@ -201,7 +202,7 @@ CuttingScene MakeEdgeScene(const SceneOptions& options, double angle, std::uint6
   // Around the middle of the edge, in a plane through it that leaves the cuboid to one side.
   const Vector3d middle = lines[0].Midpoint();
   const Vector3d outwards = Vector3d(0, -1, -1).normalized();
-  const Vector3d away = std::cos(angle) * Vector3d::UnitX() + std::sin(angle) * outwards;
+  const Vector3d away = math::Cos(angle) * Vector3d::UnitX() + math::Sin(angle) * outwards;
   // Beside the edge: from exactly ahead it would have no image.
   const Vector3d centre = middle + 4 * away + 0.3 * outwards;
   return SeeCuboid(options, centre, centre - away, lines, rng);

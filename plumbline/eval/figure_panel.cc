@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/eval/figure_panel.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -19,7 +21,7 @@ constexpr Figure::Color kInk{40, 40, 40}, kGrid{222, 222, 222};
 
 double GridStep(double span, int count) {
   const double rough = std::max(span, 1e-12) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double power = math::Pow(10.0, std::floor(math::Log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * power >= rough) return factor * power;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/cutting_testbed_figures.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/options.h"
 
 #include <algorithm>
@@ -174,13 +175,13 @@ GeometricMean RatioToFull(const std::vector<PoseTrial>& list, PoseVariant varian
   std::vector<double> logs, squares;
   for (const PoseTrial& trial : list) {
     logs.push_back(
-        std::log(trial.at(variant).translation_m / trial.at(PoseVariant::kFull).translation_m));
+        math::Log(trial.at(variant).translation_m / trial.at(PoseVariant::kFull).translation_m));
     squares.push_back(logs.back() * logs.back());
   }
   const double mean = Mean(logs);
   const double variance = std::max(0.0, Mean(squares) - mean * mean);
   const double half = 1.96 * std::sqrt(variance / static_cast<double>(logs.size()));
-  return {std::exp(mean), std::exp(mean - half), std::exp(mean + half)};
+  return {math::Exp(mean), math::Exp(mean - half), math::Exp(mean + half)};
 }
 
 template <class Value>

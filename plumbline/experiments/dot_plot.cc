@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/dot_plot.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/eval/figure_panel.h"
 
 #include <algorithm>
@@ -37,8 +38,8 @@ class Axis {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     logarithmic_ = *low > 0 && *high > kLogFrom * *low;
     if (logarithmic_) {
-      low_ = std::log10(*low) - 0.1;
-      high_ = std::log10(*high) + 0.1;
+      low_ = math::Log10(*low) - 0.1;
+      high_ = math::Log10(*high) + 0.1;
     } else {
       low_ = std::min(0.0, *low);
       high_ = *high > low_ ? low_ + 1.06 * (*high - low_) : low_ + 1;
@@ -46,7 +47,7 @@ class Axis {
   }
 
   double ToPixel(double value) const {
-    const double place = logarithmic_ ? std::log10(value) : value;
+    const double place = logarithmic_ ? math::Log10(value) : value;
     return left_ + kPlotWidth * (place - low_) / (high_ - low_);
   }
 
@@ -55,8 +56,8 @@ class Axis {
     if (logarithmic_) {
       for (auto power = static_cast<int>(std::floor(low_)); power <= high_; ++power) {
         for (const double factor : {1.0, 2.0, 5.0}) {
-          const double tick = factor * std::pow(10.0, power);
-          if (std::log10(tick) >= low_ && std::log10(tick) <= high_) ticks.push_back(tick);
+          const double tick = factor * math::Pow(10.0, power);
+          if (math::Log10(tick) >= low_ && math::Log10(tick) <= high_) ticks.push_back(tick);
         }
       }
       return ticks;
@@ -129,7 +130,7 @@ void DrawRow(const TableRow& row,
   Figure::Polyline dot{{}, color, 2 * kRadius};  // as wide as its radius: full
   for (int i = 0; i <= kCorners; ++i) {
     const double angle = 2 * std::numbers::pi * i / kCorners;
-    dot.points.emplace_back(centre + kRadius * std::cos(angle), y + kRadius * std::sin(angle));
+    dot.points.emplace_back(centre + kRadius * math::Cos(angle), y + kRadius * math::Sin(angle));
   }
   figure.lines.push_back(std::move(dot));
   if (!with_coverage || row.coverage >= kAllCovered) return;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/paired_ratios.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/random.h"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ std::optional<double> LogRatio(const JobResult& variant, const JobResult& refere
   const double covered_b = ValueOf(reference, "coverage").value_or(0);
   if (!a || !b || !(*a > 0) || !(*b > 0)) return std::nullopt;
   if (std::abs(covered_a - covered_b) > kCoverageGap) return std::nullopt;
-  return std::log(*a / *b);
+  return math::Log(*a / *b);
 }
 
 double Mean(const std::vector<double>& values) {
@@ -75,13 +76,13 @@ void SetRatio(const std::vector<std::vector<double>>& logs,
               const std::string& stream,
               PairedRatio& out) {
   if (logs.empty()) return;
-  out.ratio = std::exp(MeanOfMeans(logs));
+  out.ratio = math::Exp(MeanOfMeans(logs));
   std::vector<double> samples;
   for (int i = 0; i < kSamples; ++i) {
     Rng rng(0, stream, static_cast<std::uint64_t>(i));
     std::vector<std::vector<double>> sample = Resample(logs, rng);
     for (auto& pairs : sample) pairs = Resample(pairs, rng);
-    samples.push_back(std::exp(MeanOfMeans(sample)));
+    samples.push_back(math::Exp(MeanOfMeans(sample)));
   }
   std::sort(samples.begin(), samples.end());
   out.low = samples[kSamples * 25 / 1000];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/depth_disparity.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 
 #include <algorithm>
@@ -196,7 +197,7 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
     const double disparity = camera.DisparityFromDepth(sample->z);
     // The spread covers two pixels: what the depth changes over a misregistration.
     const double slope = disparity * 0.5 * sample->spread / sample->z * options.pixel_sigma_px;
-    result.back() = Disparity{disparity, std::hypot(model.DisparitySigma(sample->z), slope)};
+    result.back() = Disparity{disparity, math::Hypot(model.DisparitySigma(sample->z), slope)};
   }
   return result;
 }
@@ -218,7 +219,7 @@ std::vector<std::optional<RightLine>> VirtualRightLines(const RectifiedCamera& c
     right.segment.end = line.segment.end - Eigen::Vector2d(fit->end, 0);
     // Disparity noise counts by its part across the line.
     const double across = std::abs(line.segment.Direction().y()) * fit->sigma;
-    right.sigma_px = std::hypot(line.sigma_px, across);
+    right.sigma_px = math::Hypot(line.sigma_px, across);
     result.back() = right;
   }
   return result;

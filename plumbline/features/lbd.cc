@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/lbd.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +45,7 @@ std::array<BandWeights, kLbdBands> MakeWeights() {
       const auto r = static_cast<std::size_t>(row);
       band.begin = std::min(band.begin, r);
       band.end = r + 1;
-      band.weight[r] = static_cast<float>(std::exp(-0.5 * (global * global + local * local)));
+      band.weight[r] = static_cast<float>(math::Exp(-0.5 * (global * global + local * local)));
     }
   }
   return bands;

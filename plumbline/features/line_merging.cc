@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/line_merging.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/features/line_refinement.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 double Angle(const Segment2& segment) {
   const Eigen::Vector2d d = segment.end - segment.start;
-  return std::atan2(d.y(), d.x());
+  return math::Atan2(d.y(), d.x());
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ std::optional<Segment2> Join(const GradientImage& gradient,
                              const LineFeature& b,
                              const LineMergeLimits& limits) {
   const Eigen::Vector2d direction = a.segment.Direction();
-  if (direction.dot(b.segment.Direction()) < std::cos(limits.angle_deg * kDegree)) {
+  if (direction.dot(b.segment.Direction()) < math::Cos(limits.angle_deg * kDegree)) {
     return std::nullopt;
   }
   const Eigen::Vector3d line = LineThrough(a.segment);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/match_lines.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ bool PlacesCompatible(const Place& a,
 }
 
 double MinCosine(const LineMatchOptions& options) {
-  return std::cos(options.max_angle_deg * kDegree);
+  return math::Cos(options.max_angle_deg * kDegree);
 }
 
 struct Pairing {
@@ -133,7 +134,7 @@ class DistanceTable {
   std::vector<int> best_row_;  // of each column; the first of equals
 };
 
-double FlatSine(double flat_angle_deg) { return std::sin(flat_angle_deg * kDegree); }
+double FlatSine(double flat_angle_deg) { return math::Sin(flat_angle_deg * kDegree); }
 
 double RowSine(const Segment2& segment) { return std::abs(segment.Direction().y()); }
 
@@ -219,7 +220,7 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
                                                        const StereoLineOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
   const double max_disparity = camera.DisparityFromDepth(options.min_depth_m);
-  const double min_cosine = std::cos(options.max_angle_deg * kDegree);
+  const double min_cosine = math::Cos(options.max_angle_deg * kDegree);
   const double flat = FlatSine(options.flat_angle_deg);
   DistanceTable table(left.size(), right.size());
   for (std::size_t i = 0; i < left.size(); ++i) {
@@ -239,7 +240,7 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
     const LineFeature& r = right[static_cast<std::size_t>(m.b)];
     // An error of the calibration shifts the line along the rows, so across itself by this much.
     const double shift = calibration_sigma_px * std::abs(r.segment.Direction().y());
-    result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, std::hypot(r.sigma_px, shift)};
+    result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, math::Hypot(r.sigma_px, shift)};
   }
   return result;
 }
@@ -258,7 +259,7 @@ std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
     const double t = (end.y() - right.segment.start.y()) / height;
     const double across = right.sigma_px * std::sqrt((1 - t) * (1 - t) + t * t);
     return Disparity{end.x() - XAtRow(right.segment, end.y()),
-                     std::hypot(left.sigma_px / left_sine, across / right_sine)};
+                     math::Hypot(left.sigma_px / left_sine, across / right_sine)};
   };
   const LineEndDisparity result{at(left.segment.start), at(left.segment.end)};
   if (result.start.px <= 0 || result.end.px <= 0) return std::nullopt;

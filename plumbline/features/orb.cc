@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/orb.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/image/opencv_bridge.h"
 
@@ -131,7 +132,7 @@ double CentroidAngle(const GrayImage& image, int x, int y) {
     }
     moment_y += dy * sum;
   }
-  return std::atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
+  return math::Atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
 }
 
 // Place of the extreme of a parabola through three values at -1, 0, 1; 0 when it is not between.
@@ -192,7 +193,7 @@ class HarrisAround {
     std::size_t k = 0;
     for (int v = -kWindow; v <= kWindow; ++v) {
       for (int u = -kWindow; u <= kWindow; ++u) {
-        weights[k++] = static_cast<float>(std::exp(-0.5 * (u * u + v * v) / (kSigma * kSigma)));
+        weights[k++] = static_cast<float>(math::Exp(-0.5 * (u * u + v * v) / (kSigma * kSigma)));
       }
     }
     return weights;
@@ -282,7 +283,7 @@ void ExtractLevel(const PyramidLevel& level,
     point.px = level.ToFull(px);
     const double noise_sigma = options.noise_sigma_px / static_cast<double>(c.response);
     point.sigma_px =
-        std::hypot(std::hypot(options.sigma_px, noise_sigma) * scale, calibration_sigma_px);
+        math::Hypot(math::Hypot(options.sigma_px, noise_sigma) * scale, calibration_sigma_px);
     point.angle = CentroidAngle(
         level.image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
     point.response = static_cast<double>(c.response);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/median.h"
 #include "plumbline/base/parallel.h"
@@ -60,7 +61,7 @@ class CorrelationWindow {
     std::size_t k = 0;
     for (int dy = -half_; dy <= half_; ++dy) {
       for (int dx = -half_; dx <= half_; ++dx, ++k) {
-        weight_[k] = static_cast<float>(std::exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma)));
+        weight_[k] = static_cast<float>(math::Exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma)));
         total_ += weight_[k];
       }
     }
@@ -186,7 +187,7 @@ class OctaveMatcher {
     const double disparity = (at.x() - found->x) * scale;
     if (disparity <= 0 || disparity > max_disparity_) return std::nullopt;
     const double sigma =
-        std::hypot(std::max(options_.min_sigma_px, found->sigma) * scale, calibration_sigma_px_);
+        math::Hypot(std::max(options_.min_sigma_px, found->sigma) * scale, calibration_sigma_px_);
     return Found{{disparity, sigma}, found->residual};
   }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/camera.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ double MaxRadius(const CameraIntrinsics& in) {
   const std::vector<double> turns = SignChanges(RadialSlope(in), limit);
   if (turns.empty()) return kInfinity;
   const double s = std::sqrt(turns.front());
-  return equidistant ? std::tan(s) : s;
+  return equidistant ? math::Tan(s) : s;
 }
 
 void Expect(bool condition, const char* expected, double found) {
@@ -126,7 +127,7 @@ std::optional<Eigen::Vector2d> Camera::Distort(const Eigen::Vector2d& ideal,
   if (!(r < max_radius_)) return std::nullopt;
   const bool equidistant = intrinsics_.model == DistortionModel::kEquidistant;
   // distorted = scale(r^2) ideal + tangential part; slope = d(scale)/d(r^2).
-  const double s = equidistant ? std::atan(r) : r;
+  const double s = equidistant ? math::Atan(r) : r;
   const double factor = Evaluate(RadialFactor(intrinsics_), s * s);
   const double ds_dr = equidistant ? 1 / (1 + r2) : 1;
   // Near the axis atan(r)/r = 1 - r^2/3.
@@ -160,7 +161,8 @@ std::optional<double> Camera::UndistortRadius(double distorted_radius) const {
   const std::array<double, 5> factor = RadialFactor(intrinsics_);
   const auto distorted_of = [&](double s) { return s * Evaluate(factor, s * s); };
   double low = 0;
-  double high = equidistant ? std::min(std::atan(max_radius_), 1.57) : std::min(max_radius_, 100.0);
+  double high =
+      equidistant ? std::min(math::Atan(max_radius_), 1.57) : std::min(max_radius_, 100.0);
   if (!(distorted_of(high) > distorted_radius)) return std::nullopt;
   double s = std::clamp(distorted_radius, low, high);
   for (int i = 0; i < 100 && high - low > kConverged; ++i) {
@@ -171,7 +173,7 @@ std::optional<double> Camera::UndistortRadius(double distorted_radius) const {
     s -= error / Evaluate(RadialSlope(intrinsics_), s * s);
     if (!(s > low && s < high)) s = 0.5 * (low + high);
   }
-  return equidistant ? std::tan(s) : s;
+  return equidistant ? math::Tan(s) : s;
 }
 
 std::optional<Eigen::Vector2d> Camera::Undistort(const Eigen::Vector2d& distorted) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/line_triangulation.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/geometry/trimming.h"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
     for (std::size_t j = i + 1; j < planes.size(); ++j) {
       const Eigen::Vector3d n1 = planes[i].head<3>();
       const Eigen::Vector3d n2 = planes[j].head<3>();
-      const double angle = std::atan2(n1.cross(n2).norm(), std::abs(n1.dot(n2)));
+      const double angle = math::Atan2(n1.cross(n2).norm(), std::abs(n1.dot(n2)));
       if (angle > widest.angle) widest = {i, j, angle};
     }
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/plucker.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +47,7 @@ OrthonormalLine ToOrthonormal(const PluckerLine& line) {
   u1.normalize();
   Eigen::Matrix3d U;
   U << u1, u2, u1.cross(u2);
-  return {Eigen::Quaterniond(U).normalized(), Eigen::Vector2d(m, d) / std::hypot(m, d)};
+  return {Eigen::Quaterniond(U).normalized(), Eigen::Vector2d(m, d) / math::Hypot(m, d)};
 }
 
 PluckerLine ToPlucker(const OrthonormalLine& line) {
@@ -54,15 +56,15 @@ PluckerLine ToPlucker(const OrthonormalLine& line) {
 }
 
 OrthonormalLine Retract(const OrthonormalLine& line, const Eigen::Vector4d& delta) {
-  const double c = std::cos(delta(3));
-  const double s = std::sin(delta(3));
+  const double c = math::Cos(delta(3));
+  const double s = math::Sin(delta(3));
   return {(line.U * ExpSo3(delta.head<3>())).normalized(),
           {c * line.w.x() - s * line.w.y(), s * line.w.x() + c * line.w.y()}};
 }
 
 OrthonormalLine RetractLeft(const OrthonormalLine& line, const Eigen::Vector4d& delta) {
-  const double c = std::cos(delta(3));
-  const double s = std::sin(delta(3));
+  const double c = math::Cos(delta(3));
+  const double s = math::Sin(delta(3));
   return {(ExpSo3(delta.head<3>()) * line.U).normalized(),
           {c * line.w.x() - s * line.w.y(), s * line.w.x() + c * line.w.y()}};
 }

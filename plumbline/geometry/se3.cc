@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/se3.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +24,7 @@ Coefficients CoefficientsOf(double t) {
             0.5 - t2 / 24 + t2 * t2 / 720,
             1.0 / 6 - t2 / 120 + t2 * t2 / 5040};
   }
-  return {std::sin(t) / t, (1 - std::cos(t)) / t2, (t - std::sin(t)) / (t2 * t)};
+  return {math::Sin(t) / t, (1 - math::Cos(t)) / t2, (t - math::Sin(t)) / (t2 * t)};
 }
 
 }  // namespace
@@ -30,8 +32,8 @@ Coefficients CoefficientsOf(double t) {
 Eigen::Quaterniond ExpSo3(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   const double half = 0.5 * angle;
-  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(half) / angle;
-  Eigen::Quaterniond q(std::cos(half), scale * w.x(), scale * w.y(), scale * w.z());
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : math::Sin(half) / angle;
+  Eigen::Quaterniond q(math::Cos(half), scale * w.x(), scale * w.y(), scale * w.z());
   return q.normalized();
 }
 
@@ -41,7 +43,7 @@ Eigen::Vector3d LogSo3(const Eigen::Quaterniond& q) {
   const double w = sign * q.w();
   const double n = v.norm();
   if (n < 1e-7) return (2.0 / w) * (1 - n * n / (3 * w * w)) * v;
-  return (2.0 * std::atan2(n, w) / n) * v;
+  return (2.0 * math::Atan2(n, w) / n) * v;
 }
 
 Eigen::Matrix3d LeftJacobianSo3(const Eigen::Vector3d& w) {
@@ -55,7 +57,7 @@ Eigen::Matrix3d InverseLeftJacobianSo3(const Eigen::Vector3d& w) {
   const Eigen::Matrix3d W = Skew(w);
   const double t2 = t * t;
   // By the half angle: the form with (1 + cos t) / sin t is 0 / 0 at pi.
-  const double b = t < 1e-3 ? 1.0 / 12 + t2 / 720 : (1 - 0.5 * t / std::tan(0.5 * t)) / t2;
+  const double b = t < 1e-3 ? 1.0 / 12 + t2 / 720 : (1 - 0.5 * t / math::Tan(0.5 * t)) / t2;
   return Eigen::Matrix3d::Identity() - 0.5 * W + b * W * W;
 }
 
@@ -86,9 +88,9 @@ Eigen::Matrix3d TranslationBlock(const Eigen::Vector3d& w, const Eigen::Vector3d
   const double t2 = t * t;
   const double a = CoefficientsOf(t).cubic;
   const double b =
-      t < 1e-2 ? 1.0 / 24 - t2 / 720 + t2 * t2 / 40320 : (t2 / 2 + std::cos(t) - 1) / (t2 * t2);
+      t < 1e-2 ? 1.0 / 24 - t2 / 720 + t2 * t2 / 40320 : (t2 / 2 + math::Cos(t) - 1) / (t2 * t2);
   const double c = t < 1e-2 ? 1.0 / 120 - t2 / 2520 + t2 * t2 / 120960
-                            : (t - 1.5 * std::sin(t) + 0.5 * t * std::cos(t)) / (t2 * t2 * t);
+                            : (t - 1.5 * math::Sin(t) + 0.5 * t * math::Cos(t)) / (t2 * t2 * t);
   const Eigen::Matrix3d W = Skew(w);
   const Eigen::Matrix3d V = Skew(v);
   const Eigen::Matrix3d WV = W * V;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/segment.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,7 +44,7 @@ Eigen::Vector3d LineThrough(const Segment2& segment) {
 
 double UndirectedAngle(const Eigen::Vector2d& direction1, const Eigen::Vector2d& direction2) {
   const double cross = direction1.x() * direction2.y() - direction1.y() * direction2.x();
-  return std::atan2(std::abs(cross), std::abs(direction1.dot(direction2)));
+  return math::Atan2(std::abs(cross), std::abs(direction1.dot(direction2)));
 }
 
 double OverlapRatio(const Segment2& reference, const Segment2& other) {
@@ -57,7 +59,7 @@ double OverlapRatio(const Segment2& reference, const Segment2& other) {
 }
 
 double UndirectedAngle(const Eigen::Vector3d& direction1, const Eigen::Vector3d& direction2) {
-  return std::atan2(direction1.cross(direction2).norm(), std::abs(direction1.dot(direction2)));
+  return math::Atan2(direction1.cross(direction2).norm(), std::abs(direction1.dot(direction2)));
 }
 
 double Distance(const Segment3& segment, const Eigen::Vector3d& point) {

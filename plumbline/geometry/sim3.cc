@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/sim3.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <cmath>
 
 #include <Eigen/LU>
@@ -27,7 +29,7 @@ Eigen::Matrix3d TranslationFactor(const Eigen::Vector3d& w, double log_scale) {
   for (int k = kTerms; k >= 1; --k) factor = Eigen::Matrix3d::Identity() + A * factor / (k + 1);
   for (int i = 0; i < halvings; ++i) {
     const Eigen::Matrix3d exponential =
-        std::exp(shrink * log_scale) * ExpSo3(shrink * w).toRotationMatrix();
+        math::Exp(shrink * log_scale) * ExpSo3(shrink * w).toRotationMatrix();
     factor = 0.5 * (exponential + Eigen::Matrix3d::Identity()) * factor;
     shrink *= 2;
   }
@@ -69,12 +71,12 @@ Rigid3 TransformPose(const Similarity3& b_from_a, const Rigid3& a_from_cam) {
 Similarity3 ExpSim3(const Vector7d& tangent) {
   const Eigen::Vector3d w = tangent.head<3>();
   return {
-      std::exp(tangent(6)), ExpSo3(w), TranslationFactor(w, tangent(6)) * tangent.segment<3>(3)};
+      math::Exp(tangent(6)), ExpSo3(w), TranslationFactor(w, tangent(6)) * tangent.segment<3>(3)};
 }
 
 Vector7d LogSim3(const Similarity3& similarity) {
   const Eigen::Vector3d w = LogSo3(similarity.rotation);
-  const double log_scale = std::log(similarity.scale);
+  const double log_scale = math::Log(similarity.scale);
   Vector7d tangent;
   tangent << w, TranslationFactor(w, log_scale).partialPivLu().solve(similarity.translation),
       log_scale;

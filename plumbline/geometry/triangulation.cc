@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/triangulation.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -32,7 +34,7 @@ double LargestParallax(const std::vector<Eigen::Vector3d>& centres, const Eigen:
     for (std::size_t j = i + 1; j < centres.size(); ++j) {
       const Eigen::Vector3d a = centres[i] - point;
       const Eigen::Vector3d b = centres[j] - point;
-      largest = std::max(largest, std::atan2(a.cross(b).norm(), a.dot(b)));
+      largest = std::max(largest, math::Atan2(a.cross(b).norm(), a.dot(b)));
     }
   }
   return largest;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/image/pyramid.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ ImagePyramid BuildPyramid(const GrayImage& image, int levels, double factor, int
   pyramid.reserve(static_cast<std::size_t>(levels));
   pyramid.push_back({image, Eigen::Vector2d::Ones()});
   for (int level = 1; level < levels; ++level) {
-    const double shrink = std::pow(factor, level);
+    const double shrink = math::Pow(factor, level);
     const int width = static_cast<int>(std::lround(image.width() / shrink));
     const int height = static_cast<int>(std::lround(image.height() / shrink));
     if (std::min(width, height) < min_side) break;

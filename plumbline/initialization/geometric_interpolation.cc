@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/geometric_interpolation.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/geometry/epipolar.h"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ std::optional<InterpolatedPoint> GeometricInterpolation::Interpolate(
   const Eigen::Matrix2d inverse = lines.inverse();
   return InterpolatedPoint{x.head<2>(),
                            inverse * variance * inverse.transpose(),
-                           std::asin(std::min(1.0, std::abs(meet.z()) / lengths))};
+                           math::Asin(std::min(1.0, std::abs(meet.z()) / lengths))};
 }
 
 }  // namespace plumbline

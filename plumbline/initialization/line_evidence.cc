@@ -3,6 +3,7 @@
 #include "plumbline/initialization/line_evidence.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/triangulation.h"
@@ -71,7 +72,7 @@ std::vector<WindowSolution> Probes(const WindowTracks& tracks,
     WindowSolution moved = solution;
     for (std::size_t i = 0; i < moved.cam_from_reference.size(); ++i) {
       const Vector6d shift =
-          side * std::tan(angle) * length * step.segment<6>(static_cast<Eigen::Index>(6 * i));
+          side * math::Tan(angle) * length * step.segment<6>(static_cast<Eigen::Index>(6 * i));
       Rigid3& pose = moved.cam_from_reference[i];
       pose = Rigid3{ExpSo3(shift.head<3>()), shift.tail<3>()} * pose;
     }

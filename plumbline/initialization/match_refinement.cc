@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/match_refinement.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/geometry/se3.h"
 
 #include <algorithm>
@@ -199,7 +200,7 @@ Places RefinePlaces(const GrayImage& reference_image,
   Places places(guesses.size());
   for (std::size_t k = 0; k < guesses.size(); ++k) {
     if (!guesses[k]) continue;
-    const double step = std::pow(kOctave, reference[k].octave);
+    const double step = math::Pow(kOctave, reference[k].octave);
     const auto patch = PatchAround(reference_image, reference[k].px, step, options.radius);
     if (!patch || !patch->IsRound(options.min_roundness)) continue;
     const Eigen::Matrix2d axes = step * linear;

@@ -3,6 +3,7 @@
 #include "plumbline/initialization/multi_view.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/median.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/geometry/basis_across.h"
@@ -50,8 +51,9 @@ double ParallaxDeg(const WindowTracks& tracks, const WindowSolution& solution) {
     if (!tracks.views.back().Has(k)) continue;
     const Eigen::Vector3d to_centre = solution.points[k] - centre;
     const Eigen::Vector3d& point = solution.points[k];
-    angles.push_back(
-        solution.is_known[k] ? std::atan2(point.cross(to_centre).norm(), point.dot(to_centre)) : 0);
+    angles.push_back(solution.is_known[k]
+                         ? math::Atan2(point.cross(to_centre).norm(), point.dot(to_centre))
+                         : 0);
   }
   return UpperMedian(std::move(angles)) / kDegree;
 }

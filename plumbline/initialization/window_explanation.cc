@@ -3,6 +3,7 @@
 #include "plumbline/initialization/window_explanation.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ bool IsSame(const WindowSolution& a, const WindowSolution& b) {
   const Rigid3& pose_b = b.cam_from_reference.back();
   const Eigen::Vector3d centre_a = Inverse(pose_a).translation;
   const Eigen::Vector3d centre_b = Inverse(pose_b).translation;
-  const double angle = std::atan2(centre_a.cross(centre_b).norm(), centre_a.dot(centre_b));
+  const double angle = math::Atan2(centre_a.cross(centre_b).norm(), centre_a.dot(centre_b));
   return AngularDistance(pose_a.rotation, pose_b.rotation) < kSameRotation &&
          angle < kSameDirection;
 }

@@ -3,6 +3,7 @@
 #include "plumbline/mapping/ba_window.h"
 
 #include "plumbline/association/line_information.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/line_interval.h"
 #include "plumbline/mapping/parallel_lines.h"
@@ -141,7 +142,7 @@ class WindowBuilder {
     }
     for (auto& line : problem.parallel_lines) {
       const auto axis = static_cast<std::size_t>(line.axis);
-      line.sigma = std::hypot(ParallelSigma(), std::sqrt(count[axis]) * directions[axis].sigma);
+      line.sigma = math::Hypot(ParallelSigma(), std::sqrt(count[axis]) * directions[axis].sigma);
     }
     for (const CommonDirection& axis : directions) {
       problem.axes.push_back(window_.problem_from_world.rotation * axis.direction);
@@ -167,7 +168,7 @@ class WindowBuilder {
   // Wide angle between the interpretation planes of the first view and another (left images), or
   // ends that the information fixes.
   bool WellConditioned(const MapLine& line) const {
-    const double limit = std::cos(options_.min_line_plane_angle_deg * std::numbers::pi / 180);
+    const double limit = math::Cos(options_.min_line_plane_angle_deg * std::numbers::pi / 180);
     std::optional<Eigen::Vector3d> first;
     for (const auto& [keyframe, feature] : line.observations) {
       const Eigen::Vector3d centre = Inverse(map_.Find(keyframe)->frame.cam_from_world).translation;

@@ -4,6 +4,7 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/stretches.h"
 #include "plumbline/optimization/residuals.h"
@@ -141,12 +142,12 @@ std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
   for (const LineSupport& support : supports) {
     const Frame& frame = support.keyframe->frame;
     const LineFeature& left = frame.features().lines[support.feature];
-    views.push_back({frame.cam_from_world, left.segment, std::hypot(left.sigma_px, kPoseSigmaPx)});
+    views.push_back({frame.cam_from_world, left.segment, math::Hypot(left.sigma_px, kPoseSigmaPx)});
     if (!support.right) continue;
     const RightLine& right = *frame.features().line_right[support.feature];
     views.push_back({RightCamera(camera, frame.cam_from_world),
                      right.segment,
-                     std::hypot(right.sigma_px, kPoseSigmaPx)});
+                     math::Hypot(right.sigma_px, kPoseSigmaPx)});
   }
   const auto found = TriangulateLine(camera, views, options);
   if (!found) return std::nullopt;

@@ -3,6 +3,7 @@
 #include "plumbline/mapping/parallel_lines.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/geometry/basis_across.h"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ using Lines = std::vector<const LineDirection*>;
 
 // The line with most others near it; nullptr when there are not enough anywhere.
 const LineDirection* Seed(const Lines& lines) {
-  const double near = std::cos(kNear);
+  const double near = math::Cos(kNear);
   std::ptrdiff_t most = kMinLines - 1;
   const LineDirection* seed = nullptr;
   for (const LineDirection* candidate : lines) {
@@ -149,7 +150,7 @@ std::optional<std::size_t> ParallelTo(const LineDirection& line,
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Eigen::Vector3d& axis = directions[i].direction;
     const Deviation d =
-        DeviationFrom(axis, BasisAcross(axis), line, std::hypot(kSigma, directions[i].sigma));
+        DeviationFrom(axis, BasisAcross(axis), line, math::Hypot(kSigma, directions[i].sigma));
     if (!d.agrees) continue;
     // The ellipse that passes, as a share of the hemisphere of all directions.
     const double chance = 0.5 * Chi2Limit95(2) * std::sqrt(d.covariance.determinant());

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/ceres_manifolds.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -115,7 +117,7 @@ bool LineManifold<kLeft>::Minus(const double* y, const double* x, double* y_minu
   const OrthonormalLine b = ReadLine(y);
   Eigen::Map<Eigen::Vector4d> out(y_minus_x);
   out.head<3>() = LogSo3(kLeft ? b.U * a.U.conjugate() : a.U.conjugate() * b.U);
-  out(3) = std::atan2(a.w.x() * b.w.y() - a.w.y() * b.w.x(), a.w.dot(b.w));
+  out(3) = math::Atan2(a.w.x() * b.w.y() - a.w.y() * b.w.x(), a.w.dot(b.w));
   return true;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/envelope_cholesky.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -49,7 +51,7 @@ double EnvelopeSize(std::span<const int> first) {
       cost += 1 + std::max(0, j - std::max(first[i], first[static_cast<std::size_t>(j)]));
     }
   }
-  return std::cbrt(6 * cost);
+  return math::Cbrt(6 * cost);
 }
 
 bool FactorEnvelope(std::vector<EnvelopePanel>& panels, const StopCheck& stop) {

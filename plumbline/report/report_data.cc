@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/report_data.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/report/base64.h"
@@ -29,7 +30,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 // Few digits keep the page small.
 Json Rounded(double value, int decimals) {
   if (!std::isfinite(value)) return nullptr;
-  const double scale = std::pow(10.0, decimals);
+  const double scale = math::Pow(10.0, decimals);
   return std::round(value * scale) / scale;
 }
 

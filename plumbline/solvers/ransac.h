@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
 
@@ -23,10 +24,10 @@ struct RansacBudget {
 
 // Samples needed to draw, with the given confidence, one in which all are inliers.
 inline int SamplesNeeded(double inlier_ratio, int sample_size, const RansacBudget& budget) {
-  const double good = std::pow(std::clamp(inlier_ratio, 0.0, 1.0), sample_size);
+  const double good = math::Pow(std::clamp(inlier_ratio, 0.0, 1.0), sample_size);
   if (good >= 1) return 1;
   if (good <= 1e-12) return budget.max_iterations;
-  const double needed = std::log(1 - budget.confidence) / std::log1p(-good);
+  const double needed = math::Log(1 - budget.confidence) / math::Log1p(-good);
   return static_cast<int>(
       std::clamp(std::ceil(needed), 1.0, static_cast<double>(budget.max_iterations)));
 }

@@ -3,6 +3,7 @@
 #include "plumbline/solvers/relative_pose.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/pose_refinement.h"
@@ -68,7 +69,7 @@ RelativePoseHypothesis Opposite(std::span<const RayMatch> matches, RelativePoseH
 
 bool AreSame(const Rigid3& a, const Rigid3& b) {
   return AngularDistance(a.rotation, b.rotation) < kSameRotation &&
-         a.translation.dot(b.translation) > std::cos(kSameDirection);
+         a.translation.dot(b.translation) > math::Cos(kSameDirection);
 }
 
 class HypothesisList {
@@ -110,7 +111,7 @@ class HypothesisList {
   bool IsRefinedAlready(const Rigid3& start) const {
     return std::any_of(list_.begin(), list_.end(), [&](const auto& h) {
       return AngularDistance(h.b_from_a.rotation, start.rotation) < 0.1 * kSameRotation &&
-             h.b_from_a.translation.dot(start.translation) > std::cos(0.1 * kSameDirection);
+             h.b_from_a.translation.dot(start.translation) > math::Cos(0.1 * kSameDirection);
     });
   }
 

@@ -3,6 +3,7 @@
 #include "plumbline/solvers/rotation.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/median.h"
 #include "plumbline/solvers/ransac.h"
 
@@ -31,7 +32,7 @@ struct TransferResidual {
 bool Evaluate(const Eigen::Matrix3d& R, const RayMatch& match, TransferResidual& r) {
   const Eigen::Vector3d q = R * match.a.homogeneous();
   if (!(q.z() > 0)) return false;
-  const double inverse_sigma = 1 / std::hypot(match.sigma_a, match.sigma_b);
+  const double inverse_sigma = 1 / math::Hypot(match.sigma_a, match.sigma_b);
   const Eigen::Vector2d place = q.head<2>() / q.z();
   r.value = inverse_sigma * (match.b - place);
   Eigen::Matrix<double, 2, 3> of_q;
@@ -140,7 +141,7 @@ double MedianParallax(std::span<const RayMatch> matches, const Eigen::Quaternion
   for (const RayMatch& match : matches) {
     const Eigen::Vector3d q = b_from_a * match.a.homogeneous();
     const Eigen::Vector3d b = match.b.homogeneous();
-    angles.push_back(std::atan2(q.cross(b).norm(), q.dot(b)));
+    angles.push_back(math::Atan2(q.cross(b).norm(), q.dot(b)));
   }
   return UpperMedian(std::move(angles));
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/starts/start_errors.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/median.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kLeastPoints = 10;
 
 double AngleDeg(const Vector3d& a, const Vector3d& b) {
-  return kDegrees * std::atan2(a.cross(b).norm(), a.dot(b));
+  return kDegrees * math::Atan2(a.cross(b).norm(), a.dot(b));
 }
 
 void CompareMotion(const Rigid3& estimate, const Rigid3& truth, StartErrors& errors) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Materials without straight edges.
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/marks.h"
 #include "plumbline/synth/noise.h"
 #include "plumbline/synth/pattern.h"
@@ -49,7 +50,7 @@ double Metal(double u, double v, double tone, std::uint64_t seed) {
 double Fabric(double u, double v, double tone, std::uint64_t seed) {
   constexpr double kThread = 0.004;
   const double weave =
-      std::sin(2 * std::numbers::pi * u / kThread) * std::sin(2 * std::numbers::pi * v / kThread);
+      math::Sin(2 * std::numbers::pi * u / kThread) * math::Sin(2 * std::numbers::pi * v / kThread);
   const double yarn = FractalNoise(90 * u, 220 * v, 2, 0.9, seed);
   const double folds = FractalNoise(3 * u, 1.2 * v, 3, 0.6, seed + 9);
   const double worn = Weathering(u, v, 0.3, seed + 12);
@@ -82,7 +83,7 @@ double Mural(double u, double v, double tone, std::uint64_t seed) {
       inside = x * x + y * y < 0.35 * 0.35;
     } else if (shape < 0.75) {
       const double angle = 2 * std::numbers::pi * CellValue(i, j, k + 1);
-      const double c = std::cos(angle), s = std::sin(angle);
+      const double c = math::Cos(angle), s = math::Sin(angle);
       inside = std::abs(c * x + s * y) < 0.45 && std::abs(c * y - s * x) < 0.16;
     }
     if (inside) value += (octave < 4 ? 0.4 : 0.26) * (2 * CellValue(i, j, k + 3) - 1);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Materials laid in courses with joints between them: boards, bricks, tiles, form boards.
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/marks.h"
 #include "plumbline/synth/noise.h"
 #include "plumbline/synth/pattern.h"
@@ -147,7 +148,7 @@ class Planks : public LaidPattern {
                                    std::abs(place.y - 0.75 * courses_.height));
     const double along =
         std::min(std::abs(place.x - kInset), std::abs(place.x - courses_.length + kInset));
-    if (std::hypot(across, along) < kNail) return 0.25 * tone;
+    if (math::Hypot(across, along) < kNail) return 0.25 * tone;
     const std::uint64_t board = Hash(place);
     const double worn = FractalNoise(3 * u, 3 * v, 3, 0.7, frame_.seed + 11);
     return tone * (0.8 + 0.4 * UnitFromHash(board) + 0.8 * WoodGrain(u, v, board) + 0.25 * worn);
@@ -172,7 +173,7 @@ class Tiles : public LaidPattern {
     const double dark = UnitFromHash(tile) < 0.2 ? 0.5 : 1.0;
     return frame_.tone * dark *
            (0.8 + 0.3 * UnitFromHash(MixBits(tile)) -
-            (0.1 + 0.5 * UnitFromHash(tile + 1)) * std::pow(vein, 14) + 0.2 * Dirt(u, v) +
+            (0.1 + 0.5 * UnitFromHash(tile + 1)) * math::Pow(vein, 14) + 0.2 * Dirt(u, v) +
             0.4 * chips);
   }
   double Joint(double u, double v) const override {
@@ -215,7 +216,7 @@ class Concrete : public LaidPattern {
     constexpr double kTie = 0.6, kHole = 0.012;
     const double x = u - kTie * std::round(u / kTie), y = place.y - 0.5 * courses_.height;
     const double board = 0.94 + 0.12 * UnitFromHash(Hash(place));
-    return board * Body(u, v) * (std::hypot(x, y) < kHole ? 0.45 : 1);
+    return board * Body(u, v) * (math::Hypot(x, y) < kHole ? 0.45 : 1);
   }
   double Joint(double u, double v) const override { return 0.72 * Body(u, v); }
 };

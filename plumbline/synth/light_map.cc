@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/light_map.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/synth/direct_light.h"
 
@@ -25,7 +26,7 @@ std::vector<Vector3f> HalfSphere(unsigned count) {
     const double r2 = (i + 0.5) / count, angle = 2 * std::numbers::pi * radical;
     const double r = std::sqrt(r2);
     directions.push_back(
-        Vector3d(r * std::cos(angle), r * std::sin(angle), std::sqrt(1 - r2)).cast<float>());
+        Vector3d(r * math::Cos(angle), r * math::Sin(angle), std::sqrt(1 - r2)).cast<float>());
   }
   return directions;
 }

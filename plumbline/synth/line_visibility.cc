@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/line_visibility.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 
 #include <algorithm>
@@ -203,7 +204,7 @@ std::optional<LineVisibility::Window> LineVisibility::FindWindow(const Segment3&
   const Vector2d on_image =
       window.end.head<2>() / window.end.z() - window.start.head<2>() / window.start.z();
   window.length_px =
-      std::hypot(camera_.intrinsics().fx * on_image.x(), camera_.intrinsics().fy * on_image.y());
+      math::Hypot(camera_.intrinsics().fx * on_image.x(), camera_.intrinsics().fy * on_image.y());
   // Distortion stretches no line of a camera in use by half.
   if (window.length_px < limits_.min_visible_px / 1.5) return std::nullopt;
   return window;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/marks.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +15,7 @@ double Specks(double u, double v, double size, double share, std::uint64_t seed)
   const double x = (i + 0.25 + 0.5 * CellValue(i, j, seed + 1)) * size;
   const double y = (j + 0.25 + 0.5 * CellValue(i, j, seed + 2)) * size;
   const double radius = size * (0.08 + 0.17 * CellValue(i, j, seed + 3));
-  const double distance = std::hypot(u - x, v - y) / radius;
+  const double distance = math::Hypot(u - x, v - y) / radius;
   if (distance > 1) return 0;
   const double kind = CellValue(i, j, seed + 4);
   const double strength = 0.3 + 0.7 * CellValue(i, j, seed + 5);

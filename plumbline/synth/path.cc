@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/path.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/synth/noise.h"
 
@@ -70,10 +71,10 @@ double Sway(
   double sum = 0, power = 0;
   for (int i = 0; i < kCount; ++i) {
     const double jitter = UnitFromHash(HashCell(channel, 2 * i, seed));
-    const double hertz = low_hz * std::pow(high_hz / low_hz, (i + jitter) / kCount);
+    const double hertz = low_hz * math::Pow(high_hz / low_hz, (i + jitter) / kCount);
     const double amplitude = low_hz / hertz;
     const double phase = kTwoPi * UnitFromHash(HashCell(channel, 2 * i + 1, seed));
-    sum += amplitude * std::sin(kTwoPi * hertz * time + phase);
+    sum += amplitude * math::Sin(kTwoPi * hertz * time + phase);
     power += 0.5 * amplitude * amplitude;
   }
   return size * sum / std::sqrt(power);
@@ -103,9 +104,9 @@ Nudge HandNudge(double time, std::uint64_t seed) {
   AddBand(nudge, time, seed, 10, {2.5, 7, 0.0006, 0.0015});  // tremor
   const double phase = kTwoPi * UnitFromHash(MixBits(seed));
   const double step = kTwoPi * kStepHz * time + phase;
-  nudge.translation.z() += 0.007 * std::sin(step);
-  nudge.rotation.x() += 0.003 * std::sin(step + 1);
-  nudge.rotation.z() += 0.004 * std::sin(0.5 * step + 2);
+  nudge.translation.z() += 0.007 * math::Sin(step);
+  nudge.rotation.x() += 0.003 * math::Sin(step + 1);
+  nudge.rotation.z() += 0.004 * math::Sin(0.5 * step + 2);
   return nudge;
 }
 
@@ -121,8 +122,8 @@ Nudge DroneNudge(const CameraPath& path, double time, std::uint64_t seed) {
        path.world_from_camera(time - kStep).translation) /
       (kStep * kStep);
   const Vector3d in_camera = now.rotation.conjugate() * acceleration;
-  nudge.rotation.x() -= kMostTilt * std::tanh(in_camera.z() / (kGravity * kMostTilt));
-  nudge.rotation.z() += kMostTilt * std::tanh(in_camera.x() / (kGravity * kMostTilt));
+  nudge.rotation.x() -= kMostTilt * math::Tanh(in_camera.z() / (kGravity * kMostTilt));
+  nudge.rotation.z() += kMostTilt * math::Tanh(in_camera.x() / (kGravity * kMostTilt));
   return nudge;
 }
 
@@ -138,8 +139,8 @@ Nudge WheelsNudge(double time, std::uint64_t seed) {
 
 Eigen::Quaterniond CameraAttitude(double yaw, double pitch, double roll) {
   const Vector3d forward(
-      std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), -std::sin(pitch));
-  const Vector3d right(std::sin(yaw), -std::cos(yaw), 0);
+      math::Cos(yaw) * math::Cos(pitch), math::Sin(yaw) * math::Cos(pitch), -math::Sin(pitch));
+  const Vector3d right(math::Sin(yaw), -math::Cos(yaw), 0);
   Eigen::Matrix3d axes;
   axes << right, forward.cross(right), forward;
   const Eigen::Quaterniond level(axes);
@@ -211,7 +212,7 @@ double HandHeldLoop::Wander(double time, int channel, int first_period, double s
   for (int i = 0; i < 3; ++i) {
     const double phase = 2 * std::numbers::pi * UnitFromHash(HashCell(channel, i, shape_.seed));
     const double turns = (first_period * (i + 1) + i) * time / shape_.loop_s;
-    sum += size / (1 + i) * std::sin(2 * std::numbers::pi * turns + phase);
+    sum += size / (1 + i) * math::Sin(2 * std::numbers::pi * turns + phase);
   }
   return sum;
 }
@@ -222,13 +223,13 @@ Rigid3 HandHeldLoop::WorldFromCamera(double time) const {
   const double steps = 2 * std::round(0.5 * 1.7 * shape_.loop_s);
   const double gait = steps * turn;
   Eigen::Vector3d position = shape_.centre;
-  position.x() += shape_.radius_x * std::cos(turn) + Wander(time, 0, 2, 0.03);
-  position.y() += shape_.radius_y * std::sin(turn) + Wander(time, 1, 2, 0.03);
-  position.z() += Wander(time, 2, 2, 0.08) + 0.006 * std::sin(gait);
+  position.x() += shape_.radius_x * math::Cos(turn) + Wander(time, 0, 2, 0.03);
+  position.y() += shape_.radius_y * math::Sin(turn) + Wander(time, 1, 2, 0.03);
+  position.z() += Wander(time, 2, 2, 0.08) + 0.006 * math::Sin(gait);
 
   const double yaw = turn + 0.5 + Wander(time, 3, 2, 0.08);
-  const double pitch = 0.14 + Wander(time, 4, 2, 0.06) + 0.003 * std::sin(gait + 1);  // downwards
-  const double roll = Wander(time, 5, 3, 0.03) + 0.003 * std::sin(0.5 * gait + 2);
+  const double pitch = 0.14 + Wander(time, 4, 2, 0.06) + 0.003 * math::Sin(gait + 1);  // downwards
+  const double roll = Wander(time, 5, 3, 0.03) + 0.003 * math::Sin(0.5 * gait + 2);
   return {CameraAttitude(yaw, pitch, roll), position};
 }
 

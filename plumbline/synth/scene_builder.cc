@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/scene_builder.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/synth/noise.h"
 
@@ -66,7 +67,7 @@ void SceneBuilder::AddPrismEdges(const std::array<Vector3d, 4>& foot, const Vect
 }
 
 void SceneBuilder::AddBox(const BoxShape& shape, Material material, double tone, double glow) {
-  const Vector3d x(std::cos(shape.yaw), std::sin(shape.yaw), 0);
+  const Vector3d x(math::Cos(shape.yaw), math::Sin(shape.yaw), 0);
   const Vector3d y(-x.y(), x.x(), 0);
   Eigen::Matrix3d sides;
   sides << shape.size.x() * x, shape.size.y() * y, shape.size.z() * Vector3d::UnitZ();
@@ -108,7 +109,7 @@ void SceneBuilder::AddPrism(const Vector3d& start,
   const Vector3d a = guide.cross(axis).normalized(), b = axis.cross(a);
   const auto corner = [&](int i) -> Vector3d {
     const double angle = 2 * std::numbers::pi * i / shape.sides;
-    return shape.radius * (std::cos(angle) * a + std::sin(angle) * b);
+    return shape.radius * (math::Cos(angle) * a + math::Sin(angle) * b);
   };
   TextureRecipe mantle = Recipe(material, tone);
   const double side = (corner(1) - corner(0)).norm();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/sensor.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/noise.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr std::uint64_t kGainChannel = 0x6A1F;
 float Shoulder(float value) {
   constexpr float kKnee = 0.875F, kRoom = 1 - kKnee;
   if (value <= kKnee) return value;
-  return kKnee + kRoom * (1 - static_cast<float>(std::exp(-(value - kKnee) / kRoom)));
+  return kKnee + kRoom * (1 - static_cast<float>(math::Exp(-(value - kKnee) / kRoom)));
 }
 
 // Three weights of a filter with the variance of a Gaussian.
@@ -81,7 +82,7 @@ GrayImage Expose(const Image<float>& scene,
         electrons = spread * electrons + sigma * NormalFromHash(HashCell(x, y, stream));
       }
       float value = Shoulder(std::max(0.0F, electrons / kFullWell));
-      if (model.gamma != 1) value = static_cast<float>(std::pow(value, inverse_gamma));
+      if (model.gamma != 1) value = static_cast<float>(math::Pow(value, inverse_gamma));
       image.at(x, y) = static_cast<std::uint8_t>(255 * std::min(value, 1.0F) + 0.5F);
     }
   }

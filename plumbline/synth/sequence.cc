@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/sequence.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/synth/noise.h"
@@ -232,7 +233,7 @@ std::vector<double> SyntheticSequence::FindGains(int threads) const {
   double gain = wanted(means.front());
   for (const double mean : means) {
     gains.push_back(gain);
-    gain *= std::pow(wanted(mean) / gain, kPart);
+    gain *= math::Pow(wanted(mean) / gain, kPart);
   }
   return gains;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/surface_pattern.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,7 @@ double SurfacePattern::At(double u, double v) const {
   const double value = pattern_->At(place.x(), place.y());
   if (corner_shade_ == 0) return std::clamp(value, 0.0, 1.0);
   const double rim = std::min(place.minCoeff(), (sheet_ - place).minCoeff());
-  return std::clamp(value * (1 - corner_shade_ * std::exp(-std::max(0.0, rim) / 0.25)), 0.0, 1.0);
+  return std::clamp(value * (1 - corner_shade_ * math::Exp(-std::max(0.0, rim) / 0.25)), 0.0, 1.0);
 }
 
 std::vector<Segment2> SurfacePattern::DrawnEdges() const {

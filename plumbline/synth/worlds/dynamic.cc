@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/worlds/fittings.h"
 #include "plumbline/synth/worlds/shell.h"
 #include "plumbline/synth/worlds/worlds.h"
@@ -43,13 +44,13 @@ struct Track {
     Vector2d at = centre - half + Vector2d(radius, 0);
     for (int side = 0; side < 4; ++side, yaw += 0.5 * kPi) {
       const double length = straight(side % 2);
-      const Vector2d ahead(std::cos(yaw), std::sin(yaw)), left(-ahead.y(), ahead.x());
+      const Vector2d ahead(math::Cos(yaw), math::Sin(yaw)), left(-ahead.y(), ahead.x());
       if (s <= length) return Pose(at + s * ahead, yaw);
       s -= length;
       at += length * ahead;
       if (s <= corner) {
         const double angle = s / radius;
-        return Pose(at + radius * (std::sin(angle) * ahead + (1 - std::cos(angle)) * left),
+        return Pose(at + radius * (math::Sin(angle) * ahead + (1 - math::Cos(angle)) * left),
                     yaw + angle);
       }
       s -= corner;
@@ -72,7 +73,7 @@ void AddLimb(SceneBuilder& scene,
              const BoxShape& box) {
   scene.BeginBody([track, joint, swing](double time) {
     constexpr double kStride = 1.35;  // metres for a left and a right step
-    const double angle = swing * std::sin(2 * kPi * std::abs(track.speed) * time / kStride);
+    const double angle = swing * math::Sin(2 * kPi * std::abs(track.speed) * time / kStride);
     return track.At(time) *
            Rigid3{Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY())), joint};
   });
@@ -147,7 +148,7 @@ void AddFan(SceneBuilder& scene, const Vector3d& hub, double turns_per_s) {
   scene.AddBox({{0, 0, -0.05}, {0.18, 0.18, 0.12}}, Material::kBlank, 0.7);
   for (int i = 0; i < 4; ++i) {
     const double yaw = 0.5 * kPi * i;
-    scene.AddBox({{0.45 * std::cos(yaw), 0.45 * std::sin(yaw), 0}, {0.7, 0.14, 0.012}, yaw},
+    scene.AddBox({{0.45 * math::Cos(yaw), 0.45 * math::Sin(yaw), 0}, {0.7, 0.14, 0.012}, yaw},
                  Material::kWood,
                  0.4);
   }
@@ -173,7 +174,7 @@ void AddSwingDoor(SceneBuilder& scene, const Place& wall, const Opening& hole, d
   const Vector3d hinge = corner.At(0.01, -0.03, 0);
   const double closed = wall.facing - 0.5 * kPi;
   scene.BeginBody([hinge, closed, period](double time) {
-    const double open = 0.5 - 0.5 * std::cos(2 * kPi * time / period);
+    const double open = 0.5 - 0.5 * math::Cos(2 * kPi * time / period);
     return Rigid3{Turn(closed + kMost * open * open), hinge};
   });
   AddOpenLeaf(scene, {Vector3d::Zero(), 0}, {hole.width - 0.02, hole.height - 0.01, 3, 0.7});

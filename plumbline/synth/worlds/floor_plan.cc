@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/worlds/floor_plan.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,7 +134,7 @@ void AddSkirting(SceneBuilder& scene, const Side& side, const RoomPlan& room, in
         const Vector3d middle = side.start + 0.5 * (a + b) * side.along;
         scene.AddBox({middle + 0.5 * kThick * side.front,
                       {b - a, kThick, height},
-                      std::atan2(side.along.y(), side.along.x())},
+                      math::Atan2(side.along.y(), side.along.x())},
                      Material::kBlank,
                      0.35);
       });
@@ -144,7 +146,7 @@ void AddRoomSide(SceneBuilder& scene, const Side& side, const RoomPlan& room, in
       side.start, side.length * side.along, up, side.openings, {room.wall, room.wall_tone});
   AddSideEdges(scene, side, room.height);
   if (room.skirting > 0) AddSkirting(scene, side, room, index);
-  const double facing = std::atan2(side.front.y(), side.front.x());
+  const double facing = math::Atan2(side.front.y(), side.front.x());
   for (std::size_t i = 0; i < side.openings.size(); ++i) {
     if (!side.frames[i]) continue;
     const Opening& hole = side.openings[i];
@@ -224,7 +226,7 @@ std::vector<Waypoint> WalkAlong(const Vector2d& start,
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Leg& leg = legs[i];
     const Vector2d way = leg.to - from;
-    const double yaw = std::atan2(way.y(), way.x()) + leg.gaze;
+    const double yaw = math::Atan2(way.y(), way.x()) + leg.gaze;
     if (i == 0) add(start, yaw, leg.pitch);
     if (i + 1 == legs.size()) {
       add(leg.to, yaw, leg.pitch);
@@ -232,7 +234,7 @@ std::vector<Waypoint> WalkAlong(const Vector2d& start,
     }
     const Leg& next = legs[i + 1];
     const Vector2d onward = next.to - leg.to;
-    const double next_yaw = std::atan2(onward.y(), onward.x()) + next.gaze;
+    const double next_yaw = math::Atan2(onward.y(), onward.x()) + next.gaze;
     const double cut = std::min({radius, 0.45 * way.norm(), 0.45 * onward.norm()});
     const Vector2d before = leg.to - cut * way.normalized();
     const Vector2d after = leg.to + cut * onward.normalized();

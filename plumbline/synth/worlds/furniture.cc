@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/synth/worlds/furniture.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +14,7 @@ using Eigen::Vector3d;
 double Place::Yaw() const { return facing - 0.5 * std::numbers::pi; }
 
 Vector3d Place::At(double x, double y, double z) const {
-  const double c = std::cos(Yaw()), s = std::sin(Yaw());
+  const double c = math::Cos(Yaw()), s = math::Sin(Yaw());
   return base + Vector3d(c * x - s * y, s * x + c * y, z);
 }
 
@@ -233,7 +235,7 @@ void AddPlant(SceneBuilder& scene, const Place& place, double height) {
   for (int i = 0; i < 9; ++i) {
     const double turn = 2.4 * i + scene.Random(-0.3, 0.3);
     const double reach = scene.Random(0.08, 0.3), top = height * scene.Random(0.55, 1);
-    const Vector3d out(std::cos(turn), std::sin(turn), 0);
+    const Vector3d out(math::Cos(turn), math::Sin(turn), 0);
     const Vector3d stem = foot + 0.08 * out + Vector3d(0, 0, kPot - 0.05);
     const Vector3d tip = foot + reach * out + Vector3d(0, 0, top);
     scene.AddBar(stem, tip, 0.014, Material::kWood, 0.4);

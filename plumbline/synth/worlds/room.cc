@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/scene_builder.h"
 #include "plumbline/synth/worlds/worlds.h"
 
@@ -16,7 +17,7 @@ constexpr double kWidth = 6.4, kDepth = 5.2, kHeight = 2.8;
 // A table with four legs, its top at 0.75 m, with things on it.
 void AddTable(SceneBuilder& scene, const Vector3d& place, double length, double yaw) {
   constexpr double kTop = 0.75, kThick = 0.04, kLeg = 0.06, kBreadth = 0.7;
-  const double c = std::cos(yaw), s = std::sin(yaw);
+  const double c = math::Cos(yaw), s = math::Sin(yaw);
   const auto at = [&](double x, double y, double z) -> Vector3d {
     return place + Vector3d(c * x - s * y, s * x + c * y, z);
   };

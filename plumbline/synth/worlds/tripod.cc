@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/worlds/fittings.h"
 #include "plumbline/synth/worlds/shell.h"
 #include "plumbline/synth/worlds/worlds.h"
@@ -152,8 +153,8 @@ World MakeStatic(std::uint64_t seed) {
     const double size = kFirst + (kLater - kFirst) * Ramp(time, kLonger, 4);
     Vector6d drift = Vector6d::Zero();
     for (std::size_t i = 0; i < waves.size(); ++i) {
-      drift(static_cast<int>(i / 3)) +=
-          size / static_cast<double>(1 + i % 3) * std::sin(waves[i].first * time + waves[i].second);
+      drift(static_cast<int>(i / 3)) += size / static_cast<double>(1 + i % 3) *
+                                        math::Sin(waves[i].first * time + waves[i].second);
     }
     return Rigid3{(attitude * ExpSo3(0.7 * drift.tail<3>())).normalized(), stand + drift.head<3>()};
   };

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/worlds/floor_plan.h"
 #include "plumbline/synth/worlds/worlds.h"
 
@@ -87,8 +88,8 @@ void AddCameraRig(SceneBuilder& scene) {
           at + Vector3d(0, 0, 0.03), {at.x(), at.y(), kHeight}, 0.03, Material::kMetal, 0.5);
       const Vector3d way = (target - at).normalized();
       const Eigen::Quaterniond attitude =
-          Eigen::AngleAxisd(std::atan2(way.y(), way.x()), Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(-std::asin(way.z()), Vector3d::UnitY());
+          Eigen::AngleAxisd(math::Atan2(way.y(), way.x()), Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(-math::Asin(way.z()), Vector3d::UnitY());
       const Vector3d body = at + Vector3d(0, 0, -0.14) + 0.05 * way;
       scene.AddPlacedBox({attitude, body}, {0.17, 0.13, 0.13}, Material::kPaint, 0.12);
       scene.AddPlacedBox({attitude, body + 0.11 * way}, {0.06, 0.07, 0.07}, Material::kPaint, 0.3);
@@ -168,8 +169,8 @@ CameraPath MakeFlight(const Flight& flight, std::uint64_t seed) {
   for (int i = 0; i <= flight.legs; ++i) {
     const double radius = random.Random(1.3, 2.3);
     Waypoint at;
-    at.position = {0.5 * kWidth + radius * std::cos(angle),
-                   0.5 * kDepth + radius * std::sin(angle),
+    at.position = {0.5 * kWidth + radius * math::Cos(angle),
+                   0.5 * kDepth + radius * math::Sin(angle),
                    i == 0 ? 0.9 : random.Random(flight.low, flight.high)};
     at.yaw = angle + kPi + random.Random(-flight.gaze, flight.gaze);
     at.pitch = 0.1 + 0.3 * (at.position.z() - 1.0) * random.Random(0.2, 1);

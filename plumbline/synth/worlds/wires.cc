@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/elementary.h"
 #include "plumbline/synth/worlds/fittings.h"
 #include "plumbline/synth/worlds/shell.h"
 #include "plumbline/synth/worlds/worlds.h"
@@ -188,8 +189,9 @@ World MakeWires(std::uint64_t seed) {
   for (int k = 0; k < 16; ++k) {
     const double turn = 0.25 * std::numbers::pi * k;
     const double gaze = turn + (k % 4 < 2 ? 0.9 : 1.9);
-    way.push_back(
-        {{x + (2.5 + away) * std::cos(turn), y + (1.75 + away) * std::sin(turn), 1.5}, gaze, 0.1});
+    way.push_back({{x + (2.5 + away) * math::Cos(turn), y + (1.75 + away) * math::Sin(turn), 1.5},
+                   gaze,
+                   0.1});
   }
   return {scene.Take(), WithCarrier(SplinePath(way, {0.7, 0.6}), Carrier::kHand, seed)};
 }
