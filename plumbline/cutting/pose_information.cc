@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting/pose_information.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 
 #include <limits>
@@ -12,7 +13,9 @@ namespace plumbline {
 namespace {
 
 double LogDetOf(const Eigen::LLT<Matrix6d>& factor) {
-  return 2 * factor.matrixLLT().diagonal().array().log().sum();
+  double sum = 0;
+  for (Eigen::Index i = 0; i < 6; ++i) sum += math::Log(factor.matrixLLT()(i, i));
+  return 2 * sum;
 }
 
 Matrix6d WithPrior(const Matrix6d& information) {

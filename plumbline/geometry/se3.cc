@@ -127,7 +127,9 @@ Matrix6d Adjoint(const Rigid3& motion) {
 }
 
 Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {
-  return {a.rotation.slerp(s, b.rotation), (1 - s) * a.translation + s * b.translation};
+  const Eigen::Vector3d turn = LogSo3(a.rotation.conjugate() * b.rotation);
+  return {(a.rotation * ExpSo3(s * turn)).normalized(),
+          (1 - s) * a.translation + s * b.translation};
 }
 
 double AngularDistance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {

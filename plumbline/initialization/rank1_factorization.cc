@@ -201,7 +201,8 @@ Rank1Matrix::Rank1Matrix(std::span<const Eigen::Vector2d> reference_points,
     : entries_(3 * views.size(), reference_points.size()),
       weights_(views.size(), reference_points.size()) {
   const RayRows p = UnitRays(reference_points);
-  const double min_squared_sine = math::Pow(math::Sin(min_epipole_angle), 2);
+  const double min_sine = math::Sin(min_epipole_angle);
+  const double min_squared_sine = min_sine * min_sine;
   for (std::size_t i = 0; i < views.size(); ++i) {
     PLUMBLINE_CHECK(views[i].points.size() == reference_points.size() &&
                         views[i].sigmas.size() == reference_points.size(),

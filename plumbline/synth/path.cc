@@ -144,7 +144,7 @@ Eigen::Quaterniond CameraAttitude(double yaw, double pitch, double roll) {
   Eigen::Matrix3d axes;
   axes << right, forward.cross(right), forward;
   const Eigen::Quaterniond level(axes);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(roll, Vector3d::UnitZ()));
+  const Eigen::Quaterniond turn = ExpSo3(roll * Vector3d::UnitZ());
   return (level * turn).normalized();
 }
 

@@ -94,9 +94,7 @@ class Take {
     const double place = Place(time);
     const auto before = std::min(static_cast<std::size_t>(place), poses_.size() - 2);
     const double share = place - static_cast<double>(before);
-    const Rigid3 &a = poses_[before], &b = poses_[before + 1];
-    return CameraPose(
-        {a.rotation.slerp(share, b.rotation), (1 - share) * a.translation + share * b.translation});
+    return CameraPose(Interpolate(poses_[before], poses_[before + 1], share));
   }
   const Instant& InstantAt(double time) const {
     return instants_[moving() ? static_cast<std::size_t>(std::lround(Place(time))) : 0];

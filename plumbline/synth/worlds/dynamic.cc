@@ -19,9 +19,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kWidth = 12, kDepth = 9, kHeight = 3.8;
 const Vector2d kCarousel(5.2, 6.4);  // its middle
 
-Eigen::Quaterniond Turn(double yaw) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Vector3d::UnitZ()));
-}
+Eigen::Quaterniond Turn(double yaw) { return ExpSo3(yaw * Vector3d::UnitZ()); }
 
 // A closed way along a rectangle with round corners, counterclockwise.
 struct Track {
@@ -74,8 +72,7 @@ void AddLimb(SceneBuilder& scene,
   scene.BeginBody([track, joint, swing](double time) {
     constexpr double kStride = 1.35;  // metres for a left and a right step
     const double angle = swing * math::Sin(2 * kPi * std::abs(track.speed) * time / kStride);
-    return track.At(time) *
-           Rigid3{Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY())), joint};
+    return track.At(time) * Rigid3{ExpSo3(angle * Vector3d::UnitY()), joint};
   });
   scene.AddBox(box, Material::kFabric, scene.Random(0.15, 0.6));
   scene.EndBody();

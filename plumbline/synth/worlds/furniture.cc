@@ -243,8 +243,7 @@ void AddPlant(SceneBuilder& scene, const Place& place, double height) {
       const Vector3d at = tip - 0.17 * k * (tip - stem);
       const double swing = turn + scene.Random(-1.2, 1.2);
       const Eigen::Quaterniond attitude =
-          Eigen::AngleAxisd(swing, Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(scene.Random(0.1, 0.7), Vector3d::UnitY());
+          ExpSo3(swing * Vector3d::UnitZ()) * ExpSo3(scene.Random(0.1, 0.7) * Vector3d::UnitY());
       const Vector3d along = attitude * Vector3d::UnitX();
       scene.AddPlacedBox({attitude, at + 0.09 * along},
                          {0.2, 0.06, 0.004},

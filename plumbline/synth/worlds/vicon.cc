@@ -88,8 +88,8 @@ void AddCameraRig(SceneBuilder& scene) {
           at + Vector3d(0, 0, 0.03), {at.x(), at.y(), kHeight}, 0.03, Material::kMetal, 0.5);
       const Vector3d way = (target - at).normalized();
       const Eigen::Quaterniond attitude =
-          Eigen::AngleAxisd(math::Atan2(way.y(), way.x()), Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(-math::Asin(way.z()), Vector3d::UnitY());
+          ExpSo3(math::Atan2(way.y(), way.x()) * Vector3d::UnitZ()) *
+          ExpSo3(-math::Asin(way.z()) * Vector3d::UnitY());
       const Vector3d body = at + Vector3d(0, 0, -0.14) + 0.05 * way;
       scene.AddPlacedBox({attitude, body}, {0.17, 0.13, 0.13}, Material::kPaint, 0.12);
       scene.AddPlacedBox({attitude, body + 0.11 * way}, {0.06, 0.07, 0.07}, Material::kPaint, 0.3);
