@@ -4,12 +4,12 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
+#include "plumbline/features/orb_descriptor.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <tuple>
 
@@ -222,36 +222,6 @@ Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
           v + ParabolaPeak(harris.At(u, v - 1), peak, harris.At(u, v + 1))};
 }
 
-std::vector<Descriptor> Describe(const GrayImage& image,
-                                 const std::vector<PointFeature>& points,
-                                 const std::vector<Eigen::Vector2d>& places) {
-  std::vector<Descriptor> descriptors(points.size());
-  if (points.empty()) return descriptors;
-  std::vector<cv::KeyPoint> keypoints;
-  keypoints.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double degrees = points[i].angle * 180 / std::numbers::pi;
-    keypoints.emplace_back(static_cast<float>(std::round(places[i].x())),
-                           static_cast<float>(std::round(places[i].y())),
-                           31.F,
-                           static_cast<float>(degrees < 0 ? degrees + 360 : degrees),
-                           0.F,
-                           0,
-                           static_cast<int>(i));
-  }
-  // One level, no border: OpenCV only blurs and samples its pattern; the class id carries our
-  // index.
-  const auto orb = cv::ORB::create(static_cast<int>(points.size()), 1.2F, 1, 0);
-  cv::Mat rows;
-  orb->compute(AsMat(image), keypoints, rows);
-  PLUMBLINE_CHECK(rows.rows == static_cast<int>(keypoints.size()), "a descriptor for each point");
-  for (int i = 0; i < rows.rows; ++i) {
-    const auto index = static_cast<std::size_t>(keypoints[static_cast<std::size_t>(i)].class_id);
-    std::memcpy(descriptors[index].data(), rows.ptr(i), sizeof(Descriptor));
-  }
-  return descriptors;
-}
-
 void ExtractLevel(const PyramidLevel& level,
                   int octave,
                   const ValidRegion& valid,
@@ -269,6 +239,7 @@ void ExtractLevel(const PyramidLevel& level,
   corners = SpreadSelect(std::move(corners), level.image.width(), level.image.height(), count);
   std::vector<PointFeature> points;
   std::vector<Eigen::Vector2d> places;  // on the level
+  std::vector<OrientedPixel> pixels;
   for (const Corner& c : corners) {
     Eigen::Vector2d px(c.x, c.y);
     if (options.subpixel) px += CornerOffset(level.image, c.x, c.y);
@@ -284,13 +255,15 @@ void ExtractLevel(const PyramidLevel& level,
     const double noise_sigma = options.noise_sigma_px / static_cast<double>(c.response);
     point.sigma_px =
         math::Hypot(math::Hypot(options.sigma_px, noise_sigma) * scale, calibration_sigma_px);
-    point.angle = CentroidAngle(
-        level.image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
+    const int x = static_cast<int>(std::lround(px.x()));
+    const int y = static_cast<int>(std::lround(px.y()));
+    point.angle = CentroidAngle(level.image, x, y);
+    pixels.push_back({x, y, point.angle});
     point.response = static_cast<double>(c.response);
     point.octave = octave;
     points.push_back(point);
   }
-  const std::vector<Descriptor> descriptors = Describe(level.image, points, places);
+  const std::vector<Descriptor> descriptors = DescribeOrb(level.image, pixels);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].descriptor = descriptors[i];
   result->insert(result->end(), points.begin(), points.end());
 }

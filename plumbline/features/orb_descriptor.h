@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/features/types.h"
+#include "plumbline/image/image.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// A corner to describe: the pixel, and its orientation in radians.
+struct OrientedPixel {
+  int x = 0;
+  int y = 0;
+  double angle = 0;
+};
+
+inline constexpr int kOrbReach = 18;  // pixels from a corner that its descriptor looks at
+
+// Steered BRIEF descriptors (Rublee et al., ICCV 2011, section 4) of pixels at least kOrbReach from
+// the border: 256 comparisons of two grey levels around each, on the image smoothed with 7 x 7
+// pixels and a deviation of 2.
+//
+// They are those of cv::ORB but for bits that rounding decides. OpenCV smooths what it describes in
+// floating point, in another way on each kind of processor; here it is done in whole numbers and
+// gives the same bits on all. Cost: about 0.5 ms for 1000 corners and a megapixel.
+std::vector<Descriptor> DescribeOrb(const GrayImage& image,
+                                    const std::vector<OrientedPixel>& corners);
+
+}  // namespace plumbline
