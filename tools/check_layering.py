@@ -51,7 +51,7 @@ THIRD_PARTY = {
     "gtest/": None,
     "nlopt": r"cutting_testbed/nlopt_\w+\.cc",
     "nlohmann/": r"(io|eval|report|experiments)/\w+\.cc",
-    "opencv2/": r"image/opencv_bridge\.h|solvers/absolute_pose\.cc|"
+    "opencv2/": r"image/opencv_bridge\.h|"
                 r"(image|features|initialization|io|report)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
     "yaml-cpp/": r"(base|io)/\w+\.cc",

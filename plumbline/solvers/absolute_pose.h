@@ -15,9 +15,10 @@ struct PointInImage {
   Eigen::Vector2d px;
 };
 
-// The pose (cam_from_world) that most points agree with: RANSAC over three points (AP3P: Ke and
-// Roumeliotis, CVPR 2017) in at most 300 rounds, then refined with those that agree (OpenCV). A
-// point agrees when it projects within max_error_px of its pixel. Same input, same pose.
+// The pose (cam_from_world) that the points agree with best: RANSAC over three points (Grunert
+// 1841) in at most 300 rounds; every new best pose is refined with the points that agree
+// (ransac.h). A point agrees when it projects within max_error_px of its pixel. Same input, same
+// pose.
 //
 // nullopt with fewer than 6 points, or when fewer than 6 agree. Below a millisecond for 100 points.
 std::optional<Rigid3> PoseFromPoints(const RectifiedCamera& camera,
