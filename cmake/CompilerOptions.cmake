@@ -16,6 +16,9 @@ add_library(plumbline_flags INTERFACE)
 target_compile_features(plumbline_flags INTERFACE cxx_std_20)
 target_compile_options(plumbline_flags INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
 target_compile_definitions(plumbline_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+# Eigen cuts large products into blocks that suit the processor's caches, and sums in their order: blocks
+# of one size give the same bytes on every processor.
+target_compile_definitions(plumbline_flags INTERFACE EIGEN_NO_CPUID)
 if(PLUMBLINE_MARCH)
   target_compile_options(plumbline_flags INTERFACE $<BUILD_INTERFACE:-march=${PLUMBLINE_MARCH}>)
 endif()
