@@ -5,13 +5,13 @@
 #include "plumbline/base/median.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
-#include "plumbline/optimization/envelope_cholesky.h"
+#include "plumbline/optimization/elimination_plan.h"
 #include "plumbline/optimization/pose_sigma.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <numeric>
+
 #include <optional>
 #include <utility>
 #include <vector>
@@ -48,30 +48,37 @@ MapProblem MakeWholeMap(const Map& map,
   return whole;
 }
 
-// By pose the first that it shares a landmark with.
-std::vector<int> FirstSharing(const BaProblem& problem) {
-  const auto lower = [](std::vector<int>& first, int index, int pose) {
-    int& value = first[static_cast<std::size_t>(index)];
-    value = std::min(value, pose);
+// Which poses share a landmark.
+BlockPattern SharingPoses(const BaProblem& problem) {
+  std::vector<std::vector<int>> of_point(problem.points.size()), of_line(problem.lines.size());
+  const auto add = [](int index, int pose, std::vector<std::vector<int>>& poses) {
+    poses[static_cast<std::size_t>(index)].push_back(pose);
   };
-  const int last = static_cast<int>(problem.poses.size());
-  std::vector<int> of_point(problem.points.size(), last), of_line(problem.lines.size(), last);
-  for (const auto& o : problem.point_observations) lower(of_point, o.point, o.pose);
-  for (const auto& o : problem.line_observations) lower(of_line, o.line, o.pose);
-  std::vector<int> of_pose(problem.poses.size());
-  std::iota(of_pose.begin(), of_pose.end(), 0);
-  for (const auto& o : problem.point_observations) {
-    lower(of_pose, o.pose, of_point[static_cast<std::size_t>(o.point)]);
+  for (const auto& o : problem.point_observations) add(o.point, o.pose, of_point);
+  for (const auto& o : problem.line_observations) add(o.line, o.pose, of_line);
+  std::vector<std::vector<bool>> share(problem.poses.size());
+  for (std::size_t i = 0; i < share.size(); ++i) share[i].resize(i);
+  for (const auto* landmarks : {&of_point, &of_line}) {
+    for (const std::vector<int>& poses : *landmarks) {
+      for (const int a : poses) {
+        for (const int b : poses) {
+          if (b < a) share[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = true;
+        }
+      }
+    }
   }
-  for (const auto& o : problem.line_observations) {
-    lower(of_pose, o.pose, of_line[static_cast<std::size_t>(o.line)]);
+  BlockPattern pattern(share.size());
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (share[i][j]) pattern[i].push_back(static_cast<int>(j));
+    }
   }
-  return of_pose;
+  return pattern;
 }
 
 // Only a map of more keyframes than the limit can.
 bool TakesTooLong(const MapProblem& whole, int limit) {
-  return EnvelopeSize(FirstSharing(whole.problem)) > limit;
+  return FullSize(PlanElimination(SharingPoses(whole.problem))) > limit;
 }
 
 // How much deeper the points lie that a pose shows, after / before: the median over its points;

@@ -23,9 +23,9 @@ namespace plumbline {
 // the depths it shows have changed (KeyFrame::unit).
 //
 // Nothing for a map of less than three keyframes, or one whose equations take longer than those of
-// mapping.final_adjustment_keyframes that all share landmarks (EnvelopeSize); nothing when `stop`
-// says so before the end. Cost:
-// FindWellSeenLines, and bundle adjustment of the whole map, with the time of FactorEnvelope.
+// mapping.final_adjustment_keyframes that all share landmarks (FullSize); nothing when `stop` says
+// so before the end. Cost: FindWellSeenLines, and bundle adjustment of the whole map, with the time
+// of SchurSolver::Solve.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,

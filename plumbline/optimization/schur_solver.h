@@ -4,7 +4,8 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/optimization/envelope_cholesky.h"
+#include "plumbline/optimization/multifrontal_cholesky.h"
+#include "plumbline/optimization/symmetric_blocks.h"
 
 #include <cmath>
 #include <cstddef>
@@ -89,10 +90,10 @@ struct EliminatedLandmark {
 // Damping adds lambda times the diagonal (Marquardt), which makes a step independent of the units
 // of the parameters. Sums run in the order of the calls, so results repeat bit by bit.
 //
-// Up to 200 free poses the system is solved as a dense one. Of more, each row begins with the first
-// pose that shares a landmark with it, rounded down to a panel of 32 (EnvelopePanel): where poses
-// share landmarks with those shortly before and after them, time and memory grow with the number
-// of poses, not with its third and second power.
+// Up to 200 free poses the system is solved as a dense one. Of more, the blocks are kept that are
+// not zero, and the poses are eliminated in an order that leaves few others (PlanElimination): time
+// and memory grow with the number of poses where they share landmarks with those near them, also
+// where a path comes back to places it has been to.
 class SchurSolver {
  public:
   explicit SchurSolver(int free_poses);
@@ -102,7 +103,7 @@ class SchurSolver {
   PoseEquations& pose(int index) { return poses_[static_cast<std::size_t>(index)]; }
 
   // Eliminates one landmark. `couplings` are ordered by pose, each pose at most once; on return
-  // they hold Z. O(couplings squared); allocates where a row of more than 200 poses gets longer.
+  // they hold Z. O(couplings squared); allocates where two of more than 200 poses meet first.
   template <int kDof>
   EliminatedLandmark<kDof> Eliminate(const LandmarkEquations<kDof>& landmark,
                                      double lambda,
@@ -128,36 +129,15 @@ class SchurSolver {
     sum.template block<2, 2>(4, 4).noalias() +=
         Z.template bottomRows<2>() * Z.template bottomRows<2>().transpose();
   }
-  // The blocks of a row of the lower triangle, from the beginning of the panel in which the first
-  // is that is not zero, to the diagonal.
-  struct BlockRow {
-    std::size_t first = 0;
-    std::vector<Matrix6d> blocks;
-  };
-  // Makes sure that the row of a pose begins at an earlier one at the latest.
-  void Reach(int pose, int earlier) {
-    BlockRow& row = complement_[static_cast<std::size_t>(pose)];
-    const auto column = static_cast<std::size_t>(earlier);
-    if (column < row.first) Extend(column, row);
-  }
-  void Extend(std::size_t column, BlockRow& row) const;
-  // The first pose of the panel that a pose is in.
-  std::size_t PanelBegin(std::size_t pose) const { return pose / panel_poses_ * panel_poses_; }
-  // Block (row, column) of the sum of Z Z^T, the row reaching so far; of those with row = column
-  // the lower triangle.
-  Matrix6d& Block(int row, int column) {
-    BlockRow& r = complement_[static_cast<std::size_t>(row)];
-    return r.blocks[static_cast<std::size_t>(column) - r.first];
-  }
   // H + lambda diag(H) of a pose less its own part of the sum of Z Z^T; lower triangle valid.
   Matrix6d DiagonalBlock(std::size_t pose, double lambda) const;
-  void FillPanels(double lambda);
+  void Fill(double lambda);
 
   std::vector<PoseEquations> poses_;
-  std::vector<BlockRow> complement_;    // sum of Z Z^T, by pose
+  SymmetricBlocks complement_;          // sum of Z Z^T; of the diagonal the lower triangle
   std::vector<Vector6d> complement_g_;  // sum of Z y
-  std::size_t panel_poses_;
-  std::vector<EnvelopePanel> panels_;  // of the system of the poses, by panel_poses_ each
+  MultifrontalCholesky cholesky_;       // of the system of the poses
+  std::size_t planned_blocks_ = 0;      // of complement_ that it was made for
   Eigen::VectorXd step_;
 };
 
@@ -213,12 +193,11 @@ EliminatedLandmark<kDof> SchurSolver::Eliminate(const LandmarkEquations<kDof>& l
     complement_g_[static_cast<std::size_t>(coupling.pose)].noalias() += coupling.W * out.y;
   }
   for (std::size_t i = 0; i < couplings.size(); ++i) {
-    if (i > 0) Reach(couplings[i].pose, couplings.front().pose);
     for (std::size_t j = 0; j < i; ++j) {
-      Block(couplings[i].pose, couplings[j].pose).noalias() +=
+      complement_.At(couplings[i].pose, couplings[j].pose).noalias() +=
           couplings[i].W * couplings[j].W.transpose();
     }
-    AddToLower(couplings[i].W, Block(couplings[i].pose, couplings[i].pose));
+    AddToLower(couplings[i].W, complement_.At(couplings[i].pose, couplings[i].pose));
   }
   return out;
 }

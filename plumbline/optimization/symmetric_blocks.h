@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/elimination_plan.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace plumbline {
+
+// The lower triangle of a symmetric matrix of blocks of 6 x 6. A small one is kept whole, of a
+// large one the blocks on the diagonal and those that were asked for.
+class SymmetricBlocks {
+ public:
+  SymmetricBlocks(int rows, bool whole);
+
+  bool whole() const { return whole_; }
+  // Of all that are kept, the diagonal included.
+  std::size_t count() const { return blocks_.size(); }
+  // The blocks that are kept stay so.
+  void SetZero() { std::fill(blocks_.begin(), blocks_.end(), Matrix6d::Zero()); }
+
+  // The block of a row and a column, row >= column >= 0, to be written to; zero where it was not
+  // asked for before. Valid until the next call.
+  Matrix6d& At(int row, int column) {
+    Row& r = rows_[static_cast<std::size_t>(row)];
+    if (column < r.first) Extend(column, r);
+    int& place = r.places[static_cast<std::size_t>(column - r.first)];
+    if (place < 0) place = Keep();
+    return blocks_[static_cast<std::size_t>(place)];
+  }
+  const Matrix6d& Diagonal(int row) const {
+    return blocks_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(row)].places.back())];
+  }
+
+  // Calls visit(column, block) for the blocks of a row that are kept, by column, without that on
+  // the diagonal.
+  template <class Visit>
+  void ForEachLeft(int row, const Visit& visit) const {
+    const Row& r = rows_[static_cast<std::size_t>(row)];
+    for (int column = r.first; column < row; ++column) {
+      const int place = r.places[static_cast<std::size_t>(column - r.first)];
+      if (place >= 0) visit(column, blocks_[static_cast<std::size_t>(place)]);
+    }
+  }
+  BlockPattern Pattern() const;
+
+ private:
+  struct Row {
+    int first = 0;
+    std::vector<int> places;  // in blocks_, of the columns from `first` to the diagonal; or -1
+  };
+
+  int Keep();
+  static void Extend(int column, Row& row);
+
+  bool whole_;
+  std::vector<Row> rows_;
+  std::vector<Matrix6d> blocks_;
+};
+
+}  // namespace plumbline
