@@ -134,18 +134,21 @@ Sightings FindSightings(const RectifiedCamera& camera,
 
 // Of the keyframes that have a part of a line in their image, from no further than the furthest
 // that shows it, the share that shows it: those beyond are likely to stand behind a wall.
-double FoundRatio(const Map& map,
+double FoundRatio(const ViewTree& views,
                   const RectifiedCamera& camera,
                   const Segment3& segment,
                   const Sightings& sightings) {
   constexpr double kMinLengthPx = 30;
-  std::size_t expected = 0;
-  for (const auto& [id, keyframe] : map.keyframes()) {
+  std::size_t expected = sightings.keyframes.size();
+  for (const int index : views.MayShow({.segment = segment,
+                         .min_length_px = kMinLengthPx,
+                         .max_distance = sightings.furthest})) {
+    const KeyFrame& keyframe = views.keyframe(index);
+    if (sightings.keyframes.contains(keyframe.id)) continue;
     if (MiddleDistance(keyframe.frame, segment) > sightings.furthest) continue;
     const Rigid3& pose = keyframe.frame.cam_from_world;
     const auto projected = ProjectSegment(camera, {pose * segment.start, pose * segment.end});
-    expected +=
-        sightings.keyframes.contains(id) || (projected && projected->Length() >= kMinLengthPx);
+    expected += projected && projected->Length() >= kMinLengthPx;
   }
   return expected > 0
              ? static_cast<double>(sightings.keyframes.size()) / static_cast<double>(expected)
@@ -153,7 +156,7 @@ double FoundRatio(const Map& map,
 }
 
 // The pieces of a line that are good enough for the map.
-std::vector<MappedLine> GoodPieces(const Map& map,
+std::vector<MappedLine> GoodPieces(const ViewTree& views,
                                    const RectifiedCamera& camera,
                                    const SupportedLine& line,
                                    const LineMapOptions& options) {
@@ -166,7 +169,7 @@ std::vector<MappedLine> GoodPieces(const Map& map,
     const int count = static_cast<int>(seen.keyframes.size());
     if (count < options.min_keyframes || seen.mean_chi2 > options.max_mean_chi2 ||
         seen.mean_length_px < options.min_mean_length_px ||
-        FoundRatio(map, camera, segment, seen) < options.min_found_ratio) {
+        FoundRatio(views, camera, segment, seen) < options.min_found_ratio) {
       continue;
     }
     const auto sigma = [&](double t) {
@@ -204,7 +207,7 @@ std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
                         {landmark->line, {landmark->start, landmark->end}, landmark->information},
                         options.min_keyframes);
     if (!line) continue;
-    std::vector<MappedLine> pieces = GoodPieces(map, imaging.camera, *line, options);
+    std::vector<MappedLine> pieces = GoodPieces(search.views(), imaging.camera, *line, options);
     if (pieces.empty()) continue;
     search.Claim(line->supports);
     lines.push_back({line->hypothesis.line, std::move(line->supports), std::move(pieces)});

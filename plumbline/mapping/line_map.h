@@ -42,7 +42,7 @@ struct WellSeenLine {
 //   map     in one frame with its keyframes' poses; not changed
 //   stop    asked before each landmark; what was found until then is the result
 //   result  in the order in which the lines were made
-//   cost    O(landmarks x keyframes); 1 to 2 s for 150 keyframes and 2000 landmarks
+//   cost    O(landmarks x keyframes that may have them in their image)
 std::vector<MappedLine> MakeLineMap(const Map& map,
                                     const ImagingModel& imaging,
                                     const LineMapOptions& options,

@@ -51,14 +51,18 @@ std::optional<LineInterval> Trimmed(const RectifiedCamera& camera,
   return interval;
 }
 
+constexpr double kLoosePx = 10;
+
 // Before the exact test: which segments are near the projected line and nearly parallel to it.
 class LooseTest {
  public:
   explicit LooseTest(const Segment2& projected)
       : line_(LineThrough(projected)), direction_(projected.Direction()) {}
 
+  const Eigen::Vector2d& direction() const { return direction_; }
+
   bool MayShow(const Segment2& segment) const {
-    constexpr double kLoosePx = 10, kMinCosine = 0.95;
+    constexpr double kMinCosine = 0.95;  // as SegmentIndex takes it
     return std::abs(LineDistance(line_, segment.start)) <= kLoosePx &&
            std::abs(LineDistance(line_, segment.end)) <= kLoosePx &&
            segment.Direction().dot(direction_) >= kMinCosine;
@@ -69,12 +73,29 @@ class LooseTest {
   Eigen::Vector2d direction_;
 };
 
+// Before that: where the segments are that have some of the line beside them. A segment that
+// overlaps the line has a point of it no further than MayShow allows; the pixel is for rounding.
+// All of the image where the line passes the camera.
+Eigen::AlignedBox2d Surroundings(const RectifiedCamera& camera, const Segment3& in_camera) {
+  constexpr double kNear = 1e-3, kMargin = kLoosePx + 1;
+  const double most = std::numeric_limits<double>::max();
+  if (!(in_camera.start.z() > kNear) || !(in_camera.end.z() > kNear)) {
+    return {Eigen::Vector2d(-most, -most), Eigen::Vector2d(most, most)};
+  }
+  Eigen::AlignedBox2d box(camera.Project(in_camera.start));
+  box.extend(camera.Project(in_camera.end));
+  const Eigen::Vector2d margin(kMargin, kMargin);
+  return {box.min() - margin, box.max() + margin};
+}
+
 }  // namespace
 
 LineSupportSearch::LineSupportSearch(const Map& map, const ImagingModel& imaging)
-    : map_(map), imaging_(imaging) {
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    claimed_[id].resize(keyframe.frame.lines.size());
+    : imaging_(imaging), views_(map, imaging.camera) {
+  for (std::size_t k = 0; k < views_.size(); ++k) {
+    const auto& lines = views_.keyframe(static_cast<int>(k)).frame.features().lines;
+    segments_.emplace_back(imaging.camera.width, imaging.camera.height, lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) segments_.back().Add(i, lines[i].segment);
   }
 }
 
@@ -82,26 +103,27 @@ std::vector<LineSupport> LineSupportSearch::Find(const LineHypothesis& hypothesi
   constexpr double kMinLengthPx = 5;
   const Segment3 segment = SegmentOf(hypothesis.line, hypothesis.interval);
   std::vector<LineSupport> supports;
-  for (const auto& [id, keyframe] : map_.keyframes()) {
-    const Frame& frame = keyframe.frame;
-    const auto projected =
-        ProjectSegment(imaging_.camera,
-                       {frame.cam_from_world * segment.start, frame.cam_from_world * segment.end});
+  for (const int index : views_.MayShow({.segment = segment, .min_length_px = kMinLengthPx})) {
+    const KeyFrame& keyframe = views_.keyframe(index);
+    const Rigid3& pose = keyframe.frame.cam_from_world;
+    const Segment3 in_camera{pose * segment.start, pose * segment.end};
+    const auto projected = ProjectSegment(imaging_.camera, in_camera);
     if (!projected || !(projected->Length() > kMinLengthPx)) continue;
     const LooseTest test(*projected);
-    const std::vector<LineFeature>& lines = frame.features().lines;
-    const std::vector<bool>& claimed = claimed_.at(id);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (claimed[i] || !test.MayShow(lines[i].segment)) continue;
-      if (const auto support = Test(hypothesis, keyframe, i)) supports.push_back(*support);
-    }
+    const std::vector<LineFeature>& lines = keyframe.frame.features().lines;
+    segments_[static_cast<std::size_t>(index)].ForEachNear(
+        Surroundings(imaging_.camera, in_camera), test.direction(), [&](std::size_t i) {
+          if (!test.MayShow(lines[i].segment)) return;
+          if (const auto support = Test(hypothesis, keyframe, i)) supports.push_back(*support);
+        });
   }
   return supports;
 }
 
 void LineSupportSearch::Claim(std::span<const LineSupport> supports) {
   for (const LineSupport& support : supports) {
-    claimed_.at(support.keyframe->id)[support.feature] = true;
+    const int index = views_.IndexOf(support.keyframe->id);
+    segments_[static_cast<std::size_t>(index)].Remove(support.feature);
   }
 }
 

@@ -7,9 +7,10 @@
 #include "plumbline/geometry/segment.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/map/map.h"
+#include "plumbline/mapping/segment_index.h"
+#include "plumbline/mapping/view_tree.h"
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,19 +44,21 @@ class LineSupportSearch {
   // of the projected line, by their own deviation, that of the poses and that of the line, and
   // within 10 px of it, and that overlap the interval by a quarter of the shorter of the two.
   // Ordered by keyframe.
-  // O(features of the keyframes that have the line in their image).
+  // O(keyframes that may have the line in their image + features near it there).
   std::vector<LineSupport> Find(const LineHypothesis& hypothesis) const;
 
   void Claim(std::span<const LineSupport> supports);
+
+  const ViewTree& views() const { return views_; }
 
  private:
   std::optional<LineSupport> Test(const LineHypothesis& hypothesis,
                                   const KeyFrame& keyframe,
                                   std::size_t feature) const;
 
-  const Map& map_;
   const ImagingModel& imaging_;
-  std::map<KeyFrameId, std::vector<bool>> claimed_;
+  ViewTree views_;
+  std::vector<SegmentIndex> segments_;  // not claimed, by keyframe of views_
 };
 
 // Keyframes among supports as Find returns them.
