@@ -23,6 +23,9 @@ constexpr double kWellKnown = 1 * kRadians;
 constexpr double kNear = 2 * kRadians;
 constexpr std::size_t kMinLines = 5;
 constexpr std::size_t kMinViews = 3;
+// Of a larger map as many as a small one has tell its directions to a hundredth of a degree.
+constexpr std::size_t kMostKeyFrames = 200;
+constexpr std::size_t kMostLines = 1500;
 constexpr double kMaxChance = 0.005;
 // Further away the angle is not small, and chi2 of its sine says nothing.
 constexpr double kMinCosine = 0.9;
@@ -53,21 +56,48 @@ Deviation DeviationFrom(const Eigen::Vector3d& axis,
 
 using Lines = std::vector<const LineDirection*>;
 
-// The line with most others near it; nullptr when there are not enough anywhere.
-const LineDirection* Seed(const Lines& lines) {
-  const double near = math::Cos(kNear);
-  std::ptrdiff_t most = kMinLines - 1;
-  const LineDirection* seed = nullptr;
-  for (const LineDirection* candidate : lines) {
-    const auto votes = std::count_if(lines.begin(), lines.end(), [&](const LineDirection* line) {
-      return std::abs(line->direction.dot(candidate->direction)) >= near;
-    });
-    if (votes <= most) continue;
-    most = votes;
-    seed = candidate;
+// For each line, how many are near it, itself included. Kept up to date while lines are taken away:
+// O(lines) for each, after O(lines squared).
+class Votes {
+ public:
+  explicit Votes(const std::vector<LineDirection>& lines)
+      : lines_(lines), votes_(lines.size(), 1), taken_(lines.size(), false) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const std::ptrdiff_t near = Near(lines[i], lines[j]) ? 1 : 0;
+        votes_[i] += near;
+        votes_[j] += near;
+      }
+    }
   }
-  return seed;
-}
+
+  void Take(const LineDirection& line) {
+    taken_[static_cast<std::size_t>(&line - lines_.data())] = true;
+    for (std::size_t i = 0; i < lines_.size(); ++i) votes_[i] -= Near(lines_[i], line) ? 1 : 0;
+  }
+
+  // The first of those with most; nullptr when there are not enough anywhere.
+  const LineDirection* Most() const {
+    std::ptrdiff_t most = kMinLines - 1;
+    const LineDirection* line = nullptr;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (taken_[i] || votes_[i] <= most) continue;
+      most = votes_[i];
+      line = &lines_[i];
+    }
+    return line;
+  }
+
+ private:
+  bool Near(const LineDirection& a, const LineDirection& b) const {
+    return std::abs(a.direction.dot(b.direction)) >= near_;
+  }
+
+  const std::vector<LineDirection>& lines_;
+  std::vector<std::ptrdiff_t> votes_;
+  std::vector<bool> taken_;
+  double near_ = math::Cos(kNear);
+};
 
 // Gauss-Newton on the deviations of the lines that agree, chosen anew in each step. Those that do
 // not agree in the last one are left in `others`.
@@ -115,29 +145,72 @@ std::optional<LineDirection> DirectionOf(const PluckerLine& line,
 }
 
 std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& lines) {
-  Lines left;
+  std::vector<LineDirection> known;
   for (const LineDirection& line : lines) {
-    if (line.covariance.trace() <= kWellKnown * kWellKnown) left.push_back(&line);
+    if (line.covariance.trace() <= kWellKnown * kWellKnown) known.push_back(line);
   }
+  Votes votes(known);
+  Lines left;
+  for (const LineDirection& line : known) left.push_back(&line);
   std::vector<CommonDirection> out;
-  while (const LineDirection* seed = Seed(left)) {
+  while (const LineDirection* seed = votes.Most()) {
     Lines others;
     const CommonDirection mean = WeightedMean(seed->direction, left, others);
     if (left.size() - others.size() >= kMinLines) {
       out.push_back(mean);
-      left = std::move(others);
     } else {
-      left.erase(std::find(left.begin(), left.end(), seed));
+      others = left;
+      others.erase(std::find(others.begin(), others.end(), seed));
     }
+    // Both are in the same order.
+    auto kept = others.begin();
+    for (const LineDirection* line : left) {
+      if (kept != others.end() && *kept == line) {
+        ++kept;
+      } else {
+        votes.Take(*line);
+      }
+    }
+    left = std::move(others);
   }
   return out;
 }
 
+namespace {
+
+// Up to `most` of some things, evenly spread over them: is the one at `place` of `count` chosen?
+bool Chosen(std::size_t place, std::size_t count, std::size_t most) {
+  return place * most / count != (place + 1) * most / count;
+}
+
+// The lines that enough keyframes show and one of those chosen does, by id.
+std::vector<const MapLine*> SpreadLines(const Map& map) {
+  std::vector<LineId> ids;
+  std::size_t place = 0;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    if (!Chosen(place++, map.keyframes().size(), kMostKeyFrames)) continue;
+    for (const LineId line : keyframe.frame.lines) {
+      if (line.valid()) ids.push_back(line);
+    }
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  std::vector<const MapLine*> lines;
+  for (const LineId id : ids) {
+    const MapLine* line = map.Find(id);
+    if (line->observations.size() >= kMinViews) lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
 std::vector<CommonDirection> CommonDirections(const Map& map) {
+  const std::vector<const MapLine*> spread = SpreadLines(map);
   std::vector<LineDirection> lines;
-  for (const auto& [id, line] : map.lines()) {
-    if (line.observations.size() < kMinViews) continue;
-    if (const auto direction = DirectionOf(line.line, line.information)) {
+  for (std::size_t i = 0; i < spread.size(); ++i) {
+    if (!Chosen(i, spread.size(), kMostLines)) continue;
+    if (const auto direction = DirectionOf(spread[i]->line, spread[i]->information)) {
       lines.push_back(*direction);
     }
   }

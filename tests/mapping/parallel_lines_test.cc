@@ -4,8 +4,12 @@
 
 #include "plumbline/base/random.h"
 
+#include "tests/mapping/vertical_lines.h"
+#include "tests/support/true_map.h"
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -85,6 +89,73 @@ TEST(CommonDirections, NeedsFiveWellKnownLines) {
   lines.push_back(Measured(rng, truth, 0.1 * kRadians));
   EXPECT_EQ(CommonDirections(lines).size(), 1U);
   EXPECT_TRUE(CommonDirections(std::vector<LineDirection>{}).empty());
+}
+
+std::vector<LineDirection> DirectionsOfAll(const Map& map) {
+  std::vector<LineDirection> lines;
+  for (const auto& [id, line] : map.lines()) {
+    if (line.observations.size() < 3) continue;
+    if (const auto direction = DirectionOf(line.line, line.information)) {
+      lines.push_back(*direction);
+    }
+  }
+  return lines;
+}
+
+TEST(CommonDirections, TakesAllLinesOfASmallMapAndSpreadOnesOfALargeOne) {
+  const SyntheticWorld world = WorldOfVerticalLines(0, 60);
+  for (const int keyframes : {50, 250}) {
+    std::vector<Rigid3> poses;
+    for (int k = 0; k < keyframes; ++k) poses.push_back(PoseOnPath(k));
+    const Map map = MakeTrueMap(world, poses, {.points = false}).map;
+    const auto of_all = CommonDirections(DirectionsOfAll(map));
+    const auto found = CommonDirections(map);
+    ASSERT_EQ(of_all.size(), 1U);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_LT(Angle(found[0].direction, of_all[0].direction), 1e-3 * kRadians);
+    if (keyframes > 200) continue;
+    EXPECT_EQ(found[0].direction, of_all[0].direction);
+    EXPECT_EQ(found[0].sigma, of_all[0].sigma);
+  }
+}
+
+// The 4000 lines of keyframes that have none in common.
+TEST(CommonDirections, OfAMapWithMoreLinesAreAsGood) {
+  Rng rng(6, "many_lines");
+  const Eigen::Vector3d truths[] = {RandomDirection(rng), RandomDirection(rng)};
+  Map map;
+  const SyntheticWorld world = MakeSyntheticWorld(0, 0);
+  MapEdit edit;
+  for (int k = 0; k < 300; ++k) {
+    SyntheticFrame sensed;
+    Features features;
+    features.lines.resize(40);
+    features.line_right.resize(40);
+    sensed.line_truth.resize(40);
+    sensed.indexed = IndexFeatures(world.camera, std::move(features));
+    AddKeyFrameTo(map, Rigid3{}, sensed);
+  }
+  for (int i = 0; i < 4000; ++i) {
+    MapLine line;
+    line.id = LineId{i};
+    const Eigen::Vector3d error = RandomVector<3>(rng, 0.2 * kRadians);
+    const Eigen::Vector3d start = RandomVector<3>(rng, 10);
+    line.line = LineThroughPoints(start, start + truths[i % 2] + error);
+    line.end = 1;
+    line.information = 1e6 * Eigen::Matrix4d::Identity();
+    for (int k = 0; k < 3; ++k) line.observations.emplace(KeyFrameId{3 * (i / 40) + k}, i % 40);
+    edit.push_back(edit::AddLine{line});
+  }
+  map.Apply(edit);
+  ASSERT_EQ(map.lines().size(), 4000U);
+  const auto found = CommonDirections(map);
+  ASSERT_EQ(found.size(), 2U);
+  for (const Eigen::Vector3d& truth : truths) {
+    const double best =
+        std::min(Angle(found[0].direction, truth), Angle(found[1].direction, truth));
+    EXPECT_LT(best, 0.03 * kRadians);
+  }
+  EXPECT_GT(found[0].sigma, CommonDirections(DirectionsOfAll(map))[0].sigma);
 }
 
 TEST(ParallelTo, KeepsToTheLimitOfChi2) {
