@@ -138,7 +138,7 @@ TEST(CommonDirections, OfAMapWithMoreLinesAreAsGood) {
   for (int i = 0; i < 4000; ++i) {
     MapLine line;
     line.id = LineId{i};
-    const Eigen::Vector3d error = RandomVector<3>(rng, 0.2 * kRadians);
+    const Eigen::Vector3d error = RandomVector<3>(rng, 0.1 * kRadians);
     const Eigen::Vector3d start = RandomVector<3>(rng, 10);
     line.line = LineThroughPoints(start, start + truths[i % 2] + error);
     line.end = 1;
