@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/plausible_calibration.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -138,9 +140,9 @@ std::optional<std::string> PairFault(const Calibration& calibration) {
   }
   const Eigen::Vector3d axis =
       calibration.right_from_left.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  if (!(axis.z() >= std::cos(kMaxAxesAngleDeg * kDegree))) {
+  if (!(axis.z() >= math::Cos(kMaxAxesAngleDeg * kDegree))) {
     return Text("expected a right camera that looks the way the left one does, found its axis ",
-                std::acos(std::clamp(axis.z(), -1.0, 1.0)) / kDegree,
+                math::Acos(std::clamp(axis.z(), -1.0, 1.0)) / kDegree,
                 " degrees off");
   }
   return calibration.rectified ? TurnFault(calibration, centre) : std::nullopt;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/segment_index.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -26,7 +28,7 @@ void SegmentIndex::Add(std::size_t index, const Segment2& segment) {
     }
   }
   const Eigen::Vector2d along = segment.end - segment.start;
-  At(directions_, DirectionOf(std::atan2(along.y(), along.x())) % kDirections, word) |= Bit(index);
+  At(directions_, DirectionOf(math::Atan2(along.y(), along.x())) % kDirections, word) |= Bit(index);
   At(open_, 0, word) |= Bit(index);
 }
 
@@ -38,7 +40,7 @@ int SegmentIndex::DirectionOf(double angle) {
 
 SegmentIndex::Range SegmentIndex::DirectionsAround(const Eigen::Vector2d& direction) {
   constexpr double kSpread = 0.32;  // acos(0.95), and something for rounding
-  const double turns = std::atan2(direction.y(), direction.x()) / (2 * std::numbers::pi) + 0.5;
+  const double turns = math::Atan2(direction.y(), direction.x()) / (2 * std::numbers::pi) + 0.5;
   const double spread = kSpread / (2 * std::numbers::pi);
   return {static_cast<int>(std::floor((turns - spread) * kDirections)),
           static_cast<int>(std::floor((turns + spread) * kDirections))};

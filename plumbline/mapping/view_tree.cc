@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/view_tree.h"
 
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr int kLeaf = 4;
 constexpr double kMargin = 1e-6;
 
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return math::Atan2(a.cross(b).norm(), a.dot(b));
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ ViewTree::ViewTree(const Map& map, const RectifiedCamera& camera) {
   half_view_ += kMargin;
   // A step across the ray at distance d moves the pixel by f / (d cos^2) of its angle from the
   // axis.
-  const double cosine = std::cos(half_view_);
+  const double cosine = math::Cos(half_view_);
   px_per_radian_ = (1 + kMargin) * std::max(camera.fx, camera.fy) / (cosine * cosine);
   for (const auto& [id, keyframe] : map.keyframes()) {
     const Rigid3 world_from_cam = Inverse(keyframe.frame.cam_from_world);
@@ -104,8 +105,8 @@ void ViewTree::Enclose(Node& node) const {
 
 void ViewTree::Open(double angle, Node& node) {
   node.open = angle;
-  node.cos_open = std::cos(angle);
-  node.sin_open = std::sin(angle);
+  node.cos_open = math::Cos(angle);
+  node.sin_open = math::Sin(angle);
 }
 
 bool ViewTree::MaySee(const Node& node,

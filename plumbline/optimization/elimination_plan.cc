@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/elimination_plan.h"
 
+#include "plumbline/base/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -171,6 +173,6 @@ EliminationPlan PlanInOneFront(int rows) {
   return plan;
 }
 
-double FullSize(const EliminationPlan& plan) { return std::cbrt(6 * plan.multiplications); }
+double FullSize(const EliminationPlan& plan) { return math::Cbrt(6 * plan.multiplications); }
 
 }  // namespace plumbline
