@@ -44,28 +44,37 @@ std::vector<DepthPoint> ChooseDepthPoints(const Frame& frame,
 
 }  // namespace
 
+DepthLandmarks LandmarksFromDepth(const RectifiedCamera& camera,
+                                  const Frame& frame,
+                                  const LandmarkCreationOptions& options) {
+  DepthLandmarks landmarks;
+  for (const DepthPoint& point : ChooseDepthPoints(frame, options)) {
+    const auto model =
+        PointFromFrame(camera, frame, point.feature, options.worst_relative_depth_sigma);
+    if (model) landmarks.points.emplace_back(point.feature, *model);
+  }
+  for (std::size_t i = 0; i < frame.lines.size(); ++i) {
+    if (frame.lines[i].valid()) continue;
+    const auto model = LineFromFrame(camera, frame, i, options.max_relative_line_depth_sigma);
+    if (model) landmarks.lines.emplace_back(i, *model);
+  }
+  return landmarks;
+}
+
 MapEdit CreateFromDepth(const Map& map,
                         const ImagingModel& imaging,
                         KeyFrameId id,
                         const LandmarkCreationOptions& options) {
-  const Frame& frame = map.Find(id)->frame;
+  const DepthLandmarks landmarks = LandmarksFromDepth(imaging.camera, map.Find(id)->frame, options);
   MapEdit edit;
   PointId next_point = map.NextPointId();
-  for (const DepthPoint& point : ChooseDepthPoints(frame, options)) {
-    const auto model =
-        PointFromFrame(imaging.camera, frame, point.feature, options.worst_relative_depth_sigma);
-    if (!model) continue;
-    edit.push_back(
-        edit::AddPoint{{*model, next_point, id, {{id, static_cast<int>(point.feature)}}, {}}});
+  for (const auto& [feature, model] : landmarks.points) {
+    edit.push_back(edit::AddPoint{{model, next_point, id, {{id, static_cast<int>(feature)}}, {}}});
     ++next_point.value;
   }
   LineId next_line = map.NextLineId();
-  for (std::size_t i = 0; i < frame.lines.size(); ++i) {
-    if (frame.lines[i].valid()) continue;
-    const auto model =
-        LineFromFrame(imaging.camera, frame, i, options.max_relative_line_depth_sigma);
-    if (!model) continue;
-    edit.push_back(edit::AddLine{{*model, next_line, id, {{id, static_cast<int>(i)}}, {}}});
+  for (const auto& [feature, model] : landmarks.lines) {
+    edit.push_back(edit::AddLine{{model, next_line, id, {{id, static_cast<int>(feature)}}, {}}});
     ++next_line.value;
   }
   return edit;

@@ -7,7 +7,22 @@
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/options.h"
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 namespace plumbline {
+
+// Points and lines that a frame shows by its depths, with the features that show them.
+struct DepthLandmarks {
+  std::vector<std::pair<std::size_t, PointModel>> points;  // the best known first
+  std::vector<std::pair<std::size_t, LineModel>> lines;
+};
+
+// What CreateFromDepth makes landmarks of: the features of a frame that show none.
+DepthLandmarks LandmarksFromDepth(const RectifiedCamera& camera,
+                                  const Frame& frame,
+                                  const LandmarkCreationOptions& options);
 
 // New points and lines from the depths of one keyframe: every feature without landmark whose depth
 // is known well enough, and where the keyframe shows few points with depth, the best known of the
