@@ -31,4 +31,9 @@ inline Rigid3 PoseBeside(const Placement& keyframe, const RelativePose& relative
   return InUnit(relative, keyframe.unit) * keyframe.cam_from_world;
 }
 
+// The same relative to the parent of the keyframe, which is itself known relative to the parent.
+inline RelativePose Chained(const RelativePose& relative, const RelativePose& keyframe) {
+  return {InUnit(relative, keyframe.unit) * keyframe.cam_from_keyframe, keyframe.unit};
+}
+
 }  // namespace plumbline

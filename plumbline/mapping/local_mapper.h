@@ -35,6 +35,9 @@ class LocalMapper {
  public:
   LocalMapper(const ImagingModel& imaging, const LineOptions& lines, const MappingOptions& options);
 
+  // For what is done from now on.
+  void SetOptions(const MappingOptions& options) { options_ = options; }
+
   // Returns the time of each step, in order.
   std::vector<MappingStep> Add(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
 

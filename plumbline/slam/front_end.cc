@@ -31,8 +31,9 @@ FrontEnd::FrontEnd(const Calibration& calibration,
       left_valid_(RegionOf(rectifier_.left_mask())),
       right_valid_(RegionOf(rectifier_.right_mask())) {}
 
-MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock) const {
+MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, Shed shed) const {
   MeasuredFrame measured;
+  measured.shed = shed;
   measured.stamp_ns = frame.stamp_ns;
   measured.images = rectifier_.Apply(std::move(frame));
   clock.Done("rectify");
@@ -46,7 +47,7 @@ MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock) const {
   }
   if (measured.images.depth) input.depth = &*measured.images.depth;
   const RectifiedCamera& camera = rectifier_.camera();
-  measured.indexed = Index(camera, ExtractFeatures(camera, input, options_));
+  measured.indexed = Index(camera, ExtractFeatures(camera, input, Lightened(options_, shed)));
   clock.Done("features");
   measured.clock = std::move(clock);
   return measured;

@@ -8,6 +8,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/map/frame.h"
+#include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/stage_clock.h"
 
 #include <cstdint>
@@ -21,6 +22,7 @@ struct MeasuredFrame {
   RectifiedFrame images;
   std::shared_ptr<const IndexedFeatures> indexed;
   StageClock clock;  // goes on with the frame
+  Shed shed = Shed::kNothing;
 };
 
 // From sensor to features: the stage that needs no map and no earlier frame.
@@ -32,8 +34,9 @@ class FrontEnd {
            const FeatureOptions& features);
 
   // Rectifies the images and measures features. Throws InputError when an image has another size
-  // than the calibration says. Thread-safe; same frame, same features.
-  MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}) const;
+  // than the calibration says. Thread-safe; same frame, same features. Of lines and points, `shed`
+  // measures fewer.
+  MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
 
   const Rectifier& rectifier() const { return rectifier_; }
 

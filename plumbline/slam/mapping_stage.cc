@@ -3,39 +3,21 @@
 #include "plumbline/slam/mapping_stage.h"
 
 #include "plumbline/base/error.h"
-
-#include <sys/resource.h>
-#include <unistd.h>
+#include "plumbline/slam/keyframes_ahead.h"
 
 namespace plumbline {
-namespace {
 
-constexpr std::size_t kBehind = 2;  // waiting keyframes
-
-// Of this thread (Linux). Where it is refused, things stay as they are.
-void LowerPriority() {
-  constexpr int kNice = 10;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
-}
-
-// The keyframe beside its parent as the map has it today, which may have moved since the frame was
-// tracked.
-KeyFrame PlacedIn(const Map& map, const NewKeyFrame& added) {
-  KeyFrame keyframe = added.keyframe;
-  if (!keyframe.parent.valid() || !map.Knows(keyframe.parent)) return keyframe;
-  const Placement parent = map.PlaceOf(keyframe.parent);
-  keyframe.frame.cam_from_world = PoseBeside(parent, added.from_parent);
-  keyframe.unit = parent.unit;
-  return keyframe;
-}
-
-}  // namespace
-
-MappingStage::MappingStage(const ImagingModel& imaging, const SlamOptions& options)
+MappingStage::MappingStage(const ImagingModel& imaging,
+                           const SlamOptions& options,
+                           const Execution& execution)
     : mode_(options.slam.mode),
       lag_(options.slam.lag),
+      camera_(imaging.camera),
+      mapping_options_(options.mapping),
       mapper_(imaging, options.lines, options.mapping) {
-  if (mode_ != RunMode::kInline) worker_ = std::jthread([this] { WorkUntilStopped(); });
+  if (mode_ != RunMode::kInline && execution.threads) {
+    worker_ = std::jthread([this] { WorkUntilStopped(); });
+  }
 }
 
 MappingStage::~MappingStage() {
@@ -44,18 +26,23 @@ MappingStage::~MappingStage() {
   task_added_.notify_all();
 }
 
-void MappingStage::Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map) {
-  Submit(frame, std::variant<NewKeyFrame, MapStart>(std::move(keyframe)), starts_map);
+std::optional<DemotedKeyFrame> MappingStage::Submit(std::int64_t frame,
+                                                    NewKeyFrame keyframe,
+                                                    bool starts_map) {
+  Submit(frame, Work(std::make_shared<const NewKeyFrame>(std::move(keyframe))), starts_map);
+  return mode_ == RunMode::kLive ? GiveUpOne() : std::nullopt;
 }
 
 void MappingStage::Submit(std::int64_t frame, MapStart start) {
-  Submit(frame, std::variant<NewKeyFrame, MapStart>(std::move(start)), true);
+  Submit(frame, Work(std::move(start)), true);
 }
 
-void MappingStage::Submit(std::int64_t frame,
-                          std::variant<NewKeyFrame, MapStart> work,
-                          bool starts_map) {
+void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
   ++submitted_;
+  if (starts_map) {
+    map_begins_ = submitted_;
+    kept_.clear();
+  }
   if (mode_ != RunMode::kLive || starts_map) {
     dues_.push_back({starts_map ? frame : frame + 1 + lag_, submitted_});
   }
@@ -66,6 +53,33 @@ void MappingStage::Submit(std::int64_t frame,
   task_added_.notify_one();
 }
 
+// Where more keyframes wait than may: the one with the fewest new measurements, the oldest of two;
+// never the newest, which tracking goes on from.
+std::optional<DemotedKeyFrame> MappingStage::GiveUpOne() {
+  const std::lock_guard lock(mutex_);
+  if (tasks_.size() <= kMaxWaiting) return std::nullopt;
+  std::optional<std::size_t> least;
+  int fewest = 0;
+  std::vector<std::shared_ptr<const NewKeyFrame>> waiting;
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    const auto* keyframe = std::get_if<std::shared_ptr<const NewKeyFrame>>(&tasks_[i].work);
+    if (keyframe == nullptr) return std::nullopt;  // what starts a map is waited for
+    waiting.push_back(*keyframe);
+    if (tasks_[i].starts_map || i + 1 == tasks_.size()) continue;
+    const int measurements = NewMeasurements(**keyframe, camera_);
+    if (!least || measurements < fewest) {
+      least = i;
+      fewest = measurements;
+    }
+  }
+  if (!least) return std::nullopt;
+  const auto gone = TakeOut(*least, waiting);
+  tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(*least));
+  for (std::size_t i = 0; i < tasks_.size(); ++i) tasks_[i].work = waiting[i];
+  const KeyFrame& keyframe = gone->keyframe;
+  return DemotedKeyFrame{keyframe.id, keyframe.frame.id, keyframe.parent, gone->from_parent};
+}
+
 std::shared_ptr<const MapSnapshot> MappingStage::SnapshotFor(std::int64_t frame) {
   std::int64_t wanted = 0;
   for (const Due& due : dues_) {
@@ -73,18 +87,62 @@ std::shared_ptr<const MapSnapshot> MappingStage::SnapshotFor(std::int64_t frame)
   }
   while (!dues_.empty() && dues_.front().task <= wanted) dues_.pop_front();
   WaitFor(wanted);
+  if (mode_ == RunMode::kLive) return NewestSnapshot();
   const std::lock_guard lock(mutex_);
-  if (mode_ == RunMode::kLive) wanted = Done();
   while (!versions_.empty() && versions_.front().task < wanted) versions_.pop_front();
   return versions_.empty() ? nullptr : versions_.front().snapshot;
 }
 
-bool MappingStage::Behind() const {
+std::shared_ptr<const MapSnapshot> MappingStage::NewestSnapshot() {
+  std::shared_ptr<const MapSnapshot> base;
+  std::vector<std::shared_ptr<const NewKeyFrame>> ahead;
+  {
+    const std::lock_guard lock(mutex_);
+    if (versions_.empty()) return nullptr;
+    for (; versions_.size() > 1; versions_.pop_front()) {
+      if (versions_.front().task >= map_begins_) kept_.push_front(versions_.front().snapshot);
+    }
+    base = versions_.back().snapshot;
+    if (begun_) ahead.push_back(begun_);
+    for (const Task& task : tasks_) {
+      ahead.push_back(std::get<std::shared_ptr<const NewKeyFrame>>(task.work));
+    }
+  }
+  if (kept_.size() > kEarlierKept) kept_.resize(kEarlierKept);
+  if (base != base_ || ahead != ahead_) {
+    with_ahead_ =
+        ahead.empty() ? base : WithKeyFramesAhead(*base, ahead, camera_, mapping_options_.creation);
+    base_ = std::move(base);
+    ahead_ = std::move(ahead);
+  }
+  return with_ahead_;
+}
+
+std::shared_ptr<const MapSnapshot> MappingStage::EarlierSnapshot() {
+  if (kept_.empty()) return nullptr;
+  next_kept_ %= kept_.size();
+  return kept_[next_kept_++];
+}
+
+std::size_t MappingStage::Waiting() const {
   const std::lock_guard lock(mutex_);
-  return tasks_.size() >= kBehind;
+  return tasks_.size();
+}
+
+void MappingStage::Lighten(Shed shed) {
+  const std::lock_guard lock(mutex_);
+  shed_ = shed;
+}
+
+bool MappingStage::WorkOnce() {
+  std::unique_lock lock(mutex_);
+  if (tasks_.empty() || failure_) return false;
+  TryNext(lock);
+  return true;
 }
 
 void MappingStage::Finish(const StopCheck& stop) {
+  Lighten(Shed::kNothing);
   WaitFor(submitted_);
   dues_.clear();
   const std::lock_guard lock(mutex_);
@@ -121,7 +179,7 @@ std::vector<MappingStep> MappingStage::TakeTimes() {
 
 void MappingStage::WaitFor(std::int64_t task) {
   std::unique_lock lock(mutex_);
-  if (mode_ == RunMode::kInline) {
+  if (!worker_.joinable()) {
     while (!failure_ && Done() < task) TryNext(lock);
   } else {
     task_done_.wait(lock, [&] { return failure_ != nullptr || Done() >= task; });
@@ -130,7 +188,6 @@ void MappingStage::WaitFor(std::int64_t task) {
 }
 
 void MappingStage::WorkUntilStopped() {
-  if (mode_ == RunMode::kLive) LowerPriority();  // frames come, whether mapping is done or not
   std::unique_lock lock(mutex_);
   while (true) {
     task_added_.wait(lock, [&] { return stop_ || !tasks_.empty(); });
@@ -155,6 +212,9 @@ void MappingStage::TryNext(std::unique_lock<std::mutex>& lock) {
 void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   const Task task = std::move(tasks_.front());
   tasks_.pop_front();
+  const auto* added = std::get_if<std::shared_ptr<const NewKeyFrame>>(&task.work);
+  begun_ = added != nullptr ? *added : nullptr;
+  if (mode_ == RunMode::kLive) mapper_.SetOptions(Lightened(mapping_options_, shed_));
   lock.unlock();
   if (task.starts_map) {
     mapper_.StartNewMap(atlas_.Start());
@@ -167,12 +227,13 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
     newest = start->keyframes.back();
     times = mapper_.Start(map, start->edit, newest);
   } else {
-    const auto& added = std::get<NewKeyFrame>(task.work);
-    newest = added.keyframe.id;
-    times = mapper_.Add(map, PlacedIn(map, added), added.scores);
+    const NewKeyFrame& keyframe = **added;
+    newest = keyframe.keyframe.id;
+    times = mapper_.Add(map, SettledIn(map, keyframe), keyframe.scores);
   }
   auto snapshot = TakeSnapshotAround(map, newest);
   lock.lock();
+  begun_ = nullptr;
   versions_.push_back({task.number, std::move(snapshot)});
   times_.insert(times_.end(), times.begin(), times.end());
 }

@@ -6,6 +6,8 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/local_mapper.h"
+#include "plumbline/slam/execution.h"
+#include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/tracking/tracker.h"
@@ -16,6 +18,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -23,26 +26,43 @@
 
 namespace plumbline {
 
+// A keyframe that mapping had no time for. The frame that it was made of is an ordinary one, and
+// what moves with it moves with its parent.
+struct DemotedKeyFrame {
+  KeyFrameId id;
+  FrameId frame;
+  KeyFrameId parent;
+  RelativePose from_parent;
+};
+
 // The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
 //
 // When a keyframe takes effect is part of the algorithm, not of the machine's speed: one made at
 // frame f is in the snapshot from frame f + 1 + lag on, the start of a map at once. Inline, the
 // work is done when the snapshot is asked for, in the caller's thread. In lockstep a thread of its
 // own begins as soon as a keyframe comes, and the caller waits for exactly the snapshot that the
-// frame is due: the same bytes. Live, the caller gets the newest snapshot there is and waits only
-// for the first keyframe of a map.
+// frame is due: the same bytes. Live, the caller waits only for the first keyframe of a map, and
+// gets the newest snapshot there is with the keyframes that are not in it yet (WithKeyFramesAhead):
+// tracking always has a map that reaches it. kMaxWaiting of them may wait; when one more comes, the
+// one that the map loses least without is given up.
 //
 // All functions are for one thread, the tracker's.
 class MappingStage {
  public:
-  MappingStage(const ImagingModel& imaging, const SlamOptions& options);
+  static constexpr std::size_t kMaxWaiting = 4;   // keyframes, live
+  static constexpr std::size_t kEarlierKept = 8;  // snapshots, live
+
+  MappingStage(const ImagingModel& imaging,
+               const SlamOptions& options,
+               const Execution& execution = {});
   // Leaves undone what has not begun.
   ~MappingStage();
   MappingStage(const MappingStage&) = delete;
   MappingStage& operator=(const MappingStage&) = delete;
 
-  // Opens a new map when `starts_map`; frames count from 0.
-  void Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
+  // Opens a new map when `starts_map`; frames count from 0. Returns the keyframe that was given up
+  // for this one.
+  std::optional<DemotedKeyFrame> Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
   // Opens a new map that begins with several keyframes.
   void Submit(std::int64_t frame, MapStart start);
 
@@ -50,8 +70,20 @@ class MappingStage {
   // keyframe. Rethrows what mapping threw.
   std::shared_ptr<const MapSnapshot> SnapshotFor(std::int64_t frame);
 
-  // Whether so many keyframes wait that a live tracker should make none it can do without.
-  bool Behind() const;
+  // Live: one of the last snapshots of the map in use before the newest, without keyframes ahead;
+  // from call to call an older one, then again from the first. Null where there is none.
+  std::shared_ptr<const MapSnapshot> EarlierSnapshot();
+
+  // Keyframes that mapping has not begun with.
+  std::size_t Waiting() const;
+
+  // What is shed of the keyframes that mapping begins with from now on; nothing before the first
+  // call.
+  void Lighten(Shed shed);
+
+  // Takes in the next keyframe, in the caller's thread; false when none waits. For live runs
+  // without threads (Execution).
+  bool WorkOnce();
 
   // Does all work that is left and adjusts each map as a whole (`stop` cuts the adjustment short);
   // no keyframe may follow in a map that is to be tracked against. Rethrows what mapping threw.
@@ -70,10 +102,11 @@ class MappingStage {
   std::vector<MappingStep> TakeTimes();
 
  private:
+  using Work = std::variant<std::shared_ptr<const NewKeyFrame>, MapStart>;
   // Something to be taken in. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
-    std::variant<NewKeyFrame, MapStart> work;
+    Work work;
     bool starts_map = false;
   };
   struct Due {
@@ -85,7 +118,9 @@ class MappingStage {
     std::shared_ptr<const MapSnapshot> snapshot;
   };
 
-  void Submit(std::int64_t frame, std::variant<NewKeyFrame, MapStart> work, bool starts_map);
+  void Submit(std::int64_t frame, Work work, bool starts_map);
+  std::optional<DemotedKeyFrame> GiveUpOne();
+  std::shared_ptr<const MapSnapshot> NewestSnapshot();
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
   void CheckComplete() const;
@@ -96,10 +131,18 @@ class MappingStage {
 
   RunMode mode_;
   std::int64_t lag_;
+  RectifiedCamera camera_;
+  MappingOptions mapping_options_;
   // The tracker's side.
   std::int64_t submitted_ = 0;
   std::int64_t finished_ = 0;  // the last one when Finish() adjusted the maps
   std::deque<Due> dues_;  // of tasks later than the one last asked for; live: of first keyframes
+  std::int64_t map_begins_ = 0;                          // with this task
+  std::deque<std::shared_ptr<const MapSnapshot>> kept_;  // live: earlier ones, the newest first
+  std::size_t next_kept_ = 0;
+  // Live: the newest version and what was made of it.
+  std::shared_ptr<const MapSnapshot> base_, with_ahead_;
+  std::vector<std::shared_ptr<const NewKeyFrame>> ahead_;
   // The worker's side.
   LocalMapper mapper_;
   Atlas atlas_;
@@ -108,11 +151,13 @@ class MappingStage {
   mutable std::mutex mutex_;
   std::condition_variable task_added_, task_done_;
   std::deque<Task> tasks_;
+  std::shared_ptr<const NewKeyFrame> begun_;  // being taken in
+  Shed shed_ = Shed::kNothing;
   std::deque<Version> versions_;  // from the one in use on
   std::vector<MappingStep> times_;
   std::exception_ptr failure_;
   bool stop_ = false;
-  std::jthread worker_;  // none inline; last, so that it ends first
+  std::jthread worker_;  // none inline and step by step; last, so that it ends first
 };
 
 }  // namespace plumbline

@@ -115,6 +115,17 @@ void MonocularStart::Tracked(const TrackingResult& result) {
   if (result.keyframe) --young_keyframes_;
 }
 
+void MonocularStart::Rehang(KeyFrameId gone,
+                            KeyFrameId parent,
+                            const RelativePose& gone_from_parent) {
+  if (starts_.empty()) return;
+  for (KeptFrame& frame : starts_.back().frames) {
+    if (frame.reference != gone) continue;
+    frame.reference = parent;
+    frame.from_reference = Chained(frame.from_reference, gone_from_parent);
+  }
+}
+
 std::vector<EarlierFrame> MonocularStart::Locate(const std::map<MapId, Map>& maps,
                                                  const StopCheck& stop) {
   std::vector<EarlierFrame> located;

@@ -48,6 +48,8 @@ class MonocularStart {
   void Restart();
   // Tells of a frame that was tracked; only those of a young map are kept.
   void Tracked(const TrackingResult& result);
+  // A keyframe is none any more; what was tracked by it hangs on its parent.
+  void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
   // The frames that wait belong to this map, which began so.
   void MapStarted(MapId map, const MapStart& start);
 

@@ -2,14 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/pipeline.h"
 
+#include "plumbline/base/error.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace plumbline {
 
 Pipeline::Pipeline(System& system, Observer observer)
-    : system_(system), observer_(std::move(observer)), mode_(system.options().slam.mode) {
-  if (mode_ != RunMode::kInline) worker_ = std::jthread([this] { WorkUntilStopped(); });
+    : system_(system),
+      observer_(std::move(observer)),
+      mode_(system.options().slam.mode),
+      execution_(system.execution()) {
+  PLUMBLINE_CHECK(mode_ == RunMode::kLive || execution_.threads,
+                  "only a live run is done step by step");
+  if (mode_ != RunMode::kInline && execution_.threads)
+    worker_ = std::jthread([this] { WorkUntilStopped(); });
 }
 
 Pipeline::~Pipeline() {
@@ -23,6 +31,9 @@ void Pipeline::Feed(SensorFrame frame) {
   job.stamp_ns = frame.stamp_ns;
   if (mode_ == RunMode::kLive) {
     job.raw = std::move(frame);
+    job.arrival = execution_.now();
+    if (last_stamp_ns_) job.interval = 1e-9 * static_cast<double>(job.stamp_ns - *last_stamp_ns_);
+    last_stamp_ns_ = job.stamp_ns;
   } else {
     job.measured = system_.Measure(std::move(frame));
   }
@@ -37,9 +48,13 @@ void Pipeline::Skip(std::int64_t stamp_ns, const std::string& reason) {
 }
 
 void Pipeline::Drain() {
-  if (mode_ == RunMode::kInline) return;
-  std::unique_lock lock(mutex_);
-  job_taken_.wait(lock, [&] { return failure_ || (jobs_.empty() && !busy_); });
+  if (mode_ == RunMode::kLive && !execution_.threads) {
+    while (WorkOnce()) {
+    }
+  } else if (mode_ != RunMode::kInline) {
+    std::unique_lock lock(mutex_);
+    job_taken_.wait(lock, [&] { return failure_ || (jobs_.empty() && !busy_); });
+  }
 }
 
 void Pipeline::Finish(const StopCheck& stop) {
@@ -80,15 +95,29 @@ std::size_t Pipeline::Waiting() const {
 
 void Pipeline::Do(Job job) {
   if (!job.HasFrame()) {
-    observer_(system_.Skip(job.stamp_ns, job.reason), FrameView{});
+    const bool dropped = job.reason == kDropped;
+    dropped_ += dropped;
+    observer_(system_.Skip(job.stamp_ns, job.reason, dropped ? Shed::kFrame : Shed::kNothing),
+              FrameView{});
     return;
   }
   if (job.raw) {
     job.clock.Done("wait");
-    job.measured = system_.Measure(std::move(*job.raw), std::move(job.clock));
+    const Shed shed = Decide(job);
+    job.measured = system_.Measure(std::move(*job.raw), std::move(job.clock), shed);
   }
   const FrameRecord& record = system_.Track(std::move(*job.measured));
   observer_(record, system_.view());
+}
+
+// What is done for a frame whose turn has come.
+Shed Pipeline::Decide(const Job& job) {
+  Load load;
+  const std::chrono::duration<double> waited = execution_.now() - job.arrival;
+  if (job.interval > 0) load.wait = waited.count() / job.interval;
+  load.frames_dropped = std::exchange(dropped_, 0);
+  load.keyframes_waiting = static_cast<int>(system_.KeyFramesWaiting());
+  return shedding_.Next(load);
 }
 
 void Pipeline::WorkUntilStopped() {
@@ -96,22 +125,34 @@ void Pipeline::WorkUntilStopped() {
   while (true) {
     job_added_.wait(lock, [&] { return stop_ || !jobs_.empty(); });
     if (stop_) return;
-    Job job = std::move(jobs_.front());
-    jobs_.pop_front();
-    busy_ = true;
-    lock.unlock();
-    std::exception_ptr failure;
-    try {
-      Do(std::move(job));
-    } catch (...) {  // rethrown in the feeding thread
-      failure = std::current_exception();
-    }
-    lock.lock();
-    busy_ = false;
-    failure_ = failure;
-    job_taken_.notify_all();
+    DoNext(lock);
     if (failure_) return;
   }
+}
+
+bool Pipeline::WorkOnce() {
+  std::unique_lock lock(mutex_);
+  if (jobs_.empty() || failure_) return false;
+  DoNext(lock);
+  return true;
+}
+
+// Without holding the lock meanwhile. What it throws is rethrown in the feeding thread.
+void Pipeline::DoNext(std::unique_lock<std::mutex>& lock) {
+  Job job = std::move(jobs_.front());
+  jobs_.pop_front();
+  busy_ = true;
+  lock.unlock();
+  std::exception_ptr failure;
+  try {
+    Do(std::move(job));
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  busy_ = false;
+  failure_ = failure;
+  job_taken_.notify_all();
 }
 
 void Pipeline::RethrowFailure() {

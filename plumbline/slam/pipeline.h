@@ -3,6 +3,8 @@
 #pragma once
 
 #include "plumbline/image/image.h"
+#include "plumbline/slam/execution.h"
+#include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/system.h"
 
 #include <condition_variable>
@@ -24,7 +26,8 @@ namespace plumbline {
 //   lockstep  Feed measures features in the caller's thread and leaves tracking to another one,
 //             which is at most two frames behind; when it is, Feed waits. Same bytes as inline.
 //   live      Feed only hands the frame over. Two frames may wait; one more, and the oldest of
-//             them is left out (FrameStatus::kSkipped, reason kDropped). Not reproducible.
+//             them is left out (FrameStatus::kSkipped, reason kDropped). Where frames have to wait,
+//             less is done for them (LoadShedding), which their records tell. Not reproducible.
 //
 // One thread feeds. The observer is called for every frame in order, in the thread that tracks, and
 // gets the frame's record and view; it must be quick in live mode. What a stage throws comes out of
@@ -50,14 +53,20 @@ class Pipeline {
   // completes the mapping of the frames before, then rethrows.
   void Finish(const StopCheck& stop = {});
 
+  // Does the next thing that waits, in the caller's thread; false when nothing does. For live runs
+  // without threads (Execution of the System).
+  bool WorkOnce();
+
  private:
   // A frame on its way to tracking: measured, raw (live), or neither: left out for `reason`.
   struct Job {
     std::int64_t stamp_ns = 0;
     std::optional<MeasuredFrame> measured;
     std::optional<SensorFrame> raw;
-    StageClock clock;    // of a raw frame, since its arrival
-    std::string reason;  // why it has no frame to work on
+    StageClock clock;  // of a raw frame, since its arrival
+    Execution::Clock::time_point arrival;
+    double interval = 0;  // seconds since the frame before was taken; 0: not known
+    std::string reason;   // why it has no frame to work on
 
     bool HasFrame() const { return reason.empty(); }
   };
@@ -66,19 +75,26 @@ class Pipeline {
   void DropOldest();
   std::size_t Waiting() const;
   void Do(Job job);
+  Shed Decide(const Job& job);
+  void DoNext(std::unique_lock<std::mutex>& lock);
   void WorkUntilStopped();
   void RethrowFailure();
 
   System& system_;
   Observer observer_;
   RunMode mode_;
+  Execution execution_;
+  std::optional<std::int64_t> last_stamp_ns_;  // fed
+  // The worker's.
+  LoadShedding shedding_;
+  int dropped_ = 0;  // since the last frame that was tracked
   std::mutex mutex_;
   std::condition_variable job_added_, job_taken_;
   std::deque<Job> jobs_;
   bool busy_ = false;
   bool stop_ = false;
   std::exception_ptr failure_;
-  std::jthread worker_;  // none inline; last, so that it ends first
+  std::jthread worker_;  // none inline and step by step; last, so that it ends first
 };
 
 }  // namespace plumbline

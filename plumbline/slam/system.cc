@@ -17,6 +17,10 @@ Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
   return {rectifier.rectified_left_from_left().conjugate(), Eigen::Vector3d::Zero()};
 }
 
+// A live run that lost the camera looks for it in its map for so long before it starts another: the
+// next frames may show what is known, and a map that is left is not gone back to.
+constexpr double kLivePatienceSeconds = 1;
+
 // The camera's motion between the last two views of a map, as a left tangent per second.
 Vector6d LastVelocity(const InitialMap& initial) {
   const InitialView& last = initial.views.back();
@@ -27,16 +31,20 @@ Vector6d LastVelocity(const InitialMap& initial) {
 
 }  // namespace
 
-System::System(const Calibration& calibration, const SlamOptions& options)
+System::System(const Calibration& calibration,
+               const SlamOptions& options,
+               const Execution& execution)
     : options_(options),
+      execution_(execution),
       front_end_(calibration, options.rectification, options.features),
       imaging_{front_end_.rectifier().camera(), options.features.orb.scale_factor},
-      mapping_(imaging_, options_),
+      mapping_(imaging_, options_, execution_),
       tracker_(imaging_,
                options_.tracking,
                options_.lines,
                options_.cutting,
-               WorldFromFirstCamera(front_end_.rectifier())) {
+               WorldFromFirstCamera(front_end_.rectifier()),
+               options_.slam.mode == RunMode::kLive ? kLivePatienceSeconds : 0) {
   CheckOptions(options_);
   if (imaging_.camera.baseline == 0) {
     if (options_.tracking.reference == TrackingReference::kLastFrame) {
@@ -50,11 +58,12 @@ System::System(const Calibration& calibration, const SlamOptions& options)
 
 System::~System() = default;
 
-const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason) {
+const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason, Shed shed) {
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
   record.stamp_ns = stamp_ns;
   record.reason = reason;
+  record.shed = shed;
   frames_.push_back(std::move(record));
   return frames_.back();
 }
@@ -69,6 +78,8 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
   record.stamp_ns = measured.stamp_ns;
+  record.shed = measured.shed;
+  mapping_.Lighten(measured.shed);
   StageClock clock = std::move(measured.clock);
   clock.Done("wait");  // until tracking had time
 
@@ -85,11 +96,17 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
   const auto snapshot = mapping_.SnapshotFor(record.id.value);
   clock.Done("map");
   for (const StageTime& time : TakeMappingTimes()) clock.Add(time.stage, time.milliseconds);
-  const bool behind = options_.slam.mode == RunMode::kLive && mapping_.Behind();
-  TrackingResult result = tracker_.Track(
-      record.id, record.stamp_ns, std::move(measured.indexed), snapshot.get(), behind);
+  const auto earlier =
+      tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
+  TrackingResult result = tracker_.Track(record.id,
+                                         record.stamp_ns,
+                                         std::move(measured.indexed),
+                                         snapshot.get(),
+                                         {earlier.get(), FeatureShare(measured.shed)});
   if (result.keyframe) {
-    mapping_.Submit(record.id.value, std::move(*result.keyframe), result.starts_map);
+    const auto gone =
+        mapping_.Submit(record.id.value, std::move(*result.keyframe), result.starts_map);
+    if (gone) Demote(*gone);
     record.keyframe = true;
     maps_started_ += result.starts_map;
   }
@@ -137,6 +154,22 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
     earlier.keyframe = true;
   }
   return result;
+}
+
+// A keyframe was made by one of the last frames, and only frames since then hang on it.
+void System::Demote(const DemotedKeyFrame& gone) {
+  tracker_.Rehang(gone.id, gone.parent, gone.from_parent);
+  if (monocular_start_) monocular_start_->Rehang(gone.id, gone.parent, gone.from_parent);
+  for (auto record = frames_.rbegin(); record != frames_.rend(); ++record) {
+    if (record->reference == gone.id) {
+      record->reference = gone.parent;
+      record->from_reference = Chained(record->from_reference, gone.from_parent);
+    }
+    if (record->id != gone.frame) continue;
+    record->keyframe = false;
+    record->demoted = true;
+    return;
+  }
 }
 
 void System::RecordTracking(const TrackingResult& result, FrameRecord& record) const {

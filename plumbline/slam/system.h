@@ -8,7 +8,9 @@
 #include "plumbline/image/rectify.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/line_map.h"
+#include "plumbline/slam/execution.h"
 #include "plumbline/slam/front_end.h"
+#include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/mapping_stage.h"
 #include "plumbline/slam/monocular_start.h"
 #include "plumbline/slam/options.h"
@@ -44,6 +46,8 @@ struct FrameRecord {
   std::optional<Rigid3> causal_world_from_camera;  // as first reported, camera as delivered
   FrameCounts counts;                              // of from_reference
   bool keyframe = false;
+  Shed shed = Shed::kNothing;  // what a live run left undone for this frame
+  bool demoted = false;        // was a keyframe until mapping had no time for it
   // In order, "total" last: from the frame's arrival to its end. map_* are steps of mapping that
   // ended since the last frame, inline within "map", otherwise beside.
   std::vector<StageTime> times;
@@ -64,7 +68,9 @@ struct FrameView {
 class System {
  public:
   // Throws InputError for a calibration that cannot be used.
-  System(const Calibration& calibration, const SlamOptions& options);
+  System(const Calibration& calibration,
+         const SlamOptions& options,
+         const Execution& execution = {});
   ~System();
   System(const System&) = delete;
   System& operator=(const System&) = delete;
@@ -73,12 +79,20 @@ class System {
   // or the frame is no later than the one before.
   const FrameRecord& Process(SensorFrame frame);
   // What can be done ahead, in another thread than the rest; see FrontEnd.
-  MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}) const {
-    return front_end_.Measure(std::move(frame), std::move(clock));
+  MeasuredFrame Measure(SensorFrame frame,
+                        StageClock clock = {},
+                        Shed shed = Shed::kNothing) const {
+    return front_end_.Measure(std::move(frame), std::move(clock), shed);
   }
   const FrameRecord& Track(MeasuredFrame frame);
   // A frame that could not be read, or was left out.
-  const FrameRecord& Skip(std::int64_t stamp_ns, const std::string& reason);
+  const FrameRecord& Skip(std::int64_t stamp_ns,
+                          const std::string& reason,
+                          Shed shed = Shed::kNothing);
+  // Keyframes that wait for mapping.
+  std::size_t KeyFramesWaiting() const { return mapping_.Waiting(); }
+  // Maps the next keyframe; false when none waits. For live runs without threads (Execution).
+  bool MapOnce() { return mapping_.WorkOnce(); }
   // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
   // it was young, are located in the finished map (see MonocularStart): those before it get a pose,
   // but no causal one; of the others only the causal one stays. `stop` cuts short the adjustment of
@@ -95,6 +109,7 @@ class System {
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
   const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
   const SlamOptions& options() const { return options_; }
+  const Execution& execution() const { return execution_; }
   const RectifiedCamera& camera() const { return rectifier().camera(); }
   const Rectifier& rectifier() const { return front_end_.rectifier(); }
   // The last processed frame.
@@ -117,10 +132,12 @@ class System {
   std::vector<StageTime> TakeMappingTimes();
   TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
+  void Demote(const DemotedKeyFrame& gone);
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
   void LoseFramesNotMapped();
 
   SlamOptions options_;
+  Execution execution_;
   FrontEnd front_end_;
   ImagingModel imaging_;
   MappingStage mapping_;

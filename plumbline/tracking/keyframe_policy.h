@@ -47,11 +47,16 @@ struct KeyFrameSituation {
   int reference_landmarks = 0;  // well observed points and lines that the last keyframe shows
   int close_tracked = 0;        // points with good disparity that show a map point
   int close_untracked = 0;      // and that show none
-  bool mapping_behind = false;  // live: mapping has not finished earlier keyframes
   bool monocular = false;       // no depth is measured
+  // Features that the frame was measured with: of those that it would be measured with usually, and
+  // of those of the last keyframe. Less than 1 only where a live run sheds features; what is
+  // counted above is then held against as much less.
+  double share_of_usual = 1;
+  double share_of_reference = 1;
 };
 
-// Whether a tracked frame should become a keyframe, and why. A pure function.
+// Whether a tracked frame should become a keyframe, and why. A pure function, and one of what the
+// camera sees alone: how busy the machine is does not count.
 KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
                               const KeyFramePolicyOptions& options);
 

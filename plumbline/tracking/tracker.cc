@@ -93,17 +93,19 @@ Tracker::Tracker(const ImagingModel& imaging,
                  const TrackingOptions& options,
                  const LineOptions& lines,
                  const CuttingOptions& cutting,
-                 const Rigid3& world_from_first_cam)
+                 const Rigid3& world_from_first_cam,
+                 double min_lost_seconds)
     : options_(options),
       search_(imaging, options, lines, cutting),
       monocular_(imaging.camera.baseline == 0),
-      first_cam_from_world_(Inverse(world_from_first_cam)) {}
+      first_cam_from_world_(Inverse(world_from_first_cam)),
+      min_lost_seconds_(min_lost_seconds) {}
 
 TrackingResult Tracker::Track(FrameId id,
                               std::int64_t stamp_ns,
                               std::shared_ptr<const IndexedFeatures> indexed,
                               const MapSnapshot* snapshot,
-                              bool mapping_behind) {
+                              const LiveConditions& live) {
   Frame frame;
   frame.id = id;
   frame.stamp_ns = stamp_ns;
@@ -114,7 +116,7 @@ TrackingResult Tracker::Track(FrameId id,
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
   if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
-  return Follow(std::move(frame), *snapshot, mapping_behind);
+  return Follow(std::move(frame), *snapshot, live);
 }
 
 TrackingResult Tracker::StartMap(Frame frame) {
@@ -188,41 +190,77 @@ void Tracker::Resume(const Relocalized& found, const MapSnapshot& snapshot) {
   last_ = Tracked{{found.frame, found.association}, {snapshot.centre, relative}, {}};
 }
 
-TrackingResult Tracker::Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind) {
+TrackingResult Tracker::Follow(Frame frame,
+                               const MapSnapshot& snapshot,
+                               const LiveConditions& live) {
   ++frames_since_keyframe_;
   FollowAnchor(snapshot);
   const Rigid3 last_pose = last_->frame.cam_from_world;
   const double seconds = 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns);
-  FrameCounts counts;
-  std::optional<PoseAttempt> attempt =
-      FindPose(frame, Predict(last_pose, seconds), snapshot, counts);
-  if (!attempt) {
-    const int matches = counts.matched_points + counts.matched_lines;
-    return Fail(std::move(frame),
-                matches < options_.min_unpredicted_inliers ? TrackingFailure::kTooFewMatches
-                                                           : TrackingFailure::kTooFewInliers,
-                counts);
+  const MapSnapshot* seen = &snapshot;
+  Finding found = Find(frame, Predict(last_pose, seconds), snapshot);
+  if (found.failure != TrackingFailure::kNone && live.earlier != nullptr) {
+    Finding again = FindAgain(frame, *live.earlier);
+    if (again.failure == TrackingFailure::kNone) {
+      found = std::move(again);
+      seen = live.earlier;
+    }
   }
-  const PoseEstimate& pose = attempt->pose;
-  Score(attempt->expected, attempt->association);
-  counts.inlier_points = pose.inlier_points;
-  counts.inlier_lines = pose.inlier_lines;
-  if (pose.Inliers() < options_.min_inliers || !search_.Agreed(pose, counts)) {
-    return Fail(std::move(frame), TrackingFailure::kTooFewInliers, counts);
+  if (found.attempt) Score(found.attempt->expected, found.attempt->association);
+  if (found.failure != TrackingFailure::kNone) {
+    return Fail(std::move(frame), found.failure, found.counts);
   }
-  if (!search_.Accepted(pose)) {
-    return Fail(std::move(frame), TrackingFailure::kPoseNotObservable, counts);
-  }
+  const PoseEstimate& pose = found.attempt->pose;
   velocity_ = LogSe3(pose.cam_from_world * Inverse(last_pose)) / seconds;
   spread_ = Spread{pose.information.inverse(), pose.scene_depth};
-  return Succeed(std::move(frame), std::move(*attempt), counts, snapshot, mapping_behind);
+  return Succeed(
+      std::move(frame), std::move(*found.attempt), found.counts, *seen, live.feature_share);
+}
+
+Tracker::Finding Tracker::Find(const Frame& frame,
+                               const PosePrior& predicted,
+                               const MapSnapshot& snapshot) const {
+  FrameCounts counts;
+  std::optional<PoseAttempt> attempt = FindPose(frame, predicted, snapshot, counts);
+  return Judge(std::move(attempt), counts);
+}
+
+Tracker::Finding Tracker::FindAgain(const Frame& frame, const MapSnapshot& earlier) const {
+  FrameCounts counts;
+  FrameAssociation found;
+  const auto first = search_.FromAppearance(frame, *last_, earlier, found, counts);
+  if (!first) return Judge(std::nullopt, counts);
+  const PosePrior free{last_->frame.cam_from_world};
+  PoseAttempt attempt = Settle(frame, *first, free, earlier, std::move(found));
+  counts = attempt.counts;
+  return Judge(std::move(attempt), counts);
+}
+
+Tracker::Finding Tracker::Judge(std::optional<PoseAttempt> attempt, FrameCounts counts) const {
+  if (!attempt) {
+    const int matches = counts.matched_points + counts.matched_lines;
+    return {std::nullopt,
+            matches < options_.min_unpredicted_inliers ? TrackingFailure::kTooFewMatches
+                                                       : TrackingFailure::kTooFewInliers,
+            counts};
+  }
+  const PoseEstimate& pose = attempt->pose;
+  counts.inlier_points = pose.inlier_points;
+  counts.inlier_lines = pose.inlier_lines;
+  TrackingFailure failure = TrackingFailure::kNone;
+  if (pose.Inliers() < options_.min_inliers || !search_.Agreed(pose, counts)) {
+    failure = TrackingFailure::kTooFewInliers;
+  } else if (!search_.Accepted(pose)) {
+    failure = TrackingFailure::kPoseNotObservable;
+  }
+  return {std::move(attempt), failure, counts};
 }
 
 TrackingResult Tracker::Succeed(Frame frame,
                                 PoseAttempt attempt,
                                 const FrameCounts& counts,
                                 const MapSnapshot& snapshot,
-                                bool mapping_behind) {
+                                double feature_share) {
   FrameAssociation& association = attempt.association;
   frame.cam_from_world = attempt.pose.cam_from_world;
   frame.points = IdsOfMatches<PointId>(association.matches.point_of_feature, association.points);
@@ -237,7 +275,7 @@ TrackingResult Tracker::Succeed(Frame frame,
   const Placement& centre = snapshot.places.at(snapshot.centre);
   result.from_reference = {frame.cam_from_world * Inverse(centre.cam_from_world), centre.unit};
   Anchor parent;
-  if (WantsKeyFrame(frame, association, snapshot, mapping_behind)) {
+  if (WantsKeyFrame(frame, association, snapshot, feature_share)) {
     parent = {snapshot.centre, result.from_reference};
     result.keyframe = MakeKeyFrame(frame, snapshot.centre, result.from_reference);
     result.reference = newest_keyframe_;
@@ -253,10 +291,9 @@ TrackingResult Tracker::Succeed(Frame frame,
 bool Tracker::WantsKeyFrame(const Frame& frame,
                             const FrameAssociation& association,
                             const MapSnapshot& snapshot,
-                            bool mapping_behind) const {
+                            double feature_share) const {
   if (options_.reference == TrackingReference::kLastFrame) return false;  // odometry has no map
-  KeyFrameSituation situation = Situation(frame, association, snapshot);
-  situation.mapping_behind = mapping_behind;
+  const KeyFrameSituation situation = Situation(frame, association, snapshot, feature_share);
   return DecideKeyFrame(situation, options_.keyframes) != KeyFrameReason::kNone;
 }
 
@@ -347,11 +384,20 @@ void Tracker::Score(const ExpectedLandmarks& expected, const FrameAssociation& a
 
 KeyFrameSituation Tracker::Situation(const Frame& frame,
                                      const FrameAssociation& association,
-                                     const MapSnapshot& snapshot) const {
+                                     const MapSnapshot& snapshot,
+                                     double feature_share) const {
   KeyFrameSituation situation;
   situation.monocular = monocular_;
   situation.frames_since_keyframe = static_cast<int>(frames_since_keyframe_);
   const Frame& reference = snapshot.reference->frame;
+  if (feature_share < 1) {
+    const auto features = [](const Frame& f) {
+      return static_cast<double>(f.points.size() + f.lines.size());
+    };
+    situation.share_of_usual = feature_share;
+    situation.share_of_reference =
+        std::min(1.0, features(frame) / std::max(1.0, features(reference)));
+  }
   const int needed = std::min(situation.monocular ? kWellObservedByOne : kWellObserved,
                               static_cast<int>(snapshot.cam_from_world.size()));
   CountShared(reference.points, frame.points, snapshot, needed, situation);
@@ -371,7 +417,11 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
 TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
   ++lost_frames_;
   // A map that loses the camera right after its start was a bad one more often than not.
-  const int patience = trial_keyframes_ > 0 ? 1 : options_.new_map_after;
+  const bool trial = trial_keyframes_ > 0;
+  const double lost_seconds =
+      last_ ? 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) : 0;
+  const bool wait = !trial && lost_seconds < min_lost_seconds_;
+  const int patience = wait ? lost_frames_ + 1 : trial ? 1 : options_.new_map_after;
   state_ = NextState(state_, false, lost_frames_, patience);
   velocity_.reset();
   spread_.reset();
@@ -381,6 +431,11 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   result.counts = counts;
   result.frame = std::move(frame);
   return result;
+}
+
+void Tracker::Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent) {
+  if (!last_ || last_->anchor.keyframe != gone) return;
+  last_->anchor = {parent, Chained(last_->anchor.relative, gone_from_parent)};
 }
 
 NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame,

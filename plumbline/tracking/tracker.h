@@ -54,7 +54,14 @@ TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int n
 struct NewKeyFrame {
   KeyFrame keyframe;
   TrackingScores scores;
-  RelativePose from_parent;  // where there is a parent
+  RelativePose from_parent = {};  // where there is a parent
+};
+
+// What a live run tells the tracker beside the frame and the map.
+struct LiveConditions {
+  // The map around an earlier keyframe, tried by appearance where the map gives no pose; or null.
+  const MapSnapshot* earlier = nullptr;
+  double feature_share = 1;  // of the usual number of features that the frame was measured with
 };
 
 struct TrackingResult {
@@ -83,19 +90,21 @@ struct TrackingResult {
 class Tracker {
  public:
   // world_from_first_cam: pose given to the first frame of each map.
+  // min_lost_seconds: from the last pose until a new map may start, beside tracking.new_map_after
+  // and but for a map that is on trial.
   Tracker(const ImagingModel& imaging,
           const TrackingOptions& options,
           const LineOptions& lines,
           const CuttingOptions& cutting,
-          const Rigid3& world_from_first_cam);
+          const Rigid3& world_from_first_cam,
+          double min_lost_seconds = 0);
 
-  // snapshot: null exactly while the tracker has no map. mapping_behind: make no keyframe that
-  // can be done without.
+  // snapshot: null exactly while the tracker has no map.
   TrackingResult Track(FrameId id,
                        std::int64_t stamp_ns,
                        std::shared_ptr<const IndexedFeatures> indexed,
                        const MapSnapshot* snapshot,
-                       bool mapping_behind = false);
+                       const LiveConditions& live = {});
 
   // Begins to follow a map that was made of several frames: the snapshot is centred on its newest
   // keyframe, which is made of the frame of today.
@@ -107,6 +116,8 @@ class Tracker {
   // Goes on, lost as it is, from a frame whose place was found in the map; `snapshot` is taken
   // around the keyframe that showed the way.
   void Resume(const Relocalized& found, const MapSnapshot& snapshot);
+  // A keyframe that tracking made is none any more; what it tracked by it hangs on the parent.
+  void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
 
   TrackerState state() const { return state_; }
   // The id that the next keyframe will get.
@@ -124,7 +135,17 @@ class Tracker {
   };
 
   TrackingResult StartMap(Frame frame);
-  TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, bool mapping_behind);
+  // A pose, or why there is none.
+  struct Finding {
+    std::optional<PoseAttempt> attempt;  // its counts are those below
+    TrackingFailure failure = TrackingFailure::kNone;
+    FrameCounts counts;
+  };
+
+  TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, const LiveConditions& live);
+  Finding Find(const Frame& frame, const PosePrior& predicted, const MapSnapshot& snapshot) const;
+  Finding FindAgain(const Frame& frame, const MapSnapshot& earlier) const;
+  Finding Judge(std::optional<PoseAttempt> attempt, FrameCounts counts) const;
   std::optional<PoseAttempt> FindPose(const Frame& frame,
                                       const PosePrior& predicted,
                                       const MapSnapshot& snapshot,
@@ -139,11 +160,11 @@ class Tracker {
                          PoseAttempt attempt,
                          const FrameCounts& counts,
                          const MapSnapshot& snapshot,
-                         bool mapping_behind);
+                         double feature_share);
   bool WantsKeyFrame(const Frame& frame,
                      const FrameAssociation& association,
                      const MapSnapshot& snapshot,
-                     bool mapping_behind) const;
+                     double feature_share) const;
   void FollowAnchor(const MapSnapshot& snapshot);
   void ChangeUnit(double scale);
   // No information where the velocity is not known.
@@ -151,7 +172,8 @@ class Tracker {
   void Score(const ExpectedLandmarks& expected, const FrameAssociation& association);
   KeyFrameSituation Situation(const Frame& frame,
                               const FrameAssociation& association,
-                              const MapSnapshot& snapshot) const;
+                              const MapSnapshot& snapshot,
+                              double feature_share) const;
   TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
   NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, const RelativePose& from_parent);
 
@@ -159,6 +181,7 @@ class Tracker {
   PoseSearch search_;
   bool monocular_;
   Rigid3 first_cam_from_world_;
+  double min_lost_seconds_;
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<Tracked> last_;
   // Left tangent of the camera motion, per second; nullopt where it is not known.

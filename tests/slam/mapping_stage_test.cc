@@ -4,7 +4,6 @@
 
 #include "tests/support/initial_map_of.h"
 #include "tests/support/synthetic_run.h"
-#include <chrono>
 #include <string>
 #include <thread>
 
@@ -23,11 +22,12 @@ SlamOptions WithLag(int lag, RunMode mode = RunMode::kInline) {
 NewKeyFrame KeyFrameAt(const SyntheticWorld& world, std::int64_t id, std::int64_t parent) {
   Rng rng(1, "keyframe", static_cast<std::uint64_t>(id));
   const Rigid3 pose = PoseOnPath(static_cast<int>(4 * id));
+  const Rigid3 parent_pose = PoseOnPath(static_cast<int>(4 * parent));
   return {{KeyFrameId{id},
            KeyFrameId{parent},
            MakeFrame(FrameId{id}, pose, Sense(world, pose, {}, rng))},
           {},
-          {pose * Inverse(PoseOnPath(static_cast<int>(4 * parent))), 1}};
+          {pose * Inverse(parent_pose), 1}};
 }
 
 TEST(MappingStage, TheFirstKeyFrameTakesEffectAtOnce) {
@@ -139,10 +139,10 @@ TEST_P(MappingStageWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
   MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
-  for (std::int64_t k = 1; k < 8; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
+  for (std::int64_t k = 1; k < 4; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
   EXPECT_THROW(stage.maps(), BugError);
   stage.Finish();
-  EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 8U);
+  EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 4U);
   stage.maps().rbegin()->second.CheckInvariants();
 }
 
@@ -182,8 +182,7 @@ TEST(MappingStage, InLockstepASnapshotIsNotNewerThanItsFrameMayKnow) {
   stage.Submit(10, KeyFrameAt(world, 1, 0), false);
   stage.Submit(11, KeyFrameAt(world, 2, 1), false);
   // Long done, but not due.
-  while (stage.Behind()) std::this_thread::yield();
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  while (stage.Waiting() > 0) std::this_thread::yield();
   EXPECT_EQ(stage.SnapshotFor(11)->centre, KeyFrameId{0});
   EXPECT_EQ(stage.SnapshotFor(12)->centre, KeyFrameId{1});
   EXPECT_EQ(stage.SnapshotFor(20)->centre, KeyFrameId{2});
@@ -196,6 +195,74 @@ TEST(MappingStage, LiveTheNewestSnapshotCounts) {
   stage.Submit(1, KeyFrameAt(world, 1, 0), false);
   stage.Finish();
   EXPECT_EQ(stage.SnapshotFor(1)->centre, KeyFrameId{1});
+}
+
+// A live stage whose keyframes are mapped when the test says so.
+class MappingStageStepByStep : public ::testing::Test {
+ protected:
+  SyntheticWorld world_ = MakeSyntheticWorld(200, 40);
+  MappingStage stage_{world_.Imaging(), WithLag(1, RunMode::kLive), {.threads = false}};
+};
+
+TEST_F(MappingStageStepByStep, KeyFramesThatWaitAreTrackedAgainstAtOnce) {
+  stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
+  EXPECT_EQ(stage_.SnapshotFor(1)->centre, KeyFrameId{0});
+  EXPECT_EQ(stage_.EarlierSnapshot(), nullptr);
+  stage_.Submit(1, KeyFrameAt(world_, 1, 0), false);
+  stage_.Submit(2, KeyFrameAt(world_, 2, 1), false);
+  EXPECT_EQ(stage_.Waiting(), 2U);
+  const auto ahead = stage_.SnapshotFor(3);
+  EXPECT_EQ(ahead->centre, KeyFrameId{2});
+  EXPECT_EQ(ahead->cam_from_world.size(), 3U);
+  EXPECT_EQ(stage_.SnapshotFor(4), ahead);  // not made anew
+  EXPECT_TRUE(stage_.WorkOnce());
+  EXPECT_TRUE(stage_.WorkOnce());
+  EXPECT_FALSE(stage_.WorkOnce());
+  const auto mapped = stage_.SnapshotFor(5);
+  EXPECT_EQ(mapped->centre, KeyFrameId{2});
+  EXPECT_NE(mapped, ahead);
+  for (const SnapshotPoint& point : mapped->points) EXPECT_LT(point.id.value, 100'000);
+}
+
+TEST_F(MappingStageStepByStep, WhereTooManyWaitTheLeastInformativeIsGivenUp) {
+  stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
+  const auto known = stage_.SnapshotFor(1);
+  for (std::int64_t k = 1; k <= 4; ++k) {
+    NewKeyFrame added = KeyFrameAt(world_, k, k - 1);
+    if (k == 3) {  // shows nothing that is new
+      for (PointId& id : added.keyframe.frame.points) id = known->points.front().id;
+      for (LineId& id : added.keyframe.frame.lines) id = known->lines.front().id;
+    }
+    EXPECT_FALSE(stage_.Submit(k, added, false)) << k;
+  }
+  const auto gone = stage_.Submit(5, KeyFrameAt(world_, 5, 4), false);
+  ASSERT_TRUE(gone);
+  EXPECT_EQ(gone->id, KeyFrameId{3});
+  EXPECT_EQ(gone->frame, FrameId{3});
+  EXPECT_EQ(gone->parent, KeyFrameId{2});
+  EXPECT_EQ(stage_.Waiting(), MappingStage::kMaxWaiting);
+  const auto ahead = stage_.SnapshotFor(6);
+  EXPECT_EQ(ahead->centre, KeyFrameId{5});
+  EXPECT_FALSE(ahead->cam_from_world.contains(KeyFrameId{3}));
+  stage_.Finish();
+  const Map& map = stage_.maps().rbegin()->second;
+  map.CheckInvariants();
+  EXPECT_EQ(map.Find(KeyFrameId{3}), nullptr);
+  EXPECT_EQ(map.Find(KeyFrameId{4})->parent, KeyFrameId{2});
+}
+
+TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapInUse) {
+  stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
+  for (std::int64_t k = 1; k <= 3; ++k) {
+    stage_.SnapshotFor(k);
+    stage_.Submit(k, KeyFrameAt(world_, k, k - 1), false);
+    stage_.WorkOnce();
+  }
+  EXPECT_EQ(stage_.SnapshotFor(4)->centre, KeyFrameId{3});
+  for (const std::int64_t k : {2, 1, 0, 2}) EXPECT_EQ(stage_.EarlierSnapshot()->centre.value, k);
+  stage_.Submit(4, KeyFrameAt(world_, 4, -1), true);
+  EXPECT_EQ(stage_.SnapshotFor(4)->centre, KeyFrameId{4});
+  EXPECT_EQ(stage_.EarlierSnapshot(), nullptr);
 }
 
 // Poses of a run over the synthetic world, as first reported.

@@ -25,9 +25,9 @@ struct Outcome {
   Trajectory causal, final, keyframes;
 };
 
-// A run over the poster; `gap` is what the feeder waits between frames.
-Outcome RunPoster(RunMode mode, int frames, std::chrono::milliseconds gap = {}) {
-  System system(MovingPoster::MakeCalibration(), InMode(mode));
+// A run over the poster; without threads each frame is done before the next one comes.
+Outcome RunPoster(RunMode mode, int frames, const Execution& execution = {}) {
+  System system(MovingPoster::MakeCalibration(), InMode(mode), execution);
   const MovingPoster poster;
   Outcome outcome;
   Pipeline pipeline(system, [&](const FrameRecord& record, const FrameView& view) {
@@ -41,7 +41,8 @@ Outcome RunPoster(RunMode mode, int frames, std::chrono::milliseconds gap = {}) 
     } else {
       pipeline.Feed(poster.Frame(i));
     }
-    std::this_thread::sleep_for(gap);
+    while (!execution.threads && (pipeline.WorkOnce() || system.MapOnce())) {
+    }
   }
   pipeline.Finish();
   outcome.causal = system.CausalTrajectory(MapId{0});
@@ -70,7 +71,7 @@ TEST(Pipeline, LockstepGivesTheBitsOfInline) {
 }
 
 TEST(Pipeline, LiveTracksEveryFrameThatLeavesItTime) {
-  const Outcome live = RunPoster(RunMode::kLive, 6, std::chrono::milliseconds(400));
+  const Outcome live = RunPoster(RunMode::kLive, 6, {.threads = false});
   const std::vector<std::string> expected = {
       "tracked", "tracked", "tracked", "tracked", "skippedimage_unreadable", "tracked"};
   EXPECT_EQ(live.status, expected);

@@ -22,6 +22,28 @@ TEST(DecideKeyFrame, IsSoonerWithASingleCamera) {
   EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
 }
 
+TEST(DecideKeyFrame, ExpectsLessOfAFrameMeasuredWithFewerFeatures) {
+  KeyFramePolicyOptions options;
+  options.min_landmark_ratio = 0.7;
+  options.critical_ratio = 0.35;
+  options.min_close = 100;
+  options.min_new_close = 70;
+  KeyFrameSituation situation{.frames_since_keyframe = 5,
+                              .shared_landmarks = 80,
+                              .reference_landmarks = 200,
+                              .close_tracked = 60,
+                              .close_untracked = 40};
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kFewLandmarks);
+  situation.share_of_reference = 0.5;
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
+  situation.share_of_usual = 0.5;  // 40 of 35 new ones, but 60 of 50 tracked
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
+  situation.close_tracked = 49;
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNeedsClosePoints);
+  situation.shared_landmarks = 34;
+  EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kAlmostLost);
+}
+
 TEST(DecideKeyFrame, FollowsTheTable) {
   KeyFramePolicyOptions options;
   options.max_frames = 20;

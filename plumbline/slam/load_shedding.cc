@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/load_shedding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline {
+namespace {
+
+constexpr double kShareOfLines = 0.5;
+// With half of the points the error of a car at 5 images a second doubles, for a tenth of the time.
+constexpr double kShareOfPoints = 0.75;
+constexpr double kShareOfMapping = 0.4;  // of keyframes looked at
+
+Shed More(Shed shed) {
+  return shed < Shed::kPoints ? static_cast<Shed>(static_cast<int>(shed) + 1) : shed;
+}
+
+Shed Less(Shed shed) {
+  return shed > Shed::kNothing ? static_cast<Shed>(static_cast<int>(shed) - 1) : shed;
+}
+
+// None stays none.
+int Part(int number, double share) {
+  return number == 0 ? 0 : std::max(1, static_cast<int>(std::lround(share * number)));
+}
+
+}  // namespace
+
+Shed LoadShedding::Next(const Load& load) {
+  const bool dropped = load.frames_dropped > 0;
+  const bool late = dropped || load.wait > kLateWait;
+  late_ = late ? late_ + 1 : 0;
+  calm_ = !late && load.wait < kCalmWait ? calm_ + 1 : 0;
+  if (dropped || late_ >= kLateFrames) {
+    shed_ = More(shed_);
+    late_ = 0;
+  } else if (calm_ >= kCalmFrames) {
+    shed_ = Less(shed_);
+    calm_ = 0;
+  }
+  if (load.keyframes_waiting >= kManyKeyFramesWaiting) mapping_ = true;
+  if (load.keyframes_waiting == 0) mapping_ = false;
+  return std::max(shed_, mapping_ ? Shed::kMapping : Shed::kNothing);
+}
+
+double FeatureShare(Shed shed) { return shed >= Shed::kPoints ? kShareOfPoints : 1; }
+
+FeatureOptions Lightened(FeatureOptions options, Shed shed) {
+  if (shed >= Shed::kLines) options.line_count = Part(options.line_count, kShareOfLines);
+  if (shed >= Shed::kPoints) options.point_count = Part(options.point_count, kShareOfPoints);
+  return options;
+}
+
+MappingOptions Lightened(MappingOptions options, Shed shed) {
+  if (shed < Shed::kMapping) return options;
+  const auto less = [](int& number) { number = Part(number, kShareOfMapping); };
+  less(options.fusion_neighbours);
+  less(options.creation.neighbours);
+  less(options.window.free_keyframes);
+  less(options.window.fixed_keyframes);
+  options.ba.rounds = std::min(options.ba.rounds, 2);
+  less(options.ba.max_iterations);
+  return options;
+}
+
+}  // namespace plumbline
