@@ -154,6 +154,15 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
       counts.dropped > 0 ? fmt::format(" ({} dropped)", counts.dropped) : std::string(),
       counts.initializing > 0 ? fmt::format(", {} before a map", counts.initializing)
                               : std::string());
+  if (counts.shed_mapping + counts.shed_lines + counts.shed_points + counts.demoted > 0) {
+    std::cout << fmt::format(
+        "behind the camera: {} frames with less mapping, {} with fewer lines too, {} with fewer "
+        "lines and points too; {} keyframes without time for mapping\n",
+        counts.shed_mapping,
+        counts.shed_lines,
+        counts.shed_points,
+        counts.demoted);
+  }
   std::cout << fmt::format(
       "map: {} keyframes, {} points, {} lines{}\n",
       counts.keyframes,

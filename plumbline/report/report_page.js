@@ -25,6 +25,17 @@ function missingFrames() {
       .map(([count, what]) => `${whole(count)} ${what}`);
 }
 
+// What a live run left undone, but for the frames that it left out.
+function shedWork() {
+  const c = data.counts;
+  return [
+    [c.shed_mapping, "with less mapping", "frame"], [c.shed_lines, "with fewer lines too", "frame"],
+    [c.shed_points, "with fewer lines and points too", "frame"],
+    [c.demoted, "without time for mapping", "keyframe"]
+  ].filter(([count]) => count > 0)
+      .map(([count, what, of]) => `${plural(count, of)} ${what}`);
+}
+
 function percentTracked() {
   const {tracked, frames: all} = data.counts;
   // Rounded down: 100 % means every frame.
@@ -43,6 +54,7 @@ function verdict() {
         `${scene.maps.length > 1 ? " of the largest map" : ""}, ${error.alignment} alignment, ` +
         `coverage ${percentTracked()} %)`);
   }
+  if (shedWork().length) parts.push(`behind the camera: ${shedWork().join(", ")}`);
   if (framesPerSecond()) parts.push(`${digits(framesPerSecond())} frames/s`);
   parts.push(`${digits(data.run.peak_memory_mb)} MB of memory at most`);
   // Numbers stay beside their units.

@@ -108,7 +108,10 @@ function frameHead(i) {
   const state = frames.state[i];
   const reason = frames.reason[i] ? ` (${frames.reason[i].replaceAll("_", " ")})` : "";
   const what = state === "tracked" ? "" : ", " + state + reason;
-  return {head: `Frame ${i}${what}${frames.keyframe[i] ? ", keyframe" : ""}`};
+  const less = {mapping: ", less mapping", lines: ", fewer lines", points: ", fewer points"};
+  return {
+    head: `Frame ${i}${what}${frames.keyframe[i] ? ", keyframe" : ""}${less[frames.shed[i]] || ""}`
+  };
 }
 
 const timeRow = (i) => ({what: "time", much: digits(frames.seconds[i], 4) + " s"});

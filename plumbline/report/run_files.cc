@@ -103,7 +103,7 @@ TrajectoryNames::TrajectoryNames(std::optional<MapId> map) {
 }
 
 std::string FormatFrameRow(const FrameRecord& f) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n",
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n",
                      f.id.value,
                      FormatStamp(f.stamp_ns),
                      NameOf(f.status),
@@ -113,13 +113,14 @@ std::string FormatFrameRow(const FrameRecord& f) {
                      f.counts.matched_points,
                      f.counts.matched_lines,
                      f.counts.inlier_points,
-                     f.counts.inlier_lines);
+                     f.counts.inlier_lines,
+                     NameOf(f.shed));
 }
 
 std::string FormatFrames(const std::vector<FrameRecord>& frames) {
   std::string text =
       "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,inlier_points,"
-      "inlier_lines\n";
+      "inlier_lines,shed\n";
   for (const FrameRecord& frame : frames) text += FormatFrameRow(frame);
   return text;
 }

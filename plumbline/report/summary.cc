@@ -108,6 +108,10 @@ RunCounts CountRun(const System& system) {
     counts.lost += frame.status == FrameStatus::kLost;
     counts.skipped += frame.status == FrameStatus::kSkipped;
     counts.dropped += frame.reason == Pipeline::kDropped;
+    counts.shed_mapping += frame.shed == Shed::kMapping;
+    counts.shed_lines += frame.shed == Shed::kLines;
+    counts.shed_points += frame.shed == Shed::kPoints;
+    counts.demoted += frame.demoted;
     counts.initializing += frame.status == FrameStatus::kInitializing;
   }
   counts.maps = static_cast<int>(system.maps().size());
@@ -170,6 +174,11 @@ std::string FormatSummary(const RunDescription& description,
                     {"skipped", counts.skipped},
                     {"dropped", counts.dropped},
                     {"initializing", counts.initializing}};
+  json["shed"] = {{"mapping", counts.shed_mapping},
+                  {"lines", counts.shed_lines},
+                  {"points", counts.shed_points},
+                  {"frames", counts.dropped},
+                  {"keyframes", counts.demoted}};
   json["maps"] = counts.maps;
   json["keyframes"] = counts.keyframes;
   json["points"] = counts.points;

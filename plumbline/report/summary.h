@@ -31,6 +31,9 @@ std::optional<double> SecondsSinceProcessStart();
 struct RunCounts {
   int frames = 0, tracked = 0, lost = 0, skipped = 0, initializing = 0;
   int dropped = 0;  // of the skipped ones, those that a live run had no time for
+  // Frames of a live run by what it left undone last, in the order of Shed.
+  int shed_mapping = 0, shed_lines = 0, shed_points = 0;
+  int demoted = 0;  // keyframes that mapping had no time for
   int keyframes = 0, points = 0, lines = 0, maps = 0;
 };
 RunCounts CountRun(const System& system);

@@ -55,6 +55,32 @@ TEST(Run, WritesTheSameBytesEveryTime) {
   }
 }
 
+// How many frames it has time for is up to the machine, but each of them has its row.
+TEST(Run, LiveAccountsForEveryFrame) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 30);
+  const Outcome outcome = RunProgram(
+      folder, "run " + Quoted(sequence) + " --mode live --quiet --out " + Quoted(folder / "run"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
+  const auto& frames = summary["frames"];
+  EXPECT_EQ(frames["in"], 30);
+  EXPECT_GT(frames["tracked"], 0);
+  EXPECT_EQ(frames["skipped"], frames["dropped"]);
+  EXPECT_EQ(frames["dropped"], summary["shed"]["frames"]);
+  std::istringstream table(Contents(folder / "run/frames.csv"));
+  std::string row;
+  std::getline(table, row);
+  EXPECT_TRUE(row.ends_with(",shed")) << row;
+  int rows = 0, dropped = 0;
+  for (; std::getline(table, row); ++rows) {
+    dropped += row.ends_with(",frame");
+    EXPECT_EQ(row.find(",skipped,,dropped,") != std::string::npos, row.ends_with(",frame")) << row;
+  }
+  EXPECT_EQ(rows, 30);
+  EXPECT_EQ(frames["dropped"], dropped);
+}
+
 // A copy of the first frames of a EuRoC folder whose files the test may break.
 void CopyEuroc(const fs::path& from, const fs::path& to, std::size_t frames) {
   for (const char* camera : {"cam0", "cam1"}) {

@@ -38,12 +38,21 @@ TEST(FormatFrames, OneRowForEveryFrame) {
   lost.reason = "too_few_inliers";
   FrameRecord skipped = TimedFrame(2, {});
   skipped.reason = "image_unreadable";
-  EXPECT_EQ(FormatFrames({tracked, lost, skipped}),
+  FrameRecord hurried = TimedFrame(3, {});
+  hurried.status = FrameStatus::kTracked;
+  hurried.map = MapId{2};
+  hurried.shed = Shed::kLines;
+  FrameRecord dropped = TimedFrame(4, {});
+  dropped.reason = "dropped";
+  dropped.shed = Shed::kFrame;
+  EXPECT_EQ(FormatFrames({tracked, lost, skipped, hurried, dropped}),
             "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,"
-            "inlier_points,inlier_lines\n"
-            "0,1305031102.175304000,tracked,2,,1,5,4,3,2\n"
-            "1,1305031102.175304001,lost,,too_few_inliers,0,0,0,0,0\n"
-            "2,1305031102.175304002,skipped,,image_unreadable,0,0,0,0,0\n");
+            "inlier_points,inlier_lines,shed\n"
+            "0,1305031102.175304000,tracked,2,,1,5,4,3,2,\n"
+            "1,1305031102.175304001,lost,,too_few_inliers,0,0,0,0,0,\n"
+            "2,1305031102.175304002,skipped,,image_unreadable,0,0,0,0,0,\n"
+            "3,1305031102.175304003,tracked,2,,0,0,0,0,0,lines\n"
+            "4,1305031102.175304004,skipped,,dropped,0,0,0,0,0,frame\n");
 }
 
 TEST(Timing, StatisticsAreOfTheFramesInWhichAStageRan) {
@@ -142,6 +151,9 @@ TEST(Summary, HoldsTheFieldsOfTheInterface) {
   EXPECT_EQ(json["frames"]["lost"], 1);
   EXPECT_EQ(json["frames"]["skipped"], 1);
   EXPECT_EQ(json["frames"]["dropped"], 0);
+  for (const char* what : {"mapping", "lines", "points", "frames", "keyframes"}) {
+    EXPECT_EQ(json["shed"][what], 0) << what;
+  }
   EXPECT_EQ(json["mode"], "lockstep");
   EXPECT_EQ(json["first_pose_seconds"], 0.2);
   EXPECT_EQ(json["wall_seconds"], 1.5);
