@@ -22,11 +22,11 @@ function(plumbline_module)
 endfunction()
 
 # plumbline_tests(NAME geometry SOURCES se3_test.cc ... [LIBS lib ...] [LABELS unit] [TIMEOUT 120]
-#                 [REAL_DATA] [SERIAL])
+#                 [REAL_DATA])
 # One test executable for one module; every TEST() becomes a CTest test. REAL_DATA: it looks for the
-# recorded sequences (tests/support/data_folder.h). SERIAL: no other test runs meanwhile.
+# recorded sequences (tests/support/data_folder.h).
 function(plumbline_tests)
-  cmake_parse_arguments(ARG "REAL_DATA;SERIAL" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_DATA" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -46,6 +46,6 @@ function(plumbline_tests)
         "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tools/leaks_of_others.txt:print_suppressions=0")
   endif()
   gtest_discover_tests(${target} TEST_PREFIX "${ARG_NAME}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL}
+                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
                                   ${environment})
 endfunction()

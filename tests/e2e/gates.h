@@ -16,9 +16,6 @@ struct Gate {
   double max_ate_m;      // RMSE of the positions after alignment, metres
 };
 
-// In live mode a gate's error may be so much larger.
-inline constexpr double kLiveFactor = 1.2;
-
 inline constexpr Gate kMachineHall{"euroc/MH_01_easy_first250", "", 249, 1, 0.005};
 inline constexpr Gate kFloor{"tum/rgbd_dataset_freiburg1_floor_first90", "", 90, 0, 0.005};
 inline constexpr Gate kRoad{"kitti/06_first51", "", 51, 0, 0.035};
