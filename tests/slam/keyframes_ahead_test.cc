@@ -154,7 +154,9 @@ TEST_F(KeyFramesAhead, GoWhereTheParentIsToday) {
   const Rigid3 moved{ExpSo3({0.01, 0, 0.02}), {0.5, -0.2, 0.1}};
   map_.Apply({edit::SetPose{KeyFrameId{0}, moved}});
   const KeyFrame settled = SettledIn(map_, *first);
-  EXPECT_LT(CentreDistance(settled.frame.cam_from_world, first->from_parent.cam_from_keyframe * moved), 1e-12);
+  EXPECT_LT(
+      CentreDistance(settled.frame.cam_from_world, first->from_parent.cam_from_keyframe * moved),
+      1e-12);
 }
 
 TEST_F(KeyFramesAhead, OneThatIsTakenOutLeavesNoTrace) {
@@ -164,7 +166,8 @@ TEST_F(KeyFramesAhead, OneThatIsTakenOutLeavesNoTrace) {
   std::vector<KeyFramePointer> waiting{std::make_shared<const NewKeyFrame>(scored)};
   waiting.push_back(Ahead(2, 1, *With({first})));
   waiting.push_back(Ahead(3, 2, *With({first, waiting[1]})));
-  const Rigid3 grandparent = waiting[1]->from_parent.cam_from_keyframe * waiting[0]->from_parent.cam_from_keyframe;
+  const Rigid3 grandparent =
+      waiting[1]->from_parent.cam_from_keyframe * waiting[0]->from_parent.cam_from_keyframe;
   const auto gone = TakeOut(0, waiting);
   EXPECT_EQ(gone->keyframe.id, KeyFrameId{1});
   ASSERT_EQ(waiting.size(), 2U);

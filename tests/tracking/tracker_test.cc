@@ -343,6 +343,63 @@ struct OneKeyFrame {
   }
 };
 
+// The newest snapshot shows nothing that the camera sees; one before it does.
+TEST(Tracker, LooksInAnEarlierSnapshotWhereTheNewestGivesNoPose) {
+  OneKeyFrame scene;
+  const auto earlier = TakeSnapshot(scene.map, KeyFrameId{0});
+  MapSnapshot elsewhere = *earlier;
+  elsewhere.centre = KeyFrameId{7};
+  elsewhere.cam_from_world = {{KeyFrameId{7}, Rigid3{}}};
+  elsewhere.points.clear();
+  elsewhere.lines.clear();
+  KeyFrame blank = *earlier->reference;
+  blank.id = KeyFrameId{7};
+  blank.frame = MakeFrame(FrameId{7}, Rigid3{}, {IndexFeatures(scene.world.camera, {}), {}, {}});
+  elsewhere.reference = std::make_shared<const KeyFrame>(blank);
+  std::int64_t stamp = 0;
+  const auto step = [&](const Rigid3& pose, const MapSnapshot& newest, const MapSnapshot* other) {
+    stamp += 50'000'000;
+    return scene.tracker.Track(FrameId{stamp / 50'000'000},
+                               stamp,
+                               Sense(scene.world, pose, {}, scene.rng).indexed,
+                               &newest,
+                               {.earlier = other});
+  };
+  // Blind for a frame, then turned so far that the last frame's landmarks are out of reach.
+  stamp += 50'000'000;
+  const TrackingResult blind =
+      scene.tracker.Track(FrameId{1}, stamp, IndexFeatures(scene.world.camera, {}), earlier.get());
+  ASSERT_EQ(blind.state, TrackerState::kLost);
+  const Rigid3 turned = Rigid3{ExpSo3({0, 0.35, 0}), Eigen::Vector3d::Zero()};
+  ASSERT_FALSE(step(turned, elsewhere, nullptr).cam_from_world);
+  const TrackingResult found = step(turned, elsewhere, earlier.get());
+  ASSERT_TRUE(found.cam_from_world);
+  EXPECT_LT(CentreDistance(*found.cam_from_world, turned), 0.1);
+  EXPECT_EQ(found.reference == KeyFrameId{0} || found.keyframe.has_value(), true);
+  if (found.keyframe) EXPECT_EQ(found.keyframe->keyframe.parent, KeyFrameId{0});
+}
+
+TEST(Tracker, WaitsWithANewMapWhereItIsToldTo) {
+  for (const double seconds : {0.0, 1.0}) {
+    const SyntheticWorld world = World();
+    Tracker tracker(world.Imaging(), {}, LineOptions{}, {}, Rigid3{}, seconds);
+    Rng rng(1);
+    Map map;
+    const TrackingResult start =
+        tracker.Track(FrameId{0}, 0, Sense(world, PoseOnPath(0), {}, rng).indexed, nullptr);
+    LocalMapper mapper(world.Imaging(), {}, MappingOptions{});
+    mapper.Add(map, start.keyframe->keyframe, start.keyframe->scores);
+    const auto snapshot = TakeSnapshot(map, KeyFrameId{0});
+    int lost = 0;
+    while (tracker.state() != TrackerState::kInitializing) {
+      ++lost;
+      tracker.Track(
+          FrameId{lost}, 50'000'000 * lost, IndexFeatures(world.camera, {}), snapshot.get());
+    }
+    EXPECT_EQ(lost, seconds == 0 ? TrackingOptions{}.new_map_after : 20);
+  }
+}
+
 // Share of the features with a landmark of the map, of those that could have one.
 TEST(Tracker, PrefersLandmarksOfTheMapToThoseMadeOnTheSpot) {
   OneKeyFrame scene;
