@@ -159,7 +159,7 @@ int Run(const Plan& plan, RunnerOptions options, bool quiet) {
   const auto results = RunJobs(plan, options);
   if (!results) {
     progress.Say("stopped; the same command goes on");
-    return 1;
+    return FirstStopSignal()->exit_code;
   }
   WriteResults(plan, *results);
   if (quiet) return 0;
@@ -208,7 +208,7 @@ int RunComputed(const ComputedExperiment& experiment, const CommandLine& line) {
   });
   if (!done) {
     progress.Say("stopped; nothing is written");
-    return 1;
+    return FirstStopSignal()->exit_code;
   }
   if (!quiet) {
     std::cout << fmt::format("results in {}\n",

@@ -56,7 +56,7 @@ class ResultWriter {
   void MakeLineMaps() const {
     const StopCheck stop = StepStop();
     try {
-      for (const Map& map : run_.system.maps()) run_.system.LineMap(map.id(), stop);
+      for (const auto& [id, map] : run_.system.maps()) run_.system.LineMap(id, stop);
     } catch (const std::bad_alloc&) {
       return;
     }

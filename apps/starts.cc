@@ -208,6 +208,7 @@ int StartsCommand(std::span<const std::string> arguments) {
   WriteFileAtomically(setup.folder / "summary.json",
                       FormatSummary(setup, dataset->info().name, results, seconds));
   if (!setup.quiet) PrintResult(results, setup);
+  if (const auto signal = FirstStopSignal()) return signal->exit_code;
   return results.records.size() == plan.frames.size() ? 0 : 1;
 }
 

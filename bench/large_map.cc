@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // CPU time of what grows with the map, on generated drives: large_map straight|chain|hub|rounds
-// KEYFRAMES... For each the common directions of lines, the search for well seen lines, and the
-// adjustment that ends a run; the largest memory so far.
+// KEYFRAMES... For each the steps of mapping a keyframe at the end of the drive and a snapshot, which
+// are not to grow; the common directions of lines, the search for well seen lines, and the
+// adjustment that ends a run (--steps: not these), which may; the largest memory so far.
+#include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/local_mapper.h"
 #include "plumbline/mapping/parallel_lines.h"
@@ -12,10 +14,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstddef>
 #include <ctime>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -71,7 +75,47 @@ double WorstMotion(const LongDrive& drive) {
   return worst;
 }
 
-void Run(std::string_view name, DriveShape shape, int keyframes) {
+// Takes the last keyframes out of the map; returns them, by age.
+std::vector<KeyFrame> TakeOutLast(int count, Map& map) {
+  std::vector<KeyFrame> taken;
+  for (auto last = map.keyframes().rbegin(); count > 0 && last != map.keyframes().rend(); --count) {
+    taken.push_back((last++)->second);
+  }
+  std::reverse(taken.begin(), taken.end());
+  MapEdit edit;
+  for (auto keyframe = taken.rbegin(); keyframe != taken.rend(); ++keyframe) {
+    edit.push_back(edit::RemoveKeyFrame{keyframe->id});
+  }
+  map.Apply(edit);
+  return taken;
+}
+
+// Mean milliseconds of CPU of each step of mapping, and of a snapshot, over some keyframes.
+void MeasureSteps(const LongDrive& drive) {
+  constexpr int kKeyFrames = 20;
+  Map map = drive.map;
+  LocalMapper mapper(drive.imaging, {}, {});
+  const std::vector<KeyFrame> taken = TakeOutLast(kKeyFrames, map);
+  std::vector<MappingStep> sums;
+  double snapshot = 0;
+  KeyFrameId parent = map.keyframes().rbegin()->first;
+  for (KeyFrame keyframe : taken) {
+    keyframe.id = map.NextKeyFrameId();
+    keyframe.parent = std::exchange(parent, keyframe.id);
+    const std::vector<MappingStep> steps = mapper.Add(map, keyframe, {});
+    sums.resize(steps.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      sums[i].name = steps[i].name;
+      sums[i].milliseconds += steps[i].milliseconds / kKeyFrames;
+    }
+    snapshot += Measure([&] { TakeSnapshot(map, keyframe.id); }) / kKeyFrames;
+  }
+  fmt::print("  ");
+  for (const MappingStep& step : sums) fmt::print("{} {:.2f} ms, ", step.name, step.milliseconds);
+  fmt::print("snapshot {:.2f} ms\n", 1000 * snapshot);
+}
+
+void Run(std::string_view name, DriveShape shape, int keyframes, bool steps_only) {
   LongDrive drive = MakeLongDrive(shape, keyframes);
   std::size_t observations = 0;
   for (const auto& [id, point] : drive.map.points()) observations += point.observations.size();
@@ -82,6 +126,8 @@ void Run(std::string_view name, DriveShape shape, int keyframes) {
              observations,
              drive.map.lines().size(),
              PeakGigabytes());
+  MeasureSteps(drive);
+  if (steps_only) return;
   std::size_t directions = 0, lines = 0;
   const double common = Measure([&] { directions = CommonDirections(drive.map).size(); });
   fmt::print("  {} common directions of lines {:.1f} ms\n", directions, 1000 * common);
@@ -106,11 +152,12 @@ int main(int count, char** arguments) {
   const auto shape =
       count > 2 ? plumbline::ShapeNamed(arguments[1]) : std::optional<plumbline::DriveShape>();
   if (!shape) {
-    fmt::print(stderr, "usage: large_map straight|chain|hub|rounds KEYFRAMES...\n");
+    fmt::print(stderr, "usage: large_map straight|chain|hub|rounds [--steps] KEYFRAMES...\n");
     return 2;
   }
-  for (int i = 2; i < count; ++i) {
-    plumbline::Run(arguments[1], *shape, std::max(10, std::atoi(arguments[i])));
+  const bool steps_only = std::string_view(arguments[2]) == "--steps";
+  for (int i = steps_only ? 3 : 2; i < count; ++i) {
+    plumbline::Run(arguments[1], *shape, std::max(100, std::atoi(arguments[i])), steps_only);
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 #include "plumbline/slam/mapping_stage.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/map/covisibility.h"
 #include "plumbline/slam/keyframes_ahead.h"
 
 namespace plumbline {
@@ -14,7 +15,9 @@ MappingStage::MappingStage(const ImagingModel& imaging,
       lag_(options.slam.lag),
       camera_(imaging.camera),
       mapping_options_(options.mapping),
-      mapper_(imaging, options.lines, options.mapping) {
+      mapper_(imaging, options.lines, options.mapping),
+      relocalizer_(
+          imaging, options.tracking, options.lines, options.cutting, options.relocalization) {
   if (mode_ != RunMode::kInline && execution.threads) {
     worker_ = std::jthread([this] { WorkUntilStopped(); });
   }
@@ -35,6 +38,36 @@ std::optional<DemotedKeyFrame> MappingStage::Submit(std::int64_t frame,
 
 void MappingStage::Submit(std::int64_t frame, MapStart start) {
   Submit(frame, Work(std::move(start)), true);
+}
+
+void MappingStage::Submit(std::int64_t frame, RelocalizationRequest request) {
+  Submit(frame, Work(std::move(request)), false);
+}
+
+void MappingStage::Submit(std::int64_t frame, Sighting sighting) {
+  Submit(frame, Work(std::move(sighting)), false);
+}
+
+void MappingStage::Continue(Atlas atlas) {
+  const std::lock_guard lock(mutex_);
+  PLUMBLINE_CHECK(submitted_ == 0 && atlas_.empty(), "maps are loaded before the first keyframe");
+  atlas_ = std::move(atlas);
+  atlas_.Activate(atlas_.active_id());
+}
+
+std::optional<RelocalizationOutcome> MappingStage::TakeRelocalization() {
+  const std::lock_guard lock(mutex_);
+  if (outcomes_.empty() || versions_.empty() || outcomes_.front().task > versions_.front().task) {
+    return std::nullopt;
+  }
+  RelocalizationOutcome outcome = std::move(outcomes_.front().outcome);
+  outcomes_.pop_front();
+  return outcome;
+}
+
+void MappingStage::Use(std::shared_ptr<const MapSnapshot> snapshot) {
+  const std::lock_guard lock(mutex_);
+  for (Version& version : versions_) version.snapshot = snapshot;
 }
 
 void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
@@ -105,10 +138,12 @@ std::shared_ptr<const MapSnapshot> MappingStage::NewestSnapshot() {
     base = versions_.back().snapshot;
     if (begun_) ahead.push_back(begun_);
     for (const Task& task : tasks_) {
-      ahead.push_back(std::get<std::shared_ptr<const NewKeyFrame>>(task.work));
+      const auto* keyframe = std::get_if<std::shared_ptr<const NewKeyFrame>>(&task.work);
+      if (keyframe != nullptr) ahead.push_back(*keyframe);
     }
   }
   if (kept_.size() > kEarlierKept) kept_.resize(kEarlierKept);
+  if (base == nullptr) return nullptr;
   if (base != base_ || ahead != ahead_) {
     with_ahead_ =
         ahead.empty() ? base : WithKeyFramesAhead(*base, ahead, camera_, mapping_options_.creation);
@@ -149,7 +184,7 @@ void MappingStage::Finish(const StopCheck& stop) {
   while (versions_.size() > 1) versions_.pop_front();
   if (finished_ == submitted_) return;
   finished_ = submitted_;
-  for (const auto& [id, map] : atlas_.maps()) {
+  for (const MapId id : std::exchange(changed_, {})) {
     const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
     times_.insert(times_.end(), times.begin(), times.end());
   }
@@ -159,7 +194,7 @@ void MappingStage::CheckComplete() const {
   if (mode_ == RunMode::kInline) return;
   const std::lock_guard lock(mutex_);
   if (failure_) return;  // the worker has ended
-  PLUMBLINE_CHECK(Done() == submitted_, "maps are complete only after Finish");
+  PLUMBLINE_CHECK(LastDone() == submitted_, "maps are complete only after Finish");
 }
 
 const Atlas& MappingStage::atlas() const {
@@ -180,9 +215,9 @@ std::vector<MappingStep> MappingStage::TakeTimes() {
 void MappingStage::WaitFor(std::int64_t task) {
   std::unique_lock lock(mutex_);
   if (!worker_.joinable()) {
-    while (!failure_ && Done() < task) TryNext(lock);
+    while (!failure_ && LastDone() < task) TryNext(lock);
   } else {
-    task_done_.wait(lock, [&] { return failure_ != nullptr || Done() >= task; });
+    task_done_.wait(lock, [&] { return failure_ != nullptr || LastDone() >= task; });
   }
   if (failure_) std::rethrow_exception(failure_);
 }
@@ -220,22 +255,57 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
     mapper_.StartNewMap(atlas_.Start());
     centres_.clear();
   }
-  Map& map = atlas_.active();
-  KeyFrameId newest;
-  std::vector<MappingStep> times;
-  if (const auto* start = std::get_if<MapStart>(&task.work)) {
-    newest = start->keyframes.back();
-    times = mapper_.Start(map, start->edit, newest);
-  } else {
-    const NewKeyFrame& keyframe = **added;
-    newest = keyframe.keyframe.id;
-    times = mapper_.Add(map, SettledIn(map, keyframe), keyframe.scores);
-  }
-  auto snapshot = TakeSnapshotAround(map, newest);
+  Done done = std::visit([this](const auto& work) { return Do(work); }, task.work);
   lock.lock();
   begun_ = nullptr;
-  versions_.push_back({task.number, std::move(snapshot)});
-  times_.insert(times_.end(), times.begin(), times.end());
+  if (done.snapshot == nullptr && !versions_.empty()) done.snapshot = versions_.back().snapshot;
+  versions_.push_back({task.number, std::move(done.snapshot)});
+  times_.insert(times_.end(), done.times.begin(), done.times.end());
+  if (done.relocalization) outcomes_.push_back({task.number, *std::move(done.relocalization)});
+}
+
+MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& added) {
+  Map& map = atlas_.active();
+  changed_.insert(map.id());
+  Done done;
+  done.times = mapper_.Add(map, SettledIn(map, *added), added->scores);
+  done.snapshot = TakeSnapshotAround(map, added->keyframe.id);
+  return done;
+}
+
+MappingStage::Done MappingStage::Do(const MapStart& start) {
+  Map& map = atlas_.active();
+  changed_.insert(map.id());
+  Done done;
+  done.times = mapper_.Start(map, start.edit, start.keyframes.back());
+  done.snapshot = TakeSnapshotAround(map, start.keyframes.back());
+  return done;
+}
+
+MappingStage::Done MappingStage::Do(const RelocalizationRequest& request) {
+  const Map& map = atlas_.active();
+  Done done;
+  done.relocalization.emplace();
+  done.relocalization->found = relocalizer_.Find(map, request.frame, request.attempt);
+  if (const auto& found = done.relocalization->found) {
+    done.relocalization->snapshot = TakeSnapshotAround(map, found->keyframe);
+  }
+  return done;
+}
+
+MappingStage::Done MappingStage::Do(const Sighting& sighting) {
+  const Map& map = atlas_.active();
+  SharedCounts shared(map);
+  for (const PointId id : sighting.points) {
+    if (const MapPoint* point = map.Find(id)) shared.Add(point->observations);
+  }
+  for (const LineId id : sighting.lines) {
+    if (const MapLine* line = map.Find(id)) shared.Add(line->observations);
+  }
+  const std::vector<CovisibleKeyFrame> ranking = shared.Rank(1);
+  Done done;
+  if (!ranking.empty()) done.snapshot = TakeSnapshotAround(map, ranking.front().id);
+  return done;
 }
 
 // Also of the places of the snapshots before: the tracker's last pose may hang on one of them.

@@ -10,6 +10,7 @@
 #include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/tracking/relocalization.h"
 #include "plumbline/tracking/tracker.h"
 
 #include <condition_variable>
@@ -19,6 +20,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -33,6 +35,22 @@ struct DemotedKeyFrame {
   FrameId frame;
   KeyFrameId parent;
   RelativePose from_parent;
+};
+
+// A lost frame, to be found in the active map by its looks.
+struct RelocalizationRequest {
+  Frame frame;
+  int attempt = 0;  // counted from 0 in each loss: another one looks at other keyframes
+};
+struct RelocalizationOutcome {
+  std::optional<Relocalized> found;
+  std::shared_ptr<const MapSnapshot> snapshot;  // around the keyframe that showed the way
+};
+
+// The landmarks that the camera sees, when it leaves the surroundings that the snapshot shows.
+struct Sighting {
+  std::vector<PointId> points;
+  std::vector<LineId> lines;
 };
 
 // The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
@@ -65,6 +83,18 @@ class MappingStage {
   std::optional<DemotedKeyFrame> Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
   // Opens a new map that begins with several keyframes.
   void Submit(std::int64_t frame, MapStart start);
+  // The outcome is there when a keyframe of this frame would be in the snapshot.
+  void Submit(std::int64_t frame, RelocalizationRequest request);
+  // The snapshot is then that around the keyframe that shows most of what is seen.
+  void Submit(std::int64_t frame, Sighting sighting);
+
+  // Begins with maps that there are already, one of them active, before anything is submitted.
+  void Continue(Atlas atlas);
+
+  // The outcome of a relocalization that the frame of the last SnapshotFor() may know, once.
+  std::optional<RelocalizationOutcome> TakeRelocalization();
+  // From now on SnapshotFor() gives this one until a newer one is due.
+  void Use(std::shared_ptr<const MapSnapshot> snapshot);
 
   // The map around its newest keyframe as frame `frame` may know it; null before the first
   // keyframe. Rethrows what mapping threw.
@@ -102,7 +132,8 @@ class MappingStage {
   std::vector<MappingStep> TakeTimes();
 
  private:
-  using Work = std::variant<std::shared_ptr<const NewKeyFrame>, MapStart>;
+  using Work = std::
+      variant<std::shared_ptr<const NewKeyFrame>, MapStart, RelocalizationRequest, Sighting>;
   // Something to be taken in. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
@@ -117,6 +148,16 @@ class MappingStage {
     std::int64_t task = 0;  // the last one in it
     std::shared_ptr<const MapSnapshot> snapshot;
   };
+  struct Outcome {
+    std::int64_t task = 0;
+    RelocalizationOutcome outcome;
+  };
+  // What a task did.
+  struct Done {
+    std::shared_ptr<const MapSnapshot> snapshot;  // null: the one before stays
+    std::vector<MappingStep> times;
+    std::optional<RelocalizationOutcome> relocalization;
+  };
 
   void Submit(std::int64_t frame, Work work, bool starts_map);
   std::optional<DemotedKeyFrame> GiveUpOne();
@@ -126,8 +167,12 @@ class MappingStage {
   void CheckComplete() const;
   void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);
+  Done Do(const std::shared_ptr<const NewKeyFrame>& added);
+  Done Do(const MapStart& start);
+  Done Do(const RelocalizationRequest& request);
+  Done Do(const Sighting& sighting);
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
-  std::int64_t Done() const { return versions_.empty() ? 0 : versions_.back().task; }
+  std::int64_t LastDone() const { return versions_.empty() ? 0 : versions_.back().task; }
 
   RunMode mode_;
   std::int64_t lag_;
@@ -145,7 +190,9 @@ class MappingStage {
   std::vector<std::shared_ptr<const NewKeyFrame>> ahead_;
   // The worker's side.
   LocalMapper mapper_;
+  Relocalizer relocalizer_;
   Atlas atlas_;
+  std::set<MapId> changed_;  // since the maps were loaded or last adjusted as a whole
   std::deque<KeyFrameId> centres_;  // of the last snapshots of the active map
   // Between the two, guarded by mutex_.
   mutable std::mutex mutex_;
@@ -155,6 +202,7 @@ class MappingStage {
   Shed shed_ = Shed::kNothing;
   std::deque<Version> versions_;  // from the one in use on
   std::vector<MappingStep> times_;
+  std::deque<Outcome> outcomes_;  // not taken yet
   std::exception_ptr failure_;
   bool stop_ = false;
   std::jthread worker_;  // none inline and step by step; last, so that it ends first

@@ -52,6 +52,7 @@ struct SlamOptions {
   CuttingOptions cutting;
   InitializationOptions initialization;
   TrackingOptions tracking;
+  RelocalizationOptions relocalization;
   MappingOptions mapping;
   ExecutionOptions slam;
 };
@@ -69,6 +70,7 @@ void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("cutting", o.cutting, "which piece of each line decides about the pose of a frame");
   visit("initialization", o.initialization, "start of a map from one camera");
   visit("tracking", o.tracking, "pose of each frame");
+  visit("relocalization", o.relocalization, "finding a lost camera in its map");
   visit("mapping", o.mapping, "keyframes, landmarks, local bundle adjustment");
 }
 

@@ -93,9 +93,11 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
 }
 
 TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock) {
-  const auto snapshot = mapping_.SnapshotFor(record.id.value);
+  const auto due = mapping_.SnapshotFor(record.id.value);
   clock.Done("map");
   for (const StageTime& time : TakeMappingTimes()) clock.Add(time.stage, time.milliseconds);
+  const auto relocalized = TakeRelocalized();
+  const auto& snapshot = relocalized != nullptr ? relocalized : due;
   const auto earlier =
       tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
   TrackingResult result = tracker_.Track(record.id,
@@ -108,14 +110,52 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
         mapping_.Submit(record.id.value, std::move(*result.keyframe), result.starts_map);
     if (gone) Demote(*gone);
     record.keyframe = true;
-    maps_started_ += result.starts_map;
+    if (result.starts_map) map_ = MapId{next_map_++};
   }
+  if (result.leaves_surroundings) {
+    mapping_.Submit(record.id.value, Sighting{result.frame.points, result.frame.lines});
+  }
+  Relocalize(result);
   if (monocular_start_) {
     if (result.cam_from_world) monocular_start_->Tracked(result);
     if (result.state == TrackerState::kInitializing) monocular_start_->Restart();
   }
   RecordTracking(result, record);
   return result;
+}
+
+// A place that was found for a frame before: the tracker goes on from there, if it is lost still.
+// Returns what surrounds it; null where there is nothing to go on from.
+std::shared_ptr<const MapSnapshot> System::TakeRelocalized() {
+  const auto outcome = mapping_.TakeRelocalization();
+  if (!outcome) return nullptr;
+  relocalizing_ = false;
+  if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
+  tracker_.Resume(*outcome->found, *outcome->snapshot);
+  mapping_.Use(outcome->snapshot);
+  return outcome->snapshot;
+}
+
+// Asks for the place of a lost frame, one at a time.
+void System::Relocalize(const TrackingResult& result) {
+  if (result.state != TrackerState::kLost) {
+    attempts_ = 0;
+    return;
+  }
+  if (relocalizing_ || !options_.relocalization.enabled) return;
+  mapping_.Submit(result.frame.id.value, RelocalizationRequest{result.frame, attempts_++});
+  relocalizing_ = true;
+}
+
+void System::Continue(Atlas atlas, bool read_only) {
+  if (!options_.relocalization.enabled) {
+    throw InputError("relocalization.enabled: expected true to go on in a map, found false");
+  }
+  map_ = atlas.active_id();
+  next_map_ = atlas.maps().rbegin()->first.value + 1;
+  first_keyframe_ = atlas.NextKeyFrameId();
+  tracker_.BeginLost({first_keyframe_, read_only, options_.relocalization.patience});
+  mapping_.Continue(std::move(atlas));
 }
 
 // A frame of a single camera that has no map.
@@ -139,8 +179,8 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
   const MapStart start =
       MakeMapStart(initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
   mapping_.Submit(record.id.value, start);
-  const MapId map{maps_started_++};
-  monocular_start_->MapStarted(map, start);
+  map_ = MapId{next_map_++};
+  monocular_start_->MapStarted(map_, start);
   TrackingResult result =
       tracker_.StartFrom(*mapping_.SnapshotFor(record.id.value), LastVelocity(initial));
   RecordTracking(result, record);
@@ -149,7 +189,7 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
     FrameRecord& earlier = frames_[static_cast<std::size_t>(start.frames[i].value)];
     earlier.status = FrameStatus::kTracked;
     earlier.reason.clear();
-    earlier.map = map;
+    earlier.map = map_;
     earlier.reference = start.keyframes[i];
     earlier.keyframe = true;
   }
@@ -181,7 +221,7 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) c
     return;
   }
   record.status = FrameStatus::kTracked;
-  record.map = MapId{maps_started_ - 1};
+  record.map = map_;
   record.reference = result.reference;
   record.from_reference = result.from_reference;
   record.causal_world_from_camera = AsDelivered(*result.cam_from_world);
@@ -261,6 +301,7 @@ Trajectory System::KeyFrameTrajectory(MapId map) const {
   Trajectory trajectory;
   const Map& owner = maps().at(map);
   for (const auto& [id, keyframe] : owner.keyframes()) {
+    if (id < first_keyframe_) continue;
     trajectory.push_back({keyframe.frame.stamp_ns, AsDelivered(keyframe.frame.cam_from_world)});
   }
   return trajectory;

@@ -75,6 +75,13 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
+  // Goes on in the active map of an atlas that was saved, before the first frame. The camera's place
+  // in it is unknown and is looked for by appearance: frames are lost until it is found, and a new
+  // map starts after relocalization.patience of them. Trajectories are those of this system's own
+  // frames, in the world of the map. read_only: the map is tracked against and nothing of it
+  // changes; no other map starts. Throws InputError where relocalization is switched off.
+  void Continue(Atlas atlas, bool read_only);
+
   // Measure and Track. Throws InputError when an image has another size than the calibration says,
   // or the frame is no later than the one before.
   const FrameRecord& Process(SensorFrame frame);
@@ -127,6 +134,8 @@ class System {
 
  private:
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
+  std::shared_ptr<const MapSnapshot> TakeRelocalized();
+  void Relocalize(const TrackingResult& result);
   TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
   // Of the steps of mapping that ended since the last call.
   std::vector<StageTime> TakeMappingTimes();
@@ -143,7 +152,11 @@ class System {
   MappingStage mapping_;
   Tracker tracker_;
   std::unique_ptr<MonocularStart> monocular_start_;  // null where depth is measured
-  std::int64_t maps_started_ = 0;
+  MapId map_;  // that is tracked against
+  std::int64_t next_map_ = 0;
+  KeyFrameId first_keyframe_{0};  // of this system's own
+  bool relocalizing_ = false;     // asked for and not yet answered
+  int attempts_ = 0;              // of this loss
   std::vector<FrameRecord> frames_;
   FrameView view_;
   mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // made so far

@@ -20,6 +20,7 @@ struct RelocalizationOptions {
   bool enabled = true;
   int max_keyframes = 200;  // compared in one attempt
   int min_inliers = 30;     // points + lines that must agree with the pose
+  int patience = 200;       // lost frames in a map of an earlier run after which a new one starts
 };
 
 template <class Visitor>
@@ -33,6 +34,10 @@ void VisitFields(Visitor&& visit, RelocalizationOptions& o) {
         o.min_inliers,
         "points + lines that must agree with a pose found this way",
         Range{10, 100000});
+  visit("patience",
+        o.patience,
+        "frames lost in the map of an earlier run after which a new map starts",
+        Range{1, 1000000});
 }
 
 // A frame whose place in the map was found by its looks.

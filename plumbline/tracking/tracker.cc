@@ -132,6 +132,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
     return Fail(std::move(frame), TrackingFailure::kTooFewFeatures, {});
   }
   frame.cam_from_world = first_cam_from_world_;
+  use_.reset();
   scores_ = {};
   TrackingResult result;
   result.keyframe = MakeKeyFrame(frame, KeyFrameId{}, {});
@@ -155,6 +156,7 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   newest_keyframe_ = snapshot.centre;
   next_keyframe_ = KeyFrameId{newest_keyframe_.value + 1};
   frames_since_keyframe_ = 0;
+  use_.reset();
   scores_ = {};
   lost_frames_ = 0;
   trial_keyframes_ = options_.trial_keyframes;
@@ -174,9 +176,10 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   return result;
 }
 
-void Tracker::BeginLost(KeyFrameId next) {
+void Tracker::BeginLost(const MapUse& use) {
   state_ = TrackerState::kLost;
-  next_keyframe_ = next;
+  next_keyframe_ = use.next_keyframe;
+  use_ = use;
 }
 
 void Tracker::Resume(const Relocalized& found, const MapSnapshot& snapshot) {
@@ -206,7 +209,8 @@ TrackingResult Tracker::Follow(Frame frame,
       seen = live.earlier;
     }
   }
-  if (found.attempt) Score(found.attempt->expected, found.attempt->association);
+  const bool scores = !use_ || !use_->read_only;
+  if (found.attempt && scores) Score(found.attempt->expected, found.attempt->association);
   if (found.failure != TrackingFailure::kNone) {
     return Fail(std::move(frame), found.failure, found.counts);
   }
@@ -275,7 +279,11 @@ TrackingResult Tracker::Succeed(Frame frame,
   const Placement& centre = snapshot.places.at(snapshot.centre);
   result.from_reference = {frame.cam_from_world * Inverse(centre.cam_from_world), centre.unit};
   Anchor parent;
-  if (WantsKeyFrame(frame, association, snapshot, feature_share)) {
+  const bool wanted = WantsKeyFrame(frame, association, snapshot, feature_share);
+  if (wanted && use_ && use_->read_only) {
+    result.leaves_surroundings = true;
+    frames_since_keyframe_ = 0;
+  } else if (wanted) {
     parent = {snapshot.centre, result.from_reference};
     result.keyframe = MakeKeyFrame(frame, snapshot.centre, result.from_reference);
     result.reference = newest_keyframe_;
@@ -420,8 +428,9 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   const bool trial = trial_keyframes_ > 0;
   const double lost_seconds =
       last_ ? 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) : 0;
-  const bool wait = !trial && lost_seconds < min_lost_seconds_;
-  const int patience = wait ? lost_frames_ + 1 : trial ? 1 : options_.new_map_after;
+  const bool wait = use_ ? use_->read_only : !trial && lost_seconds < min_lost_seconds_;
+  const int usual = use_ ? use_->patience : options_.new_map_after;
+  const int patience = wait ? lost_frames_ + 1 : trial ? 1 : usual;
   state_ = NextState(state_, false, lost_frames_, patience);
   velocity_.reset();
   spread_.reset();

@@ -57,6 +57,13 @@ struct NewKeyFrame {
   RelativePose from_parent = {};  // where there is a parent
 };
 
+// How a tracker uses a map that was there before it.
+struct MapUse {
+  KeyFrameId next_keyframe;  // the first id that no keyframe of the map has
+  bool read_only = false;    // makes no keyframes and starts no map, however long it is lost
+  int patience = 200;        // frames without a place in the map after which another one starts
+};
+
 // What a live run tells the tracker beside the frame and the map.
 struct LiveConditions {
   // The map around an earlier keyframe, tried by appearance where the map gives no pose; or null.
@@ -73,6 +80,9 @@ struct TrackingResult {
   RelativePose from_reference;
   std::optional<NewKeyFrame> keyframe;
   bool starts_map = false;  // the keyframe is the first of a new map
+  // In a map that is only read, where there would be a keyframe: what surrounds the camera is to be
+  // chosen anew.
+  bool leaves_surroundings = false;
   Frame frame;              // as tracked: features, and matches where it has a pose
 };
 
@@ -111,8 +121,8 @@ class Tracker {
   //   velocity  of the camera there, as a left tangent per second
   TrackingResult StartFrom(const MapSnapshot& snapshot, const Vector6d& velocity);
 
-  // Begins lost in a map that there is already. Keyframes get ids from `next` on.
-  void BeginLost(KeyFrameId next);
+  // Begins lost in a map that there is already, and looks for it until `use` says otherwise.
+  void BeginLost(const MapUse& use);
   // Goes on, lost as it is, from a frame whose place was found in the map; `snapshot` is taken
   // around the keyframe that showed the way.
   void Resume(const Relocalized& found, const MapSnapshot& snapshot);
@@ -197,6 +207,7 @@ class Tracker {
   KeyFrameId newest_keyframe_;
   std::int64_t frames_since_keyframe_ = 0;
   int lost_frames_ = 0;
+  std::optional<MapUse> use_;  // of a map that was there before
   int trial_keyframes_ = 0;  // still to come until the map is trusted
 };
 

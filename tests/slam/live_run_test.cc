@@ -180,7 +180,7 @@ TEST(LiveRun, GivesUpTheKeyFramesThatMappingHasNoTimeFor) {
   EXPECT_GT(keyframes, 2);
   EXPECT_EQ(static_cast<int>(Decided(run).size()), demoted + keyframes);
   // Nothing hangs on one that never came to be.
-  const Map& map = run.system().maps().front();
+  const Map& map = run.system().maps().at(MapId{0});
   for (const FrameRecord& record : run.frames()) {
     EXPECT_FALSE(record.keyframe && record.demoted);
     EXPECT_NO_THROW(map.PoseOf(record.reference)) << record.id.value;

@@ -30,7 +30,7 @@ class Follower {
     const Relocalizer relocalizer(world_.Imaging(), {}, {}, {}, {});
     const auto found = relocalizer.Find(map_, MakeFrame(FrameId{0}, Rigid3{}, Sensed(kFirst)), 0);
     centre_ = found->keyframe;
-    tracker_.BeginLost(map_.NextKeyFrameId());
+    tracker_.BeginLost({.next_keyframe = map_.NextKeyFrameId()});
     tracker_.Resume(*found, *Snapshot());
   }
 

@@ -375,8 +375,7 @@ TEST(Tracker, LooksInAnEarlierSnapshotWhereTheNewestGivesNoPose) {
   const TrackingResult found = step(turned, elsewhere, earlier.get());
   ASSERT_TRUE(found.cam_from_world);
   EXPECT_LT(CentreDistance(*found.cam_from_world, turned), 0.1);
-  EXPECT_EQ(found.reference == KeyFrameId{0} || found.keyframe.has_value(), true);
-  if (found.keyframe) EXPECT_EQ(found.keyframe->keyframe.parent, KeyFrameId{0});
+  EXPECT_EQ(found.keyframe ? found.keyframe->keyframe.parent : found.reference, KeyFrameId{0});
 }
 
 TEST(Tracker, WaitsWithANewMapWhereItIsToldTo) {

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+// Going on in a map of an earlier run.
+#include "plumbline/base/error.h"
+#include "plumbline/slam/system.h"
+
+#include "tests/support/moving_poster.h"
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+constexpr int kFrames = 40;  // of the run that makes the map
+
+SlamOptions InMode(RunMode mode) {
+  SlamOptions options;
+  options.slam.mode = mode;
+  return options;
+}
+
+Atlas MappedPoster() {
+  System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  const MovingPoster poster;
+  for (int i = 0; i < kFrames; ++i) system.Process(poster.Frame(i));
+  system.Finish();
+  return system.atlas();
+}
+
+// Frame `first` on of the same poster, in the map.
+std::unique_ptr<System> GoOn(const Atlas& atlas, bool read_only, int first, int last, RunMode mode) {
+  auto system = std::make_unique<System>(MovingPoster::MakeCalibration(), InMode(mode));
+  system->Continue(atlas, read_only);
+  const MovingPoster poster;
+  for (int i = first; i < last; ++i) system->Process(poster.Frame(i));
+  system->Finish();
+  return system;
+}
+
+int CountTracked(const System& system) {
+  int tracked = 0;
+  for (const FrameRecord& frame : system.frames()) tracked += frame.status == FrameStatus::kTracked;
+  return tracked;
+}
+
+void ExpectThePosesOfThePoster(const Trajectory& trajectory) {
+  for (const StampedPose& pose : trajectory) {
+    const double frame = 1e-9 * static_cast<double>(pose.stamp_ns - MovingPoster::StampNs(0)) / 0.05;
+    const Eigen::Vector3d expected(MovingPoster::kStep * frame, 0, 0);
+    EXPECT_LT((pose.world_from_camera.translation - expected).norm(), 0.01) << frame;
+  }
+}
+
+TEST(ContinuedMap, FirstFramesAreLostUntilTheirPlaceIsFound) {
+  const auto system = GoOn(MappedPoster(), false, 10, 30, RunMode::kInline);
+  EXPECT_EQ(system->frames().front().status, FrameStatus::kLost);
+  EXPECT_EQ(system->frames().front().reason, "not_relocalized");
+  EXPECT_GE(CountTracked(*system), 17);
+  ExpectThePosesOfThePoster(system->FinalTrajectory(MapId{0}));
+  ExpectThePosesOfThePoster(system->CausalTrajectory(MapId{0}));
+}
+
+TEST(ContinuedMap, GrowsAndKeepsItsId) {
+  const Atlas atlas = MappedPoster();
+  const KeyFrameId first_new = atlas.NextKeyFrameId();
+  const auto system = GoOn(atlas, false, 20, 75, RunMode::kInline);
+  ASSERT_EQ(system->maps().size(), 1U);
+  const Map& map = system->maps().at(MapId{0});
+  map.CheckInvariants();
+  EXPECT_GT(map.keyframes().rbegin()->first, first_new);
+  EXPECT_EQ(system->MainMap(), MapId{0});
+  ExpectThePosesOfThePoster(system->FinalTrajectory(MapId{0}));
+  // Own keyframes only.
+  const Trajectory keyframes = system->KeyFrameTrajectory(MapId{0});
+  ASSERT_FALSE(keyframes.empty());
+  EXPECT_LT(keyframes.size(), map.keyframes().size());
+  for (const StampedPose& pose : keyframes) EXPECT_GE(pose.stamp_ns, MovingPoster::StampNs(20));
+}
+
+TEST(ContinuedMap, ThatIsOnlyReadStaysAsItIs) {
+  const Atlas atlas = MappedPoster();
+  const Map& before = atlas.active();
+  const auto system = GoOn(atlas, true, 5, 35, RunMode::kInline);
+  EXPECT_GE(CountTracked(*system), 27);
+  const Map& after = system->maps().at(MapId{0});
+  EXPECT_EQ(after.version(), before.version());
+  EXPECT_EQ(after.keyframes().size(), before.keyframes().size());
+  EXPECT_TRUE(system->KeyFrameTrajectory(MapId{0}).empty());
+  for (const FrameRecord& frame : system->frames()) EXPECT_FALSE(frame.keyframe);
+  ExpectThePosesOfThePoster(system->FinalTrajectory(MapId{0}));
+}
+
+TEST(ContinuedMap, GivesTheSameInEveryDeterministicMode) {
+  const Atlas atlas = MappedPoster();
+  for (const bool read_only : {false, true}) {
+    const auto a = GoOn(atlas, read_only, 8, 40, RunMode::kInline);
+    const auto b = GoOn(atlas, read_only, 8, 40, RunMode::kLockstep);
+    const Trajectory of_a = a->FinalTrajectory(MapId{0});
+    const Trajectory of_b = b->FinalTrajectory(MapId{0});
+    ASSERT_EQ(of_a.size(), of_b.size());
+    for (std::size_t i = 0; i < of_a.size(); ++i) {
+      EXPECT_EQ(of_a[i].stamp_ns, of_b[i].stamp_ns);
+      EXPECT_EQ(of_a[i].world_from_camera.translation, of_b[i].world_from_camera.translation);
+      EXPECT_EQ(of_a[i].world_from_camera.rotation.coeffs(),
+                of_b[i].world_from_camera.rotation.coeffs());
+    }
+  }
+}
+
+TEST(ContinuedMap, ALossInItIsNotTheEnd) {
+  System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  system.Continue(MappedPoster(), true);
+  const MovingPoster poster;
+  for (int i = 0; i < 10; ++i) system.Process(poster.Frame(i));
+  for (int i = 10; i < 25; ++i) system.Process(MovingPoster::BlindFrame(i));
+  // Elsewhere in the map.
+  int tracked = 0;
+  for (int i = 25; i < 40; ++i) {
+    tracked += system.Process(poster.Frame(i)).status == FrameStatus::kTracked;
+  }
+  EXPECT_GE(tracked, 11);
+  system.Finish();
+  ExpectThePosesOfThePoster(system.FinalTrajectory(MapId{0}));
+}
+
+TEST(ContinuedMap, ThatDoesNotShowTheCamerasPlaceGivesWayToANewOne) {
+  SlamOptions options = InMode(RunMode::kInline);
+  options.relocalization.patience = 6;
+  Atlas atlas = MappedPoster();
+  System system(MovingPoster::MakeCalibration(), options);
+  system.Continue(std::move(atlas), false);
+  const MovingPoster poster;
+  for (int i = 0; i < 8; ++i) system.Process(MovingPoster::BlindFrame(i));
+  for (int i = 8; i < 14; ++i) system.Process(poster.Frame(i));
+  system.Finish();
+  ASSERT_EQ(system.maps().size(), 2U);
+  EXPECT_EQ(system.MainMap(), MapId{1});
+  EXPECT_EQ(system.frames().back().map, MapId{1});
+  // No id of the one map is used in the other.
+  const Map& old = system.maps().at(MapId{0});
+  const Map& young = system.maps().at(MapId{1});
+  EXPECT_LT(old.keyframes().rbegin()->first, young.keyframes().begin()->first);
+  EXPECT_LT(old.points().rbegin()->first, young.points().begin()->first);
+}
+
+TEST(ContinuedMap, ThatIsOnlyReadNeverGivesWay) {
+  SlamOptions options = InMode(RunMode::kInline);
+  options.relocalization.patience = 2;
+  System system(MovingPoster::MakeCalibration(), options);
+  system.Continue(MappedPoster(), true);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_EQ(system.Process(MovingPoster::BlindFrame(i)).status, FrameStatus::kLost);
+  }
+  EXPECT_FALSE(system.MainMap());
+}
+
+TEST(ContinuedMap, NeedsRelocalization) {
+  SlamOptions options;
+  options.relocalization.enabled = false;
+  System system(MovingPoster::MakeCalibration(), options);
+  EXPECT_THROW(system.Continue(MappedPoster(), false), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline
