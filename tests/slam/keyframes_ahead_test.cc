@@ -121,6 +121,7 @@ TEST_F(KeyFramesAhead, MoveWithTheirParent) {
   const Rigid3 moved{ExpSo3({0.01, 0, 0.02}), {0.5, -0.2, 0.1}};
   MapSnapshot shifted = *snapshot_;
   shifted.cam_from_world.at(KeyFrameId{0}) = moved;
+  shifted.places.at(KeyFrameId{0}).cam_from_world = moved;
   const auto with = WithKeyFramesAhead(shifted, {first}, world_.camera, options_.creation);
   const Rigid3 expected = first->from_parent.cam_from_keyframe * moved;
   EXPECT_LT(CentreDistance(with->cam_from_world.at(KeyFrameId{1}), expected), 1e-12);
