@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/parallel.h"
 #include "plumbline/features/lbd.h"
+#include "plumbline/features/single_precision.h"
 
 #include <array>
 
@@ -106,6 +107,7 @@ Features ExtractFeatures(const RectifiedCamera& camera,
   features.lines = std::move(left.lines);
   features.point_disparity.resize(features.points.size());
   features.line_right.resize(features.lines.size());
+  RoundToSinglePrecision(features);
   return features;
 }
 

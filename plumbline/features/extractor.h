@@ -40,8 +40,8 @@ struct FeatureInput {
 };
 
 // Everything measured in one frame: points and lines of the left image, and for stereo and RGB-D
-// their disparities and right lines (see Features). Images must have the size of the camera
-// (BugError otherwise). Same input, same bytes.
+// their disparities and right lines (see Features), rounded to single precision. Images must have
+// the size of the camera (BugError otherwise). Same input, same bytes.
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
                          const FeatureOptions& options);

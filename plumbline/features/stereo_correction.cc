@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/stereo_correction.h"
 
+#include "plumbline/features/single_precision.h"
+
 #include <cstddef>
 
 namespace plumbline {
@@ -33,19 +35,46 @@ double StereoCorrection::At(const Eigen::Vector2d& px) const {
   return coefficients_.dot(TermsAt(px, centre_, inverse_unit_));
 }
 
+namespace {
+
+// The number of single precision that solves measured = corrected + displacement_at(measured). The
+// displacement changes with the place by far less than the place does, so each round gains two
+// digits or more, and the rounding takes the rest: the solution is exact.
+template <class DisplacementAt>
+double Measured(double corrected, const DisplacementAt& displacement_at) {
+  constexpr int kMaxRounds = 12;
+  double measured = InSinglePrecision(corrected);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const double next = InSinglePrecision(corrected + displacement_at(measured));
+    if (next == measured) break;
+    measured = next;
+  }
+  return measured;
+}
+
+}  // namespace
+
 void Correct(const StereoCorrection& before,
              const StereoCorrection& correction,
              Features& features) {
-  const auto change = [&](const Eigen::Vector2d& px) { return correction.At(px) - before.At(px); };
   for (std::size_t i = 0; i < features.points.size(); ++i) {
     auto& disparity = features.point_disparity[i];
     if (!disparity) continue;
-    disparity->px -= change(features.points[i].px - Eigen::Vector2d(disparity->px, 0));
+    const auto right = [&](double px) {
+      return Eigen::Vector2d(features.points[i].px - Eigen::Vector2d(px, 0));
+    };
+    const double measured =
+        Measured(disparity->px, [&](double px) { return before.At(right(px)); });
+    disparity->px = measured - correction.At(right(measured));
   }
+  const auto correct_end = [&](Eigen::Vector2d& end) {
+    end.x() = Measured(end.x(), [&](double x) { return -before.At({x, end.y()}); });
+    end.x() += correction.At(end);
+  };
   for (auto& right : features.line_right) {
     if (!right) continue;
-    right->segment.start.x() += change(right->segment.start);
-    right->segment.end.x() += change(right->segment.end);
+    correct_end(right->segment.start);
+    correct_end(right->segment.end);
   }
 }
 

@@ -30,13 +30,27 @@ class StereoCorrection {
   const Vector6d& coefficients() const { return coefficients_; }
   bool operator==(const StereoCorrection&) const = default;
 
+  // Calls visit for each number that `correction`, const or not, is made of.
+  template <class Correction, class Visitor>
+  static void VisitNumbers(Correction& correction, const Visitor& visit) {
+    visit(correction.centre_.x());
+    visit(correction.centre_.y());
+    visit(correction.inverse_unit_);
+    for (Eigen::Index i = 0; i < correction.coefficients_.size(); ++i) {
+      visit(correction.coefficients_(i));
+    }
+  }
+
  private:
   Eigen::Vector2d centre_ = Eigen::Vector2d::Zero();
   double inverse_unit_ = 1;
   Vector6d coefficients_ = Vector6d::Zero();
 };
 
-// Disparities of points and right lines corrected, of features that were corrected by `before`.
+// Gives disparities of points and right lines another correction than the one they have, `before`.
+// What was measured, a number of single precision, is found again exactly (where the correction
+// changes by less than half a pixel from pixel to pixel) and corrected anew: the result does not
+// depend on the corrections in between, to the last bit.
 void Correct(const StereoCorrection& before,
              const StereoCorrection& correction,
              Features& features);

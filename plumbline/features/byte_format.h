@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/features/front_end_fingerprint.h"
+#include "plumbline/features/stereo_correction.h"
+#include "plumbline/features/stereo_evidence.h"
+#include "plumbline/features/types.h"
+#include "plumbline/geometry/byte_format.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace plumbline {
+
+// Transfer (base/byte_format.h) of what is measured in images.
+
+template <class Archive, Like<StereoCorrection> T>
+void Transfer(Archive& archive, T& correction) {
+  StereoCorrection::VisitNumbers(correction, [&](auto& number) { archive(number); });
+}
+
+template <class Archive, Like<StereoEvidence> T>
+void Transfer(Archive& archive, T& evidence) {
+  TransferAll(archive, evidence.information, evidence.weighted, evidence.moments);
+}
+
+template <class Archive, Like<FrontEndFingerprint> T>
+void Transfer(Archive& archive, T& fingerprint) {
+  TransferAll(archive, fingerprint.feature_format, fingerprint.settings);
+}
+
+// The descriptors of a list, one after the other; `get` gives that of an item.
+template <class Archive, class Items, class Get>
+void TransferDescriptors(Archive& archive, Items& items, const Get& get) {
+  for (auto& item : items) Transfer(archive, get(item));
+}
+
+// The items of a list that are there: which, and pointers to them.
+template <class Archive, class List>
+auto TransferPresence(Archive& archive, List& list) {
+  using Item = std::remove_reference_t<decltype(*list.front())>;
+  std::vector<std::uint8_t> present(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) present[i] = list[i] ? 1 : 0;
+  TransferColumn(
+      archive, present, [](auto& flag) -> auto& { return flag; });
+  std::vector<Item*> there;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if constexpr (Archive::kReading) {
+      if (present[i] != 0) list[i].emplace();
+    }
+    if (list[i]) there.push_back(&*list[i]);
+  }
+  return there;
+}
+
+template <class Archive, class Items, class Get>
+void TransferSegments(Archive& archive, Items& items, const Get& get) {
+  TransferColumn(
+      archive, items, [&](auto& i) -> auto& { return get(i).start.x(); });
+  TransferColumn(
+      archive, items, [&](auto& i) -> auto& { return get(i).start.y(); });
+  TransferColumn(
+      archive, items, [&](auto& i) -> auto& { return get(i).end.x(); });
+  TransferColumn(
+      archive, items, [&](auto& i) -> auto& { return get(i).end.y(); });
+}
+
+template <class Archive, class Points>
+void TransferPointFeatures(Archive& archive, Points& points) {
+  constexpr std::size_t kLeastBytes = 53;
+  const std::size_t count = TransferCount(archive, points.size(), kLeastBytes);
+  if constexpr (Archive::kReading) points.resize(count);
+  TransferColumn(
+      archive, points, [](auto& p) -> auto& { return p.px.x(); });
+  TransferColumn(
+      archive, points, [](auto& p) -> auto& { return p.px.y(); });
+  TransferColumn(
+      archive, points, [](auto& p) -> auto& { return p.sigma_px; });
+  TransferColumn(
+      archive, points, [](auto& p) -> auto& { return p.angle; });
+  TransferColumn(
+      archive, points, [](auto& p) -> auto& { return p.response; });
+  TransferColumn(
+      archive, points, [](auto& p) -> auto& { return p.octave; });
+  TransferDescriptors(
+      archive, points, [](auto& p) -> auto& { return p.descriptor; });
+}
+
+template <class Archive, class Lines>
+void TransferLineFeatures(Archive& archive, Lines& lines) {
+  constexpr std::size_t kLeastBytes = 57;
+  const std::size_t count = TransferCount(archive, lines.size(), kLeastBytes);
+  if constexpr (Archive::kReading) lines.resize(count);
+  TransferSegments(
+      archive, lines, [](auto& l) -> auto& { return l.segment; });
+  TransferColumn(
+      archive, lines, [](auto& l) -> auto& { return l.sigma_px; });
+  TransferColumn(
+      archive, lines, [](auto& l) -> auto& { return l.response; });
+  TransferColumn(
+      archive, lines, [](auto& l) -> auto& { return l.octave; });
+  TransferDescriptors(
+      archive, lines, [](auto& l) -> auto& { return l.descriptor; });
+}
+
+// Column by column (TransferColumn): numbers of single precision take four bytes.
+template <class Archive, Like<Features> T>
+void Transfer(Archive& archive, T& features) {
+  TransferPointFeatures(archive, features.points);
+  TransferLineFeatures(archive, features.lines);
+  if constexpr (Archive::kReading) {
+    features.point_disparity.resize(features.points.size());
+    features.line_right.resize(features.lines.size());
+  }
+  PLUMBLINE_CHECK(features.point_disparity.size() == features.points.size() &&
+                      features.line_right.size() == features.lines.size(),
+                  "features of unequal counts");
+  const auto disparities = TransferPresence(archive, features.point_disparity);
+  TransferColumn(
+      archive, disparities, [](auto* d) -> auto& { return d->px; });
+  TransferColumn(
+      archive, disparities, [](auto* d) -> auto& { return d->sigma_px; });
+  const auto right = TransferPresence(archive, features.line_right);
+  TransferSegments(
+      archive, right, [](auto* r) -> auto& { return r->segment; });
+  TransferColumn(
+      archive, right, [](auto* r) -> auto& { return r->sigma_px; });
+}
+
+}  // namespace plumbline

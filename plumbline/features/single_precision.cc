@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/single_precision.h"
+
+namespace plumbline {
+namespace {
+
+void Round(double& value) { value = InSinglePrecision(value); }
+
+void Round(Eigen::Vector2d& value) { value = value.cast<float>().cast<double>(); }
+
+void Round(Segment2& segment) {
+  Round(segment.start);
+  Round(segment.end);
+}
+
+}  // namespace
+
+void RoundToSinglePrecision(Features& features) {
+  for (PointFeature& point : features.points) {
+    Round(point.px);
+    Round(point.sigma_px);
+    Round(point.angle);
+    Round(point.response);
+  }
+  for (auto& disparity : features.point_disparity) {
+    if (!disparity) continue;
+    Round(disparity->px);
+    Round(disparity->sigma_px);
+  }
+  for (LineFeature& line : features.lines) {
+    Round(line.segment);
+    Round(line.sigma_px);
+    Round(line.response);
+  }
+  for (auto& right : features.line_right) {
+    if (!right) continue;
+    Round(right->segment);
+    Round(right->sigma_px);
+  }
+}
+
+}  // namespace plumbline
