@@ -6,6 +6,7 @@ find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(embree 3 REQUIRED)
+find_package(zstd REQUIRED)
 find_package(Threads REQUIRED)
 if(PLUMBLINE_TESTS OR PLUMBLINE_BENCHMARKS)
   find_package(Ceres 2.1 REQUIRED)  # reference solver, tests and benchmarks only

@@ -24,6 +24,7 @@ using KeyFrameId = Id<struct KeyFrameTag>;  // order of creation
 using PointId = Id<struct PointTag>;
 using LineId = Id<struct LineTag>;
 using MapId = Id<struct MapTag>;
+using SessionId = Id<struct SessionTag>;  // a run of the camera; index into the list of them
 
 }  // namespace plumbline
 

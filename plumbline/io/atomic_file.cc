@@ -4,11 +4,11 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -19,22 +19,17 @@ namespace {
   throw WriteError(path, why);
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { (void)std::fclose(file); }
-};
+std::error_code LastError() { return {errno, std::generic_category()}; }
 
-// The last write errors of a full disk may come as late as on closing.
-void WriteAll(const std::filesystem::path& temporary,
-              const std::filesystem::path& path,
-              std::string_view contents) {
-  errno = 0;
-  std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
-  if (!file) FailWrite(path, {errno, std::generic_category()});
-  const bool written =
-      std::fwrite(contents.data(), 1, contents.size(), file.get()) == contents.size() &&
-      std::fflush(file.get()) == 0;
-  if (!written) FailWrite(path, {errno, std::generic_category()});
-  if (std::fclose(file.release()) != 0) FailWrite(path, {errno, std::generic_category()});
+// Whether all of a file or folder is on the disk.
+bool Synchronized(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool done = ::fsync(descriptor) == 0;
+  const int error = errno;
+  (void)::close(descriptor);
+  errno = error;
+  return done;
 }
 
 }  // namespace
@@ -50,16 +45,42 @@ AtomicFile::~AtomicFile() {
   if (!committed_) std::filesystem::remove(temporary_, ignored);
 }
 
-void AtomicFile::Commit() {
+// The name is on the disk when the folder is; not all file systems can say when.
+void AtomicFile::Commit(Durability durability) {
+  const bool durable = durability == Durability::kPower;
+  if (durable && !Synchronized(temporary_)) FailWrite(path_, LastError());
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) FailWrite(path_, error);
   committed_ = true;
+  const std::filesystem::path folder = path_.parent_path();
+  if (durable) (void)Synchronized(folder.empty() ? "." : folder);
+}
+
+void AtomicFileWriter::CloseFile::operator()(std::FILE* file) const { (void)std::fclose(file); }
+
+AtomicFileWriter::AtomicFileWriter(const std::filesystem::path& path) : file_(path) {
+  errno = 0;
+  stream_.reset(std::fopen(file_.temporary_path().c_str(), "wb"));
+  if (!stream_) FailWrite(path, LastError());
+}
+
+void AtomicFileWriter::Write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size()) {
+    FailWrite(file_.path(), LastError());
+  }
+}
+
+// The last write errors of a full disk may come as late as on closing.
+void AtomicFileWriter::Commit(Durability durability) {
+  if (std::fflush(stream_.get()) != 0) FailWrite(file_.path(), LastError());
+  if (std::fclose(stream_.release()) != 0) FailWrite(file_.path(), LastError());
+  file_.Commit(durability);
 }
 
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents) {
-  AtomicFile file(path);
-  WriteAll(file.temporary_path(), path, contents);
+  AtomicFileWriter file(path);
+  file.Write(contents);
   file.Commit();
 }
 

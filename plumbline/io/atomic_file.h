@@ -4,7 +4,9 @@
 
 #include "plumbline/base/error.h"
 
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -33,6 +35,10 @@ class WriteError : public InputError {
 // then.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents);
 
+// Whether a file is to be on the disk, not just with the operating system, before it takes its
+// name: then also a power failure leaves the old one or the new one. Costs some milliseconds.
+enum class Durability { kProcess, kPower };
+
 // The same for files that other code writes by name: construct, let it write temporary_path(),
 // then Commit(). Without Commit the temporary file is removed.
 class AtomicFile {
@@ -42,9 +48,10 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
 
+  const std::filesystem::path& path() const { return path_; }
   // In the folder of the final file, with the same extension.
   const std::filesystem::path& temporary_path() const { return temporary_; }
-  void Commit();  // throws WriteError
+  void Commit(Durability durability = Durability::kProcess);  // throws WriteError
 
  private:
   std::filesystem::path path_;
@@ -71,6 +78,22 @@ class AtomicFolder {
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   bool committed_ = false;
+};
+
+// The same for a file that is written piece by piece, in any number of calls of Write, then
+// Commit(). Both throw InputError as above.
+class AtomicFileWriter {
+ public:
+  explicit AtomicFileWriter(const std::filesystem::path& path);
+  void Write(std::string_view bytes);
+  void Commit(Durability durability = Durability::kProcess);
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const;
+  };
+  AtomicFile file_;
+  std::unique_ptr<std::FILE, CloseFile> stream_;
 };
 
 // Makes a folder and those above it; InputError when that is impossible.

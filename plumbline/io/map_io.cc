@@ -3,19 +3,16 @@
 #include "plumbline/io/map_io.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/input_file.h"
-#include "plumbline/io/atomic_file.h"
-#include "plumbline/io/byte_stream.h"
-#include "plumbline/io/crc32.h"
+#include "plumbline/io/map_file_v1.h"
+#include "plumbline/io/section_file.h"
+#include "plumbline/map/byte_format.h"
+#include "plumbline/map/map_builder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <optional>
-#include <set>
-#include <span>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,337 +24,356 @@ namespace plumbline {
 namespace {
 
 constexpr std::string_view kMagic = "PLBMAP\r\n";  // line ends show a transfer as text
-constexpr std::uint32_t kVersion = 1;
-constexpr std::int64_t kMaxId = std::int64_t{1} << 26;  // a map has an index of all of its ids
-constexpr std::size_t kHeaderBytes = 8 + 4 + 4 + 8;     // magic, version, CRC-32, size of the body
+constexpr std::uint32_t kVersion = 2;
+constexpr std::size_t kPreambleBytes = 12;  // magic and version
 
-// A keyframe as stored; its matches follow from the observations of the landmarks.
-struct StoredKeyFrame {
-  KeyFrameId id;
-  KeyFrameId parent;
-  FrameId frame;
-  std::int64_t stamp_ns = 0;
-  Rigid3 cam_from_world;
-  Features features;
+// In this order: the context; for each map its record, keyframes, points and lines, each kind in as
+// many sections as it needs; the end.
+enum SectionKind : std::uint32_t {
+  kContext = 1,
+  kMapRecord = 2,
+  kKeyFrames = 3,
+  kPoints = 4,
+  kLines = 5,
+  kEnd = 6
 };
 
-struct StoredMap {
-  RectifiedCamera camera;
-  Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
-  MapId id;
-  std::vector<StoredKeyFrame> keyframes;
-  std::vector<MapPoint> points;
-  std::vector<MapLine> lines;
+// A section is closed when it has so much, so that memory stays small.
+constexpr std::size_t kSectionBytes = std::size_t{1} << 21;
+constexpr std::size_t kSectionLandmarks = 8192;
+constexpr std::size_t kSectionObservations = 65536;
+
+struct MapCounts {
+  std::int64_t keyframes = 0;
+  std::int64_t points = 0;
+  std::int64_t lines = 0;
 };
 
-// The format: one Transfer for each type, for both directions; members of a class, so that each
-// sees all others. Changing any of them needs a new kVersion.
-struct Format {
-  template <class Archive, class T>
-  requires(std::is_integral_v<T> ||
-           std::is_same_v<T, double>) static void Transfer(Archive& archive, T& value) {
-    archive(value);
-    if constexpr (Archive::kReading && std::is_same_v<T, double>) {
-      if (!std::isfinite(value)) {
-        throw InputError(archive.source() + ": expected finite numbers, found another");
-      }
+template <class Archive, Like<MapCounts> T>
+void Transfer(Archive& archive, T& counts) {
+  TransferAll(archive, counts.keyframes, counts.points, counts.lines);
+}
+
+const Descriptor* DescriptorOf(const Map& map, const MapPoint&, KeyFrameId id, int feature) {
+  const KeyFrame* keyframe = map.Find(id);
+  if (keyframe == nullptr || feature < 0) return nullptr;
+  const auto& points = keyframe->frame.features().points;
+  const auto place = static_cast<std::size_t>(feature);
+  return place < points.size() ? &points[place].descriptor : nullptr;
+}
+
+const Descriptor* DescriptorOf(const Map& map, const MapLine&, KeyFrameId id, int feature) {
+  const KeyFrame* keyframe = map.Find(id);
+  if (keyframe == nullptr || feature < 0) return nullptr;
+  const auto& lines = keyframe->frame.features().lines;
+  const auto place = static_cast<std::size_t>(feature);
+  return place < lines.size() ? &lines[place].descriptor : nullptr;
+}
+
+// Finds the descriptors of the features that show landmarks of one kind.
+template <class Landmark>
+auto DescriptorsIn(const Map& map) {
+  return [&map](KeyFrameId keyframe, int feature) {
+    return DescriptorOf(map, Landmark(), keyframe, feature);
+  };
+}
+
+std::string Preamble() {
+  ByteWriter preamble;
+  for (const char c : kMagic) preamble(static_cast<std::uint8_t>(c));
+  preamble(kVersion);
+  return preamble.Take();
+}
+
+void WriteKeyFrames(const Map& map, SectionWriter& file) {
+  ByteWriter section;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    TransferPlace(section, keyframe);
+    const Features measured = MeasuredFeatures(*keyframe.frame.indexed);
+    Transfer(section, measured);
+    if (section.bytes().size() >= kSectionBytes) file.Write(kKeyFrames, section.Take());
+  }
+  if (!section.bytes().empty()) file.Write(kKeyFrames, section.bytes());
+}
+
+template <class LandmarkId, class Landmark>
+void WriteLandmarks(const std::map<LandmarkId, Landmark>& landmarks,
+                    const Map& map,
+                    SectionKind kind,
+                    SectionWriter& file) {
+  LandmarkList<const Landmark> list;
+  std::size_t observations = 0;
+  const auto write = [&] {
+    ByteWriter section;
+    TransferCount(section, list.size());
+    TransferAllOf(section, list, DescriptorsIn<Landmark>(map));
+    file.Write(kind, section.bytes());
+    list.clear();
+    observations = 0;
+  };
+  for (const auto& [id, landmark] : landmarks) {
+    list.push_back(&landmark);
+    observations += landmark.observations.size();
+    if (list.size() == kSectionLandmarks || observations >= kSectionObservations) write();
+  }
+  if (!list.empty()) write();
+}
+
+void WriteMap(const Map& map, const MapRecord& record, SectionWriter& file) {
+  const MapCounts counts{static_cast<std::int64_t>(map.keyframes().size()),
+                         static_cast<std::int64_t>(map.points().size()),
+                         static_cast<std::int64_t>(map.lines().size())};
+  ByteWriter section;
+  TransferAll(section, record, counts);
+  file.Write(kMapRecord, section.bytes());
+  WriteKeyFrames(map, file);
+  WriteLandmarks(map.points(), map, kPoints, file);
+  WriteLandmarks(map.lines(), map, kLines, file);
+}
+
+// The context comes first: maps are read with the camera known.
+void WriteFile(const std::filesystem::path& path,
+               const std::vector<const Map*>& maps,
+               const AtlasContext& context,
+               MapId active) {
+  SectionWriter file(path, Preamble());
+  ByteWriter section;
+  TransferAll(section, context, active);
+  TransferCount(section, maps.size());
+  file.Write(kContext, section.bytes());
+  for (const Map* map : maps) {
+    MapRecord record = map->Record();
+    for (const Map* other : maps) {
+      if (map->id() != active) break;
+      // Atlas::Activate gives the active map ids after those of all others.
+      record.next_point = std::max(record.next_point, other->NextPointId());
+      record.next_line = std::max(record.next_line, other->NextLineId());
     }
+    WriteMap(*map, record, file);
   }
+  file.Write(kEnd, {});
+  file.Commit();
+}
 
-  template <class Archive, class Tag>
-  static void Transfer(Archive& archive, Id<Tag>& id) {
-    archive(id.value);
+// The next section, which must be of this kind.
+std::string NextContents(SectionReader& file, SectionKind kind) {
+  SectionReader::Section section = file.Next();
+  if (section.kind != kind) {
+    throw InputError(fmt::format("{}: expected a section of kind {}, found kind {}",
+                                 file.source(),
+                                 static_cast<std::uint32_t>(kind),
+                                 section.kind));
   }
+  return std::move(section.contents);
+}
 
-  template <class Archive, class Scalar, int kRows, int kColumns>
-  static void Transfer(Archive& archive, Eigen::Matrix<Scalar, kRows, kColumns>& matrix) {
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) Transfer(archive, matrix.data()[i]);
-  }
+ByteReader ReaderOf(const std::string& contents, const std::string& source) {
+  return {{reinterpret_cast<const std::uint8_t*>(contents.data()), contents.size()}, source};
+}
 
-  template <class Archive>
-  static void Transfer(Archive& archive, Eigen::Quaterniond& q) {
-    Transfer(archive, q.coeffs());
+void CheckEnd(const ByteReader& reader) {
+  if (reader.remaining() != 0) {
+    throw InputError(reader.source() + ": expected the end of a section, found more bytes");
   }
-
-  template <class Archive, class T, std::size_t kSize>
-  static void Transfer(Archive& archive, std::array<T, kSize>& items) {
-    for (T& item : items) Transfer(archive, item);
-  }
-
-  // Every item takes a byte or more. Items are made one by one as they are read: a damaged count
-  // cannot ask for more memory than what the file holds.
-  template <class Archive>
-  static std::size_t TransferCount(Archive& archive, std::size_t count) {
-    auto stored = static_cast<std::uint32_t>(count);
-    archive(stored);
-    if constexpr (Archive::kReading) {
-      if (stored > archive.remaining()) throw InputError(archive.source() + ": ends early");
-    }
-    return stored;
-  }
-
-  template <class Archive, class T>
-  static void Transfer(Archive& archive, std::vector<T>& items) {
-    const std::size_t count = TransferCount(archive, items.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      if constexpr (Archive::kReading) items.emplace_back();
-      Transfer(archive, items[i]);
-    }
-  }
-
-  template <class Archive, class T>
-  static void Transfer(Archive& archive, std::optional<T>& item) {
-    std::uint8_t present = item ? 1 : 0;
-    archive(present);
-    if constexpr (Archive::kReading) {
-      if (present != 0) item.emplace();
-    }
-    if (item) Transfer(archive, *item);
-  }
-
-  template <class Archive>
-  static void Transfer(Archive& archive, Observations& observations) {
-    const std::size_t count = TransferCount(archive, observations.size());
-    auto next = observations.begin();
-    for (std::size_t i = 0; i < count; ++i) {
-      std::int64_t keyframe = 0;
-      std::int32_t feature = 0;
-      if constexpr (!Archive::kReading) {
-        keyframe = next->first.value;
-        feature = next->second;
-        ++next;
-      }
-      archive(keyframe);
-      archive(feature);
-      if constexpr (Archive::kReading) observations.emplace(KeyFrameId{keyframe}, feature);
-    }
-  }
-
-  template <class Archive, class... Fields>
-  static void TransferAll(Archive& archive, Fields&... fields) {
-    (Transfer(archive, fields), ...);
-  }
-
-  template <class Archive>
-  static void Transfer(Archive& a, Rigid3& motion) {
-    TransferAll(a, motion.rotation, motion.translation);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, RectifiedCamera& c) {
-    TransferAll(a, c.fx, c.fy, c.cx, c.cy, c.baseline, c.width, c.height);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, Disparity& d) {
-    TransferAll(a, d.px, d.sigma_px);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, Segment2& s) {
-    TransferAll(a, s.start, s.end);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, PointFeature& f) {
-    TransferAll(a, f.px, f.sigma_px, f.angle, f.response, f.octave, f.descriptor);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, LineFeature& f) {
-    TransferAll(a, f.segment, f.sigma_px, f.response, f.octave, f.descriptor);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, RightLine& f) {
-    TransferAll(a, f.segment, f.sigma_px);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, Features& f) {
-    TransferAll(a, f.points, f.point_disparity, f.lines, f.line_right);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, TrackingScore& s) {
-    TransferAll(a, s.visible, s.found);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, MapPoint& p) {
-    TransferAll(a, p.id, p.created_by, p.position, p.view_direction, p.reference_distance);
-    TransferAll(a, p.reference_octave, p.descriptor, p.score, p.observations);
-  }
-  template <class Archive>
-  static void Transfer(Archive& a, MapLine& l) {
-    TransferAll(a, l.id, l.created_by, l.line.moment, l.line.direction, l.start, l.end);
-    TransferAll(a, l.information, l.view_direction, l.descriptor, l.score, l.observations);
-  }
-
-  template <class Archive>
-  static void Transfer(Archive& a, StoredKeyFrame& k) {
-    TransferAll(a, k.id, k.parent, k.frame, k.stamp_ns, k.cam_from_world, k.features);
-  }
-
-  template <class Archive>
-  static void Transfer(Archive& a, StoredMap& m) {
-    TransferAll(a, m.camera, m.rectified_from_left, m.id, m.keyframes, m.points, m.lines);
-  }
-};
-
-// The parent where it is in the map, else the newest keyframe before `keyframe`.
-KeyFrameId LivingParent(const Map& map, const KeyFrame& keyframe) {
-  if (!keyframe.parent.valid() || map.Find(keyframe.parent) != nullptr) return keyframe.parent;
-  const auto it = map.keyframes().find(keyframe.id);
-  return it == map.keyframes().begin() ? KeyFrameId{} : std::prev(it)->first;
 }
 
 [[noreturn]] void FailMap(const std::string& source, const std::string& what) {
   throw InputError(source + ": expected a map that agrees with itself, found " + what);
 }
 
-void CheckKeyFrames(const StoredMap& stored, const std::string& source) {
-  KeyFrameId previous;
-  for (const StoredKeyFrame& k : stored.keyframes) {
-    const Features& f = k.features;
-    if (!(previous < k.id) || !(k.parent < k.id)) FailMap(source, "keyframes out of order");
-    if (f.points.size() != f.point_disparity.size() || f.lines.size() != f.line_right.size()) {
-      FailMap(source, "features of unequal counts");
-    }
-    if (!k.cam_from_world.translation.allFinite() ||
-        !(std::abs(k.cam_from_world.rotation.norm() - 1) < 1e-6)) {
-      FailMap(source, "a keyframe without a valid pose");
-    }
-    const bool placed = std::all_of(
-        f.points.begin(), f.points.end(), [](const PointFeature& p) { return p.px.allFinite(); });
-    if (!placed) FailMap(source, "a feature without a position");
-    previous = k.id;
-  }
-  if (previous.value >= kMaxId) FailMap(source, "an id out of range");
-}
-
-// Ids ascend, every landmark has observations, and they name features that exist, each once.
-template <class Landmark, class FeatureCount>
-void CheckLandmarks(const std::vector<Landmark>& landmarks,
-                    const StoredMap& stored,
-                    const FeatureCount& feature_count,
-                    const std::string& source) {
-  std::set<std::pair<KeyFrameId, int>> taken;
-  decltype(Landmark::id) previous;
-  for (const Landmark& landmark : landmarks) {
-    if (!(previous < landmark.id)) FailMap(source, "landmarks out of order");
-    if (landmark.observations.empty()) FailMap(source, "a landmark without observations");
-    for (const auto& [keyframe, feature] : landmark.observations) {
-      const auto found =
-          std::lower_bound(stored.keyframes.begin(),
-                           stored.keyframes.end(),
-                           keyframe,
-                           [](const StoredKeyFrame& k, KeyFrameId id) { return k.id < id; });
-      if (found == stored.keyframes.end() || found->id != keyframe || feature < 0 ||
-          static_cast<std::size_t>(feature) >= feature_count(found->features) ||
-          !taken.emplace(keyframe, feature).second) {
-        FailMap(source, "an observation of a feature that is not there or taken");
-      }
-    }
-    previous = landmark.id;
-  }
-  if (previous.value >= kMaxId) FailMap(source, "an id out of range");
-}
-
-void Check(const StoredMap& stored, const std::string& source) {
-  const RectifiedCamera& c = stored.camera;
+void CheckContext(const AtlasContext& context, const std::string& source) {
+  const RectifiedCamera& c = context.camera;
   constexpr std::int64_t kMaxPixels = 100'000'000;  // the grid of each keyframe takes 1 MB then
   if (!(c.fx > 0) || !(c.fy > 0) || c.width <= 0 || c.height <= 0 ||
       std::int64_t{c.width} * c.height > kMaxPixels) {
     FailMap(source, "no valid camera");
   }
-  CheckKeyFrames(stored, source);
-  const auto points = [](const Features& features) { return features.points.size(); };
-  const auto lines = [](const Features& features) { return features.lines.size(); };
-  CheckLandmarks(stored.points, stored, points, source);
-  CheckLandmarks(stored.lines, stored, lines, source);
+  const bool finite = std::isfinite(c.fx) && std::isfinite(c.fy) && std::isfinite(c.cx) &&
+                      std::isfinite(c.cy) && std::isfinite(c.baseline) && c.baseline >= 0;
+  if (!finite || !(std::abs(context.rectified_from_left.norm() - 1) < 1e-6) ||
+      !(context.octave_scale > 1 && context.octave_scale < 10)) {
+    FailMap(source, "no valid camera");
+  }
+  const StereoEvidence& evidence = context.stereo_evidence;
+  if (!evidence.information.allFinite() || !evidence.weighted.allFinite() ||
+      !evidence.moments.allFinite()) {
+    FailMap(source, "evidence about the stereo pair without a value");
+  }
 }
 
-Map BuildMap(StoredMap stored) {
-  MapEdit edit;
-  for (StoredKeyFrame& k : stored.keyframes) {
-    std::vector<Eigen::Vector2d> positions;
-    for (const PointFeature& point : k.features.points) positions.push_back(point.px);
-    PointGrid grid(positions, stored.camera.width, stored.camera.height);
-    KeyFrame keyframe{k.id, k.parent, {}};
-    keyframe.frame.id = k.frame;
-    keyframe.frame.stamp_ns = k.stamp_ns;
-    keyframe.frame.cam_from_world = k.cam_from_world;
-    keyframe.frame.points.resize(k.features.points.size());
-    keyframe.frame.lines.resize(k.features.lines.size());
-    keyframe.frame.indexed = std::make_shared<const IndexedFeatures>(
-        IndexedFeatures{std::move(k.features), std::move(grid)});
-    edit.emplace_back(edit::AddKeyFrame{std::move(keyframe)});
+void ReadKeyFrames(SectionReader& file,
+                   const AtlasContext& context,
+                   std::int64_t count,
+                   MapBuilder& builder) {
+  const auto sessions =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(context.sessions.size()));
+  for (std::int64_t done = 0; done < count;) {
+    const std::string contents = NextContents(file, kKeyFrames);
+    ByteReader reader = ReaderOf(contents, file.source());
+    do {
+      KeyFrame keyframe;
+      TransferPlace(reader, keyframe);
+      Features measured;
+      Transfer(reader, measured);
+      if (!keyframe.session.valid() || keyframe.session.value >= sessions) {
+        FailMap(file.source(), "a keyframe of a session that is not there");
+      }
+      keyframe.frame.indexed =
+          IndexFeatures(context.camera, std::move(measured), builder.map().stereo_correction());
+      builder.Add(std::move(keyframe));
+    } while (++done < count && reader.remaining() != 0);
+    CheckEnd(reader);
   }
-  for (MapPoint& point : stored.points) edit.emplace_back(edit::AddPoint{std::move(point)});
-  for (MapLine& line : stored.lines) edit.emplace_back(edit::AddLine{std::move(line)});
-  Map map(stored.id);
-  map.Apply(edit);
-  return map;
+}
+
+template <class Landmark>
+void ReadLandmarks(SectionReader& file, SectionKind kind, std::int64_t count, MapBuilder& builder) {
+  constexpr std::size_t kLeastBytes = 60;  // of a landmark
+  for (std::int64_t done = 0; done < count;) {
+    const std::string contents = NextContents(file, kind);
+    ByteReader reader = ReaderOf(contents, file.source());
+    std::vector<Landmark> landmarks(TransferCount(reader, 0, kLeastBytes));
+    LandmarkList<Landmark> list;
+    for (Landmark& landmark : landmarks) list.push_back(&landmark);
+    TransferAllOf(reader, list, DescriptorsIn<Landmark>(builder.map()));
+    CheckEnd(reader);
+    done += static_cast<std::int64_t>(landmarks.size());
+    if (landmarks.empty() || done > count) FailMap(file.source(), "another number of landmarks");
+    for (Landmark& landmark : landmarks) builder.Add(std::move(landmark));
+  }
+}
+
+Map ReadMap(SectionReader& file, const AtlasContext& context) {
+  const std::string contents = NextContents(file, kMapRecord);
+  ByteReader reader = ReaderOf(contents, file.source());
+  MapRecord record;
+  MapCounts counts;
+  TransferAll(reader, record, counts);
+  CheckEnd(reader);
+  MapBuilder builder(std::move(record), file.source());
+  ReadKeyFrames(file, context, counts.keyframes, builder);
+  ReadLandmarks<MapPoint>(file, kPoints, counts.points, builder);
+  ReadLandmarks<MapLine>(file, kLines, counts.lines, builder);
+  return builder.Finish();
+}
+
+// Marks the ids of one kind as taken; false where one was.
+class TakenIds {
+ public:
+  bool Take(std::int64_t id) {
+    const auto place = static_cast<std::size_t>(id);
+    if (taken_.size() <= place) taken_.resize(place + 1);
+    return !std::exchange(taken_[place], 1);
+  }
+
+ private:
+  std::vector<char> taken_;
+};
+
+// No id is in two maps, and young landmarks tell their age.
+void CheckAtlas(const SavedAtlas& saved, const std::string& source) {
+  TakenIds keyframes, points, lines;
+  const auto take = [&](TakenIds& taken, const auto& entries) {
+    for (const auto& [id, entry] : entries) {
+      if (!taken.Take(id.value)) FailMap(source, "an id that two maps have");
+    }
+  };
+  for (const auto& [id, map] : saved.atlas.maps()) {
+    take(keyframes, map.keyframes());
+    take(keyframes, map.Record().removed_keyframes);
+    take(points, map.points());
+    take(lines, map.lines());
+  }
+  for (const auto& [id, context] : saved.context.maps) {
+    const Map* map = saved.atlas.Find(id);
+    if (map == nullptr) FailMap(source, "something about a map that is not there");
+    const auto check = [&](const auto& young) {
+      for (const auto landmark_id : young) {
+        const auto* landmark = map->Find(landmark_id);
+        if (landmark != nullptr && !map->Knows(landmark->created_by)) {
+          FailMap(source, "a young landmark of a keyframe that never was");
+        }
+      }
+    };
+    check(context.young.points);
+    check(context.young.lines);
+  }
+}
+
+SavedAtlas ReadFile(SectionReader& file) {
+  SavedAtlas saved;
+  saved.file_version = kVersion;
+  const std::string contents = NextContents(file, kContext);
+  ByteReader reader = ReaderOf(contents, file.source());
+  MapId active;
+  std::int64_t maps = 0;
+  TransferAll(reader, saved.context, active, maps);
+  CheckEnd(reader);
+  CheckContext(saved.context, file.source());
+  for (std::int64_t i = 0; i < maps; ++i) {
+    Map map = ReadMap(file, saved.context);
+    if (saved.atlas.Find(map.id()) != nullptr) FailMap(file.source(), "two maps of one id");
+    saved.atlas.Adopt(std::move(map));
+  }
+  if (!NextContents(file, kEnd).empty() || file.remaining() != 0) {
+    throw InputError(file.source() + ": expected the end, found more bytes");
+  }
+  if (maps > 0 && saved.atlas.Find(active) == nullptr) FailMap(file.source(), "no active map");
+  if (maps > 0) saved.atlas.Activate(active);
+  CheckAtlas(saved, file.source());
+  return saved;
 }
 
 }  // namespace
+
+void SaveAtlas(const std::filesystem::path& path,
+               const Atlas& atlas,
+               const AtlasContext& context,
+               MapId active) {
+  std::vector<const Map*> maps;
+  for (const auto& [id, map] : atlas.maps()) maps.push_back(&map);
+  WriteFile(path, maps, context, active.valid() ? active : atlas.active_id());
+}
+
+SavedAtlas LoadAtlas(const std::filesystem::path& path) {
+  SectionReader file(path, kPreambleBytes);
+  const std::string& preamble = file.preamble();
+  if (!preamble.starts_with(kMagic)) {
+    throw InputError(file.source() + ": expected a Plumbline map, found another file");
+  }
+  ByteReader reader = ReaderOf(preamble, file.source());
+  reader.Take(kMagic.size());
+  std::uint32_t version = 0;
+  reader(version);
+  if (version == 1) {
+    return LoadMapFileV1(
+        path, [&](const AtlasContext& context) { CheckContext(context, file.source()); });
+  }
+  if (version != kVersion) {
+    throw InputError(fmt::format("{}: expected a map of version 1 or {}, found version {}",
+                                 file.source(),
+                                 kVersion,
+                                 version));
+  }
+  return ReadFile(file);
+}
 
 void SaveMap(const std::filesystem::path& path,
              const RectifiedCamera& camera,
              const Eigen::Quaterniond& rectified_from_left,
              const Map& map) {
-  StoredMap stored{camera, rectified_from_left, map.id(), {}, {}, {}};
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    const Frame& frame = keyframe.frame;
-    stored.keyframes.push_back({id,
-                                LivingParent(map, keyframe),
-                                frame.id,
-                                frame.stamp_ns,
-                                frame.cam_from_world,
-                                frame.features()});
-  }
-  for (const auto& [id, point] : map.points()) stored.points.push_back(point);
-  for (const auto& [id, line] : map.lines()) stored.lines.push_back(line);
-  ByteWriter body;
-  Format::Transfer(body, stored);
-
-  const auto* data = reinterpret_cast<const std::uint8_t*>(body.bytes().data());
-  ByteWriter header;
-  for (const char c : kMagic) header(static_cast<std::uint8_t>(c));
-  header(kVersion);
-  header(Crc32({data, body.bytes().size()}));
-  header(static_cast<std::uint64_t>(body.bytes().size()));
-  std::string file = header.Take();
-  file += body.bytes();
-  WriteFileAtomically(path, file);
+  AtlasContext context;
+  context.camera = camera;
+  context.rectified_from_left = rectified_from_left;
+  WriteFile(path, {&map}, context, map.id());
 }
 
 SavedMap LoadMap(const std::filesystem::path& path) {
-  constexpr std::uint64_t kLargestMap = std::uint64_t{1} << 36;
-  const std::string file = ReadInputFile(path, kLargestMap);
-  const std::string source = path.string();
-  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(file.data()),
-                                            file.size());
-  if (!std::string_view(file).starts_with(kMagic)) {
-    throw InputError(source + ": expected a Plumbline map, found another file");
-  }
-  ByteReader header(bytes.subspan(kMagic.size()), source);
-  std::uint32_t version = 0;
-  std::uint32_t crc = 0;
-  std::uint64_t size = 0;
-  header(version);
-  if (version != kVersion) {
-    throw InputError(fmt::format(
-        "{}: expected a map of version {}, found version {}", source, kVersion, version));
-  }
-  Format::TransferAll(header, crc, size);
-  const std::span<const std::uint8_t> body = bytes.subspan(kHeaderBytes);
-  if (body.size() != size) {
-    throw InputError(
-        fmt::format("{}: expected {} bytes after the header, found {}", source, size, body.size()));
-  }
-  if (Crc32(body) != crc) throw InputError(source + ": damaged (wrong checksum)");
-
-  StoredMap stored;
-  ByteReader reader(body, source);
-  Format::Transfer(reader, stored);
-  if (reader.remaining() != 0) throw InputError(source + ": expected the end, found more bytes");
-  Check(stored, source);
-  const RectifiedCamera camera = stored.camera;
-  const Eigen::Quaterniond rotation = stored.rectified_from_left;
-  return {camera, rotation, BuildMap(std::move(stored)), version};
+  SavedAtlas saved = LoadAtlas(path);
+  SavedMap loaded{
+      saved.context.camera, saved.context.rectified_from_left, Map(), saved.file_version};
+  if (!saved.atlas.empty()) loaded.map = std::move(saved.atlas.active());
+  return loaded;
 }
 
 }  // namespace plumbline

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/map/frame.h"
 
+#include <utility>
+
 namespace plumbline {
 
 std::shared_ptr<const IndexedFeatures> WithCorrection(
@@ -11,6 +13,24 @@ std::shared_ptr<const IndexedFeatures> WithCorrection(
   Correct(indexed->correction, correction, corrected->features);
   corrected->correction = correction;
   return corrected;
+}
+
+std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
+                                                     Features measured,
+                                                     const StereoCorrection& correction) {
+  std::vector<Eigen::Vector2d> positions;
+  positions.reserve(measured.points.size());
+  for (const PointFeature& point : measured.points) positions.push_back(point.px);
+  PointGrid grid(positions, camera.width, camera.height);
+  if (!(correction == StereoCorrection())) Correct({}, correction, measured);
+  return std::make_shared<const IndexedFeatures>(
+      IndexedFeatures{std::move(measured), std::move(grid), correction});
+}
+
+Features MeasuredFeatures(const IndexedFeatures& indexed) {
+  Features measured = indexed.features;
+  if (!(indexed.correction == StereoCorrection())) Correct(indexed.correction, {}, measured);
+  return measured;
 }
 
 }  // namespace plumbline

@@ -6,6 +6,7 @@
 #include "plumbline/features/grid.h"
 #include "plumbline/features/stereo_correction.h"
 #include "plumbline/features/types.h"
+#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 
 #include <cstdint>
@@ -25,6 +26,15 @@ struct IndexedFeatures {
 // The features with another correction; the same where it is the one they have.
 std::shared_ptr<const IndexedFeatures> WithCorrection(
     const std::shared_ptr<const IndexedFeatures>& indexed, const StereoCorrection& correction);
+
+// Measured features with their index, for images of this size, given a correction.
+std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
+                                                     Features measured,
+                                                     const StereoCorrection& correction = {});
+
+// The features as they were measured, without the correction. Exact for what IndexFeatures and
+// WithCorrection made of features in single precision (RoundToSinglePrecision).
+Features MeasuredFeatures(const IndexedFeatures& indexed);
 
 // A frame with a pose and its matches: for each feature the landmark it shows, invalid id for none.
 struct Frame {
@@ -48,6 +58,7 @@ struct KeyFrame {
   // product of the scales of all motions it took part in (edit::MoveKeyFrames).
   double unit = 1;
   std::int64_t number = 0;  // how many keyframes the map had taken in before; the map counts
+  SessionId session{0};     // that its frame is of
 };
 
 }  // namespace plumbline

@@ -54,7 +54,7 @@ KeyFrameId Map::ParentOf(KeyFrameId id) const {
 }
 
 Placement Map::PlaceOf(KeyFrameId id) const {
-  std::vector<const Removed*> chain;  // up to a keyframe that is in the map
+  std::vector<const RemovedKeyFrame*> chain;  // up to a keyframe that is in the map
   for (auto it = removed_keyframes_.find(id); it != removed_keyframes_.end();
        it = removed_keyframes_.find(id)) {
     chain.push_back(&it->second);
@@ -75,6 +75,19 @@ Placement Map::PlaceOf(KeyFrameId id) const {
 void Map::ReserveIds(PointId next_point, LineId next_line) {
   next_point_ = std::max(next_point_, next_point);
   next_line_ = std::max(next_line_, next_line);
+}
+
+MapRecord Map::Record() const {
+  return {id_,
+          version_,
+          keyframes_taken_in_,
+          next_keyframe_,
+          next_point_,
+          next_line_,
+          stereo_correction_,
+          removed_keyframes_,
+          merged_points_,
+          merged_lines_};
 }
 
 // Carries out single changes. Overloads of Do() are what std::visit dispatches to.

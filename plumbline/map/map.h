@@ -6,6 +6,7 @@
 #include "plumbline/map/frame.h"
 #include "plumbline/map/id_table.h"
 #include "plumbline/map/landmarks.h"
+#include "plumbline/map/map_record.h"
 #include "plumbline/map/placement.h"
 
 #include <cstdint>
@@ -58,6 +59,9 @@ class Map {
   // Of the disparities of all keyframes.
   const StereoCorrection& stereo_correction() const { return stereo_correction_; }
 
+  // What is to be written down beside keyframes and landmarks; a MapBuilder makes the map of it.
+  MapRecord Record() const;
+
   // Carries out the changes in order. Changes that name an object that an earlier change removed
   // are skipped.
   void Apply(const MapEdit& edit);
@@ -66,16 +70,9 @@ class Map {
   void CheckInvariants() const;
 
  private:
-  // A keyframe that left the map, beside its parent of then.
-  struct Removed {
-    KeyFrameId parent;
-    RelativePose from_parent;
-    double unit = 1;  // its own when it left
-    std::int64_t number = 0;
-  };
-
   // One overload for each kind of change; points and lines share the templates behind them.
   friend struct MapChanger;
+  friend class MapBuilder;
 
   MapId id_;
   std::int64_t version_ = 0;
@@ -87,7 +84,7 @@ class Map {
   IdTable<KeyFrameId, KeyFrame> keyframes_;
   IdTable<PointId, MapPoint> points_;
   IdTable<LineId, MapLine> lines_;
-  std::map<KeyFrameId, Removed> removed_keyframes_;
+  std::map<KeyFrameId, RemovedKeyFrame> removed_keyframes_;
   std::map<PointId, PointId> merged_points_;
   std::map<LineId, LineId> merged_lines_;
 };

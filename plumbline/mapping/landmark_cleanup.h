@@ -4,17 +4,10 @@
 
 #include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
+#include "plumbline/map/young_landmarks.h"
 #include "plumbline/mapping/options.h"
 
-#include <vector>
-
 namespace plumbline {
-
-// Landmarks too young to be trusted.
-struct YoungLandmarks {
-  std::vector<PointId> points;
-  std::vector<LineId> lines;
-};
 
 // Removes young landmarks that the tracker seldom finds where they should be, or that too few
 // keyframes show after their trial; those that passed the trial leave the list.

@@ -93,6 +93,16 @@ void LocalMapper::StartNewMap(Map& map) {
   map.Apply({edit::CorrectStereo{calibrator_.Estimate()}});
 }
 
+LocalMapper::State LocalMapper::state() const {
+  return {young_, calibrator_.evidence(), adjusted_lines_};
+}
+
+void LocalMapper::SetState(const State& state) {
+  young_ = state.young;
+  calibrator_.SetEvidence(state.stereo_evidence);
+  adjusted_lines_ = state.adjusted_lines;
+}
+
 std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFrameId newest) {
   std::vector<MappingStep> times;
   Timed("take_in", times, [&] {

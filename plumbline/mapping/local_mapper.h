@@ -58,6 +58,16 @@ class LocalMapper {
   // Of all maps so far.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
 
+  // What is remembered from keyframe to keyframe. A mapper of the same options that is given the
+  // state of another one, and its map, does what the other would do.
+  struct State {
+    YoungLandmarks young;  // of the map worked on
+    StereoEvidence stereo_evidence;
+    AdjustedLines adjusted_lines;
+  };
+  State state() const;
+  void SetState(const State& state);
+
  private:
   void TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
   void CreateLandmarks(Map& map, KeyFrameId id);

@@ -29,7 +29,7 @@ constexpr std::size_t kMinViews = 3;
 constexpr double kBiasPx = 0.04;
 
 // Normal equations of the coefficients and, last, the error of the scale around one keyframe.
-struct Evidence {
+struct KeyFrameEvidence {
   Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
   Eigen::Matrix<double, 7, 1> weighted = Eigen::Matrix<double, 7, 1>::Zero();
 
@@ -68,7 +68,7 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
   constexpr double kMinParallax = 0.002;
   const StereoCorrection current = Estimate();
   const Frame& frame = keyframe.frame;
-  Evidence evidence;
+  KeyFrameEvidence evidence;
   const Eigen::RowVector3d depth_row = frame.cam_from_world.rotation.toRotationMatrix().row(2);
   for (std::size_t i = 0; i < frame.points.size(); ++i) {
     const auto& disparity = frame.features().point_disparity[i];
@@ -93,18 +93,19 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
   if (evidence.information(6, 6) == 0) return;
   const Vector6d coupling = evidence.information.col(6).head<6>() / evidence.information(6, 6);
   const Matrix6d moments = evidence.information.topLeftCorner<6, 6>();
-  information_ += moments - coupling * evidence.information.row(6).head<6>();
-  weighted_ += evidence.weighted.head<6>() - coupling * evidence.weighted(6);
-  moments_ += moments;
+  evidence_.information += moments - coupling * evidence.information.row(6).head<6>();
+  evidence_.weighted += evidence.weighted.head<6>() - coupling * evidence.weighted(6);
+  evidence_.moments += moments;
 }
 
 StereoCorrection StereoCalibrator::Estimate() const {
-  if (moments_(0, 0) == 0) return {};
+  const auto& [information, weighted, moments] = evidence_;
+  if (moments(0, 0) == 0) return {};
   const double prior_sigma_px = kPriorSigma * camera_.width;
   const Matrix6d prior = Matrix6d::Identity() / (prior_sigma_px * prior_sigma_px);
-  Vector6d k = (information_ + prior).llt().solve(weighted_);
-  k(0) = -moments_.row(0).tail<5>().dot(k.tail<5>()) / moments_(0, 0);
-  const double square = k.dot(moments_ * k) / moments_(0, 0);
+  Vector6d k = (information + prior).llt().solve(weighted);
+  k(0) = -moments.row(0).tail<5>().dot(k.tail<5>()) / moments(0, 0);
+  const double square = k.dot(moments * k) / moments(0, 0);
   if (square <= kBiasPx * kBiasPx) return {};
   k *= 1 - kBiasPx * kBiasPx / square;
   return {camera_, k};

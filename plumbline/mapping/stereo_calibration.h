@@ -3,10 +3,9 @@
 #pragma once
 
 #include "plumbline/features/stereo_correction.h"
+#include "plumbline/features/stereo_evidence.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/map/map.h"
-
-#include <Eigen/Core>
 
 namespace plumbline {
 
@@ -35,11 +34,13 @@ class StereoCalibrator {
   // The correction that all evidence so far speaks for; none before there is any.
   StereoCorrection Estimate() const;
 
+  // All evidence so far; it can be put into the calibrator of a later run with the same camera.
+  const StereoEvidence& evidence() const { return evidence_; }
+  void SetEvidence(const StereoEvidence& evidence) { evidence_ = evidence; }
+
  private:
   RectifiedCamera camera_;
-  Matrix6d information_ = Matrix6d::Zero();
-  Vector6d weighted_ = Vector6d::Zero();
-  Matrix6d moments_ = Matrix6d::Zero();  // of the terms over all evidence, scales as they are
+  StereoEvidence evidence_;
 };
 
 }  // namespace plumbline

@@ -3,6 +3,8 @@
 #include "plumbline/map/frame.h"
 
 #include "tests/support/random_geometry.h"
+#include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +27,26 @@ TEST(WithCorrection, CorrectsACopyAndRemembersTheCorrection) {
 TEST(WithCorrection, SharesFeaturesThatHaveTheCorrection) {
   const auto raw = std::make_shared<const IndexedFeatures>();
   EXPECT_EQ(WithCorrection(raw, {}), raw);
+}
+
+TEST(IndexFeatures, CorrectsWhatWasMeasuredAndFindsItAgain) {
+  Features measured;
+  measured.points.resize(2);
+  measured.points[0].px = {300.25, 200.5};
+  measured.points[1].px = {700, 400};
+  measured.point_disparity = {Disparity{20.125, 1}, std::nullopt};
+  Vector6d k;
+  k << 0.1, -0.2, 0.3, -0.4, 0.5, -0.6;
+  const StereoCorrection correction(TestCamera(), k);
+  const auto indexed = IndexFeatures(TestCamera(), measured, correction);
+  EXPECT_EQ(indexed->correction, correction);
+  EXPECT_EQ(indexed->point_grid.InWindow({700, 400}, 1), std::vector<int>{1});
+  EXPECT_NE(indexed->features.point_disparity[0]->px, 20.125);
+  EXPECT_EQ(MeasuredFeatures(*indexed).point_disparity[0]->px, 20.125);
+  EXPECT_EQ(indexed->features.point_disparity[0]->px,
+            WithCorrection(IndexFeatures(TestCamera(), measured), correction)
+                ->features.point_disparity[0]
+                ->px);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/local_mapper.h"
 
+#include "plumbline/io/map_io.h"
+
+#include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +16,8 @@ namespace {
 // matches are those that the truth says the map holds.
 class MapperRun {
  public:
-  explicit MapperRun(const MappingOptions& options = {}) : mapper_(world_.Imaging(), {}, options) {}
+  explicit MapperRun(const MappingOptions& options = {})
+      : options_(options), mapper_(world_.Imaging(), {}, options) {}
 
   void Add(int path_frame, double pose_noise) {
     const KeyFrameId id = map_.NextKeyFrameId();
@@ -32,6 +36,25 @@ class MapperRun {
     Match(keyframe.frame, sensed);
     steps_ = mapper_.Add(map_, keyframe, {});
     map_.CheckInvariants();
+  }
+
+  void Save(const std::filesystem::path& file) const {
+    AtlasContext context;
+    context.camera = world_.camera;
+    const LocalMapper::State state = mapper_.state();
+    context.stereo_evidence = state.stereo_evidence;
+    context.maps[map_.id()].young = state.young;
+    Atlas atlas;
+    atlas.Adopt(map_);
+    SaveAtlas(file, atlas, context, map_.id());
+  }
+  // Goes on with what is in the file alone.
+  void GoOnFrom(const std::filesystem::path& file) {
+    const SavedAtlas saved = LoadAtlas(file);
+    map_ = saved.atlas.active();
+    mapper_ = LocalMapper(world_.Imaging(), {}, options_);
+    mapper_.SetState(
+        {saved.context.maps.at(map_.id()).young, saved.context.stereo_evidence, AdjustedLines()});
   }
 
   // The right images of keyframes to come are displaced.
@@ -112,6 +135,7 @@ class MapperRun {
   }
 
   SyntheticWorld world_ = MakeSyntheticWorld(400, 100);
+  MappingOptions options_;
   LocalMapper mapper_;
   Map map_;
   std::map<KeyFrameId, SyntheticFrame> sensed_;
@@ -143,6 +167,23 @@ TEST(LocalMapper, BeginsNewMapsWithWhatItLearnedOfTheRightImage) {
     const Eigen::Vector2d px(x, 0.5 * x);
     EXPECT_NEAR(begun.At(px), run.map().stereo_correction().At(px), kSmallestChangePx);
   }
+}
+
+TEST(LocalMapper, GoesOnFromAFileAsIfItHadNeverStopped) {
+  const ScratchFolder folder;
+  MapperRun whole, paused;
+  for (MapperRun* run : {&whole, &paused}) run->DisplaceRightImages();
+  for (int k = 0; k < 14; ++k) {
+    whole.Add(6 * k, 0.01);
+    paused.Add(6 * k, 0.01);
+    if (k % 3 != 2) continue;
+    paused.Save(folder / "paused.plb");
+    paused.GoOnFrom(folder / "paused.plb");
+  }
+  ASSERT_NE(whole.map().stereo_correction(), StereoCorrection());
+  whole.Save(folder / "whole.plb");
+  paused.Save(folder / "paused.plb");
+  EXPECT_EQ(Contents(folder / "whole.plb"), Contents(folder / "paused.plb"));
 }
 
 TEST(LocalMapper, ReportsItsStepsInOrder) {

@@ -85,15 +85,6 @@ struct SyntheticFrame {
   std::vector<std::size_t> line_truth;
 };
 
-inline std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
-                                                            Features features) {
-  std::vector<Eigen::Vector2d> positions;
-  for (const PointFeature& point : features.points) positions.push_back(point.px);
-  PointGrid grid(positions, camera.width, camera.height);
-  return std::make_shared<const IndexedFeatures>(
-      IndexedFeatures{std::move(features), std::move(grid)});
-}
-
 namespace synthetic_detail {
 
 inline Descriptor Flipped(Descriptor descriptor, int bits, Rng& rng) {

@@ -14,14 +14,17 @@
 
 namespace plumbline {
 
+template <class T>
+concept StreamedNumber = std::is_integral_v<T> || std::is_same_v<T, double>;
+
 // Numbers as bytes, little-endian whatever the machine. A writer and a reader are called alike, so
-// that one function template describes a format for both directions.
+// that one function template describes a format for both directions (byte_format.h).
 class ByteWriter {
  public:
   static constexpr bool kReading = false;
 
-  template <class T>
-  requires(std::is_integral_v<T> || std::is_same_v<T, double>) void operator()(const T& value) {
+  template <StreamedNumber T>
+  void operator()(const T& value) {
     std::uint64_t bits = 0;
     if constexpr (std::is_same_v<T, double>) {
       bits = std::bit_cast<std::uint64_t>(value);
@@ -30,6 +33,12 @@ class ByteWriter {
     }
     for (std::size_t i = 0; i < sizeof(T); ++i)
       bytes_ += static_cast<char>((bits >> (8 * i)) & 255U);
+  }
+
+  // `count` bytes to be filled in by the caller, valid until the next call.
+  std::span<char> Append(std::size_t count) {
+    bytes_.resize(bytes_.size() + count);
+    return {bytes_.data() + bytes_.size() - count, count};
   }
 
   const std::string& bytes() const { return bytes_; }
@@ -47,17 +56,23 @@ class ByteReader {
   ByteReader(std::span<const std::uint8_t> bytes, std::string source)
       : bytes_(bytes), source_(std::move(source)) {}
 
-  template <class T>
-  requires(std::is_integral_v<T> || std::is_same_v<T, double>) void operator()(T& value) {
-    if (remaining() < sizeof(T)) throw InputError(source_ + ": ends early");
+  template <StreamedNumber T>
+  void operator()(T& value) {
+    const std::span<const std::uint8_t> from = Take(sizeof(T));
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) bits |= std::uint64_t{bytes_[at_ + i]} << (8 * i);
-    at_ += sizeof(T);
+    for (std::size_t i = 0; i < sizeof(T); ++i) bits |= std::uint64_t{from[i]} << (8 * i);
     if constexpr (std::is_same_v<T, double>) {
       value = std::bit_cast<double>(bits);
     } else {
       value = static_cast<T>(bits);
     }
+  }
+
+  // The next `count` bytes.
+  std::span<const std::uint8_t> Take(std::size_t count) {
+    if (remaining() < count) throw InputError(source_ + ": ends early");
+    at_ += count;
+    return bytes_.subspan(at_ - count, count);
   }
 
   std::size_t remaining() const { return bytes_.size() - at_; }

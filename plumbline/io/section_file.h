@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/io/atomic_file.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace plumbline {
+
+// A binary file of sections, each compressed by itself (zstd, where that makes it smaller) and with
+// checksums of its own, so that files of any size are written and read with the memory of one
+// section. After a preamble of bytes of the caller, for each section, little-endian:
+//
+//   bytes  what
+//   4      kind, of the caller
+//   4      0: as it is, 1: zstd
+//   8      size as stored
+//   8      size of the contents
+//   4      CRC-32 of the bytes as stored
+//   4      CRC-32 of these 28 bytes
+//   rest   the contents
+
+class SectionWriter {
+ public:
+  // Throws InputError "cannot write <path>: <reason>", as all functions here.
+  SectionWriter(const std::filesystem::path& path, std::string_view preamble);
+
+  void Write(std::uint32_t kind, std::string_view contents);
+
+  // Gives the file its name, once all of it is on the disk. Without this nothing is left.
+  void Commit();
+
+ private:
+  AtomicFileWriter file_;
+};
+
+class SectionReader {
+ public:
+  // Opens a file and reads as many bytes as a preamble has, or all where there are fewer. Throws
+  // InputError when there is no such file.
+  SectionReader(const std::filesystem::path& path, std::size_t preamble_bytes);
+
+  const std::string& preamble() const { return preamble_; }
+  // Of what comes after the sections read so far.
+  std::uint64_t remaining() const { return remaining_; }
+  const std::string& source() const { return source_; }
+
+  struct Section {
+    std::uint32_t kind = 0;
+    std::string contents;
+  };
+  // Throws InputError naming the file when it ends early or a checksum is wrong. Takes at most some
+  // hundred times as much memory as the section takes in the file.
+  Section Next();
+
+ private:
+  std::string ReadBytes(std::uint64_t count);
+
+  std::string source_;
+  std::ifstream file_;
+  std::uint64_t remaining_ = 0;
+  std::string preamble_;
+};
+
+}  // namespace plumbline

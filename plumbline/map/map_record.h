@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/ids.h"
+#include "plumbline/features/stereo_correction.h"
+#include "plumbline/map/placement.h"
+
+#include <cstdint>
+#include <map>
+
+namespace plumbline {
+
+// A keyframe that left the map, beside its parent of then.
+struct RemovedKeyFrame {
+  KeyFrameId parent;
+  RelativePose from_parent;
+  double unit = 1;  // its own when it left
+  std::int64_t number = 0;
+};
+
+// All of a map but its keyframes and landmarks: with these it is the whole map (MapBuilder).
+struct MapRecord {
+  MapId id{0};
+  std::int64_t version = 0;
+  std::int64_t keyframes_taken_in = 0;
+  KeyFrameId next_keyframe{0};
+  PointId next_point{0};
+  LineId next_line{0};
+  StereoCorrection stereo_correction;
+  std::map<KeyFrameId, RemovedKeyFrame> removed_keyframes;
+  std::map<PointId, PointId> merged_points;  // what is gone, and what it became
+  std::map<LineId, LineId> merged_lines;
+};
+
+}  // namespace plumbline

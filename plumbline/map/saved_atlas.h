@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/features/front_end_fingerprint.h"
+#include "plumbline/features/stereo_evidence.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/map/atlas.h"
+#include "plumbline/map/session.h"
+#include "plumbline/map/young_landmarks.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// What belongs to a map of an atlas without being the map itself.
+struct MapContext {
+  Uuid uuid;
+  YoungLandmarks young;
+};
+
+// What the maps of an atlas were made with, and what a run that goes on with them needs beside
+// them.
+struct AtlasContext {
+  RectifiedCamera camera;  // that all features were measured with
+  Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
+  double octave_scale = 1.2;  // of the image pyramid of points
+  // The rig that the evidence speaks of (FingerprintOf(Calibration)); 0: not known. With another
+  // calibration the evidence is worth nothing; the corrections that maps have stay right.
+  std::uint64_t calibration = 0;
+  StereoEvidence stereo_evidence;
+  FrontEndFingerprint front_end;
+  std::string options_yaml;       // that decided about the results
+  std::vector<Session> sessions;  // by KeyFrame::session
+  std::map<MapId, MapContext> maps;
+};
+
+struct SavedAtlas {
+  Atlas atlas;
+  AtlasContext context;
+  std::uint32_t file_version = 0;  // of the format of the file it was read from; 0: of no file
+};
+
+}  // namespace plumbline
