@@ -187,6 +187,7 @@ int RunCommand(std::span<const std::string> arguments) {
   const Dataset& dataset = *input.dataset;
   CheckApart(setup.folder, InputsOf(line, dataset));
   System system(dataset.calibration(), setup.options);
+  system.DescribeSession(PLUMBLINE_VERSION, dataset.info().name);
   RunFolder folder(setup.folder);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();

@@ -1,36 +1,78 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/byte_stream.h"
 #include "plumbline/base/error.h"
-#include "plumbline/io/byte_stream.h"
 #include "plumbline/io/crc32.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/section_file.h"
 
 #include "fuzz/input_folder.h"
+#include <algorithm>
 #include <string>
 
-// Map files. After a first 'B' the input is the body (docs/adr/0009-map-file-format.md) and gets a
-// header that fits, which no mutation would find; otherwise it is the whole file.
+namespace plumbline {
+namespace {
+
+std::string Preamble(std::uint32_t version) {
+  ByteWriter preamble;
+  for (const char c : std::string_view("PLBMAP\r\n")) preamble(static_cast<std::uint8_t>(c));
+  preamble(version);
+  return preamble.Take();
+}
+
+// A file of version 1 with this body.
+std::string WithHeader(std::span<const std::uint8_t> body) {
+  ByteWriter header;
+  header(Crc32(body));
+  header(static_cast<std::uint64_t>(body.size()));
+  return Preamble(1) + header.Take() + std::string(AsText(body.data(), body.size()));
+}
+
+// A file of version 2 with these sections: for each its kind (a byte), the size of its contents
+// (two bytes, less where the input ends), the contents.
+void WriteSections(const std::filesystem::path& path, std::string_view sections) {
+  SectionWriter file(path, Preamble(2));
+  while (sections.size() >= 3) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(sections[i]); };
+    const std::uint32_t kind = byte(0);
+    const std::size_t size = byte(1) + 256U * byte(2);
+    sections.remove_prefix(3);
+    file.Write(kind, sections.substr(0, size));
+    sections.remove_prefix(std::min(size, sections.size()));
+  }
+  file.Commit();
+}
+
+}  // namespace
+}  // namespace plumbline
+
+// Map files. After a first 'B' the input is the body of a file of version 1, after an 'S' the
+// sections of one of version 2 (docs/adr/0009-map-file-format.md), which get the checksums that fit
+// and that no mutation would find; otherwise it is the whole file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plumbline;
   static const InputFolder folder;
-  std::string file(AsText(data, size));
-  if (size > 0 && data[0] == 'B') {
-    const std::span<const std::uint8_t> body(data + 1, size - 1);
-    ByteWriter header;
-    for (const char c : std::string_view("PLBMAP\r\n")) header(static_cast<std::uint8_t>(c));
-    header(std::uint32_t{1});
-    header(Crc32(body));
-    header(static_cast<std::uint64_t>(body.size()));
-    file = header.Take() + file.substr(1);
+  std::filesystem::path path = folder.path() / "map.plb";
+  const std::string_view text = AsText(data, size);
+  if (text.starts_with('S')) {
+    WriteSections(path, text.substr(1));
+  } else if (text.starts_with('B')) {
+    path = folder.Write("map.plb", WithHeader({data + 1, size - 1}));
+  } else {
+    path = folder.Write("map.plb", text);
   }
-  const std::filesystem::path path = folder.Write("map.plb", file);
+  const std::filesystem::path again = folder.path() / "again.plb";
   try {
-    const SavedMap saved = LoadMap(path);
-    saved.map.CheckInvariants();
-    SaveMap(folder.path() / "again.plb", saved.camera, saved.rectified_from_left, saved.map);
+    const SavedAtlas saved = LoadAtlas(path);
+    for (const auto& [id, map] : saved.atlas.maps()) {
+      map.CheckInvariants();
+      for (const auto& [keyframe, removed] : map.Record().removed_keyframes) map.PoseOf(keyframe);
+      for (const auto& [point, kept] : map.Record().merged_points) map.Current(point);
+    }
+    SaveAtlas(again, saved.atlas, saved.context);
   } catch (const InputError&) {
     return 0;
   }
-  (void)LoadMap(folder.path() / "again.plb");
+  (void)LoadAtlas(again);
   return 0;
 }

@@ -55,6 +55,7 @@ class Rectifier {
 
   // The ideal camera; its baseline is the true one (stereo), the virtual one (RGB-D) or 0 (mono).
   const RectifiedCamera& camera() const { return camera_; }
+  const Calibration& calibration() const { return calibration_; }
   // Turns directions of the left camera as delivered into its rectified frame (same centre).
   const Eigen::Quaterniond& rectified_left_from_left() const { return rectified_left_from_left_; }
 

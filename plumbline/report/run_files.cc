@@ -10,6 +10,7 @@
 #include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/timing.h"
+#include "plumbline/slam/atlas_context.h"
 
 #include <cstddef>
 #include <functional>
@@ -133,10 +134,10 @@ std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t>
 
 RunFile MapFile(const System& system) {
   return {"map.plb", [&system](const std::filesystem::path& path) {
-            const auto main = system.MainMap();
-            const Map none;
-            const Map& map = main ? system.maps().at(*main) : none;
-            SaveMap(path, system.camera(), system.rectifier().rectified_left_from_left(), map);
+            SaveAtlas(path,
+                      system.atlas(),
+                      ContextOf(system),
+                      system.MainMap().value_or(system.atlas().active_id()));
           }};
 }
 

@@ -3,19 +3,9 @@
 #include "plumbline/slam/front_end.h"
 
 #include <utility>
-#include <vector>
 
 namespace plumbline {
 namespace {
-
-std::shared_ptr<const IndexedFeatures> Index(const RectifiedCamera& camera, Features features) {
-  std::vector<Eigen::Vector2d> positions;
-  positions.reserve(features.points.size());
-  for (const PointFeature& point : features.points) positions.push_back(point.px);
-  PointGrid grid(positions, camera.width, camera.height);
-  return std::make_shared<const IndexedFeatures>(
-      IndexedFeatures{std::move(features), std::move(grid)});
-}
 
 ValidRegion RegionOf(const GrayImage& mask) {
   return mask.empty() ? ValidRegion(0, 0) : ValidRegion(mask);
@@ -47,7 +37,8 @@ MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, Shed shed) 
   }
   if (measured.images.depth) input.depth = &*measured.images.depth;
   const RectifiedCamera& camera = rectifier_.camera();
-  measured.indexed = Index(camera, ExtractFeatures(camera, input, Lightened(options_, shed)));
+  measured.indexed =
+      IndexFeatures(camera, ExtractFeatures(camera, input, Lightened(options_, shed)));
   clock.Done("features");
   measured.clock = std::move(clock);
   return measured;

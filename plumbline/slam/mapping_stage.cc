@@ -207,6 +207,11 @@ const AdjustedLines& MappingStage::adjusted_lines() const {
   return mapper_.adjusted_lines();
 }
 
+LocalMapper::State MappingStage::mapper_state() const {
+  CheckComplete();
+  return mapper_.state();
+}
+
 std::vector<MappingStep> MappingStage::TakeTimes() {
   const std::lock_guard lock(mutex_);
   return std::exchange(times_, {});

@@ -128,6 +128,9 @@ class MappingStage {
   // Like atlas().
   const AdjustedLines& adjusted_lines() const;
 
+  // What mapping remembers, like atlas().
+  LocalMapper::State mapper_state() const;
+
   // Time of the mapping steps done since the last call.
   std::vector<MappingStep> TakeTimes();
 

@@ -3,6 +3,7 @@
 #include "plumbline/slam/system.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/slam/atlas_context.h"
 
 #include <map>
 #include <string>
@@ -75,6 +76,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
     throw InputError("expected a frame after " + std::to_string(frames_.back().stamp_ns) +
                      " ns, found one of " + std::to_string(measured.stamp_ns) + " ns");
   }
+  if (session_.uuid == Uuid()) session_.uuid = SessionUuid(*this, measured);
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
   record.stamp_ns = measured.stamp_ns;
@@ -315,6 +317,20 @@ Trajectory System::CausalTrajectory(MapId map) const {
     }
   }
   return trajectory;
+}
+
+Session System::session() const {
+  Session session = session_;
+  if (!frames_.empty()) {
+    session.first_stamp_ns = frames_.front().stamp_ns;
+    session.last_stamp_ns = frames_.back().stamp_ns;
+  }
+  return session;
+}
+
+void System::DescribeSession(const std::string& program, const std::string& data) {
+  session_.program = program;
+  session_.data = data;
 }
 
 std::optional<MapId> System::MainMap() const {

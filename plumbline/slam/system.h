@@ -7,6 +7,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/map/map.h"
+#include "plumbline/map/session.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/front_end.h"
@@ -115,6 +116,13 @@ class System {
   const Atlas& atlas() const { return mapping_.atlas(); }
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
   const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
+  // What mapping remembers; like atlas().
+  LocalMapper::State mapper_state() const { return mapping_.mapper_state(); }
+  // This run of the camera so far. Its id is made of the first frame's features and stamp, the rig
+  // and the options: the same input, wherever it lies, is the same session.
+  Session session() const;
+  // What map files say of the session: version of the program, name of the data.
+  void DescribeSession(const std::string& program, const std::string& data);
   const SlamOptions& options() const { return options_; }
   const Execution& execution() const { return execution_; }
   const RectifiedCamera& camera() const { return rectifier().camera(); }
@@ -159,6 +167,7 @@ class System {
   int attempts_ = 0;              // of this loss
   std::vector<FrameRecord> frames_;
   FrameView view_;
+  Session session_;                                             // without the stamps
   mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // made so far
 };
 

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/atlas_context.h"
+
+#include "plumbline/slam/system.h"
+
+#include "tests/support/moving_poster.h"
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+std::unique_ptr<System> RunPoster(int from, int to, const SlamOptions& options = {}) {
+  auto system = std::make_unique<System>(MovingPoster::MakeCalibration(), options);
+  const MovingPoster poster;
+  for (int i = from; i < to; ++i) system->Process(poster.Frame(i));
+  system->Finish();
+  return system;
+}
+
+TEST(ContextOf, SaysWhatTheMapsWereMadeWith) {
+  SlamOptions options;
+  options.slam.seed = 5;
+  options.features.orb.scale_factor = 1.25;
+  auto system = RunPoster(0, 4, options);
+  system->DescribeSession("0.1", "poster");
+  const AtlasContext context = ContextOf(*system);
+  EXPECT_EQ(context.camera.fx, system->camera().fx);
+  EXPECT_EQ(context.octave_scale, 1.25);
+  EXPECT_NE(context.calibration, 0U);
+  EXPECT_THAT(context.options_yaml, HasSubstr("seed: 5"));
+  EXPECT_EQ(context.front_end, FingerprintOf(options.features));
+  ASSERT_EQ(context.sessions.size(), 1U);
+  EXPECT_EQ(context.sessions[0].program, "0.1");
+  EXPECT_EQ(context.sessions[0].data, "poster");
+  EXPECT_EQ(context.sessions[0].first_stamp_ns, MovingPoster::StampNs(0));
+  EXPECT_EQ(context.sessions[0].last_stamp_ns, MovingPoster::StampNs(3));
+  ASSERT_EQ(context.maps.size(), 1U);
+  EXPECT_NE(context.maps.at(MapId{0}).uuid, Uuid());
+  EXPECT_FALSE(context.maps.at(MapId{0}).young.points.empty());
+}
+
+TEST(ContextOf, NamesASessionByItsInput) {
+  const auto uuid = [](int from, const SlamOptions& options = {}) {
+    return RunPoster(from, from + 3, options)->session().uuid;
+  };
+  const Uuid first = uuid(0);
+  EXPECT_EQ(uuid(0), first);
+  EXPECT_NE(uuid(1), first);
+  SlamOptions options;
+  options.slam.mode = RunMode::kInline;
+  options.features.parallel = false;
+  EXPECT_EQ(uuid(0, options), first);
+  options.slam.seed = 1;
+  EXPECT_NE(uuid(0, options), first);
+}
+
+TEST(ContextOf, IsThereWithoutAnyMap) {
+  const System system(MovingPoster::MakeCalibration(), {});
+  EXPECT_TRUE(ContextOf(system).maps.empty());
+}
+
+}  // namespace
+}  // namespace plumbline
