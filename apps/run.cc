@@ -5,6 +5,7 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/map_io.h"
 #include "plumbline/io/reversed_dataset.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/system.h"
@@ -37,7 +38,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kWidestBlur = 1001;  // pixels; nothing is left to see by then
+constexpr int kLongestPause = 1'000'000;  // seconds
+constexpr int kWidestBlur = 1001;         // pixels; nothing is left to see by then
 
 CommandSyntax Syntax() {
   return {"run",
@@ -55,6 +57,9 @@ CommandSyntax Syntax() {
            {"--blur", "N", "N x N box filter on every input image"},
            {"--mode", "inline|lockstep|live", "how the stages run; same as --set slam.mode"},
            {"--seed", "N", "of everything random; same as --set slam.seed"},
+           {"--map", "FILE", "go on in the map of an earlier run (its map.plb)"},
+           {"--localize", "", "only find the camera in --map, and change nothing of it"},
+           {"--save-every", "SECONDS", "save the map so often while running"},
            {"--out", "DIR", "folder for the results (default: plumbline_run)"},
            {"--quiet", "", "print nothing but errors"}}};
 }
@@ -80,6 +85,9 @@ struct RunSetup {
   std::filesystem::path folder;
   int blur = 0;
   bool quiet = false;
+  std::optional<std::filesystem::path> map;  // to go on in
+  bool localize = false;
+  int save_every_s = 0;  // 0: at the end only
 };
 
 RunSetup ReadSetup(const CommandLine& line) {
@@ -94,6 +102,13 @@ RunSetup ReadSetup(const CommandLine& line) {
   setup.folder = line.Value("--out").value_or("plumbline_run");
   setup.blur = line.Count("--blur", 0, {1, kWidestBlur});
   setup.quiet = line.Has("--quiet");
+  if (const auto map = line.Value("--map")) setup.map = *map;
+  setup.localize = line.Has("--localize");
+  if (setup.localize && !setup.map) throw InputError("--localize: expected --map FILE as well");
+  setup.save_every_s = line.Count("--save-every", 0, {1, kLongestPause});
+  if (setup.localize && setup.save_every_s > 0) {
+    throw InputError("--save-every: expected a map that changes, found --localize");
+  }
   return setup;
 }
 
@@ -111,6 +126,7 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
 RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   RunFrames input;
   input.blur = setup.blur;
+  input.save_every_s = setup.save_every_s;
   auto dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
   input.frames = ChooseFrames(line, *dataset);
   if (line.Has("--reverse")) {
@@ -130,9 +146,21 @@ std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) 
     if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
   };
   if (const auto camera = line.Value("--camera")) add(*camera);
+  if (const auto map = line.Value("--map")) inputs.push_back({*map, true});
   for (const std::string& config : line.Values("--config")) add(config);
   if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
   return inputs;
+}
+
+// Reads the map that is to be gone on in, whole, before anything is written.
+std::vector<std::string> LoadMapInto(System& system, const RunSetup& setup) {
+  if (!setup.map) return {};
+  SavedAtlas saved = LoadAtlas(*setup.map);
+  try {
+    return system.Continue(std::move(saved), setup.localize);
+  } catch (const InputError& error) {
+    throw InputError(setup.map->string() + ": " + error.what());
+  }
 }
 
 // The options first: where they cannot be written, nothing can.
@@ -143,11 +171,15 @@ void WriteOptions(const RunSetup& setup, RunFolder& folder) {
   if (const auto failure = folder.Failures()) throw InputError(*failure);
 }
 
-void SayBefore(const Dataset& dataset, const RunFolder& folder, bool quiet) {
+void SayBefore(const Dataset& dataset,
+               const RunFolder& folder,
+               const std::vector<std::string>& map_notes,
+               bool quiet) {
   const auto say = [](const std::string& note) {
     std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
   };
   for (const std::string& note : folder.notes()) say(note);
+  for (const std::string& note : map_notes) say(note);
   if (quiet) return;
   for (const std::string& note : dataset.info().notes) say(note);
 }
@@ -188,10 +220,11 @@ int RunCommand(std::span<const std::string> arguments) {
   CheckApart(setup.folder, InputsOf(line, dataset));
   System system(dataset.calibration(), setup.options);
   system.DescribeSession(PLUMBLINE_VERSION, dataset.info().name);
+  const std::vector<std::string> map_notes = LoadMapInto(system, setup);
   RunFolder folder(setup.folder);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();
-  SayBefore(dataset, folder, setup.quiet);
+  SayBefore(dataset, folder, map_notes, setup.quiet);
   CatchStopSignals();
   KeptViews views(input.frames);
   const Processed processed = ProcessFrames(input, setup.quiet, system, folder, views);

@@ -8,6 +8,7 @@
 #include "plumbline/slam/pipeline.h"
 
 #include "apps/frame_reader.h"
+#include "apps/map_saver.h"
 #include "apps/progress.h"
 #include "apps/shortage.h"
 #include "apps/stop_signal.h"
@@ -15,7 +16,9 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -69,6 +72,8 @@ class FrameFeed {
         views_(views),
         progress_(input.frames.size(), quiet),
         journal_(input.dataset->info().time_mirror_ns),
+        saver_(input.save_every_s > 0 ? std::make_shared<MapSaver>(folder.part() / "map.plb")
+                                      : nullptr),
         reader_(input.dataset),
         pipeline_(system, [this](const FrameRecord& record, const FrameView& view) {
           Observe(record, view);
@@ -99,8 +104,19 @@ class FrameFeed {
       result_.first_pose_seconds = SecondsSinceProcessStart();
     }
     journal_.Add(record);
+    SaveMapIfDue();
     views_.Offer(position, view);
     progress_.Show(record);
+  }
+
+  // In the thread that tracks, which only asks for a copy of the maps.
+  void SaveMapIfDue() {
+    if (!saver_) return;
+    const auto now = Clock::now();
+    if (now - saved_ < std::chrono::seconds(input_.save_every_s)) return;
+    saved_ = now;
+    system_.CopyMaps([saver = saver_](SavedAtlas copy) { saver->Take(std::move(copy)); });
+    Report(saver_->TakeFailure());
   }
 
   void Report(const std::optional<std::string>& failure) const {
@@ -172,6 +188,8 @@ class FrameFeed {
   MemoryReserve reserve_;
   Progress progress_;
   RunJournal journal_;
+  std::shared_ptr<MapSaver> saver_;  // null where nothing is to be saved before the end
+  Clock::time_point saved_ = Clock::now();
   FrameReader reader_;
   Pipeline pipeline_;  // last: its thread calls Observe
 };

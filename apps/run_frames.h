@@ -23,6 +23,7 @@ struct RunFrames {
   std::shared_ptr<const Dataset> dataset;
   std::vector<std::size_t> frames;  // by index in the data set
   int blur = 0;                     // box filter on every image; 0: none
+  int save_every_s = 0;             // map.plb into the part of the folder; 0: never
 };
 
 // Frames that are shown with their features, kept until there is time to draw them.

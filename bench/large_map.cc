@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // CPU time of what grows with the map, on generated drives: large_map straight|chain|hub|rounds
-// KEYFRAMES... For each the steps of mapping a keyframe at the end of the drive and a snapshot, which
-// are not to grow; the common directions of lines, the search for well seen lines, and the
+// KEYFRAMES... For each the steps of mapping a keyframe at the end of the drive and a snapshot,
+// which are not to grow; the common directions of lines, the search for well seen lines, and the
 // adjustment that ends a run (--steps: not these), which may; the largest memory so far.
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/line_map.h"
@@ -13,8 +13,8 @@
 #include "long_drive.h"
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <cstddef>
+#include <cstdlib>
 #include <ctime>
 #include <optional>
 #include <string_view>

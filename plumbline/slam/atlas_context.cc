@@ -24,23 +24,37 @@ Uuid SessionUuid(const System& system, const MeasuredFrame& first) {
   return UuidOf(contents.bytes());
 }
 
-AtlasContext ContextOf(const System& system) {
+AtlasContext ContextWithoutMaps(const System& system) {
   const SlamOptions& options = system.options();
-  const LocalMapper::State mapper = system.mapper_state();
   AtlasContext context;
+  if (const AtlasContext* loaded = system.loaded()) {
+    context.sessions = loaded->sessions;
+    context.maps = loaded->maps;
+  }
   context.camera = system.camera();
   context.rectified_from_left = system.rectifier().rectified_left_from_left();
   context.octave_scale = options.features.orb.scale_factor;
   context.calibration = FingerprintOf(system.rectifier().calibration(), system.camera());
-  context.stereo_evidence = mapper.stereo_evidence;
   context.front_end = FingerprintOf(options.features);
   context.options_yaml = ResultOptionsYaml(options);
-  context.sessions = {system.session()};
-  for (const auto& [id, map] : system.maps()) {
-    context.maps[id].uuid =
-        UuidOf(ToString(context.sessions[0].uuid) + " map " + std::to_string(id.value));
+  context.sessions.push_back(system.session());
+  return context;
+}
+
+void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context) {
+  context.stereo_evidence = mapper.stereo_evidence;
+  const std::string session = ToString(context.sessions.back().uuid);
+  for (const auto& [id, map] : atlas.maps()) {
+    Uuid& uuid = context.maps[id].uuid;
+    if (uuid == Uuid()) uuid = UuidOf(session + " map " + std::to_string(id.value));
   }
-  if (!system.maps().empty()) context.maps[system.atlas().active_id()].young = mapper.young;
+  if (!atlas.empty()) context.maps[atlas.active_id()].young = mapper.young;
+}
+
+AtlasContext ContextOf(const System& system) {
+  if (system.loaded() != nullptr && system.read_only()) return *system.loaded();
+  AtlasContext context = ContextWithoutMaps(system);
+  AddMaps(system.atlas(), system.mapper_state(), context);
   return context;
 }
 

@@ -22,4 +22,9 @@ Uuid SessionUuid(const System& system, const MeasuredFrame& first);
 // What the system's maps were made with, for SaveAtlas. After System::Finish, or inline.
 AtlasContext ContextOf(const System& system);
 
+// The same in two steps, for a copy of the maps in the middle of a run: what the thread that tracks
+// knows at any time, and what belongs to the maps.
+AtlasContext ContextWithoutMaps(const System& system);
+void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context);
+
 }  // namespace plumbline

@@ -48,11 +48,16 @@ void MappingStage::Submit(std::int64_t frame, Sighting sighting) {
   Submit(frame, Work(std::move(sighting)), false);
 }
 
-void MappingStage::Continue(Atlas atlas) {
+void MappingStage::Submit(std::int64_t frame, Visit visit) {
+  Submit(frame, Work(std::move(visit)), false);
+}
+
+void MappingStage::Continue(Atlas atlas, const LocalMapper::State& mapper) {
   const std::lock_guard lock(mutex_);
   PLUMBLINE_CHECK(submitted_ == 0 && atlas_.empty(), "maps are loaded before the first keyframe");
   atlas_ = std::move(atlas);
   atlas_.Activate(atlas_.active_id());
+  mapper_.SetState(mapper);
 }
 
 std::optional<RelocalizationOutcome> MappingStage::TakeRelocalization() {
@@ -311,6 +316,11 @@ MappingStage::Done MappingStage::Do(const Sighting& sighting) {
   Done done;
   if (!ranking.empty()) done.snapshot = TakeSnapshotAround(map, ranking.front().id);
   return done;
+}
+
+MappingStage::Done MappingStage::Do(const Visit& visit) {
+  visit.look(atlas_, mapper_.state());
+  return {};
 }
 
 // Also of the places of the snapshots before: the tracker's last pose may hang on one of them.

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <deque>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -53,6 +54,11 @@ struct Sighting {
   std::vector<LineId> lines;
 };
 
+// Somebody who wants to see the maps as they are between two keyframes, in the thread that maps.
+struct Visit {
+  std::function<void(const Atlas&, const LocalMapper::State&)> look;
+};
+
 // The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
 //
 // When a keyframe takes effect is part of the algorithm, not of the machine's speed: one made at
@@ -87,9 +93,11 @@ class MappingStage {
   void Submit(std::int64_t frame, RelocalizationRequest request);
   // The snapshot is then that around the keyframe that shows most of what is seen.
   void Submit(std::int64_t frame, Sighting sighting);
+  void Submit(std::int64_t frame, Visit visit);
 
-  // Begins with maps that there are already, one of them active, before anything is submitted.
-  void Continue(Atlas atlas);
+  // Begins with maps that there are already, one of them active, and what mapping remembered of it,
+  // before anything is submitted.
+  void Continue(Atlas atlas, const LocalMapper::State& mapper);
 
   // The outcome of a relocalization that the frame of the last SnapshotFor() may know, once.
   std::optional<RelocalizationOutcome> TakeRelocalization();
@@ -136,7 +144,7 @@ class MappingStage {
 
  private:
   using Work = std::
-      variant<std::shared_ptr<const NewKeyFrame>, MapStart, RelocalizationRequest, Sighting>;
+      variant<std::shared_ptr<const NewKeyFrame>, MapStart, RelocalizationRequest, Sighting, Visit>;
   // Something to be taken in. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
@@ -174,6 +182,7 @@ class MappingStage {
   Done Do(const MapStart& start);
   Done Do(const RelocalizationRequest& request);
   Done Do(const Sighting& sighting);
+  Done Do(const Visit& visit);
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
   std::int64_t LastDone() const { return versions_.empty() ? 0 : versions_.back().task; }
 
@@ -195,7 +204,7 @@ class MappingStage {
   LocalMapper mapper_;
   Relocalizer relocalizer_;
   Atlas atlas_;
-  std::set<MapId> changed_;  // since the maps were loaded or last adjusted as a whole
+  std::set<MapId> changed_;         // since the maps were loaded or last adjusted as a whole
   std::deque<KeyFrameId> centres_;  // of the last snapshots of the active map
   // Between the two, guarded by mutex_.
   mutable std::mutex mutex_;

@@ -3,11 +3,17 @@
 #include "plumbline/slam/system.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/features/front_end_fingerprint.h"
+#include "plumbline/geometry/calibration_fingerprint.h"
+#include "plumbline/geometry/camera_difference.h"
 #include "plumbline/slam/atlas_context.h"
 
 #include <map>
 #include <string>
 #include <utility>
+#include <variant>
+
+#include <fmt/format.h>
 
 namespace plumbline {
 namespace {
@@ -108,6 +114,7 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
                                          snapshot.get(),
                                          {earlier.get(), FeatureShare(measured.shed)});
   if (result.keyframe) {
+    result.keyframe->keyframe.session = session_id();
     const auto gone =
         mapping_.Submit(record.id.value, std::move(*result.keyframe), result.starts_map);
     if (gone) Demote(*gone);
@@ -149,15 +156,42 @@ void System::Relocalize(const TrackingResult& result) {
   relocalizing_ = true;
 }
 
-void System::Continue(Atlas atlas, bool read_only) {
+std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
   if (!options_.relocalization.enabled) {
     throw InputError("relocalization.enabled: expected true to go on in a map, found false");
   }
-  map_ = atlas.active_id();
-  next_map_ = atlas.maps().rbegin()->first.value + 1;
-  first_keyframe_ = atlas.NextKeyFrameId();
+  if (saved.atlas.empty()) throw InputError("expected a map to go on in, found none");
+  const AtlasContext& context = saved.context;
+  if (const auto difference = CameraDifference({context.camera}, {camera()})) {
+    throw InputError("expected a map of the same rectified camera, found " + *difference);
+  }
+  const double scale = options_.features.orb.scale_factor;
+  if (context.octave_scale != scale) {
+    throw InputError(fmt::format("features.orb.scale_factor: expected {} as in the map, found {}",
+                                 context.octave_scale,
+                                 scale));
+  }
+  map_ = saved.atlas.active_id();
+  next_map_ = saved.atlas.maps().rbegin()->first.value + 1;
+  first_keyframe_ = saved.atlas.NextKeyFrameId();
+  read_only_ = read_only;
+  loaded_ = std::move(saved.context);
   tracker_.BeginLost({first_keyframe_, read_only, options_.relocalization.patience});
-  mapping_.Continue(std::move(atlas));
+  LocalMapper::State mapper;
+  const auto active = loaded_->maps.find(map_);
+  if (active != loaded_->maps.end()) mapper.young = active->second.young;
+  if (loaded_->calibration == FingerprintOf(rectifier().calibration(), camera())) {
+    mapper.stereo_evidence = loaded_->stereo_evidence;
+  }
+  mapping_.Continue(std::move(saved.atlas), mapper);
+  std::vector<std::string> notes =
+      Differences(loaded_->front_end, FingerprintOf(options_.features));
+  for (std::string& note : notes) note = "the map was made with another front end: " + note;
+  return notes;
+}
+
+SessionId System::session_id() const {
+  return SessionId{loaded_ ? static_cast<std::int64_t>(loaded_->sessions.size()) : 0};
 }
 
 // A frame of a single camera that has no map.
@@ -178,8 +212,12 @@ TrackingResult System::StartMap(const MeasuredFrame& measured, FrameRecord& reco
 
 // The newest view is the frame of today; the others are frames that got their pose later.
 TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record) {
-  const MapStart start =
+  MapStart start =
       MakeMapStart(initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
+  for (MapChange& change : start.edit) {
+    if (auto* added = std::get_if<edit::AddKeyFrame>(&change))
+      added->keyframe.session = session_id();
+  }
   mapping_.Submit(record.id.value, start);
   map_ = MapId{next_map_++};
   monocular_start_->MapStarted(map_, start);
@@ -248,6 +286,16 @@ void System::LoseFramesNotMapped() {
     record.status = FrameStatus::kLost;
     record.reason = kNotMapped;
   }
+}
+
+void System::CopyMaps(std::function<void(SavedAtlas)> take) {
+  mapping_.Submit(frames_.back().id.value,
+                  Visit{[context = ContextWithoutMaps(*this), take = std::move(take)](
+                            const Atlas& atlas, const LocalMapper::State& mapper) {
+                    SavedAtlas copy{atlas, context};
+                    AddMaps(atlas, mapper, copy.context);
+                    take(std::move(copy));
+                  }});
 }
 
 void System::Finish(const StopCheck& stop) {

@@ -7,6 +7,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/map/map.h"
+#include "plumbline/map/saved_atlas.h"
 #include "plumbline/map/session.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/execution.h"
@@ -19,6 +20,7 @@
 #include "plumbline/tracking/tracker.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -76,12 +78,20 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  // Goes on in the active map of an atlas that was saved, before the first frame. The camera's place
-  // in it is unknown and is looked for by appearance: frames are lost until it is found, and a new
-  // map starts after relocalization.patience of them. Trajectories are those of this system's own
+  // Goes on in the active map of a saved atlas, before the first frame. The camera's place in it is
+  // unknown and is looked for by appearance: frames are lost until it is found, and a new map
+  // starts after relocalization.patience of them. Trajectories are those of this system's own
   // frames, in the world of the map. read_only: the map is tracked against and nothing of it
-  // changes; no other map starts. Throws InputError where relocalization is switched off.
-  void Continue(Atlas atlas, bool read_only);
+  // changes; no other map starts.
+  //
+  // Returns what makes the map harder to use, a sentence each: it was made with another front end.
+  // Throws InputError where the map is of another rectified camera (one that is only turned against
+  // the left camera in another way is fine) or another image pyramid, or there is no map, or
+  // relocalization is switched off.
+  std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
+  // What was loaded beside the maps; null where nothing was.
+  const AtlasContext* loaded() const { return loaded_ ? &*loaded_ : nullptr; }
+  bool read_only() const { return read_only_; }
 
   // Measure and Track. Throws InputError when an image has another size than the calibration says,
   // or the frame is no later than the one before.
@@ -101,6 +111,10 @@ class System {
   std::size_t KeyFramesWaiting() const { return mapping_.Waiting(); }
   // Maps the next keyframe; false when none waits. For live runs without threads (Execution).
   bool MapOnce() { return mapping_.WorkOnce(); }
+  // Hands over a copy of the maps as they are when mapping has done what was submitted so far, with
+  // what SaveAtlas needs beside them, in the thread that maps. Changes no result. To be called in
+  // the thread that tracks, after the first frame.
+  void CopyMaps(std::function<void(SavedAtlas)> take);
   // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
   // it was young, are located in the finished map (see MonocularStart): those before it get a pose,
   // but no causal one; of the others only the causal one stays. `stop` cuts short the adjustment of
@@ -144,6 +158,8 @@ class System {
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
   std::shared_ptr<const MapSnapshot> TakeRelocalized();
   void Relocalize(const TrackingResult& result);
+  // The number of this run of the camera among those that made the maps.
+  SessionId session_id() const;
   TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
   // Of the steps of mapping that ended since the last call.
   std::vector<StageTime> TakeMappingTimes();
@@ -160,11 +176,13 @@ class System {
   MappingStage mapping_;
   Tracker tracker_;
   std::unique_ptr<MonocularStart> monocular_start_;  // null where depth is measured
-  MapId map_;  // that is tracked against
+  MapId map_;                                        // that is tracked against
   std::int64_t next_map_ = 0;
   KeyFrameId first_keyframe_{0};  // of this system's own
   bool relocalizing_ = false;     // asked for and not yet answered
   int attempts_ = 0;              // of this loss
+  std::optional<AtlasContext> loaded_;
+  bool read_only_ = false;
   std::vector<FrameRecord> frames_;
   FrameView view_;
   Session session_;                                             // without the stamps

@@ -83,7 +83,7 @@ struct TrackingResult {
   // In a map that is only read, where there would be a keyframe: what surrounds the camera is to be
   // chosen anew.
   bool leaves_surroundings = false;
-  Frame frame;              // as tracked: features, and matches where it has a pose
+  Frame frame;  // as tracked: features, and matches where it has a pose
 };
 
 // Follows the camera: one frame after the other against an immutable snapshot of the map.
@@ -208,7 +208,7 @@ class Tracker {
   std::int64_t frames_since_keyframe_ = 0;
   int lost_frames_ = 0;
   std::optional<MapUse> use_;  // of a map that was there before
-  int trial_keyframes_ = 0;  // still to come until the map is trusted
+  int trial_keyframes_ = 0;    // still to come until the map is trusted
 };
 
 }  // namespace plumbline

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Going on in a map of an earlier run.
 #include "plumbline/base/error.h"
+#include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/system.h"
 
 #include "tests/support/moving_poster.h"
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -22,18 +25,19 @@ SlamOptions InMode(RunMode mode) {
   return options;
 }
 
-Atlas MappedPoster() {
+SavedAtlas MappedPoster() {
   System system(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
   const MovingPoster poster;
   for (int i = 0; i < kFrames; ++i) system.Process(poster.Frame(i));
   system.Finish();
-  return system.atlas();
+  return {system.atlas(), ContextOf(system)};
 }
 
 // Frame `first` on of the same poster, in the map.
-std::unique_ptr<System> GoOn(const Atlas& atlas, bool read_only, int first, int last, RunMode mode) {
+std::unique_ptr<System> GoOn(
+    const SavedAtlas& saved, bool read_only, int first, int last, RunMode mode) {
   auto system = std::make_unique<System>(MovingPoster::MakeCalibration(), InMode(mode));
-  system->Continue(atlas, read_only);
+  system->Continue(saved, read_only);
   const MovingPoster poster;
   for (int i = first; i < last; ++i) system->Process(poster.Frame(i));
   system->Finish();
@@ -48,7 +52,8 @@ int CountTracked(const System& system) {
 
 void ExpectThePosesOfThePoster(const Trajectory& trajectory) {
   for (const StampedPose& pose : trajectory) {
-    const double frame = 1e-9 * static_cast<double>(pose.stamp_ns - MovingPoster::StampNs(0)) / 0.05;
+    const double frame =
+        1e-9 * static_cast<double>(pose.stamp_ns - MovingPoster::StampNs(0)) / 0.05;
     const Eigen::Vector3d expected(MovingPoster::kStep * frame, 0, 0);
     EXPECT_LT((pose.world_from_camera.translation - expected).norm(), 0.01) << frame;
   }
@@ -64,9 +69,9 @@ TEST(ContinuedMap, FirstFramesAreLostUntilTheirPlaceIsFound) {
 }
 
 TEST(ContinuedMap, GrowsAndKeepsItsId) {
-  const Atlas atlas = MappedPoster();
-  const KeyFrameId first_new = atlas.NextKeyFrameId();
-  const auto system = GoOn(atlas, false, 20, 75, RunMode::kInline);
+  const SavedAtlas saved = MappedPoster();
+  const KeyFrameId first_new = saved.atlas.NextKeyFrameId();
+  const auto system = GoOn(saved, false, 20, 75, RunMode::kInline);
   ASSERT_EQ(system->maps().size(), 1U);
   const Map& map = system->maps().at(MapId{0});
   map.CheckInvariants();
@@ -81,9 +86,9 @@ TEST(ContinuedMap, GrowsAndKeepsItsId) {
 }
 
 TEST(ContinuedMap, ThatIsOnlyReadStaysAsItIs) {
-  const Atlas atlas = MappedPoster();
-  const Map& before = atlas.active();
-  const auto system = GoOn(atlas, true, 5, 35, RunMode::kInline);
+  const SavedAtlas saved = MappedPoster();
+  const Map& before = saved.atlas.active();
+  const auto system = GoOn(saved, true, 5, 35, RunMode::kInline);
   EXPECT_GE(CountTracked(*system), 27);
   const Map& after = system->maps().at(MapId{0});
   EXPECT_EQ(after.version(), before.version());
@@ -94,10 +99,10 @@ TEST(ContinuedMap, ThatIsOnlyReadStaysAsItIs) {
 }
 
 TEST(ContinuedMap, GivesTheSameInEveryDeterministicMode) {
-  const Atlas atlas = MappedPoster();
+  const SavedAtlas saved = MappedPoster();
   for (const bool read_only : {false, true}) {
-    const auto a = GoOn(atlas, read_only, 8, 40, RunMode::kInline);
-    const auto b = GoOn(atlas, read_only, 8, 40, RunMode::kLockstep);
+    const auto a = GoOn(saved, read_only, 8, 40, RunMode::kInline);
+    const auto b = GoOn(saved, read_only, 8, 40, RunMode::kLockstep);
     const Trajectory of_a = a->FinalTrajectory(MapId{0});
     const Trajectory of_b = b->FinalTrajectory(MapId{0});
     ASSERT_EQ(of_a.size(), of_b.size());
@@ -129,9 +134,8 @@ TEST(ContinuedMap, ALossInItIsNotTheEnd) {
 TEST(ContinuedMap, ThatDoesNotShowTheCamerasPlaceGivesWayToANewOne) {
   SlamOptions options = InMode(RunMode::kInline);
   options.relocalization.patience = 6;
-  Atlas atlas = MappedPoster();
   System system(MovingPoster::MakeCalibration(), options);
-  system.Continue(std::move(atlas), false);
+  system.Continue(MappedPoster(), false);
   const MovingPoster poster;
   for (int i = 0; i < 8; ++i) system.Process(MovingPoster::BlindFrame(i));
   for (int i = 8; i < 14; ++i) system.Process(poster.Frame(i));
@@ -162,6 +166,45 @@ TEST(ContinuedMap, NeedsRelocalization) {
   options.relocalization.enabled = false;
   System system(MovingPoster::MakeCalibration(), options);
   EXPECT_THROW(system.Continue(MappedPoster(), false), InputError);
+}
+
+TEST(ContinuedMap, IsOfTheSameCamera) {
+  SavedAtlas saved = MappedPoster();
+  saved.context.camera.fx += 1;
+  System system(MovingPoster::MakeCalibration(), {});
+  try {
+    system.Continue(saved, false);
+    FAIL() << "another camera";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("fx"));
+  }
+  // Turned against the left camera in another way it serves all the same.
+  saved.context.camera.fx -= 1;
+  saved.context.rectified_from_left = ExpSo3({0, 0.1, 0});
+  EXPECT_TRUE(System(MovingPoster::MakeCalibration(), {}).Continue(saved, false).empty());
+}
+
+TEST(ContinuedMap, TellsWhatIsDifferentInTheFrontEnd) {
+  SlamOptions options;
+  options.features.line_count = 100;
+  System system(MovingPoster::MakeCalibration(), options);
+  const std::vector<std::string> notes = system.Continue(MappedPoster(), true);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0], testing::HasSubstr("features.line_count"));
+}
+
+TEST(ContinuedMap, NamesTheSessionsThatMadeIt) {
+  const SavedAtlas saved = MappedPoster();
+  const auto read = GoOn(saved, true, 5, 10, RunMode::kInline);
+  EXPECT_EQ(ContextOf(*read).sessions.size(), 1U);
+  const auto grown = GoOn(saved, false, 20, 70, RunMode::kInline);
+  const AtlasContext context = ContextOf(*grown);
+  ASSERT_EQ(context.sessions.size(), 2U);
+  EXPECT_NE(context.sessions[0].uuid, context.sessions[1].uuid);
+  EXPECT_EQ(context.maps.at(MapId{0}).uuid, saved.context.maps.at(MapId{0}).uuid);
+  const auto& keyframes = grown->maps().at(MapId{0}).keyframes();
+  EXPECT_EQ(keyframes.begin()->second.session, SessionId{0});
+  EXPECT_EQ(keyframes.rbegin()->second.session, SessionId{1});
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/map_saver.h"
+
+#include "plumbline/io/map_io.h"
+
+#include <exception>
+#include <utility>
+
+namespace plumbline {
+
+MapSaver::MapSaver(std::filesystem::path file)
+    : file_(std::move(file)), writer_([this] { WriteUntilStopped(); }) {}
+
+MapSaver::~MapSaver() {
+  const std::lock_guard lock(mutex_);
+  stop_ = true;
+  changed_.notify_all();
+}
+
+void MapSaver::Take(SavedAtlas copy) {
+  const std::lock_guard lock(mutex_);
+  next_ = std::move(copy);
+  changed_.notify_all();
+}
+
+std::optional<std::string> MapSaver::TakeFailure() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(failure_, std::nullopt);
+}
+
+void MapSaver::WriteUntilStopped() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || next_.has_value(); });
+    if (stop_) return;
+    const SavedAtlas copy = *std::exchange(next_, std::nullopt);
+    lock.unlock();
+    std::optional<std::string> failure;
+    try {
+      SaveAtlas(file_, copy.atlas, copy.context);
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+    lock.lock();
+    if (failure) failure_ = std::move(failure);
+  }
+}
+
+}  // namespace plumbline
