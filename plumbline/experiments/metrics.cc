@@ -295,6 +295,8 @@ std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
   if (!summary.is_object() || !(IsSummaryOfRun(summary) || IsSummaryOfStarts(summary))) {
     return std::nullopt;
   }
+  const auto interrupted = summary.find("interrupted");
+  if (interrupted != summary.end() && !interrupted->is_null()) return std::nullopt;
   RunFigures figures;
   for (const Entry& entry : kEntries) {
     const std::string name(entry.metric.name);

@@ -41,7 +41,8 @@ struct RunFigures {
 
 // The figures of a run from the files in its folder (summary.json; trajectory.txt or starts.csv);
 // nullopt where summary.json is missing, not whole, or not the summary of a run or of starts: its
-// version, frames and times, or the counts of its starts, are missing or cannot be.
+// version, frames and times, or the counts of its starts, are missing or cannot be; or the run was
+// interrupted.
 std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder);
 
 }  // namespace plumbline

@@ -92,7 +92,7 @@ TEST(StartsCommand, RefusesBadInputInOneLine) {
       {"--from 11", "--from 11: expected a frame with one behind it; there are 12"},
       {"--start 11", "--start: expected a whole number from 0 to 10, found 11"},
       {"--start x", "found x"},
-      {"--least-parallax -1", "--least-parallax: expected a number of at least 0, found -1"},
+      {"--least-parallax -1", "--least-parallax: expected a number from 0 to 180, found -1"},
       {"--set tracking.reference=last_frame", "unknown option 'tracking.reference'"},
       {"--set initialization.method=guess", "initialization.method"},
   };

@@ -27,6 +27,19 @@ TEST(Metrics, AreReadInTheirUnits) {
   EXPECT_EQ(figures->trajectory, "1.0 0 0 0 0 0 0 1\n");
 }
 
+TEST(Metrics, OfARunThatWasInterruptedAreNone) {
+  const ScratchFolder folder;
+  const auto write = [&](const std::string& interrupted) {
+    folder.Write("summary.json",
+                 R"({"frames": {"in": 1, "tracked": 1, "lost": 0}, "keyframes": 1,
+                     "wall_seconds": 1, "interrupted": )" +
+                     interrupted + "}");
+    return ReadFigures(folder.path()).has_value();
+  };
+  EXPECT_TRUE(write("null"));
+  EXPECT_FALSE(write(R"("SIGTERM")"));
+}
+
 TEST(Metrics, TellTheMemoryOfALine) {
   const ScratchFolder folder;
   folder.Write("summary.json",
