@@ -3,7 +3,7 @@
 #include "plumbline/io/colmap_model.h"
 
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/byte_stream.h"
+#include "plumbline/base/byte_stream.h"
 #include "plumbline/map/reprojection.h"
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/map/saved_atlas.h"
+#include "plumbline/mapping/local_mapper.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/options.h"
 
