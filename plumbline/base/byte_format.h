@@ -163,9 +163,15 @@ inline std::int64_t Unfolded(std::uint64_t bits) {
   return static_cast<std::int64_t>(bits >> 1U) ^ -static_cast<std::int64_t>(bits & 1U);
 }
 
+// Whether a number in single precision holds the value exactly. Looks at the bits: GCC 12 loses
+// conversions to float and back where it takes two of them together.
 inline bool IsFloat(double value) {
-  const double rounded = static_cast<double>(static_cast<float>(value));
-  return std::bit_cast<std::uint64_t>(rounded) == std::bit_cast<std::uint64_t>(value);
+  constexpr std::uint64_t kLost = (std::uint64_t{1} << 29U) - 1;
+  constexpr std::uint64_t kLeast = 1023 - 126, kMost = 1023 + 127;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const std::uint64_t exponent = (bits >> 52U) & 0x7FFU;
+  const bool zero = (bits << 1U) == 0;
+  return zero || ((bits & kLost) == 0 && exponent >= kLeast && exponent <= kMost);
 }
 
 // Bits of each number and the bytes that hold the widest.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -48,8 +49,16 @@ double Sweep(const CuttingProblem& problem, CuttingInformation information, Cuts
 
 Cuts CutGreedily(const CuttingProblem& problem, CuttingInformation information, int max_sweeps) {
   Cuts cuts(problem.lines.size());
-  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-    if (Sweep(problem, information, cuts) < kSweepTolerance) break;
+  if (Sweep(problem, information, cuts) < kSweepTolerance) return cuts;
+  for (int sweep = 1; sweep < max_sweeps; ++sweep) {
+    Cuts better = cuts;
+    const double gain = Sweep(problem, information, better);
+    // The information as printed grows without bound where it becomes singular: summed anew it may
+    // be none at all.
+    const double before = LogDeterminantOf(problem, cuts, information);
+    if (!(LogDeterminantOf(problem, better, information) >= before)) break;
+    cuts = std::move(better);
+    if (gain < kSweepTolerance) break;
   }
   return cuts;
 }

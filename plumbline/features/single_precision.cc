@@ -7,7 +7,10 @@ namespace {
 
 void Round(double& value) { value = InSinglePrecision(value); }
 
-void Round(Eigen::Vector2d& value) { value = value.cast<float>().cast<double>(); }
+void Round(Eigen::Vector2d& value) {
+  Round(value.x());
+  Round(value.y());
+}
 
 void Round(Segment2& segment) {
   Round(segment.start);

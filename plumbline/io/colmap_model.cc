@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/colmap_model.h"
 
-#include "plumbline/io/atomic_file.h"
 #include "plumbline/base/byte_stream.h"
+#include "plumbline/io/atomic_file.h"
 #include "plumbline/map/reprojection.h"
 
 #include <cstddef>
