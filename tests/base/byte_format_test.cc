@@ -60,7 +60,7 @@ TEST(ByteFormat, GivesBackWhatWasWritten) {
 }
 
 TEST(ByteFormat, TakesAsFewBytesForAColumnAsItsNumbersNeed) {
-  const std::vector<double> floats{0.5, -1e30, 0.0, -0.0, std::numeric_limits<double>::infinity()};
+  const std::vector<double> floats{0.5, -0x1p100, 0.0, -0.0, 0x1p-126};
   const std::vector<double> back = ColumnThereAndBack(floats, 4);
   EXPECT_EQ(back, floats);
   EXPECT_TRUE(std::signbit(back[3]));
