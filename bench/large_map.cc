@@ -58,7 +58,7 @@ double PeakGigabytes() {
   return static_cast<double>(usage.ru_maxrss) / (1024.0 * 1024.0);
 }
 
-// Of the motions between keyframes that follow each other, in millimetres.
+// The largest error of a motion between keyframes that follow each other, in millimetres.
 double WorstMotion(const LongDrive& drive) {
   double worst = 0;
   const Rigid3* before = nullptr;

@@ -19,7 +19,7 @@ constexpr std::size_t kLongestMessage = 2000;
 // result is about that long, whatever the text. O(longest).
 std::string Printable(std::string_view text, std::size_t longest = kLongestWord);
 
-// The same in single quotes, for "found 'text'".
+// The printable text in single quotes, for "found 'text'".
 std::string InQuotes(std::string_view text);
 
 }  // namespace plumbline

@@ -24,7 +24,7 @@ struct FrontEndFingerprint {
   friend bool operator==(const FrontEndFingerprint&, const FrontEndFingerprint&) = default;
 };
 
-// Of features measured with these options by the code of today.
+// The front end of features measured with these options by the code of today.
 FrontEndFingerprint FingerprintOf(const FeatureOptions& options);
 
 // What tells two front ends apart, one line each: "features.line_count: 200 in the map, 100 now".

@@ -26,7 +26,7 @@ constexpr double kLongestLever = 1e4;              // metres, from the camera to
 constexpr double kMinRate = 1e-4, kMaxRate = 1e5;  // Hz
 constexpr double kMinDepthFactor = 1e-3, kMaxDepthFactor = 1e7;
 
-// Of a width and height in pixels, whole numbers or not.
+// Checks a width and height in pixels, whole numbers or not.
 std::optional<std::string> SizeFault(double width, double height);
 
 // Focal lengths and the principal point against the size of the image, which SizeFault took.

@@ -31,7 +31,7 @@ inline Rigid3 PoseBeside(const Placement& keyframe, const RelativePose& relative
   return InUnit(relative, keyframe.unit) * keyframe.cam_from_world;
 }
 
-// The same relative to the parent of the keyframe, which is itself known relative to the parent.
+// A pose relative to a keyframe as a pose relative to the keyframe's parent.
 inline RelativePose Chained(const RelativePose& relative, const RelativePose& keyframe) {
   return {InUnit(relative, keyframe.unit) * keyframe.cam_from_keyframe, keyframe.unit};
 }

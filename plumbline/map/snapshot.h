@@ -29,8 +29,8 @@ struct MapSnapshot {
   KeyFrameId centre;
   StereoCorrection stereo_correction;           // of disparities
   std::map<KeyFrameId, Rigid3> cam_from_world;  // keyframes of the window
-  // Of the centre and of those that earlier snapshots were taken around: what the tracker's last
-  // pose may hang on, also where the keyframe left the map meanwhile.
+  // Places of the centre and of those that snapshots before were taken around: what the tracker's
+  // last pose may hang on, also where the keyframe left the map meanwhile.
   std::map<KeyFrameId, Placement> places;
   std::shared_ptr<const KeyFrame> reference;  // the centre, for matching by appearance
   std::vector<SnapshotPoint> points;          // sorted by id

@@ -92,8 +92,8 @@ std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& 
   return UpperMedian(ratios);
 }
 
-// By pose, 1 where lengths are measured. A pose that shows too few points has the scale of the one
-// before it, the first ones that of the first that tells.
+// The scale of each pose, 1 where lengths are measured. A pose that shows too few points has the
+// scale of the one before it, the first ones that of the first that tells.
 std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
   std::vector<double> scales(problem.poses.size(), 1);
   if (problem.camera.baseline > 0) return scales;
