@@ -24,8 +24,8 @@ namespace plumbline {
 namespace {
 
 constexpr const char* kProgram = "/proc/self/exe";
-// Of what may be asked for. A run is one of a variant on a sequence, a repeat a part of what is
-// computed.
+// The most that may be asked for. A run is one of a variant on a sequence, a repeat a part of what
+// is computed.
 constexpr int kMostRuns = 1000, kMostRepeats = 100'000, kMostJobs = 1000;
 constexpr int kLongestRun = 10'000'000;  // seconds, 116 days
 

@@ -19,7 +19,7 @@ struct MapSummary {
   std::size_t point_observations = 0, line_observations = 0;
   std::optional<std::pair<std::int64_t, std::int64_t>> time_ns;  // first and last keyframe
   double path_length = 0;  // along the keyframes, tracked one after the other
-  // Of points and of the ends of lines: of all, and of the middle 90 % along each axis.
+  // Boxes around points and ends of lines: around all, and the middle 90 % along each axis.
   Eigen::AlignedBox3d bounds, middle_bounds;
   std::optional<double> reprojection_px;  // mean over the points (MeanReprojectionError)
 };

@@ -9,7 +9,8 @@
 namespace plumbline {
 namespace {
 
-// Of the whole process, as signals are. Lock-free, so that the handler may use them.
+// Signals belong to the whole process, and so do these. The handler may use them because they are
+// lock-free.
 std::atomic<int> first_signal{0};
 std::atomic<int> signal_count{0};
 static_assert(std::atomic<int>::is_always_lock_free);

@@ -43,7 +43,8 @@ double Log1p(double x);
 // Powers of ten within 1e-22 and 1e22 have exact logarithms. Error below 3 ulp.
 double Log10(double x);
 
-// By squaring; error below |exponent| ulp, and none where all products are exact.
+// A power by repeated squaring; its error is below |exponent| ulp, and none where all products are
+// exact.
 double Pow(double base, int exponent);
 // base >= 0. The error grows with the result's logarithm: below (2 + 2 |exponent log(base)|) ulp.
 double Pow(double base, double exponent);

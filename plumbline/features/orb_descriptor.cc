@@ -24,7 +24,7 @@ GrayImage Smoothed(const GrayImage& image) {
   return result;
 }
 
-// Of numbers above -kOrbReach - 1; halves up.
+// The nearest whole number of a value above -kOrbReach - 1; halves are rounded up.
 int Rounded(float value) { return static_cast<int>(value + (kOrbReach + 1.5F)) - (kOrbReach + 1); }
 
 Descriptor Describe(const GrayImage& smooth, const OrientedPixel& corner) {

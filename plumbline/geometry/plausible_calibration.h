@@ -46,7 +46,7 @@ std::optional<std::string> RectifiedFault(const Calibration& calibration);
 
 std::optional<std::string> RateFault(double rate_hz);
 std::optional<std::string> DepthFactorFault(double depth_factor);
-// Of the translation between the camera and the body of the ground truth.
+// Checks the translation between the camera and the body of the ground truth.
 std::optional<std::string> LeverFault(const Rigid3& body_from_left);
 
 }  // namespace plumbline

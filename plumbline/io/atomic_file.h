@@ -80,8 +80,8 @@ class AtomicFolder {
   bool committed_ = false;
 };
 
-// The same for a file that is written piece by piece, in any number of calls of Write, then
-// Commit(). Both throw InputError as above.
+// A file that is written piece by piece, in any number of calls of Write, and takes its name whole
+// with Commit(). Both throw WriteError.
 class AtomicFileWriter {
  public:
   explicit AtomicFileWriter(const std::filesystem::path& path);

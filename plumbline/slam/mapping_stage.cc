@@ -101,7 +101,7 @@ std::optional<DemotedKeyFrame> MappingStage::GiveUpOne() {
   std::vector<std::shared_ptr<const NewKeyFrame>> waiting;
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     const auto* keyframe = std::get_if<std::shared_ptr<const NewKeyFrame>>(&tasks_[i].work);
-    if (keyframe == nullptr) return std::nullopt;  // what starts a map is waited for
+    if (keyframe == nullptr) return std::nullopt;  // none goes while other work waits
     waiting.push_back(*keyframe);
     if (tasks_[i].starts_map || i + 1 == tasks_.size()) continue;
     const int measurements = NewMeasurements(**keyframe, camera_);
