@@ -100,6 +100,6 @@ std::string Printable(std::string_view text, std::size_t longest) {
                      Escaped(text.substr(tail)));
 }
 
-std::string InQuotes(std::string_view text) { return "'" + Printable(text) + "'"; }
+std::string InQuotes(std::string_view text) { return fmt::format("'{}'", Printable(text)); }
 
 }  // namespace plumbline
