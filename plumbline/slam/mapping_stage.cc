@@ -4,9 +4,27 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/map/covisibility.h"
+#include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/slam/keyframes_ahead.h"
 
 namespace plumbline {
+namespace {
+
+BackgroundAdjustment::Compute WholeMapAdjustment(const ImagingModel& imaging,
+                                                 const SlamOptions& options) {
+  return [imaging, lines = options.lines, mapping = options.mapping](const Map& map,
+                                                                     const StopCheck& stop) {
+    return AdjustWholeMap(map, imaging, lines, mapping, stop);
+  };
+}
+
+BackgroundAdjustment::Worker AdjustmentWorker(RunMode mode, const Execution& execution) {
+  if (mode == RunMode::kInline || !execution.threads) return BackgroundAdjustment::Worker::kCaller;
+  return mode == RunMode::kLive ? BackgroundAdjustment::Worker::kThreadOfLowPriority
+                                : BackgroundAdjustment::Worker::kThread;
+}
+
+}  // namespace
 
 MappingStage::MappingStage(const ImagingModel& imaging,
                            const SlamOptions& options,
@@ -17,7 +35,8 @@ MappingStage::MappingStage(const ImagingModel& imaging,
       mapping_options_(options.mapping),
       mapper_(imaging, options.lines, options.mapping),
       relocalizer_(
-          imaging, options.tracking, options.lines, options.cutting, options.relocalization) {
+          imaging, options.tracking, options.lines, options.cutting, options.relocalization),
+      adjustment_(WholeMapAdjustment(imaging, options), AdjustmentWorker(mode_, execution)) {
   if (mode_ != RunMode::kInline && execution.threads) {
     worker_ = std::jthread([this] { WorkUntilStopped(); });
   }
@@ -86,7 +105,7 @@ void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
   }
   {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back({submitted_, std::move(work), starts_map});
+    tasks_.push_back({submitted_, frame, std::move(work), starts_map});
   }
   task_added_.notify_one();
 }
@@ -95,25 +114,31 @@ void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
 // never the newest, which tracking goes on from.
 std::optional<DemotedKeyFrame> MappingStage::GiveUpOne() {
   const std::lock_guard lock(mutex_);
-  if (tasks_.size() <= kMaxWaiting) return std::nullopt;
-  std::optional<std::size_t> least;
-  int fewest = 0;
+  std::vector<std::size_t> places;  // of the keyframes among the tasks
   std::vector<std::shared_ptr<const NewKeyFrame>> waiting;
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     const auto* keyframe = std::get_if<std::shared_ptr<const NewKeyFrame>>(&tasks_[i].work);
-    if (keyframe == nullptr) return std::nullopt;  // none goes while other work waits
+    if (keyframe == nullptr) continue;
+    places.push_back(i);
     waiting.push_back(*keyframe);
-    if (tasks_[i].starts_map || i + 1 == tasks_.size()) continue;
-    const int measurements = NewMeasurements(**keyframe, camera_);
+  }
+  if (waiting.size() <= kMaxWaiting) return std::nullopt;
+  std::optional<std::size_t> least;
+  int fewest = 0;
+  for (std::size_t k = 0; k + 1 < waiting.size(); ++k) {
+    if (tasks_[places[k]].starts_map) continue;
+    const int measurements = NewMeasurements(*waiting[k], camera_);
     if (!least || measurements < fewest) {
-      least = i;
+      least = k;
       fewest = measurements;
     }
   }
   if (!least) return std::nullopt;
   const auto gone = TakeOut(*least, waiting);
-  tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(*least));
-  for (std::size_t i = 0; i < tasks_.size(); ++i) tasks_[i].work = waiting[i];
+  const std::size_t place = places[*least];
+  places.erase(places.begin() + static_cast<std::ptrdiff_t>(*least));
+  for (std::size_t k = 0; k < places.size(); ++k) tasks_[places[k]].work = waiting[k];
+  tasks_.erase(tasks_.begin() + static_cast<std::ptrdiff_t>(place));
   const KeyFrame& keyframe = gone->keyframe;
   return DemotedKeyFrame{keyframe.id, keyframe.frame.id, keyframe.parent, gone->from_parent};
 }
@@ -138,7 +163,9 @@ std::shared_ptr<const MapSnapshot> MappingStage::NewestSnapshot() {
     const std::lock_guard lock(mutex_);
     if (versions_.empty()) return nullptr;
     for (; versions_.size() > 1; versions_.pop_front()) {
-      if (versions_.front().task >= map_begins_) kept_.push_front(versions_.front().snapshot);
+      const auto& earlier = versions_.front();
+      if (earlier.task < map_begins_ || earlier.snapshot == versions_[1].snapshot) continue;
+      kept_.push_front(earlier.snapshot);
     }
     base = versions_.back().snapshot;
     if (begun_) ahead.push_back(begun_);
@@ -187,8 +214,7 @@ void MappingStage::Finish(const StopCheck& stop) {
   dues_.clear();
   const std::lock_guard lock(mutex_);
   while (versions_.size() > 1) versions_.pop_front();
-  if (finished_ == submitted_) return;
-  finished_ = submitted_;
+  adjustment_.GiveUp();  // what follows does more
   for (const MapId id : std::exchange(changed_, {})) {
     const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
     times_.insert(times_.end(), times.begin(), times.end());
@@ -261,6 +287,7 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   begun_ = added != nullptr ? *added : nullptr;
   if (mode_ == RunMode::kLive) mapper_.SetOptions(Lightened(mapping_options_, shed_));
   lock.unlock();
+  TakeCorrection(task.frame);
   if (task.starts_map) {
     mapper_.StartNewMap(atlas_.Start());
     centres_.clear();
@@ -321,6 +348,16 @@ MappingStage::Done MappingStage::Do(const Sighting& sighting) {
 MappingStage::Done MappingStage::Do(const Visit& visit) {
   visit.look(atlas_, mapper_.state());
   return {};
+}
+
+// What was found beside mapping, if it takes effect at this frame.
+void MappingStage::TakeCorrection(std::int64_t frame) {
+  const bool when_ready = mode_ == RunMode::kLive && worker_.joinable();
+  const auto found = when_ready ? adjustment_.TakeReady() : adjustment_.TakeDue(frame);
+  if (!found) return;
+  Map& map = *atlas_.Find(found->map);
+  map.Apply(Rebased(found->correction, map));
+  changed_.insert(map.id());
 }
 
 // Also of the places of the snapshots before: the tracker's last pose may hang on one of them.

@@ -6,6 +6,7 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/local_mapper.h"
+#include "plumbline/slam/background_adjustment.h"
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/map_start.h"
@@ -69,6 +70,10 @@ struct Visit {
 // gets the newest snapshot there is with the keyframes that are not in it yet (WithKeyFramesAhead):
 // tracking always has a map that reaches it. kMaxWaiting of them may wait; when one more comes, the
 // one that the map loses least without is given up.
+//
+// A map whose shape has changed at large is adjusted as a whole beside all that
+// (BackgroundAdjustment). What this finds is applied before the first task that was submitted when
+// it was due, to the map as it is then (Rebased), and shows in that task's snapshot.
 //
 // All functions are for one thread, the tracker's.
 class MappingStage {
@@ -148,6 +153,7 @@ class MappingStage {
   // Something to be taken in. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
+    std::int64_t frame = 0;  // at which it was submitted
     Work work;
     bool starts_map = false;
   };
@@ -183,6 +189,7 @@ class MappingStage {
   Done Do(const RelocalizationRequest& request);
   Done Do(const Sighting& sighting);
   Done Do(const Visit& visit);
+  void TakeCorrection(std::int64_t frame);
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
   std::int64_t LastDone() const { return versions_.empty() ? 0 : versions_.back().task; }
 
@@ -192,7 +199,6 @@ class MappingStage {
   MappingOptions mapping_options_;
   // The tracker's side.
   std::int64_t submitted_ = 0;
-  std::int64_t finished_ = 0;  // the last one when Finish() adjusted the maps
   std::deque<Due> dues_;  // of tasks later than the one last asked for; live: of first keyframes
   std::int64_t map_begins_ = 0;                          // with this task
   std::deque<std::shared_ptr<const MapSnapshot>> kept_;  // live: earlier ones, the newest first
@@ -206,6 +212,7 @@ class MappingStage {
   Atlas atlas_;
   std::set<MapId> changed_;         // since the maps were loaded or last adjusted as a whole
   std::deque<KeyFrameId> centres_;  // of the last snapshots of the active map
+  BackgroundAdjustment adjustment_;
   // Between the two, guarded by mutex_.
   mutable std::mutex mutex_;
   std::condition_variable task_added_, task_done_;

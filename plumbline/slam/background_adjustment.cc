@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/background_adjustment.h"
+
+#include <exception>
+#include <utility>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace plumbline {
+namespace {
+
+// Of the calling thread, among those of this program. A system that refuses leaves it as it is.
+void LowerPriority() {
+  constexpr int kLowest = 19;
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);
+}
+
+}  // namespace
+
+BackgroundAdjustment::BackgroundAdjustment(Compute compute, Worker worker)
+    : compute_(std::move(compute)), worker_(worker) {}
+
+BackgroundAdjustment::~BackgroundAdjustment() { GiveUp(); }
+
+void BackgroundAdjustment::Begin(const Map& map, std::int64_t due_frame) {
+  GiveUp();
+  job_ = std::make_unique<Job>();
+  job_->map = map;
+  job_->due_frame = due_frame;
+  if (worker_ == Worker::kCaller) return;
+  thread_ = std::jthread([this, job = job_.get()] {
+    if (worker_ == Worker::kThreadOfLowPriority) LowerPriority();
+    Run(*job);
+  });
+}
+
+void BackgroundAdjustment::GiveUp() {
+  if (job_ != nullptr) job_->stop = true;
+  if (thread_.joinable()) thread_.join();
+  job_.reset();
+}
+
+std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeDue(std::int64_t frame) {
+  if (job_ == nullptr || frame < job_->due_frame) return std::nullopt;
+  return Take();
+}
+
+std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeReady() {
+  if (job_ == nullptr || !job_->ready) return std::nullopt;
+  return Take();
+}
+
+void BackgroundAdjustment::Run(Job& job) const {
+  try {
+    job.correction = compute_(job.map, [&job] { return job.stop.load(); });
+  } catch (...) {
+    job.failure = std::current_exception();
+  }
+  job.ready = true;
+}
+
+BackgroundAdjustment::Result BackgroundAdjustment::Take() {
+  if (thread_.joinable()) {
+    thread_.join();
+  } else {
+    Run(*job_);
+  }
+  const std::unique_ptr<Job> job = std::move(job_);
+  if (job->failure) std::rethrow_exception(job->failure);
+  return {job->map.id(), std::move(job->correction)};
+}
+
+std::int64_t AdjustmentDelay(const Map& map) {
+  constexpr std::int64_t kAtLeast = 10;
+  constexpr std::int64_t kKeyFramesPerFrame = 2;
+  return kAtLeast + static_cast<std::int64_t>(map.keyframes().size()) / kKeyFramesPerFrame;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/stop_check.h"
+#include "plumbline/map/map.h"
+#include "plumbline/mapping/correction.h"
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+
+namespace plumbline {
+
+// One correction of a whole map that is computed beside mapping, from a copy of the map.
+//
+// When a correction takes effect is part of the algorithm: it is due at a frame that its beginning
+// names, from the size of the problem, and whoever takes it at that frame waits for it. Only a live
+// run takes it whenever it is ready. A correction that begins while another one is computed takes
+// its place: the older one does not know what made the newer one necessary.
+//
+// All functions are for one thread. What the computation throws, taking rethrows.
+class BackgroundAdjustment {
+ public:
+  using Compute = std::function<Correction(const Map& map, const StopCheck& stop)>;
+  enum class Worker { kCaller, kThread, kThreadOfLowPriority };
+
+  struct Result {
+    MapId map;
+    Correction correction;
+  };
+
+  // Worker::kCaller computes when the result is taken.
+  BackgroundAdjustment(Compute compute, Worker worker);
+  // Gives up what is being computed, and waits until it has noticed.
+  ~BackgroundAdjustment();
+  BackgroundAdjustment(const BackgroundAdjustment&) = delete;
+  BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
+
+  // Copies the map: some microseconds for each keyframe and landmark.
+  void Begin(const Map& map, std::int64_t due_frame);
+  void GiveUp();
+  bool Running() const { return job_ != nullptr; }
+
+  // The correction that is due at `frame`, once; waits for it.
+  std::optional<Result> TakeDue(std::int64_t frame);
+  // The correction if it is ready, once.
+  std::optional<Result> TakeReady();
+
+ private:
+  struct Job {
+    Map map;
+    std::int64_t due_frame = 0;
+    Correction correction;
+    std::exception_ptr failure;
+    std::atomic<bool> stop = false;
+    std::atomic<bool> ready = false;
+  };
+  void Run(Job& job) const;
+  Result Take();
+
+  Compute compute_;
+  Worker worker_;
+  std::unique_ptr<Job> job_;
+  std::jthread thread_;  // last, so that it ends first
+};
+
+// Frames until the adjustment of a whole map takes effect in runs that do not depend on the speed
+// of the machine: about twice the time that it takes, at 20 frames a second.
+std::int64_t AdjustmentDelay(const Map& map);
+
+}  // namespace plumbline

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/background_adjustment.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/mapping/local_mapper.h"
+#include "plumbline/slam/keyframes_ahead.h"
+#include "plumbline/tracking/tracker.h"
+
+#include "tests/support/true_map.h"
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Worker = BackgroundAdjustment::Worker;
+constexpr Worker kWorkers[] = {Worker::kCaller, Worker::kThread, Worker::kThreadOfLowPriority};
+
+// Says which map it was asked about: the oldest keyframe's id is the number of keyframes.
+Correction CountKeyFrames(const Map& map, const StopCheck&) {
+  Correction correction;
+  correction.keyframes[KeyFrameId{static_cast<std::int64_t>(map.keyframes().size())}] = {};
+  return correction;
+}
+
+Map MapOf(int keyframes) {
+  const SyntheticWorld world = MakeSyntheticWorld(20, 5);
+  std::vector<Rigid3> poses;
+  for (int k = 0; k < keyframes; ++k) poses.push_back(PoseOnPath(4 * k));
+  return MakeTrueMap(world, poses, {}).map;
+}
+
+std::int64_t Told(const std::optional<BackgroundAdjustment::Result>& result) {
+  return result ? result->correction.keyframes.begin()->first.value : -1;
+}
+
+TEST(BackgroundAdjustment, TakesEffectAtTheFrameThatItIsDueAndOnce) {
+  for (const Worker worker : kWorkers) {
+    BackgroundAdjustment adjustment(CountKeyFrames, worker);
+    EXPECT_FALSE(adjustment.TakeDue(100));
+    adjustment.Begin(MapOf(3), 10);
+    EXPECT_TRUE(adjustment.Running());
+    EXPECT_FALSE(adjustment.TakeDue(9));
+    EXPECT_EQ(Told(adjustment.TakeDue(10)), 3);
+    EXPECT_FALSE(adjustment.TakeDue(11));
+    EXPECT_FALSE(adjustment.Running());
+  }
+}
+
+TEST(BackgroundAdjustment, SeesTheMapAsItWasWhenItBegan) {
+  Map map = MapOf(4);
+  BackgroundAdjustment adjustment(CountKeyFrames, Worker::kCaller);
+  adjustment.Begin(map, 0);
+  map.Apply({edit::RemoveKeyFrame{KeyFrameId{2}}});
+  EXPECT_EQ(Told(adjustment.TakeDue(0)), 4);
+}
+
+TEST(BackgroundAdjustment, ALaterOneTakesThePlaceOfAnother) {
+  for (const Worker worker : kWorkers) {
+    BackgroundAdjustment adjustment(CountKeyFrames, worker);
+    adjustment.Begin(MapOf(3), 10);
+    adjustment.Begin(MapOf(5), 20);
+    EXPECT_FALSE(adjustment.TakeDue(19));
+    EXPECT_EQ(Told(adjustment.TakeDue(20)), 5);
+  }
+}
+
+TEST(BackgroundAdjustment, IsStoppedWhenItIsGivenUp) {
+  std::atomic<bool> begun = false;
+  const auto until_stopped = [&](const Map&, const StopCheck& stop) {
+    begun = true;
+    while (!stop()) std::this_thread::yield();
+    return Correction();
+  };
+  BackgroundAdjustment adjustment(until_stopped, Worker::kThread);
+  adjustment.Begin(MapOf(2), 0);
+  while (!begun) std::this_thread::yield();
+  EXPECT_FALSE(adjustment.TakeReady());
+  adjustment.GiveUp();
+  EXPECT_FALSE(adjustment.Running());
+  EXPECT_FALSE(adjustment.TakeDue(0));
+}
+
+TEST(BackgroundAdjustment, IsTakenWhenItIsReady) {
+  BackgroundAdjustment adjustment(CountKeyFrames, Worker::kThread);
+  adjustment.Begin(MapOf(3), 1000);
+  std::optional<BackgroundAdjustment::Result> result;
+  while (!result) result = adjustment.TakeReady();
+  EXPECT_EQ(Told(result), 3);
+  EXPECT_FALSE(adjustment.TakeReady());
+}
+
+TEST(BackgroundAdjustment, TakingRethrowsWhatTheComputationThrew) {
+  for (const Worker worker : kWorkers) {
+    BackgroundAdjustment adjustment(
+        [](const Map&, const StopCheck&) -> Correction { throw std::runtime_error("no memory"); },
+        worker);
+    adjustment.Begin(MapOf(2), 0);
+    EXPECT_THROW(adjustment.TakeDue(0), std::runtime_error);
+    EXPECT_FALSE(adjustment.Running());
+  }
+}
+
+TEST(AdjustmentDelay, GrowsWithTheMap) {
+  EXPECT_GT(AdjustmentDelay(MapOf(2)), 0);
+  EXPECT_GT(AdjustmentDelay(MapOf(12)), AdjustmentDelay(MapOf(2)));
+}
+
+// A map that grows by keyframes placed beside their parents, as the tracker hands them over.
+class GrowingMap {
+ public:
+  void Add() {
+    const KeyFrameId id = map_.NextKeyFrameId();
+    const KeyFrameId parent{id.value - 1};
+    const Rigid3 pose = PoseOf(id);
+    Rng rng(5, "growing_map", static_cast<std::uint64_t>(id.value));
+    const NewKeyFrame added{
+        {id, parent, MakeFrame(FrameId{id.value}, pose, Sense(world_, pose, {}, rng))},
+        {},
+        {pose * Inverse(PoseOf(parent)), 1}};
+    mapper_.Add(map_, SettledIn(map_, added), {});
+  }
+  // Bends the map: each keyframe is turned and shifted a little more than the one before.
+  Correction Bend() const {
+    Correction correction;
+    for (const auto& [id, keyframe] : map_.keyframes()) {
+      const double k = static_cast<double>(keyframe.number);
+      Vector6d twist;
+      twist << 0.0005 * k, -0.001 * k, 0, 0.002 * k, 0, 0.001 * k;
+      const Rigid3& before = keyframe.frame.cam_from_world;
+      correction.keyframes[id] = {before, ExpSe3(twist) * before};
+    }
+    return correction;
+  }
+  void Apply(const Correction& correction) { map_.Apply(Rebased(correction, map_)); }
+  const Map& map() const { return map_; }
+
+ private:
+  static Rigid3 PoseOf(KeyFrameId id) { return PoseOnPath(static_cast<int>(3 * id.value)); }
+
+  SyntheticWorld world_ = MakeSyntheticWorld(250, 50);
+  LocalMapper mapper_{world_.Imaging(), {}, {}};
+  Map map_;
+};
+
+// The map that takes the correction late is adjusted with the next keyframe; then its newest
+// keyframes stand to one another as in the map that took it at once, and the whole where the
+// correction says.
+TEST(BackgroundAdjustment, TearsNothingHoweverLateItTakesEffect) {
+  constexpr int kBefore = 12;
+  constexpr int kLatest = 50;
+  GrowingMap begun;
+  for (int k = 0; k < kBefore; ++k) begun.Add();
+  const Correction correction = begun.Bend();
+  const auto grown = [&](int delay) {
+    GrowingMap map = begun;
+    for (int k = 0; k <= kLatest; ++k) {
+      if (k == delay) map.Apply(correction);
+      map.Add();
+    }
+    map.map().CheckInvariants();
+    return map;
+  };
+  const GrowingMap at_once = grown(0);
+  const KeyFrameId newest = at_once.map().keyframes().rbegin()->first;
+  for (const int delay : {1, 5, 20, 50}) {
+    const GrowingMap late = grown(delay);
+    for (std::int64_t back = 0; back < 3; ++back) {
+      const KeyFrameId id{newest.value - back};
+      const Rigid3 a = at_once.map().PoseOf(id);
+      const Rigid3 b = late.map().PoseOf(id);
+      EXPECT_LT(CentreDistance(a, b), 0.02) << delay << " " << back;
+      EXPECT_LT(LogSe3(a * Inverse(b)).head<3>().norm(), 0.006) << delay << " " << back;
+    }
+    const KeyFrameId parent{newest.value - 1};
+    const Rigid3 motion_at_once =
+        at_once.map().PoseOf(newest) * Inverse(at_once.map().PoseOf(parent));
+    const Rigid3 motion_late = late.map().PoseOf(newest) * Inverse(late.map().PoseOf(parent));
+    EXPECT_LT(LogSe3(motion_at_once * Inverse(motion_late)).norm(), 0.006) << delay;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
