@@ -28,7 +28,8 @@ const Map& Atlas::active() const {
 Map& Atlas::active() { return const_cast<Map&>(std::as_const(*this).active()); }
 
 Map& Atlas::Start() {
-  const MapId id{maps_.empty() ? 0 : maps_.rbegin()->first.value + 1};
+  const MapId id = next_map_;
+  next_map_ = MapId{id.value + 1};
   maps_.emplace(id, Map(id));
   return Activate(id);
 }
@@ -46,7 +47,23 @@ Map& Atlas::Activate(MapId id) {
 void Atlas::Adopt(Map map) {
   const MapId id = map.id();
   PLUMBLINE_CHECK(id.valid() && Find(id) == nullptr, "id of an adopted map is not new");
+  next_map_ = std::max(next_map_, MapId{id.value + 1});
   maps_.emplace(id, std::move(map));
+}
+
+Map& Atlas::Join(MapId kept, MapId gone, const Similarity3& kept_from_gone) {
+  Map* map = Find(kept);
+  const auto other = maps_.find(gone);
+  PLUMBLINE_CHECK(map != nullptr && other != maps_.end() && kept != gone, "maps cannot be joined");
+  map->Absorb(std::move(other->second), kept_from_gone);
+  maps_.erase(other);
+  joined_[gone] = kept;
+  return active_ == gone ? Activate(kept) : *map;
+}
+
+MapId Atlas::Current(MapId id) const {
+  for (auto it = joined_.find(id); it != joined_.end(); it = joined_.find(id)) id = it->second;
+  return id;
 }
 
 KeyFrameId Atlas::NextKeyFrameId() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/ids.h"
+#include "plumbline/geometry/sim3.h"
 #include "plumbline/map/map.h"
 
 #include <map>
@@ -33,12 +34,22 @@ class Atlas {
   // of this id may be there (BugError).
   void Adopt(Map map);
 
+  // Makes one map of two (Map::Absorb): `kept` takes in `gone`, which leaves the atlas, and becomes
+  // the active map if `gone` was. BugError where one of them is not there, or they are the same.
+  Map& Join(MapId kept, MapId gone, const Similarity3& kept_from_gone);
+  // The map that `id` is part of today: itself, or the one that took it in.
+  MapId Current(MapId id) const;
+  // Maps that were taken in, and by which.
+  const std::map<MapId, MapId>& joined() const { return joined_; }
+
   // The first id that no keyframe of any map has had.
   KeyFrameId NextKeyFrameId() const;
 
  private:
   std::map<MapId, Map> maps_;
+  std::map<MapId, MapId> joined_;
   MapId active_;
+  MapId next_map_{0};
 };
 
 }  // namespace plumbline

@@ -289,6 +289,38 @@ void Map::Apply(const MapEdit& edit) {
 
 namespace {
 
+template <class Id, class T>
+void MoveEntries(IdTable<Id, T>& from, IdTable<Id, T>& to) {
+  for (auto& [id, entry] : from.entries()) {
+    PLUMBLINE_CHECK(to.Find(id) == nullptr, "two maps use one id");
+    to.Insert(id, std::move(entry));
+  }
+}
+
+}  // namespace
+
+void Map::Absorb(Map other, const Similarity3& this_from_other) {
+  edit::MoveKeyFrames motion;
+  for (auto& [id, keyframe] : other.keyframes_.entries()) {
+    motion.new_from_old.emplace(id, this_from_other);
+    keyframe.number += keyframes_taken_in_;
+  }
+  for (auto& [id, removed] : other.removed_keyframes_) removed.number += keyframes_taken_in_;
+  other.Apply({std::move(motion), edit::CorrectStereo{stereo_correction_}});
+  MoveEntries(other.keyframes_, keyframes_);
+  MoveEntries(other.points_, points_);
+  MoveEntries(other.lines_, lines_);
+  removed_keyframes_.merge(other.removed_keyframes_);
+  merged_points_.merge(other.merged_points_);
+  merged_lines_.merge(other.merged_lines_);
+  keyframes_taken_in_ += other.keyframes_taken_in_;
+  next_keyframe_ = std::max(next_keyframe_, other.next_keyframe_);
+  ReserveIds(other.next_point_, other.next_line_);
+  ++version_;
+}
+
+namespace {
+
 template <class LandmarkId, class Landmark>
 void CheckLandmarks(const std::map<LandmarkId, Landmark>& landmarks,
                     const std::map<KeyFrameId, KeyFrame>& keyframes) {

@@ -66,6 +66,12 @@ class Map {
   // are skipped.
   void Apply(const MapEdit& edit);
 
+  // Takes in all of another map of the same atlas, which uses none of this map's ids, moved by
+  // `this_from_other` (of the worlds; scale 1 where depth is measured). Its keyframes count as
+  // taken in after those of this map, and their disparities get this map's stereo correction; what
+  // both maps show is there twice until it is fused. O(size of the other map).
+  void Absorb(Map other, const Similarity3& this_from_other);
+
   // Throws BugError when observations and matches disagree or a landmark has none.
   void CheckInvariants() const;
 

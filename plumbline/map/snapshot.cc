@@ -52,6 +52,7 @@ std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
   const KeyFrame* reference = map.Find(centre);
   PLUMBLINE_CHECK(reference != nullptr, "snapshot around a keyframe that is not in the map");
   auto snapshot = std::make_shared<MapSnapshot>();
+  snapshot->map = map.id();
   snapshot->centre = centre;
   snapshot->stereo_correction = map.stereo_correction();
   snapshot->reference = std::make_shared<const KeyFrame>(*reference);

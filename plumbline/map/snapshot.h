@@ -26,6 +26,7 @@ struct SnapshotLine : LineModel {
 // The part of the map around one keyframe as it was at one time. Immutable: the tracker reads it
 // while mapping goes on.
 struct MapSnapshot {
+  MapId map;
   KeyFrameId centre;
   StereoCorrection stereo_correction;           // of disparities
   std::map<KeyFrameId, Rigid3> cam_from_world;  // keyframes of the window

@@ -64,6 +64,12 @@ std::vector<RunFile> TrajectoryFiles(const System& system, TimeMirror mirror_ns)
     if (id == *main) continue;
     AddTrajectories(system, id, TrajectoryNames(id), mirror_ns, files);
   }
+  // What was reported in a map that has become part of another one is in the world of then.
+  for (const auto& [id, joined] : system.atlas().joined()) {
+    files.push_back(TumFile(TrajectoryNames(id).causal, mirror_ns, [&system, gone = id] {
+      return system.CausalTrajectory(gone);
+    }));
+  }
   return files;
 }
 
@@ -103,32 +109,41 @@ TrajectoryNames::TrajectoryNames(std::optional<MapId> map) {
   keyframes = "keyframes" + suffix + ".txt";
 }
 
-std::string FormatFrameRow(const FrameRecord& f) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n",
+std::string FormatFrameRow(const FrameRecord& f, MapId final_map) {
+  const auto name = [](MapId map) {
+    return map.valid() ? fmt::format("{}", map.value) : std::string();
+  };
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n",
                      f.id.value,
                      FormatStamp(f.stamp_ns),
                      NameOf(f.status),
-                     f.map.valid() ? fmt::format("{}", f.map.value) : std::string(),
+                     name(f.map),
                      f.reason,
                      f.keyframe ? 1 : 0,
                      f.counts.matched_points,
                      f.counts.matched_lines,
                      f.counts.inlier_points,
                      f.counts.inlier_lines,
-                     NameOf(f.shed));
+                     NameOf(f.shed),
+                     name(final_map));
 }
 
-std::string FormatFrames(const std::vector<FrameRecord>& frames) {
+std::string FormatFrames(const std::vector<FrameRecord>& frames, const Atlas& atlas) {
   std::string text =
       "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,inlier_points,"
-      "inlier_lines,shed\n";
-  for (const FrameRecord& frame : frames) text += FormatFrameRow(frame);
+      "inlier_lines,shed,final_map\n";
+  for (const FrameRecord& frame : frames) {
+    text += FormatFrameRow(frame, atlas.Current(frame.map));
+  }
   return text;
 }
 
 std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t> time_mirror_ns) {
   std::vector<RunFile> files = TrajectoryFiles(system, time_mirror_ns);
-  files.push_back(FramesFile("frames.csv", system, time_mirror_ns, FormatFrames));
+  const auto format = [&system](const std::vector<FrameRecord>& frames) {
+    return FormatFrames(frames, system.atlas());
+  };
+  files.push_back(FramesFile("frames.csv", system, time_mirror_ns, format));
   return files;
 }
 

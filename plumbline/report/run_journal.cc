@@ -45,7 +45,7 @@ void RunJournal::TakeIn(const std::vector<FrameRecord>& records) {
       if (record.keyframe) keyframes[record.map].push_back({record.stamp_ns, *pose});
     }
     if (time_mirror_ns_) record.stamp_ns = *time_mirror_ns_ - record.stamp_ns;
-    frames_ += FormatFrameRow(record);
+    frames_ += FormatFrameRow(record, record.map);
   }
   for (const auto& [map, poses] : causal) AddRows(poses, time_mirror_ns_, maps_[map].causal);
   for (const auto& [map, poses] : keyframes) AddRows(poses, time_mirror_ns_, maps_[map].keyframes);

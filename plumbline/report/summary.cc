@@ -155,6 +155,42 @@ std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
   return main ? CompareWithGroundTruth(system, dataset, *main) : std::nullopt;
 }
 
+namespace {
+
+Json Described(const Recognition& place) {
+  return {{"frame", place.frame.value},
+          {"keyframe", place.keyframe.value},
+          {"older_keyframe", place.older.value},
+          {"points", place.points},
+          {"lines", place.lines},
+          {"log10_chance", place.log10_chance},
+          {"moved", place.moved},
+          {"turned_deg", place.turned_deg},
+          {"scale", place.scale}};
+}
+
+// Lists of what was recognized, found again and joined.
+void AddEvents(const MapEvents& events, Json& json) {
+  json["loops"] = Json::array();
+  for (const Recognition& loop : events.loops) json["loops"].push_back(Described(loop));
+  json["joins"] = Json::array();
+  for (const MapJoin& join : events.joins) {
+    Json described = Described(join.place);
+    described["kept_map"] = join.kept.value;
+    described["gone_map"] = join.gone.value;
+    json["joins"].push_back(std::move(described));
+  }
+  json["relocalizations"] = Json::array();
+  for (const Relocalization& found : events.relocalizations) {
+    json["relocalizations"].push_back({{"frame", found.frame.value},
+                                       {"keyframe", found.keyframe.value},
+                                       {"points", found.points},
+                                       {"lines", found.lines}});
+  }
+}
+
+}  // namespace
+
 std::string FormatSummary(const RunDescription& description,
                           const System& system,
                           const Dataset& dataset,
@@ -183,7 +219,7 @@ std::string FormatSummary(const RunDescription& description,
   json["keyframes"] = counts.keyframes;
   json["points"] = counts.points;
   json["lines"] = counts.lines;
-  json["loops"] = 0;  // nothing closes loops; the key is part of the format of the file
+  AddEvents(system.events(), json);
   const auto error = CompareWithGroundTruth(system, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts) : Json(nullptr);
   const auto main = system.MainMap();

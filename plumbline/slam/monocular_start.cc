@@ -126,11 +126,10 @@ void MonocularStart::Rehang(KeyFrameId gone,
   }
 }
 
-std::vector<EarlierFrame> MonocularStart::Locate(const std::map<MapId, Map>& maps,
-                                                 const StopCheck& stop) {
+std::vector<EarlierFrame> MonocularStart::Locate(const Atlas& atlas, const StopCheck& stop) {
   std::vector<EarlierFrame> located;
   for (const Start& start : starts_) {
-    LocateFramesOf(start, maps.at(start.map), stop, located);
+    LocateFramesOf(start, *atlas.Find(atlas.Current(start.map)), stop, located);
   }
   starts_.clear();
   young_keyframes_ = 0;

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/stop_check.h"
 #include "plumbline/initialization/initializer.h"
-#include "plumbline/map/map.h"
+#include "plumbline/map/atlas.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
@@ -12,7 +12,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -57,7 +56,7 @@ class MonocularStart {
   // waited are searched near the place that their successors predict, those that were tracked near
   // their place of then, among the landmarks around the next keyframe and their own. Left out are
   // keyframes, and frames that are not found, or not reached before `stop`.
-  std::vector<EarlierFrame> Locate(const std::map<MapId, Map>& maps, const StopCheck& stop = {});
+  std::vector<EarlierFrame> Locate(const Atlas& atlas, const StopCheck& stop = {});
 
  private:
   struct KeptFrame {

@@ -108,6 +108,7 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
   const auto& snapshot = relocalized != nullptr ? relocalized : due;
   const auto earlier =
       tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
+  if (snapshot != nullptr) map_ = snapshot->map;
   TrackingResult result = tracker_.Track(record.id,
                                          record.stamp_ns,
                                          std::move(measured.indexed),
@@ -142,6 +143,10 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized() {
   if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
   tracker_.Resume(*outcome->found, *outcome->snapshot);
   mapping_.Use(outcome->snapshot);
+  events_.relocalizations.push_back({outcome->found->frame.id,
+                                     outcome->found->keyframe,
+                                     outcome->found->counts.inlier_points,
+                                     outcome->found->counts.inlier_lines});
   return outcome->snapshot;
 }
 
@@ -278,7 +283,7 @@ std::vector<StageTime> System::TakeMappingTimes() {
 // A failure of mapping leaves frames without the keyframe that their poses are relative to.
 void System::LoseFramesNotMapped() {
   const auto has_place = [&](const FrameRecord& record) {
-    const Map* map = atlas().Find(record.map);
+    const Map* map = atlas().Find(atlas().Current(record.map));
     return map != nullptr && map->Knows(record.reference);
   };
   for (FrameRecord& record : frames_) {
@@ -311,7 +316,7 @@ void System::Finish(const StopCheck& stop) {
     frames_.back().times.insert(frames_.back().times.end(), times.begin(), times.end());
   }
   if (!monocular_start_) return;
-  for (const EarlierFrame& earlier : monocular_start_->Locate(mapping_.maps(), stop)) {
+  for (const EarlierFrame& earlier : monocular_start_->Locate(atlas(), stop)) {
     FrameRecord& record = frames_[static_cast<std::size_t>(earlier.id.value)];
     record.status = FrameStatus::kTracked;
     record.reason.clear();
@@ -332,7 +337,7 @@ Trajectory System::FinalTrajectory(MapId map) const {
   Trajectory trajectory;
   const Map& owner = maps().at(map);
   for (const FrameRecord& record : frames_) {
-    if (record.status != FrameStatus::kTracked || record.map != map) continue;
+    if (record.status != FrameStatus::kTracked || atlas().Current(record.map) != map) continue;
     trajectory.push_back(
         {record.stamp_ns,
          AsDelivered(PoseBeside(owner.PlaceOf(record.reference), record.from_reference))});
@@ -384,7 +389,7 @@ void System::DescribeSession(const std::string& program, const std::string& data
 std::optional<MapId> System::MainMap() const {
   std::map<MapId, int> frames;
   for (const FrameRecord& record : frames_) {
-    if (record.status == FrameStatus::kTracked) ++frames[record.map];
+    if (record.status == FrameStatus::kTracked) ++frames[atlas().Current(record.map)];
   }
   std::optional<MapId> main;
   for (const auto& [id, count] : frames) {

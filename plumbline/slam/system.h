@@ -13,6 +13,7 @@
 #include "plumbline/slam/execution.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/load_shedding.h"
+#include "plumbline/slam/map_events.h"
 #include "plumbline/slam/mapping_stage.h"
 #include "plumbline/slam/monocular_start.h"
 #include "plumbline/slam/options.h"
@@ -43,7 +44,7 @@ struct FrameRecord {
   std::int64_t stamp_ns = 0;
   FrameStatus status = FrameStatus::kSkipped;
   std::string reason;  // why there is no pose; empty where there is one
-  MapId map;           // where there is a pose
+  MapId map;           // that the pose was reported in, where there is one (Atlas::Current)
   KeyFrameId reference;
   RelativePose from_reference;
   std::optional<Rigid3> causal_world_from_camera;  // as first reported, camera as delivered
@@ -144,7 +145,11 @@ class System {
   // The last processed frame.
   const FrameView& view() const { return view_; }
 
-  // Poses of the camera as delivered, after Finish; frames in order of time.
+  // What was recognized, found again and joined, in order.
+  const MapEvents& events() const { return events_; }
+
+  // Poses of the camera as delivered, after Finish; frames in order of time. `map` is one of
+  // maps(); of causal poses also one that was joined with another since.
   Trajectory FinalTrajectory(MapId map) const;
   Trajectory KeyFrameTrajectory(MapId map) const;
   Trajectory CausalTrajectory(MapId map) const;
@@ -181,6 +186,7 @@ class System {
   KeyFrameId first_keyframe_{0};  // of this system's own
   bool relocalizing_ = false;     // asked for and not yet answered
   int attempts_ = 0;              // of this loss
+  MapEvents events_;
   std::optional<AtlasContext> loaded_;
   bool read_only_ = false;
   std::vector<FrameRecord> frames_;

@@ -45,14 +45,17 @@ TEST(FormatFrames, OneRowForEveryFrame) {
   FrameRecord dropped = TimedFrame(4, {});
   dropped.reason = "dropped";
   dropped.shed = Shed::kFrame;
-  EXPECT_EQ(FormatFrames({tracked, lost, skipped, hurried, dropped}),
+  Atlas atlas;
+  for (int map = 0; map < 3; ++map) atlas.Start();
+  atlas.Join(MapId{1}, MapId{2}, {});
+  EXPECT_EQ(FormatFrames({tracked, lost, skipped, hurried, dropped}, atlas),
             "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,"
-            "inlier_points,inlier_lines,shed\n"
-            "0,1305031102.175304000,tracked,2,,1,5,4,3,2,\n"
-            "1,1305031102.175304001,lost,,too_few_inliers,0,0,0,0,0,\n"
-            "2,1305031102.175304002,skipped,,image_unreadable,0,0,0,0,0,\n"
-            "3,1305031102.175304003,tracked,2,,0,0,0,0,0,lines\n"
-            "4,1305031102.175304004,skipped,,dropped,0,0,0,0,0,frame\n");
+            "inlier_points,inlier_lines,shed,final_map\n"
+            "0,1305031102.175304000,tracked,2,,1,5,4,3,2,,1\n"
+            "1,1305031102.175304001,lost,,too_few_inliers,0,0,0,0,0,,\n"
+            "2,1305031102.175304002,skipped,,image_unreadable,0,0,0,0,0,,\n"
+            "3,1305031102.175304003,tracked,2,,0,0,0,0,0,lines,1\n"
+            "4,1305031102.175304004,skipped,,dropped,0,0,0,0,0,frame,\n");
 }
 
 TEST(Timing, StatisticsAreOfTheFramesInWhichAStageRan) {
@@ -159,8 +162,11 @@ TEST(Summary, HoldsTheFieldsOfTheInterface) {
   EXPECT_EQ(json["wall_seconds"], 1.5);
   EXPECT_EQ(json["cpu_seconds"], 2.5);
   EXPECT_EQ(json["peak_memory_mb"], 30);
-  for (const char* key : {"maps", "keyframes", "points", "lines", "loops"}) {
+  for (const char* key : {"maps", "keyframes", "points", "lines"}) {
     EXPECT_TRUE(json[key].is_number_integer()) << key;
+  }
+  for (const char* key : {"loops", "joins", "relocalizations"}) {
+    EXPECT_TRUE(json[key].is_array()) << key;
   }
   const auto& accuracy = json["accuracy"];
   EXPECT_EQ(accuracy["alignment"], "se3");

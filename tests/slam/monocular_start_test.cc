@@ -29,7 +29,7 @@ double ErrorMetres(const Rigid3& cam_from_world, FrameId frame) {
 struct WaitingRun {
   SyntheticWorld world = MakeMonocularWorld(500, 80);
   MonocularStart start{world.Imaging(), {}};
-  std::map<MapId, Map> maps{{MapId{0}, Map(MapId{0})}};
+  Atlas atlas;
 
   WaitingRun() {
     for (int i = 2; i <= 22; ++i) {
@@ -37,14 +37,14 @@ struct WaitingRun {
     }
     const InitialMap initial = InitialMapOf(world, {10, 14, 22});
     const MapStart map_start = MakeMapStart(initial, world.Imaging(), Rigid3{}, KeyFrameId{0});
-    maps.at(MapId{0}).Apply(map_start.edit);
+    atlas.Start().Apply(map_start.edit);
     start.MapStarted(MapId{0}, map_start);
   }
 };
 
 TEST(MonocularStart, LocatesTheFramesThatWaited) {
   WaitingRun run;
-  const std::vector<EarlierFrame> located = run.start.Locate(run.maps);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.atlas);
   std::set<FrameId> found;
   for (const EarlierFrame& frame : located) {
     found.insert(frame.id);
@@ -54,13 +54,13 @@ TEST(MonocularStart, LocatesTheFramesThatWaited) {
     EXPECT_EQ(frame.reference, KeyFrameId{number > 14 ? 2 : number > 10 ? 1 : 0});
     EXPECT_GT(frame.counts.inlier_points, 50);
     const Rigid3 pose =
-        PoseBeside(run.maps.at(MapId{0}).PlaceOf(frame.reference), frame.from_reference);
+        PoseBeside(run.atlas.active().PlaceOf(frame.reference), frame.from_reference);
     EXPECT_LT(ErrorMetres(pose, frame.id), 0.02) << frame.id.value;
   }
   // All but the keyframes, those before the first one included.
   EXPECT_EQ(found.size(), 18U);
   for (const int keyframe : {10, 14, 22}) EXPECT_FALSE(found.contains(FrameId{keyframe}));
-  EXPECT_TRUE(run.start.Locate(run.maps).empty());  // once
+  EXPECT_TRUE(run.start.Locate(run.atlas).empty());  // once
 }
 
 // What a tracker says of a frame of the path: off by half the way from the reference, as in a
@@ -87,14 +87,14 @@ TrackingResult TrackedOf(const SyntheticWorld& world, int frame, KeyFrameId id, 
 struct YoungRun {
   SyntheticWorld world = MakeMonocularWorld(500, 80);
   MonocularStart start{world.Imaging(), {}};
-  std::map<MapId, Map> maps{{MapId{0}, Map(MapId{0})}};
+  Atlas atlas;
 
   YoungRun() {
     const auto begin = [&](const std::vector<int>& frames) {
       return MakeMapStart(InitialMapOf(world, frames), world.Imaging(), Rigid3{}, KeyFrameId{0});
     };
-    maps.at(MapId{0}).Apply(begin({10, 14, 22, 30}).edit);
-    maps.at(MapId{0}).Apply({edit::RemoveKeyFrame{KeyFrameId{3}}});
+    atlas.Start().Apply(begin({10, 14, 22, 30}).edit);
+    atlas.active().Apply({edit::RemoveKeyFrame{KeyFrameId{3}}});
     start.MapStarted(MapId{0}, begin({10, 14}));
   }
 
@@ -109,11 +109,11 @@ TEST(MonocularStart, LocatesTheFramesTrackedInAYoungMap) {
   YoungRun run;
   for (int i = 15; i <= 40; ++i) run.Track(i);
   std::set<FrameId> found;
-  for (const EarlierFrame& frame : run.start.Locate(run.maps)) {
+  for (const EarlierFrame& frame : run.start.Locate(run.atlas)) {
     found.insert(frame.id);
-    EXPECT_NE(run.maps.at(MapId{0}).Find(frame.reference), nullptr);
+    EXPECT_NE(run.atlas.active().Find(frame.reference), nullptr);
     const Rigid3 pose =
-        PoseBeside(run.maps.at(MapId{0}).PlaceOf(frame.reference), frame.from_reference);
+        PoseBeside(run.atlas.active().PlaceOf(frame.reference), frame.from_reference);
     EXPECT_LT(ErrorMetres(pose, frame.id), 0.02) << frame.id.value;
   }
   // All but the keyframe that is left.
@@ -123,7 +123,7 @@ TEST(MonocularStart, LocatesTheFramesTrackedInAYoungMap) {
   // It was needed.
   const TrackingResult tracked = TrackedOf(run.world, 21, KeyFrameId{1}, 14);
   EXPECT_GT(
-      ErrorMetres(PoseBeside(run.maps.at(MapId{0}).PlaceOf(KeyFrameId{1}), tracked.from_reference),
+      ErrorMetres(PoseBeside(run.atlas.active().PlaceOf(KeyFrameId{1}), tracked.from_reference),
                   FrameId{21}),
       0.06);
 }
@@ -134,7 +134,7 @@ TEST(MonocularStart, AMapIsYoungForSomeKeyFrames) {
   run.Track(23);
   run.Track(22);
   run.Track(24);
-  const std::vector<EarlierFrame> located = run.start.Locate(run.maps);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.atlas);
   ASSERT_EQ(located.size(), 1U);
   EXPECT_EQ(located[0].id, FrameId{23});
 }
@@ -144,7 +144,7 @@ TEST(MonocularStart, AMapIsYoungUntilItIsLost) {
   run.Track(15);
   run.start.Restart();
   run.Track(16);
-  const std::vector<EarlierFrame> located = run.start.Locate(run.maps);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.atlas);
   ASSERT_EQ(located.size(), 1U);
   EXPECT_EQ(located[0].id, FrameId{15});
 }
@@ -156,14 +156,14 @@ TEST(MonocularStart, KeepsABoundedNumberOfFrames) {
   for (std::size_t i = 1; i < MonocularStart::kMaxFrames; ++i) run.start.Tracked(blind);
   run.Track(16);
   run.Track(17);
-  const std::vector<EarlierFrame> located = run.start.Locate(run.maps);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.atlas);
   ASSERT_EQ(located.size(), 1U);  // a blind frame is not found and keeps its place
   EXPECT_EQ(located[0].id, FrameId{16});
 }
 
 TEST(MonocularStart, ForgetsWhatWaitedWhenItBeginsAnew) {
   WaitingRun run;
-  run.start.Locate(run.maps);
+  run.start.Locate(run.atlas);
   for (int i = 2; i < 6; ++i) {
     run.start.Offer(FrameId{i}, MeasuredOf(MonocularFrame(run.world, i)));
   }
@@ -171,7 +171,7 @@ TEST(MonocularStart, ForgetsWhatWaitedWhenItBeginsAnew) {
   const InitialMap initial = InitialMapOf(run.world, {10, 14, 22});
   run.start.MapStarted(MapId{0},
                        MakeMapStart(initial, run.world.Imaging(), Rigid3{}, KeyFrameId{0}));
-  EXPECT_TRUE(run.start.Locate(run.maps).empty());
+  EXPECT_TRUE(run.start.Locate(run.atlas).empty());
 }
 
 TEST(MonocularStart, SaysWhyThereIsNoMap) {
