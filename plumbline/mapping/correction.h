@@ -19,16 +19,31 @@ struct Correction {
   struct KeyFramePlace {
     Rigid3 before, after;  // cam_from_world
     double scale = 1;      // lengths around it, after / before
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.before, self.after, self.scale);
+    }
   };
   struct PointPlace {
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
     Eigen::Vector3d after = Eigen::Vector3d::Zero();
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.before, self.after);
+    }
   };
   std::map<KeyFrameId, KeyFramePlace> keyframes;
   std::map<PointId, PointPlace> points;
   std::vector<edit::RemovePointObservation> outliers;
 
   bool empty() const { return keyframes.empty(); }
+
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.keyframes, self.points, self.outliers);
+  }
 };
 
 // The correction as changes of a map that may have grown, shrunk and been adjusted since.

@@ -3,6 +3,7 @@
 #include "plumbline/mapping/final_adjustment.h"
 
 #include "plumbline/base/median.h"
+#include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
 #include "plumbline/optimization/elimination_plan.h"
@@ -122,6 +123,26 @@ void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
   for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
+// Another lens changes the scale from place to place by more than what is taken for a tear in the
+// end: poses and points go there first, by the points alone. False when stopped.
+bool BringToLens(const MappingOptions& options, const StopCheck& stop, BaProblem& problem) {
+  BaProblem points = problem;
+  points.lines.clear();
+  points.line_observations.clear();
+  LocalBaOptions ba = options.ba;
+  ba.rounds = 1;
+  ba.max_iterations = 40;
+  ba.function_tolerance = 1e-6;
+  const auto moved = SolveInOnePiece(
+      points, ba, LineParametrization::kPlucker, options.window.local_limits(), {}, stop);
+  if (!moved) return false;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    problem.poses[i].cam_from_world = moved->poses[i];
+  }
+  problem.points = moved->points;
+  return true;
+}
+
 Correction CorrectionOf(const Map& map, const MapProblem& whole, const BaResult& result) {
   Correction correction;
   const std::vector<double> scales = ScalesOf(whole.problem, result);
@@ -157,9 +178,14 @@ Correction AdjustWholeMap(const Map& map,
   if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weighting, {}), limit)) return {};
   const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
   if (IsToStop(stop)) return {};
-  const MapProblem whole = MakeWholeMap(map, imaging, lines.weighting, well_seen);
-  if (large && TakesTooLong(whole, limit)) return {};
+  MapProblem whole = MakeWholeMap(map, imaging, lines.weighting, well_seen);
+  // Long lines that are seen from far away tie everything to everything.
+  if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weighting, {});
+  const LensCorrection lens =
+      options.lens_calibration ? LearnLens(whole.problem, stop) : LensCorrection{};
+  Correct(lens, whole.problem);
   BaProblem problem = whole.problem;
+  if (lens.border_px != 0 && !BringToLens(options, stop, problem)) return {};
   // Poses that are held are free in `whole`: a new unit is for all.
   const std::optional<BaResult> result = SolveInOnePiece(
       problem,

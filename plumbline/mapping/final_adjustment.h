@@ -22,10 +22,13 @@ namespace plumbline {
 // what the first keyframe shows is kept, in the median, and each keyframe gets the scale by which
 // the depths it shows have changed (KeyFrame::unit).
 //
+// With a single camera what the calibration has left of the lens's radial distortion is learned
+// from the points and taken out of all measurements first (LearnLens, mapping.lens_calibration).
+//
 // Nothing for a map of less than three keyframes, or one whose equations take longer than those of
-// mapping.final_adjustment_keyframes that all share landmarks (FullSize); nothing when `stop` says
-// so before the end. Cost: FindWellSeenLines, and bundle adjustment of the whole map, with the time
-// of SchurSolver::Solve.
+// mapping.final_adjustment_keyframes that all share landmarks (FullSize), without the lines if
+// those make it so; nothing when `stop` says so before the end. Cost: FindWellSeenLines, and bundle
+// adjustment of the whole map, with the time of SchurSolver::Solve.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,

@@ -114,6 +114,17 @@ std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFr
   return times;
 }
 
+std::vector<MappingStep> LocalMapper::Tie(Map& map, KeyFrameId newest, KeyFrameId older) {
+  std::vector<MappingStep> times;
+  Timed("tie", times, [&] {
+    for (const KeyFrameId id : {older, newest}) {
+      Fuse(map, id);
+      Adjust(map, id);
+    }
+  });
+  return times;
+}
+
 std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) const {
   constexpr int kRounds = 2;  // with better poses, lines find more of what shows them
   std::vector<MappingStep> times;

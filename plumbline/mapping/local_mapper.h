@@ -46,6 +46,11 @@ class LocalMapper {
   // Add's.
   std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
 
+  // Two keyframes that were far apart in the map were found to see the same place, and what both
+  // show is fused: looks for more of it around both, and adjusts the surroundings of both. Times as
+  // Add's.
+  std::vector<MappingStep> Tie(Map& map, KeyFrameId newest, KeyFrameId older);
+
   // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap). When
   // stopped, what is not done is left out: the map is that of the last adjustment that was
   // completed. Times as Add's.

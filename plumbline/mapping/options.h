@@ -135,6 +135,7 @@ struct MappingOptions {
   BaWindowOptions window;
   LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4: 1.2 times the time, no better
   bool stereo_calibration = true;
+  bool lens_calibration = true;
   int final_adjustment_keyframes = 1000;
   LineMapOptions line_map;
 };
@@ -151,6 +152,10 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
   visit("stereo_calibration",
         o.stereo_calibration,
         "learn where the right image is displaced along its rows, and correct all disparities");
+  visit("lens_calibration",
+        o.lens_calibration,
+        "one camera: learn what the calibration has left of the lens's radial distortion when the "
+        "run ends, and adjust the whole map without it");
   visit(
       "final_adjustment_keyframes",
       o.final_adjustment_keyframes,

@@ -168,5 +168,19 @@ TEST(AdjustWholeMap, TakesLongPathsForTheSmallerMapsThatTakeAsLong) {
   EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
 }
 
+// All keyframes show the lines, so that with them each keyframe is tied to every other one.
+TEST(AdjustWholeMap, LeavesOutLinesThatMakeItTakeTooLong) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 40);
+  MappingOptions options;
+  options.final_adjustment_keyframes = 7;
+  TrueMap scene = MovedMap(world);
+  ForgetAfterFourKeyFrames(scene);
+  const Correction correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
+  ASSERT_FALSE(correction.empty());
+  const double before = WorstPose(scene.map, TruePoses());
+  scene.map.Apply(Rebased(correction, scene.map));
+  EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/byte_format.h"
+#include "plumbline/map/edit.h"
+#include "plumbline/mapping/local_mapper.h"
+
+namespace plumbline {
+
+// Transfer (base/byte_format.h) of what mapping tells of its work.
+
+template <class Archive, Like<MappingStep> T>
+void Transfer(Archive& archive, T& step) {
+  TransferAll(archive, step.name, step.milliseconds);
+}
+template <class Archive, Like<edit::RemovePointObservation> T>
+void Transfer(Archive& archive, T& removal) {
+  TransferAll(archive, removal.id, removal.keyframe);
+}
+template <class Archive, Like<AdjustedLines> T>
+void Transfer(Archive& archive, T& lines) {
+  TransferAll(archive, lines.count, lines.bytes);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/lens_calibration.h"
+
+#include "plumbline/optimization/local_ba.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace plumbline {
+namespace {
+
+constexpr double kPriorSigma = 0.01;  // of the image's width
+constexpr double kAllowed = 5e-4;     // the same: what corners' deviations allow for already
+
+Eigen::Vector2d InHalfWidths(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
+  return (px - Eigen::Vector2d(camera.cx, camera.cy)) / (0.5 * camera.width);
+}
+
+// The cost of a map's points as a function of the correction, in pixels at the border.
+class Profile {
+ public:
+  Profile(const BaProblem& problem, const StopCheck& stop) : problem_(problem), stop_(stop) {
+    problem_.lines.clear();
+    problem_.line_observations.clear();
+    problem_.axes.clear();
+    problem_.parallel_lines.clear();
+  }
+
+  // nullopt where the numbers are not finite, and when stopped.
+  std::optional<double> At(double border_px) const {
+    BaProblem corrected = problem_;
+    Correct({border_px}, corrected);
+    LocalBaOptions options;
+    options.rounds = 1;  // the same observations for all, the robust loss alone
+    options.max_iterations = 40;
+    options.function_tolerance = 1e-6;
+    const BaResult result = SolveLocalBa(corrected, options, LineParametrization::kPlucker, stop_);
+    if (result.termination == BaTermination::kStopped ||
+        result.termination == BaTermination::kNotFinite ||
+        result.termination == BaTermination::kNothingToDo) {
+      return std::nullopt;
+    }
+    return result.final_cost;
+  }
+
+ private:
+  BaProblem problem_;
+  const StopCheck& stop_;
+};
+
+struct Parabola {
+  double minimum = 0;
+  double curvature = 0;  // second derivative
+};
+
+// Through the costs at `middle` and `step` before and after it.
+Parabola Through(double middle, double step, const std::array<double, 3>& costs) {
+  const double slope = (costs[2] - costs[0]) / (2 * step);
+  const double curvature = (costs[0] - 2 * costs[1] + costs[2]) / (step * step);
+  return {middle - slope / curvature, curvature};
+}
+
+// Root mean square of what a correction of a pixel at the border moves the points of a problem by.
+double MeanSize(const BaProblem& problem) {
+  double sum = 0;
+  for (const auto& o : problem.point_observations) {
+    const Eigen::Vector2d& px = o.measurement.px;
+    sum += (LensCorrection{1}.At(problem.camera, px) - px).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(problem.point_observations.size()));
+}
+
+// nullopt where the profile has no minimum near by.
+std::optional<Parabola> FitAround(const Profile& profile, double middle, double step, double most) {
+  std::array<double, 3> costs{};
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    const auto cost = profile.At(middle + (static_cast<double>(i) - 1) * step);
+    if (!cost) return std::nullopt;
+    costs[i] = *cost;
+  }
+  const Parabola fit = Through(middle, step, costs);
+  if (!(fit.curvature > 0) || !(std::abs(fit.minimum) < most)) return std::nullopt;
+  return fit;
+}
+
+}  // namespace
+
+Eigen::Vector2d LensCorrection::At(const RectifiedCamera& camera, const Eigen::Vector2d& px) const {
+  const Eigen::Vector2d d = InHalfWidths(camera, px);
+  return px - border_px * d.squaredNorm() * d;
+}
+
+double LensCorrection::ScaleAt(const RectifiedCamera& camera, const Eigen::Vector2d& px) const {
+  const double part = border_px / (0.5 * camera.width) * InHalfWidths(camera, px).squaredNorm();
+  return std::sqrt((1 - part) * (1 - 3 * part));  // along the circle, along the radius
+}
+
+void Correct(const LensCorrection& correction, BaProblem& problem) {
+  const RectifiedCamera& camera = problem.camera;
+  for (auto& o : problem.point_observations) {
+    o.measurement.sigma_px *= correction.ScaleAt(camera, o.measurement.px);
+    o.measurement.px = correction.At(camera, o.measurement.px);
+  }
+  for (auto& o : problem.line_observations) {
+    if (o.measurement.in_right_camera) continue;
+    Segment2& segment = o.measurement.segment;
+    const double scale = correction.ScaleAt(camera, segment.Midpoint());
+    o.measurement.covariance *= scale * scale;
+    segment = {correction.At(camera, segment.start), correction.At(camera, segment.end)};
+  }
+}
+
+LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop) {
+  constexpr double kStep = 0.002;  // of the width
+  constexpr double kSigmas = 3, kMost = 3;
+  if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
+  const double sigma = kPriorSigma * problem.camera.width;
+  const double step = kStep * problem.camera.width;
+  const Profile profile(problem, stop);
+  std::optional<Parabola> fit = FitAround(profile, 0, step, kMost * sigma);
+  if (!fit) return {};
+  if (std::abs(fit->minimum) > step) {  // the profile is a parabola near its minimum only
+    fit = FitAround(profile, fit->minimum, step, kMost * sigma);
+    if (!fit) return {};
+  }
+  const double information = fit->curvature + 1 / (sigma * sigma);
+  const double border = fit->minimum * fit->curvature / information;
+  const double allowed = kAllowed * problem.camera.width;
+  const double rms = std::abs(border) * MeanSize(problem);
+  const bool significant = std::abs(border) * std::sqrt(information) > kSigmas;
+  return {significant && rms > allowed ? border : 0};
+}
+
+}  // namespace plumbline

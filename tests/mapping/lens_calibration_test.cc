@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/lens_calibration.h"
+
+#include "plumbline/base/elementary.h"
+#include "plumbline/base/random.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+RectifiedCamera OneCamera() {
+  RectifiedCamera camera;
+  camera.fx = camera.fy = 350;
+  camera.cx = 300;
+  camera.cy = 90;
+  camera.width = 600;
+  camera.height = 180;
+  return camera;
+}
+
+// Where the image shows what the correction takes to px.
+Vector2d Displaced(const LensCorrection& correction, const RectifiedCamera& camera, Vector2d px) {
+  const Vector2d wanted = px;
+  for (int i = 0; i < 20; ++i) px += wanted - correction.At(camera, px);
+  return px;
+}
+
+// A camera that turns by a right angle on a bend, among points on all sides, its images displaced
+// by what `lens` would take away. Each point is shown by some views that follow each other.
+BaProblem DriveRoundABend(const LensCorrection& lens, std::uint64_t seed = 3) {
+  constexpr int kViews = 30, kPoints = 1500, kMostShown = 6;
+  constexpr double kRadius = 10, kNoise = 0.2;
+  BaProblem problem;
+  problem.camera = OneCamera();
+  for (int k = 0; k < kViews; ++k) {
+    const double angle = 0.5 * std::numbers::pi * k / (kViews - 1);
+    const Rigid3 world_from_camera{
+        ExpSo3(-angle * Vector3d::UnitY()),
+        {-kRadius * (1 - math::Cos(angle)), 0, kRadius * math::Sin(angle)}};
+    problem.poses.push_back({Inverse(world_from_camera), k < 2});
+  }
+  Rng rng(seed, "bend");
+  for (int i = 0; i < kPoints; ++i) {
+    const Vector3d point(rng.Uniform(-35, 15), rng.Uniform(-3, 3), rng.Uniform(0, 40));
+    const int index = static_cast<int>(problem.points.size());
+    int shown = 0;
+    for (int k = 0; k < kViews && shown < kMostShown; ++k) {
+      const Vector3d seen = problem.poses[static_cast<std::size_t>(k)].cam_from_world * point;
+      if (seen.z() < 3 || seen.z() > 30) continue;
+      const Vector2d px = problem.camera.Project(seen);
+      if (px.x() < 0 || px.x() > 600 || px.y() < 0 || px.y() > 180) continue;
+      const Vector2d noise(rng.Normal(), rng.Normal());
+      problem.point_observations.push_back(
+          {k, index, {Displaced(lens, problem.camera, px) + kNoise * noise, kNoise, {}}});
+      ++shown;
+    }
+    if (shown > 0) problem.points.push_back(point);
+  }
+  return problem;
+}
+
+TEST(LearnLens, FindsWhatTheCalibrationHasLeft) {
+  constexpr int kSeeds = 4;
+  for (const double border : {3.0, -3.0}) {
+    double mean = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const double found = LearnLens(DriveRoundABend({border}, seed)).border_px;
+      EXPECT_NEAR(found, border, 1) << seed;
+      mean += found / kSeeds;
+    }
+    EXPECT_NEAR(mean, border, 0.4);
+  }
+}
+
+TEST(LearnLens, LeavesAGoodCalibrationAlone) {
+  EXPECT_EQ(LearnLens(DriveRoundABend({0})).border_px, 0);
+  // Less than what the deviations of corners allow for in any case.
+  EXPECT_EQ(LearnLens(DriveRoundABend({0.4})).border_px, 0);
+}
+
+TEST(LearnLens, IsForOneCameraAlone) {
+  BaProblem problem = DriveRoundABend({3});
+  problem.camera.baseline = 0.5;
+  EXPECT_EQ(LearnLens(problem).border_px, 0);
+  problem.point_observations.clear();
+  problem.camera.baseline = 0;
+  EXPECT_EQ(LearnLens(problem).border_px, 0);
+}
+
+TEST(LearnLens, FindsNothingWhenItIsStopped) {
+  int questions = 0;
+  EXPECT_EQ(LearnLens(DriveRoundABend({3}), [&] { return ++questions > 3; }).border_px, 0);
+}
+
+TEST(LensCorrection, MovesTheSideOfTheImageByWhatItSays) {
+  const RectifiedCamera camera = OneCamera();
+  const LensCorrection correction{2};
+  EXPECT_NEAR((correction.At(camera, {600, 90}) - Vector2d(598, 90)).norm(), 0, 1e-12);
+  EXPECT_NEAR((correction.At(camera, {0, 90}) - Vector2d(2, 90)).norm(), 0, 1e-12);
+  EXPECT_NEAR((correction.At(camera, {300, 90}) - Vector2d(300, 90)).norm(), 0, 1e-12);
+}
+
+TEST(LensCorrection, ScaleIsTheRootOfTheChangeOfArea) {
+  const RectifiedCamera camera = OneCamera();
+  const LensCorrection correction{-4};
+  constexpr double kStep = 1e-4;
+  for (const Vector2d& px : {Vector2d(300, 90), Vector2d(500, 40), Vector2d(20, 170)}) {
+    Eigen::Matrix2d J;
+    for (int k = 0; k < 2; ++k) {
+      const Vector2d step = kStep * Vector2d::Unit(k);
+      J.col(k) =
+          (correction.At(camera, px + step) - correction.At(camera, px - step)) / (2 * kStep);
+    }
+    EXPECT_NEAR(correction.ScaleAt(camera, px), std::sqrt(J.determinant()), 1e-7);
+  }
+}
+
+TEST(CorrectLens, TakesPointsAndLinesOfTheLeftImagesToTheirPlaces) {
+  BaProblem problem;
+  problem.camera = OneCamera();
+  const LensCorrection correction{2};
+  problem.point_observations.push_back({0, 0, {{600, 90}, 0.5, {}}});
+  LineMeasurement line{{{600, 90}, {0, 90}}, Eigen::Matrix2d::Identity(), false};
+  problem.line_observations.push_back({0, 0, line});
+  line.in_right_camera = true;
+  problem.line_observations.push_back({0, 0, line});
+  Correct(correction, problem);
+  EXPECT_NEAR(problem.point_observations[0].measurement.px.x(), 598, 1e-12);
+  EXPECT_LT(problem.point_observations[0].measurement.sigma_px, 0.5);
+  EXPECT_NEAR(problem.line_observations[0].measurement.segment.start.x(), 598, 1e-12);
+  EXPECT_NEAR(problem.line_observations[0].measurement.segment.end.x(), 2, 1e-12);
+  EXPECT_EQ(problem.line_observations[1].measurement.segment.start.x(), 600);
+}
+
+}  // namespace
+}  // namespace plumbline
