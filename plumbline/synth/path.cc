@@ -135,6 +135,14 @@ Nudge WheelsNudge(double time, std::uint64_t seed) {
   return nudge;
 }
 
+Nudge CarNudge(double time, std::uint64_t seed) {
+  Nudge nudge;
+  AddBand(nudge, time, seed, 0, {0.4, 1.6, 0.008, 0.004});  // springs
+  AddBand(nudge, time, seed, 10, {7, 14, 0.0006, 0.0005});  // tyres
+  nudge.translation.head<2>() *= 0.3;
+  return nudge;
+}
+
 }  // namespace
 
 Eigen::Quaterniond CameraAttitude(double yaw, double pitch, double roll) {
@@ -185,6 +193,9 @@ CameraPath WithCarrier(CameraPath path, Carrier carrier, std::uint64_t seed) {
                 break;
               case Carrier::kWheels:
                 nudge = WheelsNudge(time, seed);
+                break;
+              case Carrier::kCar:
+                nudge = CarNudge(time, seed);
                 break;
             }
             const Rigid3 base = path.world_from_camera(time);

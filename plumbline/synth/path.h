@@ -49,6 +49,7 @@ enum class Carrier {
   kHand,    // steps, sway, a wandering gaze
   kDrone,   // drift, tilt into accelerations, vibration
   kWheels,  // vibration of a rolling cart, no sway
+  kCar,     // pitch, roll and heave of its springs, and the road's unevenness
 };
 
 // Adds the motions of a carrier: sums of sines whose phases come from the seed.

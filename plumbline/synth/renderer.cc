@@ -24,6 +24,7 @@ using Eigen::Vector3f;
 
 constexpr int kPacket = RayTracer::kPacket;
 constexpr unsigned kNothing = RayTracer::kNothing;
+constexpr float kWhite = 255;
 constexpr int kEdgeSamples = 16;
 constexpr int kMostTimeSamples = 64;
 
@@ -126,6 +127,7 @@ class Renderer::Implementation {
         inside_places_(PixelPlaces(options.samples, false)),
         edge_places_(PixelPlaces(std::max(options.samples, kEdgeSamples), false)),
         inside_spacing_(1 / std::sqrt(static_cast<float>(options.samples))),
+        sky_(kWhite * static_cast<float>(scene.ambient)),
         tracer_(scene),
         shading_(scene,
                  tracer_,
@@ -180,6 +182,7 @@ class Renderer::Implementation {
   int samples_, time_samples_;
   std::vector<Vector2f> inside_places_, edge_places_;
   float inside_spacing_;  // of the samples within a pixel
+  float sky_;             // where there is nothing
   RayTracer tracer_;
   Shading shading_;
 };
@@ -254,7 +257,10 @@ float Renderer::Implementation::ShadeEdge(const RowView& view, int x) const {
     unsigned hits[kPacket];
     tracer_.Trace(packet, view.instant.moment, hits);
     for (int i = 0; i < packet.count; ++i) {
-      if (hits[i] == kNothing) continue;
+      if (hits[i] == kNothing) {
+        sum += sky_;
+        continue;
+      }
       if (hits[i] != surface) {
         surface = hits[i];
         level = LevelAt(view, x, surface, inside_spacing_);
@@ -281,12 +287,14 @@ void Renderer::Implementation::RenderInstant(const RayTable& rays,
         centres.row(std::max(y - 1, 0)), centres.row(y), centres.row(std::min(y + 1, height - 1))};
     for (int x = 0; x < width; ++x) {
       const unsigned hit = rows[1][x];
-      bool inside = hit != kNothing;
+      bool inside = true;
       for (const unsigned* row : rows) {
         inside = inside && row[std::max(x - 1, 0)] == hit && row[x] == hit &&
                  row[std::min(x + 1, width - 1)] == hit;
       }
-      light.at(x, y) = inside ? ShadeInside(view, x, hit) : ShadeEdge(view, x);
+      light.at(x, y) = !inside           ? ShadeEdge(view, x)
+                       : hit == kNothing ? sky_
+                                         : ShadeInside(view, x, hit);
     }
   }
 }
@@ -339,7 +347,10 @@ void Renderer::Implementation::RenderOpen(const RayTable& rays,
       for (int x = 0; x < width; ++x) {
         const auto column = static_cast<std::size_t>(x);
         const unsigned surface = hits[column];
-        if (surface == kNothing) continue;
+        if (surface == kNothing) {
+          light.at(x, y) += sky_ / static_cast<float>(count);
+          continue;
+        }
         Known& last = known[column];
         if (last.surface != surface) last = {surface, LevelAt(view, x, surface, spacing)};
         light.at(x, y) += ShadeAt(view, x, place, surface, last.level, SampleNumber(x, y, s)) /

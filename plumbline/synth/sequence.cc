@@ -15,8 +15,6 @@
 namespace plumbline {
 namespace {
 
-constexpr int kWidth = 752, kHeight = 480;
-constexpr double kFocal = 458.2;
 constexpr std::int64_t kFirstStampNs = 1'500'000'000'000'000'000;
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::uint64_t kNoiseStream = 0x5EED0F0015EULL, kDepthStream = 0xDE97, kImuStream = 0x1A5;
@@ -28,6 +26,9 @@ const SynthOptions& Checked(const SynthOptions& options) {
     throw InputError("shutter_ms + readout_ms: expected at most the " + std::to_string(frame_ms) +
                      " ms between two frames, found " +
                      std::to_string(options.shutter_ms + options.readout_ms));
+  }
+  if (options.camera == SynthCamera::kKitti && options.distortion) {
+    throw InputError("distortion: expected false with camera: kitti, found true");
   }
   return options;
 }
@@ -42,14 +43,14 @@ CameraIntrinsics Scaled(CameraIntrinsics k, double scale) {
   return k;
 }
 
-Camera MakeCamera(bool distortion, bool right, double scale) {
+CameraIntrinsics EurocIntrinsics(bool distortion, bool right) {
   CameraIntrinsics intrinsics;
-  intrinsics.fx = kFocal;
+  intrinsics.fx = 458.2;
   intrinsics.fy = 457.5;
   intrinsics.cx = 371.4;
   intrinsics.cy = 243.6;
-  intrinsics.width = kWidth;
-  intrinsics.height = kHeight;
+  intrinsics.width = 752;
+  intrinsics.height = 480;
   if (distortion) {
     intrinsics.model = DistortionModel::kRadTan;
     intrinsics.distortion = {-0.283, 0.0742, 0.0002, 0.00002, 0};
@@ -61,13 +62,31 @@ Camera MakeCamera(bool distortion, bool right, double scale) {
       intrinsics.distortion = {-0.2835, 0.0747, -0.0001, -0.00004, 0};
     }
   }
-  return Camera(Scaled(intrinsics, scale));
+  return intrinsics;
+}
+
+// Those of the odometry sequences 00 to 02.
+CameraIntrinsics KittiIntrinsics() {
+  CameraIntrinsics intrinsics;
+  intrinsics.fx = intrinsics.fy = 718.856;
+  intrinsics.cx = 607.1928;
+  intrinsics.cy = 185.2157;
+  intrinsics.width = 1241;
+  intrinsics.height = 376;
+  return intrinsics;
+}
+
+Camera MakeCamera(const SynthOptions& options, bool right, double scale) {
+  return Camera(Scaled(options.camera == SynthCamera::kKitti
+                           ? KittiIntrinsics()
+                           : EurocIntrinsics(options.distortion, right),
+                       scale));
 }
 
 Calibration MakeCalibration(const SynthOptions& options) {
   Calibration calibration;
-  calibration.left = MakeCamera(options.distortion, false, options.scale);
-  calibration.right = MakeCamera(options.distortion, true, options.scale);
+  calibration.left = MakeCamera(options, false, options.scale);
+  calibration.right = MakeCamera(options, true, options.scale);
   calibration.right_from_left.translation = {-options.baseline, 0, 0};
   if (options.distortion) {  // nor is any pair mounted in perfect alignment
     calibration.right_from_left.rotation = ExpSo3({0.0021, -0.0044, 0.0016});
@@ -101,8 +120,11 @@ int CountFrames(const CameraPath& path, const SynthOptions& options) {
 }
 
 // A share of a pixel where the path comes closest to a surface; bodies are taken to come to 1 m.
-std::vector<double> TexelSizes(const World& world, const SynthOptions& options, double seconds) {
-  constexpr double kFinest = 0.002, kCoarsest = 0.05, kStep = 0.2, kBodies = 1;
+std::vector<double> TexelSizes(const World& world,
+                               const SynthOptions& options,
+                               double focal,
+                               double seconds) {
+  constexpr double kCoarsest = 0.05, kStep = 0.2, kBodies = 1;
   std::vector<Eigen::Vector3d> places;
   for (double time = 0; time < seconds + kStep; time += kStep) {
     places.push_back(world.path.world_from_camera(time).translation);
@@ -118,20 +140,19 @@ std::vector<double> TexelSizes(const World& world, const SynthOptions& options, 
           [](double a, double b) { return std::min(a, b); },
           [&](const Eigen::Vector3d& place) { return surface.DistanceTo(place); });
     }
-    const double texel = options.texel * closest / (kFocal * options.scale);
-    texels.push_back(std::clamp(texel, kFinest, kCoarsest));
+    const double texel = options.texel * closest / focal;
+    texels.push_back(
+        std::clamp(texel, options.finest_texel, std::max(options.finest_texel, kCoarsest)));
   }
   return texels;
 }
 
-RendererOptions MakeRendererOptions(const World& world,
-                                    const SynthOptions& options,
-                                    int frames,
-                                    int threads) {
+RendererOptions MakeRendererOptions(
+    const World& world, const SynthOptions& options, double focal, int frames, int threads) {
   RendererOptions made;
   made.samples = options.samples;
   made.time_samples = options.time_samples;
-  made.texels = TexelSizes(world, options, frames / options.rate_hz);
+  made.texels = TexelSizes(world, options, focal, frames / options.rate_hz);
   made.threads = threads;
   return made;
 }
@@ -152,7 +173,9 @@ SyntheticSequence::SyntheticSequence(std::string_view world,
       calibration_(MakeCalibration(options)),
       made_(MakeWorld(world, options)),
       frames_(CountFrames(made_.path, options)),
-      renderer_(made_.scene, MakeRendererOptions(made_, options, frames_, threads)),
+      renderer_(
+          made_.scene,
+          MakeRendererOptions(made_, options, calibration_.left.intrinsics().fx, frames_, threads)),
       left_rays_(calibration_.left),
       right_rays_(*calibration_.right) {
   if (options.auto_exposure) gains_ = FindGains(threads);
@@ -218,7 +241,7 @@ Rendering SyntheticSequence::RenderIdeal(int frame, int camera) const {
 // the way to the brightness it wants.
 std::vector<double> SyntheticSequence::FindGains(int threads) const {
   constexpr double kProbeScale = 0.1, kTarget = 85, kPart = 0.25, kLeast = 0.1, kMost = 12;
-  const RayTable probe(MakeCamera(options_.distortion, false, kProbeScale));
+  const RayTable probe(MakeCamera(options_, false, kProbeScale));
   const std::vector<double> means = ParallelMap<double>(size(), threads, [&](int frame) {
     return Mean(renderer_
                     .Render(probe,

@@ -4,17 +4,31 @@
 
 #include "plumbline/base/options.h"
 
+#include <array>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 namespace plumbline {
+
+// Which pair of cameras records a world, but for the distance of the two.
+enum class SynthCamera {
+  kEuroc,  // 752 x 480, focal length 458 px, with or without lens distortion
+  kKitti,  // 1241 x 376, focal length 718.856 px, ideal and rectified
+};
+constexpr auto EnumNames(std::type_identity<SynthCamera>) {
+  return std::array{std::pair{SynthCamera::kEuroc, "euroc"},
+                    std::pair{SynthCamera::kKitti, "kitti"}};
+}
 
 // How a world is recorded: camera, sensor, path, amount of work.
 struct SynthOptions {
   int frames = 0;  // 0: the whole path
   double rate_hz = 20;
-  int path = 1;            // 2: the second visit, where the world has one
-  double speed = 1;        // of the path, 1 as the world has it
-  double scale = 1;        // of the image, 1 is 752 x 480
+  int path = 1;      // 2: the second visit, where the world has one
+  double speed = 1;  // of the path, 1 as the world has it
+  SynthCamera camera = SynthCamera::kEuroc;
+  double scale = 1;        // of the image, 1 is the camera's
   double baseline = 0.11;  // metres
   bool distortion = true;  // radial-tangential lens, as in EuRoC; false: ideal pinhole
   int samples = 4;         // per pixel
@@ -31,7 +45,8 @@ struct SynthOptions {
   double depth_noise = 1;
   double imu_rate_hz = 200;
   double imu_noise = 1;
-  double texel = 0.7;  // pixels
+  double texel = 0.7;           // pixels
+  double finest_texel = 0.002;  // metres
   std::uint64_t seed = 1;
 };
 
@@ -41,7 +56,10 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("rate_hz", o.rate_hz, "frames per second", Range{0.1, 1000});
   visit("path", o.path, "the way of the camera; 2: that of a second visit", Range{1, 2});
   visit("speed", o.speed, "of the path, 1 as the world has it", Range{0.05, 20});
-  visit("scale", o.scale, "of the image, 1 is 752 x 480", Range{0.1, 4});
+  visit("camera",
+        o.camera,
+        "euroc: 752 x 480 with a wide lens; kitti: 1241 x 376, ideal and rectified");
+  visit("scale", o.scale, "of the image, 1 is that of the camera", Range{0.1, 4});
   visit("baseline", o.baseline, "distance of the two cameras [m]", Range{0.01, 1});
   visit("distortion", o.distortion, "lens distortion; without it an ideal rectified pair");
   visit("samples", o.samples, "samples per pixel against aliasing", Range{1, 64});
@@ -66,6 +84,7 @@ void VisitFields(Visitor&& visit, SynthOptions& o) {
   visit("imu_rate_hz", o.imu_rate_hz, "samples of the inertial sensor per second", Range{1, 2000});
   visit("imu_noise", o.imu_noise, "of the inertial sensor, 1 as in EuRoC, 0 none", Range{0, 100});
   visit("texel", o.texel, "texture cell [px] where the path comes closest", Range{0.2, 50});
+  visit("finest_texel", o.finest_texel, "but no smaller than this [m]", Range{0.0005, 1});
   visit("seed", o.seed, "seed of textures, furniture, path and noise");
 }
 

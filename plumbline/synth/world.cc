@@ -14,6 +14,16 @@ namespace {
 
 void FollowTheLight(SynthOptions& options) { options.auto_exposure = true; }
 
+void DriveACar(SynthOptions& options) {
+  options.camera = SynthCamera::kKitti;
+  options.rate_hz = 10;
+  options.baseline = 0.537;
+  options.distortion = false;
+  options.exposure = 1.7;
+  options.vignetting = 0.05;
+  options.finest_texel = 0.012;  // no ground is seen from closer than 6 m
+}
+
 constexpr std::array kWorlds = {
     WorldEntry{"room",
                "a workshop with shelves, tables, posters and a window; one loop by hand",
@@ -94,7 +104,12 @@ constexpr std::array kWorlds = {
                "a bare hall with long level rails, pipes and boards; a cart rolling along them",
                "lines in the epipolar planes, which have no depth",
                nullptr,
-               MakeDegenerate}};
+               MakeDegenerate},
+    WorldEntry{"town",
+               "streets of houses with trees, parked cars and traffic; a car at 10 m/s",
+               "driving: large image motion, landmarks of a second's life, revisits, loops",
+               DriveACar,
+               MakeTown}};
 
 }  // namespace
 

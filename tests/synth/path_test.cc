@@ -101,6 +101,10 @@ TEST(WithCarrier, CarriersMoveAsTheyDo) {
   const Motion wheels = Measure(WithCarrier(still, Carrier::kWheels, 1));
   EXPECT_LT(wheels.speed, 0.15);
   EXPECT_LT(wheels.turn, 0.3);
+  const Motion car = Measure(WithCarrier(still, Carrier::kCar, 1));
+  EXPECT_GT(car.turn, 0.01);
+  EXPECT_LT(car.turn, 0.3);
+  EXPECT_LT(car.speed, 0.3);
   const Motion tripod = Measure(WithCarrier(still, Carrier::kTripod, 1));
   EXPECT_LT(tripod.speed, 1e-9);
   // Other seeds sway otherwise.

@@ -349,11 +349,18 @@ TEST(Renderer, BodiesMoveAndThrowShadows) {
   EXPECT_FALSE(renderer.Sees({0.4, 0, 2}, {0.4, 0, -0.5}, 0, -0.5));
 }
 
-TEST(Renderer, NothingIsBlackAndWithoutDepth) {
-  const Renderer renderer(Scene{}, {});
-  const Rendering rendering = renderer.Render(RayTable(SmallCamera(false)), LevelView());
-  EXPECT_EQ(rendering.light.at(100, 75), 0);
-  EXPECT_EQ(rendering.depth.at(100, 75), 0);
+// The sky is as bright as the light that comes from it; with an open shutter, too.
+TEST(Renderer, WhereThereIsNothingThereIsTheSky) {
+  Scene scene;
+  scene.ambient = 0.6;
+  const Renderer renderer(scene, {});
+  const RayTable rays(SmallCamera(false));
+  for (const double exposure : {0.0, 0.01}) {
+    const Rendering rendering =
+        renderer.Render(rays, [](double) { return LevelView(); }, {0, exposure, 0});
+    EXPECT_NEAR(rendering.light.at(100, 75), 0.6 * 255, 1e-3);
+    EXPECT_EQ(rendering.depth.at(100, 75), 0);
+  }
 }
 
 }  // namespace

@@ -192,6 +192,10 @@ TEST(SyntheticSequence, RefusesWhatCannotBe) {
   options.shutter_ms = 40;
   options.readout_ms = 20;
   EXPECT_THROW(SyntheticSequence("room", options, 1), InputError);
+  options = Small();
+  options.camera = SynthCamera::kKitti;
+  options.distortion = true;
+  EXPECT_THROW(SyntheticSequence("room", options, 1), InputError);
 }
 
 TEST(SyntheticSequence, ScaleMakesTheSameImageSmaller) {
@@ -216,6 +220,23 @@ TEST(SyntheticSequence, ScaleMakesTheSameImageSmaller) {
     }
   }
   EXPECT_LT(difference, 0.5 * contrast);
+}
+
+TEST(SyntheticSequence, KittisCamerasAreIdealAndScale) {
+  SynthOptions options = Small();
+  options.camera = SynthCamera::kKitti;
+  options.distortion = false;
+  options.scale = 0.5;
+  options.baseline = 0.537;
+  const Calibration calibration = SyntheticSequence("planar", options, 2).calibration();
+  const CameraIntrinsics& left = calibration.left.intrinsics();
+  EXPECT_EQ(left.width, 621);
+  EXPECT_EQ(left.height, 188);
+  EXPECT_NEAR(left.fx, 359.428, 1e-9);
+  EXPECT_NEAR(left.cx, 0.5 * (607.1928 + 0.5) - 0.5, 1e-9);
+  EXPECT_EQ(calibration.right->intrinsics().cx, left.cx);
+  EXPECT_TRUE(calibration.rectified);
+  EXPECT_NEAR(calibration.right_from_left.translation.x(), -0.537, 1e-12);
 }
 
 TEST(SyntheticSequence, AutoExposureFollowsTheScene) {

@@ -3,6 +3,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/synth/worlds/fittings.h"
 #include "plumbline/synth/worlds/shell.h"
+#include "plumbline/synth/worlds/track.h"
 #include "plumbline/synth/worlds/worlds.h"
 
 #include <cmath>
@@ -20,48 +21,6 @@ constexpr double kWidth = 12, kDepth = 9, kHeight = 3.8;
 const Vector2d kCarousel(5.2, 6.4);  // its middle
 
 Eigen::Quaterniond Turn(double yaw) { return ExpSo3(yaw * Vector3d::UnitZ()); }
-
-// A closed way along a rectangle with round corners, counterclockwise.
-struct Track {
-  Vector2d centre;
-  Vector2d half;  // half its size
-  double radius;  // of the corners
-  double speed;   // m/s, negative: clockwise
-  double start;   // metres along it at time 0
-  double z = 0;
-
-  // Where one is, with x ahead.
-  Rigid3 At(double time) const {
-    const Vector2d straight = 2 * (half.array() - radius);
-    const double corner = 0.5 * kPi * radius;
-    const double round = 2 * (straight.sum() + 2 * corner);
-    double s = std::fmod(start + speed * time, round);
-    if (s < 0) s += round;
-    // The four sides, each with the corner after it, start at the lower left.
-    double yaw = 0;
-    Vector2d at = centre - half + Vector2d(radius, 0);
-    for (int side = 0; side < 4; ++side, yaw += 0.5 * kPi) {
-      const double length = straight(side % 2);
-      const Vector2d ahead(math::Cos(yaw), math::Sin(yaw)), left(-ahead.y(), ahead.x());
-      if (s <= length) return Pose(at + s * ahead, yaw);
-      s -= length;
-      at += length * ahead;
-      if (s <= corner) {
-        const double angle = s / radius;
-        return Pose(at + radius * (math::Sin(angle) * ahead + (1 - math::Cos(angle)) * left),
-                    yaw + angle);
-      }
-      s -= corner;
-      at += radius * (ahead + left);
-    }
-    return Pose(at, 0);
-  }
-
- private:
-  Rigid3 Pose(const Vector2d& at, double yaw) const {
-    return {Turn(speed < 0 ? yaw + kPi : yaw), {at.x(), at.y(), z}};
-  }
-};
 
 // A limb that swings about the joint at its upper end; front is x.
 void AddLimb(SceneBuilder& scene,

@@ -20,6 +20,7 @@ World MakePlanar(std::uint64_t seed);
 World MakeForward(std::uint64_t seed);
 World MakeLateral(std::uint64_t seed);
 World MakeDegenerate(std::uint64_t seed);
+World MakeTown(std::uint64_t seed);
 World MakeRotation(std::uint64_t seed);
 World MakeStatic(std::uint64_t seed);
 World MakeLights(std::uint64_t seed);
