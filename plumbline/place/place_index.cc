@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/place/place_index.h"
+
+#include "plumbline/base/elementary.h"
+#include "plumbline/base/error.h"
+#include "plumbline/place/signature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace plumbline {
+namespace {
+
+// What a vote is worth by the bits that differ, in parts of kOne: the parabola that ends with 0 one
+// bit beyond the reach.
+constexpr std::uint64_t kOne = 256;
+using NearnessTable = std::array<std::uint64_t, kSignatureBits + 1>;
+
+constexpr NearnessTable Nearness(std::uint64_t reach) {
+  NearnessTable table{};
+  const std::uint64_t end = (reach + 1) * (reach + 1);
+  for (std::uint64_t d = 0; d <= reach; ++d) table[d] = kOne * (end - d * d) / end;
+  return table;
+}
+
+// Signatures of the strongest, strongest first.
+template <class Feature, class ToSignature>
+std::vector<Signature> Strongest(const std::vector<Feature>& features,
+                                 std::size_t most,
+                                 const ToSignature& to_signature) {
+  std::vector<std::size_t> order(features.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return features[a].response > features[b].response;
+  });
+  if (order.size() > most) order.resize(most);
+  std::vector<Signature> signatures;
+  signatures.reserve(order.size());
+  for (const std::size_t i : order) signatures.push_back(to_signature(features[i].descriptor));
+  return signatures;
+}
+
+std::array<std::vector<Signature>, 2> SignaturesOf(const Features& features) {
+  return {Strongest(features.points, PlaceIndex::kPoints, PointSignature),
+          Strongest(features.lines, PlaceIndex::kLines, LineSignature)};
+}
+
+// The votes of the features of one image: whole numbers, so that no order changes their sum.
+class Poll {
+ public:
+  explicit Poll(std::size_t slots) : nearest_(slots, kNone), votes_(slots, 0) {}
+
+  // A feature of the image and one of a keyframe differ in so many bits.
+  void Meet(std::uint32_t slot, int distance) {
+    if (nearest_[slot] == kNone) met_.push_back(slot);
+    nearest_[slot] = std::min(nearest_[slot], static_cast<std::uint8_t>(distance));
+  }
+
+  // The keyframes met since the last call get the vote of the feature, by their nearness.
+  void Count(std::size_t keyframes, const NearnessTable& nearness) {
+    const auto all = static_cast<double>(keyframes);
+    const auto rarity = static_cast<std::uint64_t>(
+        std::llround(kOne * math::Log1p(all / (1 + static_cast<double>(met_.size())))));
+    for (const std::uint32_t slot : met_) {
+      votes_[slot] += rarity * nearness[nearest_[slot]];
+      nearest_[slot] = kNone;
+    }
+    met_.clear();
+    all_ += rarity * kOne;
+  }
+
+  double ScoreOf(std::uint32_t slot) const {
+    return all_ > 0 ? static_cast<double>(votes_[slot]) / static_cast<double>(all_) : 0;
+  }
+
+ private:
+  static constexpr std::uint8_t kNone = 255;
+  std::vector<std::uint8_t> nearest_;  // of the feature at hand, by slot
+  std::vector<std::uint32_t> met_;     // slots that it has met
+  std::vector<std::uint64_t> votes_;   // by slot
+  std::uint64_t all_ = 0;              // that a keyframe can get
+};
+
+}  // namespace
+
+// The most telling bits are shared out among the trees of a kind.
+PlaceIndex::Kind::Kind(std::size_t features) : signatures(features) {
+  for (std::size_t i = 0; i < kTrees; ++i) {
+    trees[i] = SignatureTree(static_cast<int>(i), static_cast<int>(kTrees));
+  }
+}
+
+void PlaceIndex::Add(KeyFrameId id, const Features& features) {
+  PLUMBLINE_CHECK(!Contains(id), "a keyframe twice in an index of places");
+  if (free_slots_.empty()) {
+    free_slots_.push_back(static_cast<std::uint32_t>(by_slot_.size()));
+    by_slot_.emplace_back();
+  }
+  const std::uint32_t slot = free_slots_.back();
+  free_slots_.pop_back();
+  slots_.emplace(id, slot);
+  by_slot_[slot] = id;
+  const auto signatures = SignaturesOf(features);
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    Kind& kind = kinds_[k];
+    kind.signatures.Set(slot, signatures[k]);
+    for (SignatureTree& tree : kind.trees) {
+      for (std::size_t i = 0; i < signatures[k].size(); ++i)
+        tree.Add(FeatureName::Of(slot, i), kind.signatures);
+    }
+  }
+}
+
+void PlaceIndex::Remove(KeyFrameId id) {
+  const auto entry = slots_.find(id);
+  if (entry == slots_.end()) return;
+  const std::uint32_t slot = entry->second;
+  for (Kind& kind : kinds_) {
+    const std::size_t count = kind.signatures.Count(slot);
+    for (SignatureTree& tree : kind.trees) {
+      for (std::size_t i = 0; i < count; ++i)
+        tree.Remove(FeatureName::Of(slot, i), kind.signatures);
+    }
+    kind.signatures.Set(slot, {});
+  }
+  slots_.erase(entry);
+  by_slot_[slot] = KeyFrameId{};
+  free_slots_.push_back(slot);
+}
+
+std::vector<KeyFrameId> PlaceIndex::Ids() const {
+  std::vector<KeyFrameId> ids;
+  ids.reserve(slots_.size());
+  for (const auto& [id, slot] : slots_) ids.push_back(id);
+  return ids;
+}
+
+std::vector<PlaceCandidate> PlaceIndex::Query(
+    const Features& features,
+    std::size_t most,
+    const std::function<bool(KeyFrameId)>& allowed) const {
+  enum class Allowed : std::uint8_t { kUnknown, kYes, kNo };
+  std::vector<Allowed> known(by_slot_.size(), Allowed::kUnknown);
+  std::vector<std::uint32_t> found;
+  Poll poll(by_slot_.size());
+  const auto meet = [&](std::uint32_t slot, int distance) {
+    if (known[slot] == Allowed::kUnknown) {
+      known[slot] = allowed(by_slot_[slot]) ? Allowed::kYes : Allowed::kNo;
+      if (known[slot] == Allowed::kYes) found.push_back(slot);
+    }
+    if (known[slot] == Allowed::kYes) poll.Meet(slot, distance);
+  };
+  const auto signatures = SignaturesOf(features);
+  constexpr std::array<int, 2> kReach = {kPointReach, kLineReach};
+  constexpr std::array<NearnessTable, 2> kNearness = {Nearness(kPointReach), Nearness(kLineReach)};
+  std::vector<Signature> others;
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    const Kind& kind = kinds_[k];
+    std::array<std::vector<std::span<const FeatureName>>, kTrees> leaves;
+    for (std::size_t t = 0; t < kTrees; ++t) leaves[t] = kind.trees[t].Alike(signatures[k]);
+    for (std::size_t i = 0; i < signatures[k].size(); ++i) {
+      for (const auto& leaf_of : leaves) {
+        const std::span<const FeatureName> leaf = leaf_of[i];
+        kind.signatures.Read(leaf, &others);
+        for (std::size_t j = 0; j < others.size(); ++j) {
+          const int distance = HammingDistance(signatures[k][i], others[j]);
+          if (distance <= kReach[k]) meet(leaf[j].slot(), distance);
+        }
+      }
+      poll.Count(size(), kNearness[k]);
+    }
+  }
+  std::vector<PlaceCandidate> candidates;
+  candidates.reserve(found.size());
+  for (const std::uint32_t slot : found) {
+    candidates.push_back({by_slot_[slot], poll.ScoreOf(slot)});
+  }
+  const auto better = [](const PlaceCandidate& a, const PlaceCandidate& b) {
+    return a.score != b.score ? a.score > b.score : a.id < b.id;
+  };
+  const std::size_t count = std::min(most, candidates.size());
+  std::partial_sort(candidates.begin(),
+                    candidates.begin() + static_cast<std::ptrdiff_t>(count),
+                    candidates.end(),
+                    better);
+  candidates.resize(count);
+  return candidates;
+}
+
+std::size_t PlaceIndex::Memory() const {
+  constexpr std::size_t kMapNode = 48;  // of a red-black tree
+  std::size_t bytes = by_slot_.capacity() * sizeof(KeyFrameId) + slots_.size() * kMapNode +
+                      free_slots_.capacity() * sizeof(std::uint32_t);
+  for (const Kind& kind : kinds_) {
+    bytes += kind.signatures.Memory();
+    for (const SignatureTree& tree : kind.trees) bytes += tree.Memory();
+  }
+  return bytes;
+}
+
+}  // namespace plumbline

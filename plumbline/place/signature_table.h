@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/place/signature.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace plumbline {
+
+// A feature of a keyframe in an index: the keyframe's slot and the feature's place among its own.
+struct FeatureName {
+  static constexpr std::uint32_t kFeatureBits = 9;
+  static constexpr std::uint32_t kMaxFeatures = 1U << kFeatureBits;
+  static constexpr std::uint32_t kMaxSlots = 1U << (32 - kFeatureBits);
+
+  std::uint32_t value = 0;
+
+  static FeatureName Of(std::uint32_t slot, std::size_t feature) {
+    return {slot << kFeatureBits | static_cast<std::uint32_t>(feature)};
+  }
+  std::uint32_t slot() const { return value >> kFeatureBits; }
+  std::uint32_t feature() const { return value & (kMaxFeatures - 1); }
+
+  friend auto operator<=>(FeatureName, FeatureName) = default;
+};
+
+// Signatures by slot. Each slot has room for the same number of them, so that the place of one in
+// memory follows from its name: most of the time of a query is spent on waiting for signatures.
+class SignatureTable {
+ public:
+  // `room`: signatures of a slot at most, and not more than FeatureName::kMaxFeatures.
+  explicit SignatureTable(std::size_t room);
+
+  // BugError for more than there is room or there are names for.
+  void Set(std::uint32_t slot, std::span<const Signature> signatures);
+
+  // How many a slot has.
+  std::size_t Count(std::uint32_t slot) const { return counts_[slot]; }
+  const Signature& operator[](FeatureName name) const {
+    return blocks_[name.slot() / kBlock][name.slot() % kBlock * room_ + name.feature()];
+  }
+  // The signatures of these features. They lie far apart in memory; read like this, without a
+  // decision between two of them, the processor fetches several at once.
+  void Read(std::span<const FeatureName> names, std::vector<Signature>* signatures) const {
+    signatures->resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) (*signatures)[i] = (*this)[names[i]];
+  }
+
+  // Bytes, with what is set aside for more.
+  std::size_t Memory() const;
+
+ private:
+  static constexpr std::uint32_t kBlock = 16;  // slots
+
+  std::size_t room_;
+  std::vector<std::unique_ptr<Signature[]>> blocks_;
+  std::vector<std::uint16_t> counts_;  // by slot
+};
+
+}  // namespace plumbline
