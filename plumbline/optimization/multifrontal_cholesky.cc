@@ -16,7 +16,11 @@ namespace {
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-Eigen::Index Scalars(int blocks) { return 6 * static_cast<Eigen::Index>(blocks); }
+// Rows of scalars in a number of blocks.
+template <int kSize>
+Eigen::Index Scalars(int blocks) {
+  return kSize * static_cast<Eigen::Index>(blocks);
+}
 
 // The rows that a front changes.
 std::span<const int> Changed(const Front& front) {
@@ -48,7 +52,8 @@ bool Eliminate(Eigen::MatrixXd& columns, Eigen::MatrixXd& change) {
 
 }  // namespace
 
-MultifrontalCholesky::MultifrontalCholesky(EliminationPlan plan)
+template <int kSize>
+BlockCholesky<kSize>::BlockCholesky(EliminationPlan plan)
     : fronts_(std::move(plan.fronts)), panels_(fronts_.size()) {
   std::size_t rows = 0;
   for (const Front& front : fronts_) rows += Index(front.pivots);
@@ -57,7 +62,8 @@ MultifrontalCholesky::MultifrontalCholesky(EliminationPlan plan)
   std::vector<int> place(rows, -1);
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     const Front& front = fronts_[f];
-    panels_[f].columns.resize(Scalars(static_cast<int>(front.rows.size())), Scalars(front.pivots));
+    panels_[f].columns.resize(Scalars<kSize>(static_cast<int>(front.rows.size())),
+                              Scalars<kSize>(front.pivots));
     for (int k = 0; k < front.pivots; ++k) {
       front_of_[Index(front.rows[Index(k)])] = static_cast<int>(f);
       pivot_of_[Index(front.rows[Index(k)])] = k;
@@ -76,11 +82,13 @@ MultifrontalCholesky::MultifrontalCholesky(EliminationPlan plan)
   Clear();
 }
 
-void MultifrontalCholesky::Clear() {
+template <int kSize>
+void BlockCholesky<kSize>::Clear() {
   for (Panel& panel : panels_) panel.columns.setZero();
 }
 
-void MultifrontalCholesky::Set(int row, int column, const Matrix6d& block) {
+template <int kSize>
+void BlockCholesky<kSize>::Set(int row, int column, const Block& block) {
   const auto time = [&](int r) { return std::pair(front_of_[Index(r)], pivot_of_[Index(r)]); };
   if (time(row) < time(column)) {
     Set(column, row, block.transpose());
@@ -95,16 +103,17 @@ void MultifrontalCholesky::Set(int row, int column, const Matrix6d& block) {
     PLUMBLINE_CHECK(at != changed.end() && *at == row, "a block that the pattern does not have");
     place = front.pivots + static_cast<int>(at - changed.begin());
   }
-  panels_[Index(front_of_[Index(column)])].columns.block<6, 6>(
-      Scalars(place), Scalars(pivot_of_[Index(column)])) = block;
+  panels_[Index(front_of_[Index(column)])].columns.template block<kSize, kSize>(
+      Scalars<kSize>(place), Scalars<kSize>(pivot_of_[Index(column)])) = block;
 }
 
-void MultifrontalCholesky::TakeIn(const Eigen::MatrixXd& change,
+template <int kSize>
+void BlockCholesky<kSize>::TakeIn(const Eigen::MatrixXd& change,
                                   const std::vector<int>& place,
                                   Eigen::MatrixXd& columns,
                                   Eigen::MatrixXd& own_change) {
   const int count = static_cast<int>(place.size());
-  const int pivots = static_cast<int>(columns.cols() / 6);
+  const int pivots = static_cast<int>(columns.cols() / kSize);
   for (int j = 0; j < count; ++j) {
     const int column = place[Index(j)];
     const bool pivot = column < pivots;
@@ -112,18 +121,22 @@ void MultifrontalCholesky::TakeIn(const Eigen::MatrixXd& change,
     const int shift = pivot ? 0 : pivots;
     for (int i = j; i < count;) {
       const int end = EndOfRun(place, i, count);
-      to.block(Scalars(place[Index(i)] - shift), Scalars(column - shift), Scalars(end - i), 6) +=
-          change.block(Scalars(i), Scalars(j), Scalars(end - i), 6);
+      to.block(Scalars<kSize>(place[Index(i)] - shift),
+               Scalars<kSize>(column - shift),
+               Scalars<kSize>(end - i),
+               kSize) +=
+          change.block(Scalars<kSize>(i), Scalars<kSize>(j), Scalars<kSize>(end - i), kSize);
       i = end;
     }
   }
 }
 
-bool MultifrontalCholesky::Factor(const StopCheck& stop) {
+template <int kSize>
+bool BlockCholesky<kSize>::Factor(const StopCheck& stop) {
   std::vector<Eigen::MatrixXd> changes(fronts_.size());  // that wait for the parent
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     if (IsToStop(stop)) return false;
-    const Eigen::Index size = Scalars(CountChanged(fronts_[f]));
+    const Eigen::Index size = Scalars<kSize>(CountChanged(fronts_[f]));
     Eigen::MatrixXd& change = changes[f];
     change.setZero(size, size);
     for (const int child : panels_[f].children) {
@@ -135,27 +148,30 @@ bool MultifrontalCholesky::Factor(const StopCheck& stop) {
   return true;
 }
 
-void MultifrontalCholesky::Solve(Eigen::VectorXd& x) const {
+template <int kSize>
+void BlockCholesky<kSize>::Solve(Eigen::VectorXd& x) const {
   const auto top = [](const Panel& panel) { return panel.columns.topRows(panel.columns.cols()); };
   const auto below = [](const Panel& panel) {
     return panel.columns.bottomRows(panel.columns.rows() - panel.columns.cols());
   };
   const auto gather = [&](std::span<const int> rows) {
-    Eigen::VectorXd part(Scalars(static_cast<int>(rows.size())));
+    Eigen::VectorXd part(Scalars<kSize>(static_cast<int>(rows.size())));
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      part.segment<6>(Scalars(static_cast<int>(k))) = x.segment<6>(Scalars(rows[k]));
+      part.segment<kSize>(Scalars<kSize>(static_cast<int>(k))) =
+          x.segment<kSize>(Scalars<kSize>(rows[k]));
     }
     return part;
   };
   const auto scatter = [&](const Eigen::VectorXd& part, std::span<const int> rows) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      x.segment<6>(Scalars(rows[k])) = part.segment<6>(Scalars(static_cast<int>(k)));
+      x.segment<kSize>(Scalars<kSize>(rows[k])) =
+          part.segment<kSize>(Scalars<kSize>(static_cast<int>(k)));
     }
   };
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     const std::span<const int> pivots = std::span(fronts_[f].rows).first(Index(fronts_[f].pivots));
     Eigen::VectorXd own = gather(pivots);
-    top(panels_[f]).triangularView<Eigen::Lower>().solveInPlace(own);
+    top(panels_[f]).template triangularView<Eigen::Lower>().solveInPlace(own);
     scatter(own, pivots);
     Eigen::VectorXd rest = gather(Changed(fronts_[f]));
     rest.noalias() -= below(panels_[f]) * own;
@@ -165,9 +181,12 @@ void MultifrontalCholesky::Solve(Eigen::VectorXd& x) const {
     const std::span<const int> pivots = std::span(fronts_[f].rows).first(Index(fronts_[f].pivots));
     Eigen::VectorXd own = gather(pivots);
     own.noalias() -= below(panels_[f]).transpose() * gather(Changed(fronts_[f]));
-    top(panels_[f]).transpose().triangularView<Eigen::Upper>().solveInPlace(own);
+    top(panels_[f]).transpose().template triangularView<Eigen::Upper>().solveInPlace(own);
     scatter(own, pivots);
   }
 }
+
+template class BlockCholesky<6>;
+template class BlockCholesky<7>;
 
 }  // namespace plumbline

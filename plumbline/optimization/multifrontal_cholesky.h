@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/base/stop_check.h"
-#include "plumbline/geometry/se3.h"
 #include "plumbline/optimization/elimination_plan.h"
 
 #include <vector>
@@ -12,20 +11,25 @@
 
 namespace plumbline {
 
-// Cholesky factorization of a sparse symmetric positive definite matrix of blocks of 6 x 6, front
-// by front: each is a dense matrix that takes in what its children change, eliminates its pivots
-// and hands on the rest (Duff and Reid 1983). Serial, sums in the order of the plan: results repeat
-// bit by bit.
-class MultifrontalCholesky {
+// Cholesky factorization of a sparse symmetric positive definite matrix of square blocks, front by
+// front: each is a dense matrix that takes in what its children change, eliminates its pivots and
+// hands on the rest (Duff and Reid 1983). Serial, sums in the order of the plan: results repeat bit
+// by bit.
+//
+//   kSize  rows of a block; there are instances for 6 (rigid motions) and 7 (similarities)
+template <int kSize>
+class BlockCholesky {
  public:
+  using Block = Eigen::Matrix<double, kSize, kSize>;
+
   // Every row of the matrix is a pivot of one front.
-  explicit MultifrontalCholesky(EliminationPlan plan);
+  explicit BlockCholesky(EliminationPlan plan);
 
   // Makes the matrix zero.
   void Clear();
   // Sets block (row, column) and with it its mirror image; both must be in a front together. Of
   // those with row = column only the lower triangle is looked at.
-  void Set(int row, int column, const Matrix6d& block);
+  void Set(int row, int column, const Block& block);
   // False where the matrix is not positive definite, and when stopped (asked before each front).
   // Afterwards there is its factor in its place.
   // O(multiplications of the plan); memory: the factor, and what waits to be handed on.
@@ -52,5 +56,10 @@ class MultifrontalCholesky {
   std::vector<int> front_of_;  // by row: where it is eliminated
   std::vector<int> pivot_of_;  // by row: its place there
 };
+
+extern template class BlockCholesky<6>;
+extern template class BlockCholesky<7>;
+
+using MultifrontalCholesky = BlockCholesky<6>;
 
 }  // namespace plumbline

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/loop/essential_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+namespace plumbline {
+namespace {
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+KeyFrameId InMap(const Map& map, KeyFrameId id) {
+  while (id.valid() && map.Find(id) == nullptr) id = map.ParentOf(id);
+  return id;
+}
+
+// Pairs of poses, each once, the lesser index second.
+class Ties {
+ public:
+  Ties(const Map& map, const std::vector<KeyFrameId>& keyframes) : map_(map) {
+    if (keyframes.empty()) return;
+    index_of_.assign(Index(static_cast<int>(keyframes.back().value)) + 1, -1);
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      index_of_[static_cast<std::size_t>(keyframes[i].value)] = static_cast<int>(i);
+    }
+  }
+
+  std::vector<std::pair<int, int>> Gather(const std::vector<KeyFrameId>& keyframes, int strong) {
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      const KeyFrame& keyframe = *map_.Find(keyframes[i]);
+      const KeyFrameId parent = InMap(map_, keyframe.parent);
+      if (parent.valid()) Tie(static_cast<int>(i), PoseOf(parent));
+      TieCovisible(static_cast<int>(i), keyframe, strong);
+    }
+    std::sort(ties_.begin(), ties_.end());
+    ties_.erase(std::unique(ties_.begin(), ties_.end()), ties_.end());
+    return std::move(ties_);
+  }
+
+ private:
+  int PoseOf(KeyFrameId id) const { return index_of_[static_cast<std::size_t>(id.value)]; }
+
+  void Tie(int a, int b) {
+    if (a != b) ties_.emplace_back(std::max(a, b), std::min(a, b));
+  }
+
+  template <class LandmarkId>
+  void CountEarlier(KeyFrameId id, const std::vector<LandmarkId>& matches) {
+    for (const LandmarkId match : matches) {
+      if (!match.valid()) continue;
+      for (const auto& [other, feature] : map_.Find(match)->observations) {
+        if (!(other < id)) break;
+        const int pose = PoseOf(other);
+        if (shared_[Index(pose)]++ == 0) touched_.push_back(pose);
+      }
+    }
+  }
+
+  void TieCovisible(int pose, const KeyFrame& keyframe, int strong) {
+    shared_.resize(index_of_.size(), 0);
+    touched_.clear();
+    CountEarlier(keyframe.id, keyframe.frame.points);
+    CountEarlier(keyframe.id, keyframe.frame.lines);
+    for (const int other : touched_) {
+      if (shared_[Index(other)] >= strong) Tie(pose, other);
+      shared_[Index(other)] = 0;
+    }
+  }
+
+  const Map& map_;
+  std::vector<int> index_of_;  // by id
+  std::vector<int> shared_;    // by index, of the keyframe at hand
+  std::vector<int> touched_;   // where shared_ is not zero
+  std::vector<std::pair<int, int>> ties_;
+};
+
+double Length(const PoseGraph& graph, const std::pair<int, int>& tie) {
+  return (graph.poses[Index(tie.first)] * Inverse(graph.poses[Index(tie.second)]))
+      .translation.norm();
+}
+
+// What odometry may have drifted over a relative pose. `step`: how far keyframes usually are apart.
+Matrix7d DriftInformation(const Similarity3& motion,
+                          double step,
+                          bool free_scale,
+                          const DriftOptions& drift) {
+  constexpr double kLeastStep = 0.2;  // of the usual one
+  const double angle = LogSo3(motion.rotation).norm();
+  const double rotation =
+      drift.rotation_deg * std::numbers::pi / 180 + drift.rotation_per_turn * angle;
+  const double translation =
+      drift.translation_per_distance * (motion.translation.norm() + kLeastStep * step);
+  Matrix7d information = Matrix7d::Zero();
+  information.diagonal().head<3>().setConstant(1 / (rotation * rotation));
+  information.diagonal().segment<3>(3).setConstant(1 / (translation * translation));
+  if (free_scale) information(6, 6) = 1 / (drift.log_scale * drift.log_scale);
+  return information;
+}
+
+Matrix7d CovarianceOf(const PoseGraphEdge& edge) {
+  const Eigen::Index size = edge.information(6, 6) > 0 ? 7 : 6;
+  Matrix7d covariance = Matrix7d::Zero();
+  covariance.topLeftCorner(size, size) = edge.information.topLeftCorner(size, size)
+                                             .ldlt()
+                                             .solve(Eigen::MatrixXd::Identity(size, size));
+  return covariance;
+}
+
+// For each pose the edge that leads to it on the way from the first, or -1.
+std::vector<int> ShortestWays(const PoseGraph& graph, int first, int last) {
+  std::vector<std::vector<int>> edges_of(graph.poses.size());
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    edges_of[Index(graph.edges[e].to)].push_back(static_cast<int>(e));
+    edges_of[Index(graph.edges[e].from)].push_back(static_cast<int>(e));
+  }
+  std::vector<int> edge_to(graph.poses.size(), -1);
+  std::vector<bool> reached(graph.poses.size(), false);
+  std::queue<int> queue;
+  queue.push(first);
+  reached[Index(first)] = true;
+  while (!queue.empty() && !reached[Index(last)]) {
+    const int pose = queue.front();
+    queue.pop();
+    for (const int e : edges_of[Index(pose)]) {
+      const PoseGraphEdge& edge = graph.edges[Index(e)];
+      const int other = edge.to == pose ? edge.from : edge.to;
+      if (reached[Index(other)]) continue;
+      reached[Index(other)] = true;
+      edge_to[Index(other)] = e;
+      queue.push(other);
+    }
+  }
+  return edge_to;
+}
+
+}  // namespace
+
+int EssentialGraph::PoseOf(KeyFrameId id) const {
+  const auto place = std::lower_bound(keyframes.begin(), keyframes.end(), id);
+  if (place == keyframes.end() || *place != id) return -1;
+  return static_cast<int>(place - keyframes.begin());
+}
+
+EssentialGraph MakeEssentialGraph(const Map& map,
+                                  bool free_scale,
+                                  const DriftOptions& drift,
+                                  int strong_covisibility) {
+  EssentialGraph essential;
+  PoseGraph& graph = essential.graph;
+  graph.motion = free_scale ? PoseGraphMotion::kSimilarity : PoseGraphMotion::kRigid;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    essential.keyframes.push_back(id);
+    graph.poses.push_back(ToSimilarity(keyframe.frame.cam_from_world));
+    graph.fixed.push_back(graph.fixed.empty());
+  }
+  const auto ties = Ties(map, essential.keyframes).Gather(essential.keyframes, strong_covisibility);
+  double step = 0;
+  for (const auto& tie : ties) step += Length(graph, tie) / static_cast<double>(ties.size());
+  for (const auto& [to, from] : ties) {
+    PoseGraphEdge edge;
+    edge.to = to;
+    edge.from = from;
+    edge.to_from = graph.poses[Index(to)] * Inverse(graph.poses[Index(from)]);
+    edge.information = DriftInformation(edge.to_from, std::max(step, 1e-9), free_scale, drift);
+    graph.edges.push_back(edge);
+  }
+  return essential;
+}
+
+void ShareInformation(PoseGraph& graph) {
+  std::vector<int> degree(graph.poses.size(), 0);
+  for (const PoseGraphEdge& edge : graph.edges) {
+    ++degree[Index(edge.to)];
+    ++degree[Index(edge.from)];
+  }
+  for (PoseGraphEdge& edge : graph.edges) {
+    const double d = 0.5 * (degree[Index(edge.to)] + degree[Index(edge.from)]);
+    edge.information /= std::max(1.0, d * (d + 2) / 8);
+  }
+}
+
+std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
+                                        const EssentialGraph& essential,
+                                        const LoopEdge& loop) {
+  const KeyFrameId query = InMap(map, loop.query);
+  const KeyFrameId candidate = InMap(map, loop.candidate);
+  if (!query.valid() || !candidate.valid() || query == candidate) return std::nullopt;
+  const Placement query_then = map.PlaceOf(loop.query);
+  const Placement candidate_then = map.PlaceOf(loop.candidate);
+  const UncertainPose measured{CandidateFromQueryToday(loop, query_then.unit, candidate_then.unit),
+                               loop.covariance};
+  const Similarity3 query_from_standin =
+      ToSimilarity(query_then.cam_from_world * Inverse(map.PoseOf(query)));
+  const Similarity3 standin_from_candidate =
+      ToSimilarity(map.PoseOf(candidate) * Inverse(candidate_then.cam_from_world));
+  const UncertainPose between =
+      Compose({standin_from_candidate}, Compose(measured, {query_from_standin}));
+  LoopEdge moved = loop;
+  moved.covariance = between.covariance;
+  PoseGraphEdge edge;
+  edge.to = essential.PoseOf(candidate);
+  edge.from = essential.PoseOf(query);
+  edge.to_from = between.pose;
+  edge.information = InformationOf(moved);
+  edge.may_be_wrong = true;
+  return edge;
+}
+
+std::optional<UncertainPose> Along(const PoseGraph& graph, int to, int from) {
+  if (to == from) return UncertainPose{};
+  const std::vector<int> edge_to = ShortestWays(graph, from, to);
+  if (edge_to[Index(to)] < 0) return std::nullopt;
+  UncertainPose to_from;
+  for (int pose = to; pose != from;) {
+    const PoseGraphEdge& edge = graph.edges[Index(edge_to[Index(pose)])];
+    const UncertainPose step{edge.to_from, CovarianceOf(edge)};
+    to_from = Compose(to_from, edge.to == pose ? step : Inverse(step));
+    pose = edge.to == pose ? edge.from : edge.to;
+  }
+  return to_from;
+}
+
+}  // namespace plumbline

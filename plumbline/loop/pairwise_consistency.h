@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/loop/essential_graph.h"
+#include "plumbline/optimization/pose_graph.h"
+
+#include <span>
+#include <vector>
+
+namespace plumbline {
+
+// How far two loops are from agreeing with each other by way of odometry: the squared Mahalanobis
+// norm of the cycle candidate, query, other query, other candidate and back (Mangelson, Dominic,
+// Eustice and Vasudevan, ICRA 2018, eq. 7). 0 where odometry does not tie them: nothing speaks
+// against the two. `graph` has the edges of odometry only. O(edges of the graph).
+double CycleChi2(const PoseGraph& graph, const PoseGraphEdge& a, const PoseGraphEdge& b);
+
+// A largest set of which all are consistent with each other (a clique of the graph), ascending; of
+// several the first in the order of their members. consistent[i][j]: as [j][i].
+//
+//   cost  exponential at worst; some microseconds for 30 of which most agree
+std::vector<int> LargestConsistentSet(const std::vector<std::vector<bool>>& consistent);
+
+}  // namespace plumbline

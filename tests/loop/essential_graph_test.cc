@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/loop/essential_graph.h"
+
+#include "tests/loop/loop_scene.h"
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::LoopScene;
+using testing::LoopSceneOptions;
+using testing::MakeLoopScene;
+
+LoopEdge TrueEdge(const LoopScene& scene, std::int64_t query, std::int64_t candidate) {
+  LoopEdge edge;
+  edge.query = KeyFrameId{query};
+  edge.candidate = KeyFrameId{candidate};
+  edge.candidate_from_query =
+      ToSimilarity(scene.map.PoseOf(edge.candidate) * Inverse(scene.map.PoseOf(edge.query)));
+  edge.covariance.diagonal().head<6>().setConstant(1e-4);
+  return edge;
+}
+
+TEST(EssentialGraph, TiesParentsAndStrongNeighbours) {
+  const LoopScene scene = MakeLoopScene({});
+  const EssentialGraph sparse = MakeEssentialGraph(scene.map, false, {}, 100000);
+  ASSERT_EQ(sparse.keyframes.size(), 46U);
+  EXPECT_EQ(sparse.graph.edges.size(), 45U);
+  EXPECT_TRUE(sparse.graph.fixed.front());
+  EXPECT_FALSE(sparse.graph.fixed.back());
+  for (const PoseGraphEdge& edge : sparse.graph.edges) {
+    EXPECT_EQ(edge.to, edge.from + 1);
+    EXPECT_LT(PoseGraphResidual(edge,
+                                sparse.graph.poses[static_cast<std::size_t>(edge.to)],
+                                sparse.graph.poses[static_cast<std::size_t>(edge.from)])
+                  .norm(),
+              1e-9);
+  }
+  const EssentialGraph dense = MakeEssentialGraph(scene.map, false, {}, 60);
+  EXPECT_GT(dense.graph.edges.size(), 60U);
+}
+
+TEST(EssentialGraph, PassesOverKeyFramesThatLeft) {
+  LoopScene scene = MakeLoopScene({});
+  scene.map.Apply({edit::RemoveKeyFrame{KeyFrameId{20}}, edit::RemoveKeyFrame{KeyFrameId{21}}});
+  const EssentialGraph essential = MakeEssentialGraph(scene.map, false, {}, 100000);
+  EXPECT_EQ(essential.keyframes.size(), 44U);
+  EXPECT_EQ(essential.graph.edges.size(), 43U);
+  EXPECT_EQ(essential.PoseOf(KeyFrameId{20}), -1);
+  EXPECT_EQ(essential.keyframes[static_cast<std::size_t>(essential.PoseOf(KeyFrameId{22}))],
+            KeyFrameId{22});
+}
+
+TEST(ShareInformation, MakesAPathWithShortcutsAsStiffAsOneWithout) {
+  // Of edges over one, two and three steps, six lead from any pose to what comes after it.
+  PoseGraph graph;
+  graph.poses.resize(60);
+  for (int i = 0; i < 60; ++i) {
+    for (int k = 1; k <= std::min(3, i); ++k) {
+      graph.edges.push_back({i, i - k, {}, Matrix7d::Identity(), false});
+    }
+  }
+  ShareInformation(graph);
+  double across = 0;
+  for (const PoseGraphEdge& edge : graph.edges) {
+    if (edge.to >= 30 && edge.from < 30) across += edge.information(0, 0);
+  }
+  EXPECT_NEAR(across, 1, 1e-9);
+  PoseGraph chain;
+  chain.poses.resize(3);
+  for (int i = 1; i < 3; ++i) chain.edges.push_back({i, i - 1, {}, Matrix7d::Identity(), false});
+  ShareInformation(chain);
+  EXPECT_EQ(chain.edges.front().information, Matrix7d::Identity());
+}
+
+TEST(LoopAsEdge, StandsForKeyFramesThatLeft) {
+  LoopScene scene = MakeLoopScene({});
+  const LoopEdge loop = TrueEdge(scene, 44, 4);
+  scene.map.Apply({edit::RemoveKeyFrame{KeyFrameId{44}}});
+  const EssentialGraph essential = MakeEssentialGraph(scene.map, false, {}, 60);
+  const auto edge = LoopAsEdge(scene.map, essential, loop);
+  ASSERT_TRUE(edge);
+  EXPECT_EQ(edge->from, essential.PoseOf(KeyFrameId{43}));
+  EXPECT_TRUE(edge->may_be_wrong);
+  EXPECT_LT(PoseGraphResidual(*edge,
+                              essential.graph.poses[static_cast<std::size_t>(edge->to)],
+                              essential.graph.poses[static_cast<std::size_t>(edge->from)])
+                .norm(),
+            1e-9);
+}
+
+TEST(LoopAsEdge, FollowsUnits) {
+  LoopScene scene = MakeLoopScene({});
+  const LoopEdge loop = TrueEdge(scene, 44, 4);
+  edit::MoveKeyFrames motion;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    motion.new_from_old[id] = {0.5, ExpSo3({0, 0.3, 0}), {1, 2, 3}};
+  }
+  scene.map.Apply({motion});
+  const EssentialGraph essential = MakeEssentialGraph(scene.map, true, {}, 60);
+  const auto edge = LoopAsEdge(scene.map, essential, loop);
+  ASSERT_TRUE(edge);
+  EXPECT_LT(PoseGraphResidual(*edge,
+                              essential.graph.poses[static_cast<std::size_t>(edge->to)],
+                              essential.graph.poses[static_cast<std::size_t>(edge->from)])
+                .norm(),
+            1e-9);
+}
+
+TEST(Along, IsThePoseOfTheMapWithDriftThatGrows) {
+  const LoopScene scene = MakeLoopScene({});
+  const EssentialGraph essential = MakeEssentialGraph(scene.map, false, {}, 100000);
+  double before = 0;
+  for (const int other : {1, 5, 20, 40}) {
+    const auto way = Along(essential.graph, 0, other);
+    ASSERT_TRUE(way);
+    const Similarity3 direct =
+        essential.graph.poses[0] * Inverse(essential.graph.poses[static_cast<std::size_t>(other)]);
+    EXPECT_LT(LogSim3(way->pose * Inverse(direct)).norm(), 1e-9);
+    const double drift = way->covariance.topLeftCorner<6, 6>().trace();
+    EXPECT_GT(drift, before);
+    before = drift;
+    const auto back = Along(essential.graph, other, 0);
+    EXPECT_LT(LogSim3(back->pose * way->pose).norm(), 1e-9);
+  }
+}
+
+TEST(Along, IsNothingWhereNoEdgesLead) {
+  PoseGraph graph;
+  graph.poses.resize(2);
+  graph.fixed = {true, false};
+  EXPECT_FALSE(Along(graph, 0, 1));
+  EXPECT_TRUE(Along(graph, 1, 1));
+}
+
+}  // namespace
+}  // namespace plumbline

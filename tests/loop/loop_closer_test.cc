@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/loop/loop_closer.h"
+
+#include "tests/loop/loop_scene.h"
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::LoopScene;
+using testing::LoopSceneOptions;
+using testing::MakeLoopScene;
+using testing::WorstPlace;
+
+LoopScene Drifted() {
+  LoopSceneOptions options;
+  options.drift = testing::GrowingDrift;
+  return MakeLoopScene(options);
+}
+
+constexpr KeyFrameId kQuery{45};
+
+TEST(LoopCloser, ClosesALoopAndTellsOfIt) {
+  LoopScene scene = Drifted();
+  const double before = WorstPlace(scene);
+  LoopCloser closer(scene.Imaging(), {});
+  const std::vector<KeyFrameId> candidates{KeyFrameId{20}, KeyFrameId{5}};
+  const auto closure = closer.Try(scene.map, kQuery, candidates);
+  ASSERT_TRUE(closure);
+  EXPECT_EQ(closure->record.query, kQuery);
+  EXPECT_EQ(closure->record.candidate, KeyFrameId{5});
+  EXPECT_GT(closure->record.merged_points, 100);
+  EXPECT_GT(closure->record.largest_shift, 0.1);
+  ASSERT_EQ(closer.loops().size(), 1U);
+  ASSERT_EQ(closer.attempts().size(), 2U);
+  EXPECT_TRUE(closer.attempts()[0].unverified);
+  scene.map.Apply(closure->edit);
+  scene.map.CheckInvariants();
+  EXPECT_LT(WorstPlace(scene), 0.3 * before);
+}
+
+TEST(LoopCloser, PassesOverWhatIsCovisibleOrGone) {
+  const LoopScene scene = Drifted();
+  LoopCloser closer(scene.Imaging(), {});
+  const std::vector<KeyFrameId> candidates{KeyFrameId{44}, KeyFrameId{43}, kQuery, KeyFrameId{99}};
+  EXPECT_FALSE(closer.Try(scene.map, kQuery, candidates));
+  EXPECT_TRUE(closer.attempts().empty());
+}
+
+// Rooms that look alike, a quarter of the circle apart: the images agree, odometry does not.
+TEST(LoopCloser, TellsIdenticalRoomsApartByDrift) {
+  LoopSceneOptions options;
+  options.alike_sectors = 4;
+  options.drift = testing::GrowingDrift;
+  const LoopScene scene = MakeLoopScene(options);
+  LoopCloser closer(scene.Imaging(), {});
+  const std::vector<KeyFrameId> alike{KeyFrameId{15}, KeyFrameId{25}};
+  EXPECT_FALSE(closer.Try(scene.map, kQuery, alike));
+  for (const LoopAttempt& attempt : closer.attempts()) EXPECT_TRUE(attempt.beyond_drift);
+  EXPECT_EQ(closer.attempts().size(), 2U);
+  const std::vector<KeyFrameId> right{KeyFrameId{5}};
+  EXPECT_TRUE(closer.Try(scene.map, kQuery, right));
+}
+
+TEST(LoopCloser, PausesAfterAClosure) {
+  LoopScene scene = Drifted();
+  LoopCloser closer(scene.Imaging(), {});
+  const std::vector<KeyFrameId> first{KeyFrameId{2}};
+  const auto closure = closer.Try(scene.map, KeyFrameId{42}, first);
+  ASSERT_TRUE(closure);
+  scene.map.Apply(closure->edit);
+  const std::vector<KeyFrameId> next{KeyFrameId{10}};
+  EXPECT_FALSE(closer.Try(scene.map, KeyFrameId{44}, next));
+  EXPECT_TRUE(closer.attempts().empty());
+}
+
+TEST(LoopCloser, ForgetsWhatIsWithdrawn) {
+  const LoopScene scene = Drifted();
+  LoopCloser closer(scene.Imaging(), {});
+  const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
+  ASSERT_TRUE(closer.Try(scene.map, kQuery, candidates));
+  closer.Withdraw(0);
+  EXPECT_TRUE(closer.loops().empty());
+}
+
+TEST(LoopCloser, ClosesAgainWhatWasOpened) {
+  LoopScene scene = Drifted();
+  LoopOptions options;
+  options.closing.pause = 0;
+  LoopCloser closer(scene.Imaging(), options);
+  const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
+  const auto closure = closer.Try(scene.map, kQuery, candidates);
+  ASSERT_TRUE(closure);
+  closer.Withdraw(0);
+  // The map as it was before: the same loop is found.
+  const auto again = closer.Try(scene.map, kQuery, candidates);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->record.merged_points, closure->record.merged_points);
+  EXPECT_EQ(again->record.largest_shift, closure->record.largest_shift);
+}
+
+}  // namespace
+}  // namespace plumbline
