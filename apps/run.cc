@@ -4,6 +4,7 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/checkpoint_io.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/reversed_dataset.h"
@@ -42,26 +43,31 @@ constexpr int kLongestPause = 1'000'000;  // seconds
 constexpr int kWidestBlur = 1001;         // pixels; nothing is left to see by then
 
 CommandSyntax Syntax() {
-  return {"run",
-          "Tracks the camera through a recorded sequence and maps what it sees.",
-          {"PATH"},
-          {{"--sensor", "mono|stereo|rgbd", "default: the richest the data offers"},
-           {"--format", "auto|euroc|tum|kitti|images|video", "default: found out from PATH"},
-           {"--camera", "FILE", "camera file, or the name of a built-in camera"},
-           {"--config", "FILE", "options from a YAML file; may be repeated"},
-           {"--set", "KEY=VALUE", "one option; may be repeated"},
-           {"--from", "N", "first frame (default 0)"},
-           {"--to", "N", "end before this frame (default: the end)"},
-           {"--stride", "N", "every N-th frame (default 1)"},
-           {"--reverse", "", "play these frames from the last to the first"},
-           {"--blur", "N", "N x N box filter on every input image"},
-           {"--mode", "inline|lockstep|live", "how the stages run; same as --set slam.mode"},
-           {"--seed", "N", "of everything random; same as --set slam.seed"},
-           {"--map", "FILE", "go on in the map of an earlier run (its map.plb)"},
-           {"--localize", "", "only find the camera in --map, and change nothing of it"},
-           {"--save-every", "SECONDS", "save the map so often while running"},
-           {"--out", "DIR", "folder for the results (default: plumbline_run)"},
-           {"--quiet", "", "print nothing but errors"}}};
+  return {
+      "run",
+      "Tracks the camera through a recorded sequence and maps what it sees.",
+      {"PATH"},
+      {{"--sensor", "mono|stereo|rgbd", "default: the richest the data offers"},
+       {"--format", "auto|euroc|tum|kitti|images|video", "default: found out from PATH"},
+       {"--camera", "FILE", "camera file, or the name of a built-in camera"},
+       {"--config", "FILE", "options from a YAML file; may be repeated"},
+       {"--set", "KEY=VALUE", "one option; may be repeated"},
+       {"--from", "N", "first frame (default 0)"},
+       {"--to", "N", "end before this frame (default: the end)"},
+       {"--stride", "N", "every N-th frame (default 1)"},
+       {"--reverse", "", "play these frames from the last to the first"},
+       {"--blur", "N", "N x N box filter on every input image"},
+       {"--mode", "inline|lockstep|live", "how the stages run; same as --set slam.mode"},
+       {"--seed", "N", "of everything random; same as --set slam.seed"},
+       {"--map", "FILE", "go on in the map of an earlier run (its map.plb)"},
+       {"--localize", "", "only find the camera in --map, and change nothing of it"},
+       {"--save-every", "SECONDS", "save the map so often while running"},
+       {"--checkpoint",
+        "FILE",
+        "write there what --resume needs, when the run stops (--to, Ctrl-C)"},
+       {"--resume", "FILE", "go on with the next frame of the run that wrote this --checkpoint"},
+       {"--out", "DIR", "folder for the results (default: plumbline_run)"},
+       {"--quiet", "", "print nothing but errors"}}};
 }
 
 // The frames to process, by index in the data set.
@@ -87,12 +93,50 @@ struct RunSetup {
   bool quiet = false;
   std::optional<std::filesystem::path> map;  // to go on in
   bool localize = false;
-  int save_every_s = 0;  // 0: at the end only
+  int save_every_s = 0;                             // 0: at the end only
+  std::optional<std::filesystem::path> checkpoint;  // to be written
+  std::optional<std::filesystem::path> resume;      // to go on from
+  std::optional<SavedRun> saved;                    // what is there
 };
+
+// Which frames the run is of and what is done to them, as the arguments that say so; not where it
+// ends.
+std::string DescribeInput(const CommandLine& line) {
+  std::string words;
+  for (const char* option : {"--from", "--stride", "--blur"}) {
+    if (const auto value = line.Value(option)) words += fmt::format("{} {} ", option, *value);
+  }
+  if (line.Has("--reverse")) words += "--reverse ";
+  if (!words.empty()) words.pop_back();
+  return words;
+}
+
+// Reads the checkpoint that is to be gone on from, whole, before anything is written. Its options
+// are those of the run where the command line does not say otherwise.
+void ReadCheckpoint(const CommandLine& line, RunSetup& setup, OptionTable& table) {
+  if (const auto file = line.Value("--checkpoint")) setup.checkpoint = *file;
+  const auto file = line.Value("--resume");
+  if (!file) return;
+  if (line.Has("--map")) {
+    throw InputError("--map: expected without --resume, whose checkpoint has the maps");
+  }
+  setup.resume = *file;
+  setup.saved = LoadCheckpoint(*file);
+  const std::string input = DescribeInput(line);
+  const auto shown = [](const std::string& words) { return words.empty() ? "none" : words; };
+  if (setup.saved->input != input) {
+    throw InputError(fmt::format("{}: expected the run's choice of frames again ({}), found {}",
+                                 *file,
+                                 Printable(shown(setup.saved->input), kLongestMessage),
+                                 shown(input)));
+  }
+  table.LoadText(setup.saved->maps.context.options_yaml, *file);
+}
 
 RunSetup ReadSetup(const CommandLine& line) {
   RunSetup setup;
   OptionTable table(setup.options);
+  ReadCheckpoint(line, setup, table);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
   if (const auto mode = line.Value("--mode")) table.Set("slam.mode=" + *mode);
@@ -127,6 +171,8 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   RunFrames input;
   input.blur = setup.blur;
   input.save_every_s = setup.save_every_s;
+  input.checkpoint = setup.checkpoint;
+  input.description = DescribeInput(line);
   auto dataset = OpenDataset(line.Positional(0), ReadDatasetOptions(line));
   input.frames = ChooseFrames(line, *dataset);
   if (line.Has("--reverse")) {
@@ -147,6 +193,7 @@ std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) 
   };
   if (const auto camera = line.Value("--camera")) add(*camera);
   if (const auto map = line.Value("--map")) inputs.push_back({*map, true});
+  if (const auto checkpoint = line.Value("--resume")) inputs.push_back({*checkpoint, true});
   for (const std::string& config : line.Values("--config")) add(config);
   if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
   return inputs;
@@ -160,6 +207,39 @@ std::vector<std::string> LoadMapInto(System& system, const RunSetup& setup) {
     return system.Continue(std::move(saved), setup.localize);
   } catch (const InputError& error) {
     throw InputError(setup.map->string() + ": " + error.what());
+  }
+}
+
+// Before an hour's work: that there is somewhere to write the checkpoint to.
+void CheckFolderOfCheckpoint(const RunSetup& setup) {
+  if (!setup.checkpoint) return;
+  const std::filesystem::path folder = setup.checkpoint->parent_path();
+  if (folder.empty() || std::filesystem::is_directory(folder)) return;
+  throw InputError("cannot write " + setup.checkpoint->string() + ": no such folder");
+}
+
+// Goes on from the checkpoint, whose frames must be the first of the input.
+void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
+  if (!setup.saved) return;
+  try {
+    system.Resume(*std::exchange(setup.saved, std::nullopt));
+    input.first = system.frames().size();
+    if (input.first > input.frames.size()) {
+      throw InputError(fmt::format("expected the {} frames of the checkpoint and more, found {}",
+                                   input.first,
+                                   input.frames.size()));
+    }
+    for (std::size_t i = 0; i < input.first; ++i) {
+      const std::int64_t stamp_ns = input.dataset->stamp_ns(input.frames[i]);
+      if (system.frames()[i].stamp_ns == stamp_ns) continue;
+      throw InputError(
+          fmt::format("expected the same data, found frame {} of {} ns in place of {} ns",
+                      input.frames[i],
+                      stamp_ns,
+                      system.frames()[i].stamp_ns));
+    }
+  } catch (const InputError& error) {
+    throw InputError(setup.resume->string() + ": " + error.what());
   }
 }
 
@@ -214,19 +294,21 @@ int RunCommand(std::span<const std::string> arguments) {
     return 0;
   }
   const auto start = Clock::now();
-  const RunSetup setup = ReadSetup(line);
-  const RunFrames input = OpenInput(line, setup);
+  RunSetup setup = ReadSetup(line);
+  RunFrames input = OpenInput(line, setup);
   const Dataset& dataset = *input.dataset;
   CheckApart(setup.folder, InputsOf(line, dataset));
   System system(dataset.calibration(), setup.options);
   system.DescribeSession(PLUMBLINE_VERSION, dataset.info().name);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
+  ResumeFrom(setup, system, input);
   RunFolder folder(setup.folder);
+  CheckFolderOfCheckpoint(setup);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();
   SayBefore(dataset, folder, map_notes, setup.quiet);
   CatchStopSignals();
-  KeptViews views(input.frames);
+  KeptViews views(input.frames, input.first);
   const Processed processed = ProcessFrames(input, setup.quiet, system, folder, views);
   if (system.frames().empty() && FirstStopSignal()) {
     std::cerr << "plumbline: stopped before the first frame; nothing is written\n";

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/image/box_filter.h"
+#include "plumbline/io/checkpoint_io.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/pipeline.h"
 
@@ -80,9 +81,11 @@ class FrameFeed {
         }) {}
 
   Processed Run() {
+    for (const FrameRecord& record : system_.frames()) journal_.Add(record);
     Report(journal_.Write(folder_));
     Keeping([&] { Feed(); });
     Keeping([&] { pipeline_.Drain(); });
+    if (!result_.failure) Keeping([&] { WriteCheckpoint(); });
     NameShortage();
     if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
     folder_.Keep();
@@ -119,6 +122,14 @@ class FrameFeed {
     Report(saver_->TakeFailure());
   }
 
+  // Before the maps are adjusted at the end, which a run that goes on is not to notice.
+  void WriteCheckpoint() {
+    if (!input_.checkpoint || system_.frames().empty()) return;
+    SavedRun run = system_.Save();
+    run.input = input_.description;
+    SaveCheckpoint(*input_.checkpoint, run);
+  }
+
   void Report(const std::optional<std::string>& failure) const {
     if (failure) progress_.Say(*failure + "; the run goes on");
   }
@@ -132,12 +143,13 @@ class FrameFeed {
     const Dataset& dataset = *input_.dataset;
     Player player(system_.options().slam.mode);
     const auto go_on = [this] { return GoOn(); };
-    for (const std::size_t k : input_.frames) {
+    for (std::size_t position = input_.first; position < input_.frames.size(); ++position) {
+      const std::size_t k = input_.frames[position];
       if (!go_on()) return;
       const auto frame = reader_.Read(k, go_on);
       if (!frame) return;
       const std::int64_t stamp_ns = dataset.stamp_ns(k);
-      if (!player.WaitFor(stamp_ns - dataset.stamp_ns(input_.frames.front()), go_on)) return;
+      if (!player.WaitFor(stamp_ns - dataset.stamp_ns(input_.frames[input_.first]), go_on)) return;
       if (*frame) {
         pipeline_.Feed(Blurred(**frame, input_.blur));
         continue;
@@ -196,9 +208,10 @@ class FrameFeed {
 
 }  // namespace
 
-KeptViews::KeptViews(const std::vector<std::size_t>& frames) {
+KeptViews::KeptViews(const std::vector<std::size_t>& frames, std::size_t first) {
+  if (first >= frames.size()) return;
   for (std::size_t k = 0; k < kOverlays; ++k) {
-    const std::size_t position = k * (frames.size() - 1) / (kOverlays - 1);
+    const std::size_t position = first + k * (frames.size() - 1 - first) / (kOverlays - 1);
     wanted_[position] = frames[position];
   }
 }

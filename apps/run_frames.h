@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,12 +25,16 @@ struct RunFrames {
   std::vector<std::size_t> frames;  // by index in the data set
   int blur = 0;                     // box filter on every image; 0: none
   int save_every_s = 0;             // map.plb into the part of the folder; 0: never
+  std::size_t first = 0;  // position of the first frame that is new: those before are done
+  std::optional<std::filesystem::path> checkpoint;  // written when all frames are tracked
+  std::string description;                          // for the checkpoint, SavedRun::input
 };
 
 // Frames that are shown with their features, kept until there is time to draw them.
 class KeptViews {
  public:
-  explicit KeptViews(const std::vector<std::size_t>& frames);
+  // Of the frames from position `first` on.
+  explicit KeptViews(const std::vector<std::size_t>& frames, std::size_t first = 0);
 
   void Offer(std::size_t position, const FrameView& view);
   // Index in the data set, and the view.

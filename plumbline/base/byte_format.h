@@ -11,8 +11,10 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -144,6 +146,79 @@ template <class Archive, class Key, class T>
 requires(!Archive::kReading) void Transfer(Archive& archive, const std::map<Key, T>& items) {
   TransferCount(archive, items.size());
   for (const auto& [key, item] : items) TransferAll(archive, key, item);
+}
+
+template <class Archive, class T>
+requires(Archive::kReading) void Transfer(Archive& archive, std::deque<T>& items) {
+  const std::size_t count = TransferCount(archive, 0);
+  for (std::size_t i = 0; i < count; ++i) Transfer(archive, items.emplace_back());
+}
+template <class Archive, class T>
+requires(!Archive::kReading) void Transfer(Archive& archive, const std::deque<T>& items) {
+  TransferCount(archive, items.size());
+  for (const T& item : items) Transfer(archive, item);
+}
+
+// Items ascend; one that does not is refused.
+template <class Archive, class T>
+requires(Archive::kReading) void Transfer(Archive& archive, std::set<T>& items) {
+  const std::size_t count = TransferCount(archive, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    T item;
+    Transfer(archive, item);
+    if (!items.empty() && !(*items.rbegin() < item)) {
+      throw InputError(archive.source() + ": expected ascending items, found others");
+    }
+    items.insert(items.end(), std::move(item));
+  }
+}
+template <class Archive, class T>
+requires(!Archive::kReading) void Transfer(Archive& archive, const std::set<T>& items) {
+  TransferCount(archive, items.size());
+  for (const T& item : items) Transfer(archive, item);
+}
+
+// An enumerator that has a name (EnumNames); any other number is refused when it is read.
+template <class Archive, class T>
+requires(std::is_enum_v<T>) void Transfer(Archive& archive, T& value) {
+  using Plain = std::remove_const_t<T>;
+  auto number = static_cast<std::int32_t>(value);
+  archive(number);
+  if constexpr (Archive::kReading) {
+    for (const auto& [enumerator, name] : EnumNames(std::type_identity<Plain>{})) {
+      if (static_cast<std::int32_t>(enumerator) != number) continue;
+      value = enumerator;
+      return;
+    }
+    throw InputError(archive.source() + ": expected one of the known choices, found number " +
+                     std::to_string(number));
+  }
+}
+
+// A class that shows all that it is to be written and read by, its own business otherwise:
+//
+//   template <class Self, class Visitor>
+//   static void VisitState(Self& self, const Visitor& visit) { visit(self.first_, self.second_); }
+//
+// Where it has a member `bool IsConsistent() const` as well, what is read and is not is refused.
+struct IgnoreFields {
+  template <class... Fields>
+  void operator()(Fields&...) const {}
+};
+template <class T>
+concept ShowsState = requires(T& object) {
+  std::remove_const_t<T>::VisitState(object, IgnoreFields());
+};
+
+template <class Archive, ShowsState T>
+void Transfer(Archive& archive, T& object) {
+  std::remove_const_t<T>::VisitState(object,
+                                     [&](auto&... fields) { TransferAll(archive, fields...); });
+  if constexpr (Archive::kReading && requires { object.IsConsistent(); }) {
+    if (!object.IsConsistent()) {
+      throw InputError(archive.source() + ": expected values that go together, found others");
+    }
+  }
 }
 
 // One number of every item of a list, in as few bytes each as all of them fit into: doubles that

@@ -50,16 +50,34 @@ class FrameWindow {
     return frames_[static_cast<std::size_t>(index)].frame;
   }
 
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.reference_, self.flow_, self.warps_, self.frames_);
+  }
+  // False for a state that no window can have: places, matches and images that do not go together.
+  bool IsConsistent() const;
+
  private:
   // Where a frame shows a feature of the reference, pixels.
   struct Place {
     Eigen::Vector2d px = Eigen::Vector2d::Zero();
     double sigma_px = 0;  // 0: not seen
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.px, self.sigma_px);
+    }
   };
   struct Matched {
     InitializationFrame frame;
     ReferenceMatches matches;
     std::vector<Place> places;  // by feature of the reference
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.frame, self.matches, self.places);
+    }
   };
 
   WindowLines LinesOf(const std::vector<int>& frames) const;

@@ -38,6 +38,15 @@ class ImageMotion {
     return {(*this)(segment.start), (*this)(segment.end)};
   }
 
+  // False for what was read and no ImageMotion can be.
+  bool IsConsistent() const { return places_.size() == leftovers_.size(); }
+
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.linear_, self.origin_, self.shift_, self.places_, self.leftovers_);
+  }
+
  private:
   Eigen::Vector2d Affine(const Eigen::Vector2d& px) const {
     return linear_ * (px - origin_) + shift_;

@@ -8,6 +8,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/initialization/options.h"
 #include "plumbline/map/frame.h"
+#include "plumbline/map/state_stream.h"
 
 #include <array>
 #include <cstdint>
@@ -97,6 +98,11 @@ class Initializer {
   virtual InitializationResult Add(const InitializationFrame& frame) = 0;
   // Forgets all frames: after a loss, or when a map was taken.
   virtual void Reset() = 0;
+
+  // Writes down all frames and what is known of them, and takes the place of an initializer of the
+  // same options that did. Load throws InputError for bytes that no initializer wrote.
+  virtual void Save(StateWriter& archive) const = 0;
+  virtual void Load(StateReader& archive) = 0;
 };
 
 // The method that the options name. `seed` is that of everything random in it.

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
+#include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/structure.h"
 #include "plumbline/solvers/relative_pose.h"
 #include "plumbline/solvers/rotation.h"
@@ -186,5 +187,24 @@ std::optional<InitialMap> KltInitializer::BuildMap(const std::vector<int>& frame
   if (static_cast<int>(map.points.size()) < kMinPoints) return std::nullopt;
   return map;
 }
+
+bool KltInitializer::IsConsistent() const {
+  if (!reference_) return frames_.empty();
+  const std::size_t size = reference_->indexed->features.points.size();
+  const RectifiedCamera& camera = imaging_.camera;
+  if (!tracks_.Fits(size, camera.width, camera.height)) return false;
+  for (const Followed& followed : frames_) {
+    if (followed.places.size() != size) return false;
+    // What is alive in the newest frame is alive in all.
+    for (std::size_t k = 0; k < size; ++k) {
+      if (tracks_.places()[k] && !followed.places[k]) return false;
+    }
+  }
+  return true;
+}
+
+void KltInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
+
+void KltInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

@@ -28,11 +28,27 @@ class KltInitializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
+  void Save(StateWriter& archive) const override;
+  void Load(StateReader& archive) override;
+
+  // False for what was read and no initializer can have: places and images that do not go together.
+  bool IsConsistent() const;
+
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.reference_, self.tracks_, self.frames_);
+  }
 
  private:
   struct Followed {
     InitializationFrame frame;
     std::vector<std::optional<Eigen::Vector2d>> places;  // of the reference's features
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.frame, self.places);
+    }
   };
 
   void Start(const InitializationFrame& frame);

@@ -34,6 +34,14 @@ class KltTracks {
   // By point, where it is in the newest image; nullopt: lost.
   const std::vector<std::optional<Eigen::Vector2d>>& places() const { return places_; }
   int alive() const;
+  // Whether it can follow so many points on images of this size.
+  bool Fits(std::size_t points, int width, int height) const;
+
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.image_, self.places_);
+  }
 
  private:
   std::shared_ptr<const GrayImage> image_;

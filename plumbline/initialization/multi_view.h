@@ -49,10 +49,21 @@ class WindowMemory {
   bool sure() const { return sure_; }
   std::vector<WindowHypothesis> HypothesesFor(const WindowTracks& tracks) const;
 
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.explanations_, self.sure_);
+  }
+
  private:
   struct Explanation {
     Rigid3 newest_from_reference;
     std::map<int, double> inverse_distances;  // by feature of the reference
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.newest_from_reference, self.inverse_distances);
+    }
   };
   std::vector<Explanation> explanations_;
   bool sure_ = false;

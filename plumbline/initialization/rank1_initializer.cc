@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/rank1_initializer.h"
 
+#include "plumbline/initialization/byte_format.h"
+
 #include <algorithm>
 #include <numbers>
 #include <utility>
@@ -89,5 +91,9 @@ InitializationResult Rank1Initializer::Attempt() {
   result.map = std::move(map);
   return result;
 }
+
+void Rank1Initializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
+
+void Rank1Initializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

@@ -24,6 +24,14 @@ class Rank1Initializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
+  void Save(StateWriter& archive) const override;
+  void Load(StateReader& archive) override;
+
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.window_, self.memory_, self.most_matches_);
+  }
 
  private:
   InitializationResult Attempt();

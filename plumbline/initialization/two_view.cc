@@ -3,6 +3,7 @@
 #include "plumbline/initialization/two_view.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/structure.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
@@ -238,5 +239,9 @@ void TwoViewInitializer::Reset() {
   reference_.reset();
   motion_ = {};
 }
+
+void TwoViewInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
+
+void TwoViewInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

@@ -55,6 +55,14 @@ class TwoViewInitializer : public Initializer {
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
+  void Save(StateWriter& archive) const override;
+  void Load(StateReader& archive) override;
+
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.reference_, self.motion_);
+  }
 
  private:
   // Builds and adjusts the map from the pose; nullopt where too little is left.

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_file_v1.h"
+#include "plumbline/io/map_sections.h"
 #include "plumbline/io/section_file.h"
 #include "plumbline/map/byte_format.h"
 #include "plumbline/map/map_builder.h"
@@ -131,12 +132,17 @@ void WriteMap(const Map& map, const MapRecord& record, SectionWriter& file) {
   WriteLandmarks(map.lines(), map, kLines, file);
 }
 
+std::vector<const Map*> MapsOf(const Atlas& atlas) {
+  std::vector<const Map*> maps;
+  for (const auto& [id, map] : atlas.maps()) maps.push_back(&map);
+  return maps;
+}
+
 // The context comes first: maps are read with the camera known.
-void WriteFile(const std::filesystem::path& path,
-               const std::vector<const Map*>& maps,
-               const AtlasContext& context,
-               MapId active) {
-  SectionWriter file(path, Preamble());
+void WriteSections(const std::vector<const Map*>& maps,
+                   const AtlasContext& context,
+                   MapId active,
+                   SectionWriter& file) {
   ByteWriter section;
   TransferAll(section, context, active);
   TransferCount(section, maps.size());
@@ -152,19 +158,15 @@ void WriteFile(const std::filesystem::path& path,
     WriteMap(*map, record, file);
   }
   file.Write(kEnd, {});
-  file.Commit();
 }
 
-// The next section, which must be of this kind.
-std::string NextContents(SectionReader& file, SectionKind kind) {
-  SectionReader::Section section = file.Next();
-  if (section.kind != kind) {
-    throw InputError(fmt::format("{}: expected a section of kind {}, found kind {}",
-                                 file.source(),
-                                 static_cast<std::uint32_t>(kind),
-                                 section.kind));
-  }
-  return std::move(section.contents);
+void WriteFile(const std::filesystem::path& path,
+               const std::vector<const Map*>& maps,
+               const AtlasContext& context,
+               MapId active) {
+  SectionWriter file(path, Preamble());
+  WriteSections(maps, context, active, file);
+  file.Commit();
 }
 
 ByteReader ReaderOf(const std::string& contents, const std::string& source) {
@@ -208,7 +210,7 @@ void ReadKeyFrames(SectionReader& file,
   const auto sessions =
       std::max<std::int64_t>(1, static_cast<std::int64_t>(context.sessions.size()));
   for (std::int64_t done = 0; done < count;) {
-    const std::string contents = NextContents(file, kKeyFrames);
+    const std::string contents = NextSectionOfKind(file, kKeyFrames);
     ByteReader reader = ReaderOf(contents, file.source());
     do {
       KeyFrame keyframe;
@@ -230,7 +232,7 @@ template <class Landmark>
 void ReadLandmarks(SectionReader& file, SectionKind kind, std::int64_t count, MapBuilder& builder) {
   constexpr std::size_t kLeastBytes = 60;  // of a landmark
   for (std::int64_t done = 0; done < count;) {
-    const std::string contents = NextContents(file, kind);
+    const std::string contents = NextSectionOfKind(file, kind);
     ByteReader reader = ReaderOf(contents, file.source());
     std::vector<Landmark> landmarks(TransferCount(reader, 0, kLeastBytes));
     LandmarkList<Landmark> list;
@@ -244,7 +246,7 @@ void ReadLandmarks(SectionReader& file, SectionKind kind, std::int64_t count, Ma
 }
 
 Map ReadMap(SectionReader& file, const AtlasContext& context) {
-  const std::string contents = NextContents(file, kMapRecord);
+  const std::string contents = NextSectionOfKind(file, kMapRecord);
   ByteReader reader = ReaderOf(contents, file.source());
   MapRecord record;
   MapCounts counts;
@@ -300,10 +302,11 @@ void CheckAtlas(const SavedAtlas& saved, const std::string& source) {
   }
 }
 
-SavedAtlas ReadFile(SectionReader& file) {
+}  // namespace
+
+SavedAtlas ReadMapSections(SectionReader& file) {
   SavedAtlas saved;
-  saved.file_version = kVersion;
-  const std::string contents = NextContents(file, kContext);
+  const std::string contents = NextSectionOfKind(file, kContext);
   ByteReader reader = ReaderOf(contents, file.source());
   MapId active;
   std::int64_t maps = 0;
@@ -315,8 +318,8 @@ SavedAtlas ReadFile(SectionReader& file) {
     if (saved.atlas.Find(map.id()) != nullptr) FailMap(file.source(), "two maps of one id");
     saved.atlas.Adopt(std::move(map));
   }
-  if (!NextContents(file, kEnd).empty() || file.remaining() != 0) {
-    throw InputError(file.source() + ": expected the end, found more bytes");
+  if (!NextSectionOfKind(file, kEnd).empty()) {
+    throw InputError(file.source() + ": expected the end of the maps, found more bytes");
   }
   if (maps > 0 && saved.atlas.Find(active) == nullptr) FailMap(file.source(), "no active map");
   if (maps > 0) saved.atlas.Activate(active);
@@ -324,15 +327,27 @@ SavedAtlas ReadFile(SectionReader& file) {
   return saved;
 }
 
-}  // namespace
+void WriteMapSections(const Atlas& atlas,
+                      const AtlasContext& context,
+                      MapId active,
+                      SectionWriter& file) {
+  WriteSections(MapsOf(atlas), context, active.valid() ? active : atlas.active_id(), file);
+}
+
+std::string NextSectionOfKind(SectionReader& file, std::uint32_t kind) {
+  SectionReader::Section section = file.Next();
+  if (section.kind != kind) {
+    throw InputError(fmt::format(
+        "{}: expected a section of kind {}, found kind {}", file.source(), kind, section.kind));
+  }
+  return std::move(section.contents);
+}
 
 void SaveAtlas(const std::filesystem::path& path,
                const Atlas& atlas,
                const AtlasContext& context,
                MapId active) {
-  std::vector<const Map*> maps;
-  for (const auto& [id, map] : atlas.maps()) maps.push_back(&map);
-  WriteFile(path, maps, context, active.valid() ? active : atlas.active_id());
+  WriteFile(path, MapsOf(atlas), context, active.valid() ? active : atlas.active_id());
 }
 
 SavedAtlas LoadAtlas(const std::filesystem::path& path) {
@@ -355,7 +370,12 @@ SavedAtlas LoadAtlas(const std::filesystem::path& path) {
                                  kVersion,
                                  version));
   }
-  return ReadFile(file);
+  SavedAtlas saved = ReadMapSections(file);
+  if (file.remaining() != 0) {
+    throw InputError(file.source() + ": expected the end, found more bytes");
+  }
+  saved.file_version = kVersion;
+  return saved;
 }
 
 void SaveMap(const std::filesystem::path& path,

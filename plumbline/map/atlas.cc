@@ -54,7 +54,7 @@ void Atlas::Adopt(Map map) {
 Map& Atlas::Join(MapId kept, MapId gone, const Similarity3& kept_from_gone) {
   Map* map = Find(kept);
   const auto other = maps_.find(gone);
-  PLUMBLINE_CHECK(map != nullptr && other != maps_.end() && kept != gone, "maps cannot be joined");
+  PLUMBLINE_CHECK(map != nullptr && other != maps_.end() && kept < gone, "maps cannot be joined");
   map->Absorb(std::move(other->second), kept_from_gone);
   maps_.erase(other);
   joined_[gone] = kept;
@@ -64,6 +64,17 @@ Map& Atlas::Join(MapId kept, MapId gone, const Similarity3& kept_from_gone) {
 MapId Atlas::Current(MapId id) const {
   for (auto it = joined_.find(id); it != joined_.end(); it = joined_.find(id)) id = it->second;
   return id;
+}
+
+void Atlas::SetHistory(const History& history) {
+  joined_ = history.joined;
+  next_map_ = history.next_map;
+  for (const auto& [gone, kept] : joined_) {
+    // The older map stays: going from one to the next ends.
+    PLUMBLINE_CHECK(kept < gone && Find(gone) == nullptr, "a map that took in an older one");
+    PLUMBLINE_CHECK(Find(Current(gone)) != nullptr, "a map without place");
+  }
+  for (const auto& [id, map] : maps_) PLUMBLINE_CHECK(id < next_map_, "a map of a later id");
 }
 
 KeyFrameId Atlas::NextKeyFrameId() const {

@@ -35,12 +35,28 @@ class Atlas {
   void Adopt(Map map);
 
   // Makes one map of two (Map::Absorb): `kept` takes in `gone`, which leaves the atlas, and becomes
-  // the active map if `gone` was. BugError where one of them is not there, or they are the same.
+  // the active map if `gone` was. BugError where one of them is not there, or `kept` is not the
+  // older.
   Map& Join(MapId kept, MapId gone, const Similarity3& kept_from_gone);
   // The map that `id` is part of today: itself, or the one that took it in.
   MapId Current(MapId id) const;
   // Maps that were taken in, and by which.
   const std::map<MapId, MapId>& joined() const { return joined_; }
+
+  // What is not to be seen from the maps that there are: those that were taken in, and the id of
+  // the next one. For an atlas that goes on as another one would.
+  struct History {
+    std::map<MapId, MapId> joined;
+    MapId next_map{0};
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.joined, self.next_map);
+    }
+  };
+  History history() const { return {joined_, next_map_}; }
+  // BugError where a map would stand for one that is not there.
+  void SetHistory(const History& history);
 
   // The first id that no keyframe of any map has had.
   KeyFrameId NextKeyFrameId() const;

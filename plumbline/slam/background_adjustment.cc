@@ -28,6 +28,7 @@ void BackgroundAdjustment::Begin(const Map& map, std::int64_t due_frame) {
   GiveUp();
   job_ = std::make_unique<Job>();
   job_->map = map;
+  job_->id = map.id();
   job_->due_frame = due_frame;
   if (worker_ == Worker::kCaller) return;
   thread_ = std::jthread([this, job = job_.get()] {
@@ -61,15 +62,33 @@ void BackgroundAdjustment::Run(Job& job) const {
   job.ready = true;
 }
 
+void BackgroundAdjustment::Complete() {
+  if (thread_.joinable()) thread_.join();
+  if (!job_->ready) Run(*job_);
+}
+
 BackgroundAdjustment::Result BackgroundAdjustment::Take() {
-  if (thread_.joinable()) {
-    thread_.join();
-  } else {
-    Run(*job_);
-  }
+  Complete();
   const std::unique_ptr<Job> job = std::move(job_);
   if (job->failure) std::rethrow_exception(job->failure);
-  return {job->map.id(), std::move(job->correction)};
+  return {job->id, std::move(job->correction)};
+}
+
+std::optional<BackgroundAdjustment::Pending> BackgroundAdjustment::Save() {
+  if (job_ == nullptr) return std::nullopt;
+  Complete();
+  if (job_->failure) std::rethrow_exception(job_->failure);
+  return Pending{{job_->id, job_->correction}, job_->due_frame};
+}
+
+void BackgroundAdjustment::Resume(const std::optional<Pending>& pending) {
+  GiveUp();
+  if (!pending) return;
+  job_ = std::make_unique<Job>();
+  job_->id = pending->result.map;
+  job_->due_frame = pending->due_frame;
+  job_->correction = pending->result.correction;
+  job_->ready = true;
 }
 
 std::int64_t AdjustmentDelay(const Map& map) {

@@ -46,6 +46,21 @@ class BackgroundAdjustment {
   void GiveUp();
   bool Running() const { return job_ != nullptr; }
 
+  // A correction that is computed and not taken yet.
+  struct Pending {
+    Result result;
+    std::int64_t due_frame = 0;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.result.map, self.result.correction, self.due_frame);
+    }
+  };
+  // Completes what is being computed; it is to be taken as before. Rethrows what it threw.
+  std::optional<Pending> Save();
+  // Goes on with what another one saved.
+  void Resume(const std::optional<Pending>& pending);
+
   // The correction that is due at `frame`, once; waits for it.
   std::optional<Result> TakeDue(std::int64_t frame);
   // The correction if it is ready, once.
@@ -54,6 +69,7 @@ class BackgroundAdjustment {
  private:
   struct Job {
     Map map;
+    MapId id;
     std::int64_t due_frame = 0;
     Correction correction;
     std::exception_ptr failure;
@@ -61,6 +77,7 @@ class BackgroundAdjustment {
     std::atomic<bool> ready = false;
   };
   void Run(Job& job) const;
+  void Complete();
   Result Take();
 
   Compute compute_;

@@ -19,6 +19,12 @@ struct Recognition {
   double moved = 0;         // how far the new keyframe went when the map was corrected [map unit]
   double turned_deg = 0;
   double scale = 1;  // of lengths around it, after / before
+
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.frame, self.keyframe, self.older, self.points, self.lines);
+    visit(self.log10_chance, self.moved, self.turned_deg, self.scale);
+  }
 };
 
 // A lost frame that was found in a map.
@@ -27,6 +33,11 @@ struct Relocalization {
   KeyFrameId keyframe;  // that showed the way
   int points = 0;       // inliers of its pose
   int lines = 0;
+
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.frame, self.keyframe, self.points, self.lines);
+  }
 };
 
 // One map became part of another.
@@ -34,6 +45,11 @@ struct MapJoin {
   Recognition place;
   MapId kept;
   MapId gone;
+
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.place, self.kept, self.gone);
+  }
 };
 
 // What changed maps at large, in the order of time.

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <variant>
 
 namespace plumbline {
 namespace {
@@ -105,6 +106,23 @@ MapStart MakeMapStart(const InitialMap& initial,
                       const Rigid3& world_from_first_cam,
                       KeyFrameId first) {
   return StartBuilder(initial, imaging, world_from_first_cam, first).Build();
+}
+
+MapEdit NumberedFor(const Map& map, MapEdit edit) {
+  const auto number_point = [&](PointId& id) { id.value += map.NextPointId().value; };
+  const auto number_line = [&](LineId& id) { id.value += map.NextLineId().value; };
+  for (MapChange& change : edit) {
+    if (auto* point = std::get_if<edit::AddPoint>(&change)) {
+      number_point(point->point.id);
+    } else if (auto* line = std::get_if<edit::AddLine>(&change)) {
+      number_line(line->line.id);
+    } else if (auto* new_point = std::get_if<edit::RefreshPoint>(&change)) {
+      number_point(new_point->id);
+    } else if (auto* new_line = std::get_if<edit::RefreshLine>(&change)) {
+      number_line(new_line->id);
+    }
+  }
+  return edit;
 }
 
 }  // namespace plumbline

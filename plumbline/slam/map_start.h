@@ -6,6 +6,7 @@
 #include "plumbline/base/ids.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/map/edit.h"
+#include "plumbline/map/map.h"
 
 #include <vector>
 
@@ -28,5 +29,9 @@ MapStart MakeMapStart(const InitialMap& initial,
                       const ImagingModel& imaging,
                       const Rigid3& world_from_first_cam,
                       KeyFrameId first);
+
+// The edit with landmarks numbered for this map, which is empty but may follow others in its atlas:
+// no two maps of an atlas use an id.
+MapEdit NumberedFor(const Map& map, MapEdit edit);
 
 }  // namespace plumbline

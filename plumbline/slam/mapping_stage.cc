@@ -7,13 +7,17 @@
 #include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/slam/keyframes_ahead.h"
 
+#include <chrono>
+
 namespace plumbline {
 namespace {
 
 BackgroundAdjustment::Compute WholeMapAdjustment(const ImagingModel& imaging,
                                                  const SlamOptions& options) {
-  return [imaging, lines = options.lines, mapping = options.mapping](const Map& map,
-                                                                     const StopCheck& stop) {
+  MappingOptions mapping = options.mapping;
+  // Frames to come are measured with the lens as it is.
+  mapping.lens_calibration = false;
+  return [imaging, lines = options.lines, mapping](const Map& map, const StopCheck& stop) {
     return AdjustWholeMap(map, imaging, lines, mapping, stop);
   };
 }
@@ -36,6 +40,7 @@ MappingStage::MappingStage(const ImagingModel& imaging,
       mapper_(imaging, options.lines, options.mapping),
       relocalizer_(
           imaging, options.tracking, options.lines, options.cutting, options.relocalization),
+      places_(imaging, options.loop),
       adjustment_(WholeMapAdjustment(imaging, options), AdjustmentWorker(mode_, execution)) {
   if (mode_ != RunMode::kInline && execution.threads) {
     worker_ = std::jthread([this] { WorkUntilStopped(); });
@@ -76,14 +81,69 @@ void MappingStage::Continue(Atlas atlas, const LocalMapper::State& mapper) {
   PLUMBLINE_CHECK(submitted_ == 0 && atlas_.empty(), "maps are loaded before the first keyframe");
   atlas_ = std::move(atlas);
   atlas_.Activate(atlas_.active_id());
+  places_.Follow(atlas_);
   mapper_.SetState(mapper);
+}
+
+MappingStage::Checkpoint MappingStage::Save() {
+  WaitFor(submitted_);
+  const std::lock_guard lock(mutex_);
+  return {mapper_.state(),
+          submitted_,
+          map_begins_,
+          dues_,
+          versions_,
+          outcomes_,
+          changed_,
+          centres_,
+          times_,
+          atlas_.history(),
+          places_.state(),
+          adjustment_.Save()};
+}
+
+void MappingStage::Resume(Atlas atlas, const Checkpoint& checkpoint) {
+  CheckFits(atlas, checkpoint);
+  const std::lock_guard lock(mutex_);
+  PLUMBLINE_CHECK(submitted_ == 0 && atlas_.empty(), "a stage goes on before the first keyframe");
+  atlas_ = std::move(atlas);
+  mapper_.SetState(checkpoint.mapper);
+  submitted_ = checkpoint.submitted;
+  map_begins_ = checkpoint.map_begins;
+  dues_ = checkpoint.dues;
+  versions_ = checkpoint.versions;
+  outcomes_ = checkpoint.outcomes;
+  changed_ = checkpoint.changed;
+  centres_ = checkpoint.centres;
+  times_ = checkpoint.times;
+  places_.SetState(checkpoint.places);
+  places_.Follow(atlas_);
+  adjustment_.Resume(checkpoint.adjustment);
+}
+
+// Whether such a stage may go on: all that was submitted is done, and is about these maps.
+void MappingStage::CheckFits(const Atlas& atlas, const Checkpoint& c) {
+  const auto ascend = [&](const auto& items) {
+    std::int64_t before = -1;
+    for (const auto& item : items) {
+      if (item.task <= before || item.task > c.submitted) return false;
+      before = item.task;
+    }
+    return true;
+  };
+  bool fits = ascend(c.dues) && ascend(c.versions) && ascend(c.outcomes) && c.submitted >= 0;
+  fits = fits && !c.versions.empty() && c.versions.back().task == c.submitted;
+  for (const Outcome& outcome : c.outcomes) {
+    fits = fits && outcome.outcome.found.has_value() == (outcome.outcome.snapshot != nullptr);
+  }
+  for (const MapId id : c.changed) fits = fits && atlas.Find(id) != nullptr;
+  for (const KeyFrameId id : c.centres) fits = fits && !atlas.empty() && atlas.active().Knows(id);
+  if (!fits) throw InputError("expected tasks and maps that agree, found others");
 }
 
 std::optional<RelocalizationOutcome> MappingStage::TakeRelocalization() {
   const std::lock_guard lock(mutex_);
-  if (outcomes_.empty() || versions_.empty() || outcomes_.front().task > versions_.front().task) {
-    return std::nullopt;
-  }
+  if (outcomes_.empty() || outcomes_.front().task > versions_.front().task) return std::nullopt;
   RelocalizationOutcome outcome = std::move(outcomes_.front().outcome);
   outcomes_.pop_front();
   return outcome;
@@ -152,8 +212,8 @@ std::shared_ptr<const MapSnapshot> MappingStage::SnapshotFor(std::int64_t frame)
   WaitFor(wanted);
   if (mode_ == RunMode::kLive) return NewestSnapshot();
   const std::lock_guard lock(mutex_);
-  while (!versions_.empty() && versions_.front().task < wanted) versions_.pop_front();
-  return versions_.empty() ? nullptr : versions_.front().snapshot;
+  while (versions_.front().task < wanted) versions_.pop_front();
+  return versions_.front().snapshot;
 }
 
 std::shared_ptr<const MapSnapshot> MappingStage::NewestSnapshot() {
@@ -161,11 +221,12 @@ std::shared_ptr<const MapSnapshot> MappingStage::NewestSnapshot() {
   std::vector<std::shared_ptr<const NewKeyFrame>> ahead;
   {
     const std::lock_guard lock(mutex_);
-    if (versions_.empty()) return nullptr;
     for (; versions_.size() > 1; versions_.pop_front()) {
-      const auto& earlier = versions_.front();
-      if (earlier.task < map_begins_ || earlier.snapshot == versions_[1].snapshot) continue;
-      kept_.push_front(earlier.snapshot);
+      const Version& earlier = versions_.front();
+      const bool of_this_map = earlier.task >= map_begins_ && earlier.snapshot != nullptr;
+      if (of_this_map && earlier.snapshot != versions_[1].snapshot) {
+        kept_.push_front(earlier.snapshot);
+      }
     }
     base = versions_.back().snapshot;
     if (begun_) ahead.push_back(begun_);
@@ -216,7 +277,9 @@ void MappingStage::Finish(const StopCheck& stop) {
   while (versions_.size() > 1) versions_.pop_front();
   adjustment_.GiveUp();  // what follows does more
   for (const MapId id : std::exchange(changed_, {})) {
-    const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
+    Map* map = atlas_.Find(id);
+    if (map == nullptr) continue;  // part of another one, which has changed, too
+    const std::vector<MappingStep> times = mapper_.Finish(*map, stop);
     times_.insert(times_.end(), times.begin(), times.end());
   }
 }
@@ -236,6 +299,11 @@ const Atlas& MappingStage::atlas() const {
 const AdjustedLines& MappingStage::adjusted_lines() const {
   CheckComplete();
   return mapper_.adjusted_lines();
+}
+
+MapEvents MappingStage::events() const {
+  CheckComplete();
+  return {places_.loops(), places_.joins(), {}};
 }
 
 LocalMapper::State MappingStage::mapper_state() const {
@@ -292,45 +360,65 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
     mapper_.StartNewMap(atlas_.Start());
     centres_.clear();
   }
-  Done done = std::visit([this](const auto& work) { return Do(work); }, task.work);
+  Done done = std::visit([&](const auto& work) { return Do(work, task.frame); }, task.work);
   lock.lock();
   begun_ = nullptr;
-  if (done.snapshot == nullptr && !versions_.empty()) done.snapshot = versions_.back().snapshot;
+  if (done.snapshot == nullptr) done.snapshot = versions_.back().snapshot;
   versions_.push_back({task.number, std::move(done.snapshot)});
   times_.insert(times_.end(), done.times.begin(), done.times.end());
   if (done.relocalization) outcomes_.push_back({task.number, *std::move(done.relocalization)});
 }
 
-MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& added) {
+MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& added,
+                                    std::int64_t frame) {
   Map& map = atlas_.active();
   changed_.insert(map.id());
   Done done;
   done.times = mapper_.Add(map, SettledIn(map, *added), added->scores);
-  done.snapshot = TakeSnapshotAround(map, added->keyframe.id);
+  Recognize(added->keyframe.id, frame, done.times);
+  done.snapshot = TakeSnapshotAround(atlas_.active(), added->keyframe.id);
   return done;
 }
 
-MappingStage::Done MappingStage::Do(const MapStart& start) {
+// A place that was seen before ties the new keyframe to it, and the whole map is adjusted.
+void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times) {
+  const auto start = std::chrono::steady_clock::now();
+  places_.Follow(atlas_);
+  const std::optional<KeyFrameId> older = places_.Recognize(atlas_, id);
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+  times.push_back({"recognize", taken.count()});
+  if (!older) return;
+  Map& map = atlas_.active();
+  changed_.insert(map.id());
+  const std::vector<MappingStep> more = mapper_.Tie(map, id, *older);
+  times.insert(times.end(), more.begin(), more.end());
+  adjustment_.Begin(map, frame + AdjustmentDelay(map));
+}
+
+MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {
   Map& map = atlas_.active();
   changed_.insert(map.id());
   Done done;
-  done.times = mapper_.Start(map, start.edit, start.keyframes.back());
+  done.times = mapper_.Start(map, NumberedFor(map, start.edit), start.keyframes.back());
+  places_.Follow(atlas_);
   done.snapshot = TakeSnapshotAround(map, start.keyframes.back());
   return done;
 }
 
-MappingStage::Done MappingStage::Do(const RelocalizationRequest& request) {
+MappingStage::Done MappingStage::Do(const RelocalizationRequest& request, std::int64_t) {
   const Map& map = atlas_.active();
   Done done;
   done.relocalization.emplace();
-  done.relocalization->found = relocalizer_.Find(map, request.frame, request.attempt);
+  const std::vector<KeyFrameId> candidates =
+      places_.MostAlike(map, request.frame.features(), Relocalizer::kCandidates);
+  done.relocalization->found = relocalizer_.Find(map, request.frame, candidates);
   if (const auto& found = done.relocalization->found) {
     done.relocalization->snapshot = TakeSnapshotAround(map, found->keyframe);
   }
   return done;
 }
 
-MappingStage::Done MappingStage::Do(const Sighting& sighting) {
+MappingStage::Done MappingStage::Do(const Sighting& sighting, std::int64_t) {
   const Map& map = atlas_.active();
   SharedCounts shared(map);
   for (const PointId id : sighting.points) {
@@ -345,7 +433,7 @@ MappingStage::Done MappingStage::Do(const Sighting& sighting) {
   return done;
 }
 
-MappingStage::Done MappingStage::Do(const Visit& visit) {
+MappingStage::Done MappingStage::Do(const Visit& visit, std::int64_t) {
   visit.look(atlas_, mapper_.state());
   return {};
 }
@@ -355,7 +443,7 @@ void MappingStage::TakeCorrection(std::int64_t frame) {
   const bool when_ready = mode_ == RunMode::kLive && worker_.joinable();
   const auto found = when_ready ? adjustment_.TakeReady() : adjustment_.TakeDue(frame);
   if (!found) return;
-  Map& map = *atlas_.Find(found->map);
+  Map& map = *atlas_.Find(atlas_.Current(found->map));
   map.Apply(Rebased(found->correction, map));
   changed_.insert(map.id());
 }

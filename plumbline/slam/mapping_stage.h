@@ -11,6 +11,7 @@
 #include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/place_recognition.h"
 #include "plumbline/tracking/relocalization.h"
 #include "plumbline/tracking/tracker.h"
 
@@ -42,7 +43,6 @@ struct DemotedKeyFrame {
 // A lost frame, to be found in the active map by its looks.
 struct RelocalizationRequest {
   Frame frame;
-  int attempt = 0;  // counted from 0 in each loss: another one looks at other keyframes
 };
 struct RelocalizationOutcome {
   std::optional<Relocalized> found;
@@ -104,6 +104,16 @@ class MappingStage {
   // before anything is submitted.
   void Continue(Atlas atlas, const LocalMapper::State& mapper);
 
+  // All that it goes on from beside its maps, once everything that was submitted is done: what
+  // tracking is to see of that, and from which frame on.
+  struct Checkpoint;
+  // Completes all work that is left; the frames of before see as little of it as they would
+  // without. Changes no result but of live runs, which see it sooner. Rethrows what mapping threw.
+  Checkpoint Save();
+  // In place of Continue: goes on as the stage with these maps would that gave the checkpoint.
+  // Throws InputError where no stage can have given it.
+  void Resume(Atlas atlas, const Checkpoint& checkpoint);
+
   // The outcome of a relocalization that the frame of the last SnapshotFor() may know, once.
   std::optional<RelocalizationOutcome> TakeRelocalization();
   // From now on SnapshotFor() gives this one until a newer one is due.
@@ -141,6 +151,9 @@ class MappingStage {
   // Like atlas().
   const AdjustedLines& adjusted_lines() const;
 
+  // Loops that were closed and maps that were joined, like atlas().
+  MapEvents events() const;
+
   // What mapping remembers, like atlas().
   LocalMapper::State mapper_state() const;
 
@@ -160,14 +173,29 @@ class MappingStage {
   struct Due {
     std::int64_t frame = 0;  // the first that is to see it
     std::int64_t task = 0;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.frame, self.task);
+    }
   };
   struct Version {
     std::int64_t task = 0;  // the last one in it
     std::shared_ptr<const MapSnapshot> snapshot;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.task, self.snapshot);
+    }
   };
   struct Outcome {
     std::int64_t task = 0;
     RelocalizationOutcome outcome;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.task, self.outcome);
+    }
   };
   // What a task did.
   struct Done {
@@ -182,16 +210,19 @@ class MappingStage {
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
   void CheckComplete() const;
+  static void CheckFits(const Atlas& atlas, const Checkpoint& c);
   void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);
-  Done Do(const std::shared_ptr<const NewKeyFrame>& added);
-  Done Do(const MapStart& start);
-  Done Do(const RelocalizationRequest& request);
-  Done Do(const Sighting& sighting);
-  Done Do(const Visit& visit);
+  // `frame`: at which the task was submitted.
+  Done Do(const std::shared_ptr<const NewKeyFrame>& added, std::int64_t frame);
+  Done Do(const MapStart& start, std::int64_t frame);
+  Done Do(const RelocalizationRequest& request, std::int64_t frame);
+  Done Do(const Sighting& sighting, std::int64_t frame);
+  Done Do(const Visit& visit, std::int64_t frame);
+  void Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times);
   void TakeCorrection(std::int64_t frame);
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
-  std::int64_t LastDone() const { return versions_.empty() ? 0 : versions_.back().task; }
+  std::int64_t LastDone() const { return versions_.back().task; }
 
   RunMode mode_;
   std::int64_t lag_;
@@ -209,6 +240,7 @@ class MappingStage {
   // The worker's side.
   LocalMapper mapper_;
   Relocalizer relocalizer_;
+  PlaceRecognition places_;
   Atlas atlas_;
   std::set<MapId> changed_;         // since the maps were loaded or last adjusted as a whole
   std::deque<KeyFrameId> centres_;  // of the last snapshots of the active map
@@ -219,12 +251,36 @@ class MappingStage {
   std::deque<Task> tasks_;
   std::shared_ptr<const NewKeyFrame> begun_;  // being taken in
   Shed shed_ = Shed::kNothing;
-  std::deque<Version> versions_;  // from the one in use on
+  // From the one in use on; at first that of no task, so that nothing is in use before it is due.
+  std::deque<Version> versions_{{}};
   std::vector<MappingStep> times_;
   std::deque<Outcome> outcomes_;  // not taken yet
   std::exception_ptr failure_;
   bool stop_ = false;
   std::jthread worker_;  // none inline and step by step; last, so that it ends first
+};
+
+struct MappingStage::Checkpoint {
+  LocalMapper::State mapper;
+  std::int64_t submitted = 0;
+  std::int64_t map_begins = 0;
+  std::deque<Due> dues;
+  std::deque<Version> versions;
+  std::deque<Outcome> outcomes;
+  std::set<MapId> changed;
+  std::deque<KeyFrameId> centres;
+  std::vector<MappingStep> times;
+  Atlas::History history;
+  PlaceRecognition::State places;
+  std::optional<BackgroundAdjustment::Pending> adjustment;
+
+  // But the mapper's young landmarks and evidence, which are kept with the maps (AtlasContext).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.mapper.adjusted_lines, self.submitted, self.map_begins, self.dues);
+    visit(self.versions, self.outcomes, self.changed, self.centres, self.times);
+    visit(self.history, self.places, self.adjustment);
+  }
 };
 
 }  // namespace plumbline

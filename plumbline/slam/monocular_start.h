@@ -5,6 +5,7 @@
 #include "plumbline/base/stop_check.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/map/atlas.h"
+#include "plumbline/map/state_stream.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/map_start.h"
 #include "plumbline/slam/options.h"
@@ -58,6 +59,12 @@ class MonocularStart {
   // keyframes, and frames that are not found, or not reached before `stop`.
   std::vector<EarlierFrame> Locate(const Atlas& atlas, const StopCheck& stop = {});
 
+  // Writes down all that it keeps, and takes the place of another one of the same options that did.
+  // Load throws InputError for bytes that none wrote, or that tell of keyframes that the maps do
+  // not know.
+  void Save(StateWriter& archive) const;
+  void Load(StateReader& archive, const Atlas& atlas);
+
  private:
   struct KeptFrame {
     FrameId id;
@@ -65,12 +72,26 @@ class MonocularStart {
     std::shared_ptr<const IndexedFeatures> indexed;
     KeyFrameId reference;  // none while the frame has no pose
     RelativePose from_reference;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.id, self.stamp_ns, self.indexed, self.reference, self.from_reference);
+    }
   };
   struct Start {
     MapId map;
     std::deque<KeptFrame> frames;  // by time
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.map, self.frames);
+    }
   };
 
+  template <class Self, class Visitor>
+  static void VisitFrames(Self& self, const Visitor& visit) {
+    visit(self.waiting_, self.starts_, self.young_keyframes_, self.young_frames_);
+  }
   void LocateFramesOf(const Start& start,
                       const Map& map,
                       const StopCheck& stop,

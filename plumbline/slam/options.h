@@ -8,6 +8,7 @@
 #include "plumbline/features/extractor.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/initialization/options.h"
+#include "plumbline/loop/options.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/tracking/tracker.h"
 
@@ -54,6 +55,7 @@ struct SlamOptions {
   TrackingOptions tracking;
   RelocalizationOptions relocalization;
   MappingOptions mapping;
+  LoopOptions loop;
   ExecutionOptions slam;
 };
 
@@ -72,6 +74,7 @@ void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("tracking", o.tracking, "pose of each frame");
   visit("relocalization", o.relocalization, "finding a lost camera in its map");
   visit("mapping", o.mapping, "keyframes, landmarks, local bundle adjustment");
+  visit("loop", o.loop, "places that are seen again");
 }
 
 }  // namespace plumbline

@@ -143,21 +143,18 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized() {
   if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
   tracker_.Resume(*outcome->found, *outcome->snapshot);
   mapping_.Use(outcome->snapshot);
-  events_.relocalizations.push_back({outcome->found->frame.id,
-                                     outcome->found->keyframe,
-                                     outcome->found->counts.inlier_points,
-                                     outcome->found->counts.inlier_lines});
+  relocalizations_.push_back({outcome->found->frame.id,
+                              outcome->found->keyframe,
+                              outcome->found->counts.inlier_points,
+                              outcome->found->counts.inlier_lines});
   return outcome->snapshot;
 }
 
 // Asks for the place of a lost frame, one at a time.
 void System::Relocalize(const TrackingResult& result) {
-  if (result.state != TrackerState::kLost) {
-    attempts_ = 0;
+  if (result.state != TrackerState::kLost || relocalizing_ || !options_.relocalization.enabled)
     return;
-  }
-  if (relocalizing_ || !options_.relocalization.enabled) return;
-  mapping_.Submit(result.frame.id.value, RelocalizationRequest{result.frame, attempts_++});
+  mapping_.Submit(result.frame.id.value, RelocalizationRequest{result.frame});
   relocalizing_ = true;
 }
 
@@ -343,6 +340,12 @@ Trajectory System::FinalTrajectory(MapId map) const {
          AsDelivered(PoseBeside(owner.PlaceOf(record.reference), record.from_reference))});
   }
   return trajectory;
+}
+
+MapEvents System::events() const {
+  MapEvents events = mapping_.events();
+  events.relocalizations = relocalizations_;
+  return events;
 }
 
 const std::vector<MappedLine>& System::LineMap(MapId map, const StopCheck& stop) const {

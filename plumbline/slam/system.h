@@ -8,6 +8,7 @@
 #include "plumbline/image/rectify.h"
 #include "plumbline/map/map.h"
 #include "plumbline/map/saved_atlas.h"
+#include "plumbline/map/saved_run.h"
 #include "plumbline/map/session.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/execution.h"
@@ -116,6 +117,21 @@ class System {
   // what SaveAtlas needs beside them, in the thread that maps. Changes no result. To be called in
   // the thread that tracks, after the first frame.
   void CopyMaps(std::function<void(SavedAtlas)> take);
+  // All that is needed to go on with the next frame as if the run had not stopped: the maps, what
+  // tracking and mapping remember, the records of the frames, what is due and when. Completes the
+  // mapping of the frames so far, which changes no result but of live runs. To be called in the
+  // thread that tracks. Rethrows what mapping threw.
+  //
+  // The frame that is shown (view()) is not part of it.
+  SavedRun Save();
+  // Goes on, before the first frame, as the system would that gave this: in the modes inline and
+  // lockstep, also the one in place of the other, with the same bytes from the next frame on. A
+  // live run goes on without the earlier snapshots that a lost camera is looked for in.
+  //
+  // Throws InputError, which says why, where calibration or options are others, or the state is
+  // none; then the system is not to be used.
+  void Resume(SavedRun saved);
+
   // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
   // it was young, are located in the finished map (see MonocularStart): those before it get a pose,
   // but no causal one; of the others only the causal one stays. `stop` cuts short the adjustment of
@@ -145,8 +161,8 @@ class System {
   // The last processed frame.
   const FrameView& view() const { return view_; }
 
-  // What was recognized, found again and joined, in order.
-  const MapEvents& events() const { return events_; }
+  // What was recognized, joined and found again, in order; like atlas().
+  MapEvents events() const;
 
   // Poses of the camera as delivered, after Finish; frames in order of time. `map` is one of
   // maps(); of causal poses also one that was joined with another since.
@@ -160,6 +176,13 @@ class System {
   std::optional<MapId> MainMap() const;
 
  private:
+  // Of the maps, the stage and the start of a monocular map the caller takes care.
+  template <class Self, class Visitor>
+  static void VisitRest(Self& self, const Visitor& visit) {
+    visit(self.tracker_, self.map_, self.next_map_, self.first_keyframe_, self.relocalizing_);
+    visit(self.relocalizations_, self.loaded_, self.read_only_, self.frames_, self.session_);
+  }
+  void CheckResumed(const Atlas& atlas, const MappingStage::Checkpoint& stage) const;
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
   std::shared_ptr<const MapSnapshot> TakeRelocalized();
   void Relocalize(const TrackingResult& result);
@@ -185,8 +208,7 @@ class System {
   std::int64_t next_map_ = 0;
   KeyFrameId first_keyframe_{0};  // of this system's own
   bool relocalizing_ = false;     // asked for and not yet answered
-  int attempts_ = 0;              // of this loss
-  MapEvents events_;
+  std::vector<Relocalization> relocalizations_;
   std::optional<AtlasContext> loaded_;
   bool read_only_ = false;
   std::vector<FrameRecord> frames_;

@@ -19,6 +19,12 @@ namespace plumbline {
 struct LastFrame {
   Frame frame;
   FrameAssociation association;
+
+  // Whether what it showed is told of its own features.
+  bool IsConsistent() const {
+    return frame.points.size() == association.matches.point_of_feature.size() &&
+           frame.lines.size() == association.matches.line_of_feature.size();
+  }
 };
 
 struct FrameCounts {

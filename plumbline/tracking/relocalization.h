@@ -11,25 +11,21 @@
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_search.h"
 
+#include <cstddef>
 #include <optional>
-#include <vector>
+#include <span>
 
 namespace plumbline {
 
 struct RelocalizationOptions {
   bool enabled = true;
-  int max_keyframes = 200;  // compared in one attempt
-  int min_inliers = 30;     // points + lines that must agree with the pose
-  int patience = 200;       // lost frames in a map of an earlier run after which a new one starts
+  int min_inliers = 30;  // points + lines that must agree with the pose
+  int patience = 200;    // lost frames in a map of an earlier run after which a new one starts
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, RelocalizationOptions& o) {
   visit("enabled", o.enabled, "look for a lost camera in the map by what it shows");
-  visit("max_keyframes",
-        o.max_keyframes,
-        "keyframes that one attempt compares the image with; a larger map takes several attempts",
-        Range{1, 100000});
   visit("min_inliers",
         o.min_inliers,
         "points + lines that must agree with a pose found this way",
@@ -53,14 +49,12 @@ struct Relocalized {
 
 // Finds the pose of a frame in a map by appearance alone.
 //
-// The keyframes to compare with are spread evenly over the map, and an attempt takes those between
-// the ones that the attempt before took. They are ranked by the number of the frame's strongest
-// points and lines that have a clear partner among their landmarks. From each of the best few: a
-// pose that most matches agree with (AP3P), then the landmarks around that keyframe searched from
-// there. Where two places explain the image nearly as well, neither is believed.
+// The caller names keyframes that may show the place, from an index of places. From each of the
+// first few that show different surroundings: a pose that most matches agree with (AP3P), then the
+// landmarks around that keyframe searched from there. Where two places explain the image nearly as
+// well, neither is believed.
 //
-// Thread-safe; the result depends on the arguments alone. Cost: some tenths of a second for 200
-// keyframes.
+// Thread-safe; the result depends on the arguments alone. Cost: some tens of milliseconds.
 class Relocalizer {
  public:
   Relocalizer(const ImagingModel& imaging,
@@ -69,11 +63,16 @@ class Relocalizer {
               const CuttingOptions& cutting,
               const RelocalizationOptions& options);
 
-  // `attempt` counts from 0; the frame's pose and matches are not looked at.
-  std::optional<Relocalized> Find(const Map& map, const Frame& frame, int attempt) const;
+  // So many candidates are worth naming: not all of them are tried.
+  static constexpr std::size_t kCandidates = 20;
+
+  // `candidates`: the most alike first; those that are not in the map are passed over. The frame's
+  // pose and matches are not looked at.
+  std::optional<Relocalized> Find(const Map& map,
+                                  const Frame& frame,
+                                  std::span<const KeyFrameId> candidates) const;
 
  private:
-  std::vector<KeyFrameId> MostAlike(const Map& map, const Frame& frame, int attempt) const;
   std::optional<Relocalized> FindBeside(const Map& map, const Frame& frame, KeyFrameId id) const;
 
   RelocalizationOptions options_;

@@ -132,16 +132,36 @@ class Tracker {
   TrackerState state() const { return state_; }
   // The id that the next keyframe will get.
   KeyFrameId next_keyframe() const { return next_keyframe_; }
+  // Whether it has a last pose, and a snapshot is needed for the next frame.
+  bool follows() const { return last_.has_value(); }
+
+  // All that it keeps from frame to frame (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.state_, self.last_, self.velocity_, self.spread_, self.scores_);
+    visit(self.next_keyframe_, self.newest_keyframe_, self.frames_since_keyframe_);
+    visit(self.lost_frames_, self.use_, self.trial_keyframes_);
+  }
 
  private:
   // What the last pose hangs on.
   struct Anchor {
     KeyFrameId keyframe;
     RelativePose relative;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.keyframe, self.relative);
+    }
   };
   struct Tracked : LastFrame {
     Anchor anchor;
     Anchor parent;  // where the frame became the keyframe itself, until it is in the map
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.frame, self.association, self.anchor, self.parent);
+    }
   };
 
   TrackingResult StartMap(Frame frame);
@@ -200,6 +220,11 @@ class Tracker {
   struct Spread {
     Matrix6d covariance;
     double scene_depth = 0;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.covariance, self.scene_depth);
+    }
   };
   std::optional<Spread> spread_;
   TrackingScores scores_;

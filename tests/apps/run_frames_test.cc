@@ -47,7 +47,9 @@ Outcome RunPoster(std::size_t from, const std::function<void()>& fail, RunMode m
   SlamOptions options;
   options.slam.mode = mode;
   System system(MovingPoster::MakeCalibration(), options);
-  const RunFrames input{std::make_shared<FailingDataset>(from, fail), {0, 1, 2, 3, 4, 5, 6, 7}};
+  RunFrames input;
+  input.dataset = std::make_shared<FailingDataset>(from, fail);
+  input.frames = {0, 1, 2, 3, 4, 5, 6, 7};
   KeptViews views(input.frames);
   const Processed processed = ProcessFrames(input, true, system, folder, views);
   Outcome outcome;

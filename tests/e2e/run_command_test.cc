@@ -71,11 +71,11 @@ TEST(Run, LiveAccountsForEveryFrame) {
   std::istringstream table(Contents(folder / "run/frames.csv"));
   std::string row;
   std::getline(table, row);
-  EXPECT_TRUE(row.ends_with(",shed")) << row;
+  EXPECT_TRUE(row.ends_with(",shed,final_map")) << row;
   int rows = 0, dropped = 0;
   for (; std::getline(table, row); ++rows) {
-    dropped += row.ends_with(",frame");
-    EXPECT_EQ(row.find(",skipped,,dropped,") != std::string::npos, row.ends_with(",frame")) << row;
+    dropped += row.ends_with(",frame,");
+    EXPECT_EQ(row.find(",skipped,,dropped,") != std::string::npos, row.ends_with(",frame,")) << row;
   }
   EXPECT_EQ(rows, 30);
   EXPECT_EQ(frames["dropped"], dropped);

@@ -107,10 +107,25 @@ TEST(Atlas, WhatAMapWasCalledStandsForTheOneThatTookItIn) {
   EXPECT_EQ(atlas.active().NextPointId(), PointId{3});
   EXPECT_EQ(atlas.NextKeyFrameId(), KeyFrameId{5});
   EXPECT_EQ(atlas.Start().id(), MapId{2});
-  atlas.Join(MapId{2}, MapId{0}, {});
-  EXPECT_EQ(atlas.Current(MapId{1}), MapId{2});
-  EXPECT_THROW(atlas.Join(MapId{2}, MapId{2}, {}), BugError);
-  EXPECT_THROW(atlas.Join(MapId{2}, MapId{1}, {}), BugError);
+  atlas.Join(MapId{0}, MapId{2}, {});
+  EXPECT_EQ(atlas.Current(MapId{2}), MapId{0});
+  EXPECT_THROW(atlas.Join(MapId{0}, MapId{0}, {}), BugError);
+  EXPECT_THROW(atlas.Join(MapId{0}, MapId{2}, {}), BugError);
+  atlas.Start();
+  EXPECT_THROW(atlas.Join(MapId{3}, MapId{0}, {}), BugError);
+}
+
+TEST(Atlas, GoesOnWithTheHistoryOfAnotherOne) {
+  Atlas atlas = TwoMaps();
+  atlas.Join(MapId{0}, MapId{1}, {});
+  Atlas other;
+  other.Adopt(*atlas.Find(MapId{0}));
+  EXPECT_EQ(other.Current(MapId{1}), MapId{1});
+  other.SetHistory(atlas.history());
+  EXPECT_EQ(other.Current(MapId{1}), MapId{0});
+  EXPECT_EQ(other.Start().id(), MapId{2});
+  Atlas without;
+  EXPECT_THROW(without.SetHistory(atlas.history()), BugError);
 }
 
 }  // namespace

@@ -64,6 +64,22 @@ TEST(MakeMapStart, LandmarksKeepTheirPlacesAndObservations) {
   }
 }
 
+TEST(NumberedFor, GivesLandmarksTheIdsThatFollowThoseOfOtherMaps) {
+  const StartedMap first;
+  Map second(MapId{1});
+  second.ReserveIds(first.map.NextPointId(), first.map.NextLineId());
+  second.Apply(NumberedFor(second, first.start.edit));
+  second.CheckInvariants();
+  ASSERT_EQ(second.points().size(), first.map.points().size());
+  ASSERT_EQ(second.lines().size(), first.map.lines().size());
+  EXPECT_EQ(second.points().begin()->first, first.map.NextPointId());
+  EXPECT_EQ(second.lines().begin()->first, first.map.NextLineId());
+  // With the looks that their observations give.
+  const MapLine& line = second.lines().begin()->second;
+  EXPECT_EQ(line.descriptor, first.map.lines().begin()->second.descriptor);
+  EXPECT_EQ(line.information, first.map.lines().begin()->second.information);
+}
+
 TEST(MakeMapStart, NeedsTwoViews) {
   const SyntheticWorld world = MakeMonocularWorld(50, 0);
   EXPECT_THROW(MakeMapStart(InitialMapOf(world, {0}), world.Imaging(), Rigid3{}, KeyFrameId{0}),

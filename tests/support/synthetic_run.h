@@ -55,6 +55,7 @@ class SyntheticRun {
   void Finish() { mapping_.Finish(); }
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
   const Tracker& tracker() const { return tracker_; }
+  const MappingStage& mapping() const { return mapping_; }
 
  private:
   SyntheticWorld world_;

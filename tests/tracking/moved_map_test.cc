@@ -6,6 +6,7 @@
 #include "plumbline/tracking/relocalization.h"
 #include "plumbline/tracking/tracker.h"
 
+#include "tests/support/most_alike.h"
 #include "tests/support/true_map.h"
 #include <vector>
 
@@ -28,7 +29,8 @@ class Follower {
     for (int k = 0; k < 9; ++k) poses.push_back(PoseOnPath(6 * k));
     map_ = MakeTrueMap(world_, poses, Sensor()).map;
     const Relocalizer relocalizer(world_.Imaging(), {}, {}, {}, {});
-    const auto found = relocalizer.Find(map_, MakeFrame(FrameId{0}, Rigid3{}, Sensed(kFirst)), 0);
+    const Frame frame = MakeFrame(FrameId{0}, Rigid3{}, Sensed(kFirst));
+    const auto found = relocalizer.Find(map_, frame, KeyFramesOf(map_));
     centre_ = found->keyframe;
     tracker_.BeginLost({.next_keyframe = map_.NextKeyFrameId()});
     tracker_.Resume(*found, *Snapshot());

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/relocalization.h"
 
+#include "tests/support/most_alike.h"
 #include "tests/support/true_map.h"
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,12 +31,55 @@ Frame UnplacedFrame(const SyntheticWorld& world, int on_path, const SensorModel&
   return MakeFrame(FrameId{on_path}, Rigid3{}, Sense(world, PoseOnPath(on_path), sensor, rng));
 }
 
+std::optional<Relocalized> Find(const Relocalizer& relocalizer,
+                                const Map& map,
+                                const Frame& frame) {
+  return relocalizer.Find(map, frame, MostAlikeOf(map, frame.features()));
+}
+
+// A second room with copies of all keyframes and landmarks, some metres away; `looks` changes what
+// a keyframe shows. Returns the new keyframes.
+std::vector<KeyFrameId> AppendCopy(
+    Map& map, const std::function<void(Frame&)>& looks = [](Frame&) {}) {
+  const Eigen::Vector3d away(0, 0, 30);
+  const Rigid3 shift{Eigen::Quaterniond::Identity(), away};
+  MapEdit edit;
+  std::vector<KeyFrameId> ids;
+  const std::int64_t first = map.NextKeyFrameId().value;
+  for (std::int64_t k = 0; k < first; ++k) {
+    KeyFrame copy = *map.Find(KeyFrameId{k});
+    copy.id = KeyFrameId{first + k};
+    copy.parent = KeyFrameId{first + k - 1};
+    copy.frame.cam_from_world = copy.frame.cam_from_world * Inverse(shift);
+    copy.frame.points.assign(copy.frame.points.size(), PointId{});
+    copy.frame.lines.assign(copy.frame.lines.size(), LineId{});
+    looks(copy.frame);
+    ids.push_back(copy.id);
+    edit.push_back(edit::AddKeyFrame{copy});
+  }
+  PointId next = map.NextPointId();
+  for (const auto& [id, point] : map.points()) {
+    MapPoint copy = point;
+    copy.id = next;
+    ++next.value;
+    copy.position += away;
+    copy.observations = {};
+    for (const auto& [keyframe, feature] : point.observations) {
+      copy.observations.emplace(KeyFrameId{first + keyframe.value}, feature);
+    }
+    edit.push_back(edit::AddPoint{copy});
+    edit.push_back(edit::RefreshPoint{copy.id});
+  }
+  map.Apply(edit);
+  return ids;
+}
+
 TEST(Relocalizer, FindsAFrameBetweenKeyFrames) {
   const SyntheticWorld world = MakeSyntheticWorld(400, 80);
   const TrueMap scene = MapOf(world, 10);
   const Relocalizer relocalizer = MakeRelocalizer(world);
   for (const int frame : {3, 27, 50}) {
-    const auto found = relocalizer.Find(scene.map, UnplacedFrame(world, frame), 0);
+    const auto found = Find(relocalizer, scene.map, UnplacedFrame(world, frame));
     ASSERT_TRUE(found) << frame;
     EXPECT_LT(CentreDistance(found->frame.cam_from_world, PoseOnPath(frame)), 0.02) << frame;
     EXPECT_GE(found->Inliers(), 30);
@@ -47,8 +93,8 @@ TEST(Relocalizer, IsTheSameEveryTime) {
   const SyntheticWorld world = MakeSyntheticWorld(400, 80);
   const TrueMap scene = MapOf(world, 6);
   const Frame frame = UnplacedFrame(world, 20);
-  const auto a = MakeRelocalizer(world).Find(scene.map, frame, 0);
-  const auto b = MakeRelocalizer(world).Find(scene.map, frame, 0);
+  const auto a = Find(MakeRelocalizer(world), scene.map, frame);
+  const auto b = Find(MakeRelocalizer(world), scene.map, frame);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->frame.cam_from_world.translation, b->frame.cam_from_world.translation);
   EXPECT_EQ(a->keyframe, b->keyframe);
@@ -61,70 +107,48 @@ TEST(Relocalizer, FindsNothingInAnotherWorldOrAnEmptyMap) {
   for (auto& point : other.points) point.descriptor = RandomDescriptor(rng);
   for (auto& line : other.lines) line.descriptor = RandomDescriptor(rng);
   const TrueMap scene = MapOf(world, 6);
-  EXPECT_FALSE(MakeRelocalizer(world).Find(scene.map, UnplacedFrame(other, 10), 0));
-  EXPECT_FALSE(MakeRelocalizer(world).Find(Map{}, UnplacedFrame(world, 10), 0));
+  const std::vector<KeyFrameId> all = KeyFramesOf(scene.map);
+  EXPECT_FALSE(MakeRelocalizer(world).Find(scene.map, UnplacedFrame(other, 10), all));
+  EXPECT_FALSE(MakeRelocalizer(world).Find(Map{}, UnplacedFrame(world, 10), all));
 }
 
-TEST(Relocalizer, TakesOtherKeyFramesWithEachAttempt) {
-  // Only the last of five keyframes shows what the frame shows.
+TEST(Relocalizer, TriesTheCandidatesAlone) {
   const SyntheticWorld world = MakeSyntheticWorld(400, 80);
-  TrueMap scene = MapOf(world, 5);
-  MapEdit forget;
-  for (const auto& [id, point] : scene.map.points()) {
-    for (const auto& [keyframe, feature] : point.observations) {
-      if (keyframe != KeyFrameId{4}) forget.push_back(edit::RemovePointObservation{id, keyframe});
-    }
-  }
-  for (const auto& [id, line] : scene.map.lines()) {
-    for (const auto& [keyframe, feature] : line.observations) {
-      if (keyframe != KeyFrameId{4}) forget.push_back(edit::RemoveLineObservation{id, keyframe});
-    }
-  }
-  scene.map.Apply(forget);
-  const Relocalizer relocalizer = MakeRelocalizer(world, {.max_keyframes = 2});
-  const Frame frame = UnplacedFrame(world, 24);
-  int found = 0;
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    found += relocalizer.Find(scene.map, frame, attempt).has_value();
-  }
-  EXPECT_EQ(found, 1);
+  const TrueMap scene = MapOf(world, 6);
+  const Frame frame = UnplacedFrame(world, 12);
+  const Relocalizer relocalizer = MakeRelocalizer(world);
+  EXPECT_FALSE(relocalizer.Find(scene.map, frame, {}));
+  EXPECT_FALSE(relocalizer.Find(scene.map, frame, std::vector{KeyFrameId{99}}));
+  const auto found = relocalizer.Find(scene.map, frame, std::vector{KeyFrameId{99}, KeyFrameId{2}});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->keyframe, KeyFrameId{2});
+}
+
+// Eight keyframes of one place, where the frame is not, do not keep it from the one where it is.
+TEST(Relocalizer, TriesCandidatesOfDifferentPlaces) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 60);
+  TrueMap scene = MapOf(world, 8);
+  Rng rng(9, "other looks");
+  std::vector<KeyFrameId> candidates = AppendCopy(scene.map, [&](Frame& frame) {
+    Features features = frame.features();
+    for (PointFeature& point : features.points) point.descriptor = RandomDescriptor(rng);
+    for (LineFeature& line : features.lines) line.descriptor = RandomDescriptor(rng);
+    frame.indexed = IndexFeatures(world.camera, features);
+  });
+  candidates.push_back(KeyFrameId{3});
+  const auto found = MakeRelocalizer(world).Find(scene.map, UnplacedFrame(world, 18), candidates);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->keyframe, KeyFrameId{3});
 }
 
 // The same wall twice, ten metres apart: either place explains the frame.
 TEST(Relocalizer, BelievesNeitherOfTwoPlacesThatLookTheSame) {
-  SyntheticWorld wall = MakeSyntheticWorld(300, 60);
+  const SyntheticWorld wall = MakeSyntheticWorld(300, 60);
   TrueMap scene = MapOf(wall, 2);
-  const Eigen::Vector3d away(0, 0, 30);
-  const Rigid3 shift{Eigen::Quaterniond::Identity(), away};
-  // A second room with copies of all keyframes and landmarks.
-  MapEdit edit;
-  const std::int64_t first = scene.map.NextKeyFrameId().value;
-  for (std::int64_t k = 0; k < first; ++k) {
-    KeyFrame copy = *scene.map.Find(KeyFrameId{k});
-    copy.id = KeyFrameId{first + k};
-    copy.parent = KeyFrameId{first + k - 1};
-    copy.frame.cam_from_world = copy.frame.cam_from_world * Inverse(shift);
-    copy.frame.points.assign(copy.frame.points.size(), PointId{});
-    copy.frame.lines.assign(copy.frame.lines.size(), LineId{});
-    edit.push_back(edit::AddKeyFrame{copy});
-  }
-  PointId next = scene.map.NextPointId();
-  for (const auto& [id, point] : scene.map.points()) {
-    MapPoint copy = point;
-    copy.id = next;
-    ++next.value;
-    copy.position += away;
-    copy.observations = {};
-    for (const auto& [keyframe, feature] : point.observations) {
-      copy.observations.emplace(KeyFrameId{first + keyframe.value}, feature);
-    }
-    edit.push_back(edit::AddPoint{copy});
-    edit.push_back(edit::RefreshPoint{copy.id});
-  }
   const Frame frame = UnplacedFrame(wall, 3);
-  EXPECT_TRUE(MakeRelocalizer(wall).Find(scene.map, frame, 0));
-  scene.map.Apply(edit);
-  EXPECT_FALSE(MakeRelocalizer(wall).Find(scene.map, frame, 0));
+  EXPECT_TRUE(Find(MakeRelocalizer(wall), scene.map, frame));
+  AppendCopy(scene.map);
+  EXPECT_FALSE(Find(MakeRelocalizer(wall), scene.map, frame));
 }
 
 }  // namespace

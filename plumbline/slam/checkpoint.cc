@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+// System::Save and System::Resume.
+#include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/geometry/calibration_fingerprint.h"
+#include "plumbline/geometry/camera_difference.h"
+#include "plumbline/map/state_format.h"
+#include "plumbline/slam/atlas_context.h"
+#include "plumbline/slam/byte_format.h"
+#include "plumbline/slam/system.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+constexpr const char* kSource = "state of the run";
+
+std::span<const std::uint8_t> BytesOf(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+// Throws where an option that decides about the results is not what it was.
+void CheckOptionsAgree(const std::string& saved_yaml, const SlamOptions& options) {
+  SlamOptions before, now;
+  OptionTable saved(before), given(now);
+  saved.LoadText(saved_yaml, "options of the checkpoint");
+  given.LoadText(ResultOptionsYaml(options), "options");
+  for (const std::string& key : given.Keys()) {
+    if (saved.Value(key) == given.Value(key)) continue;
+    throw InputError(fmt::format(
+        "{}: expected {} as in the checkpoint, found {}", key, saved.Value(key), given.Value(key)));
+  }
+}
+
+void CheckRigAgrees(const AtlasContext& saved, const Rectifier& rectifier) {
+  if (const auto difference = CameraDifference({saved.camera}, {rectifier.camera()})) {
+    throw InputError("expected a checkpoint of the same rectified camera, found " + *difference);
+  }
+  if (saved.calibration != FingerprintOf(rectifier.calibration(), rectifier.camera())) {
+    throw InputError("expected a checkpoint of the same calibration, found one of another");
+  }
+}
+
+[[noreturn]] void Fail(const std::string& what) {
+  throw InputError(std::string(kSource) + ": expected one that agrees with itself, found " + what);
+}
+
+// Which maps took others in. BugError would blame the program for what bytes say.
+void RestoreHistory(const Atlas::History& history, Atlas& atlas) {
+  try {
+    atlas.SetHistory(history);
+  } catch (const BugError& error) {
+    Fail(error.what());
+  }
+}
+
+// What the mapper remembers of the maps stands with these.
+LocalMapper::State MapperOf(const SavedAtlas& maps, const AdjustedLines& adjusted_lines) {
+  LocalMapper::State mapper;
+  mapper.stereo_evidence = maps.context.stereo_evidence;
+  mapper.adjusted_lines = adjusted_lines;
+  const auto active = maps.context.maps.find(maps.atlas.active_id());
+  if (active != maps.context.maps.end()) mapper.young = active->second.young;
+  return mapper;
+}
+
+}  // namespace
+
+SavedRun System::Save() {
+  const MappingStage::Checkpoint stage = mapping_.Save();
+  SavedRun saved{{mapping_.atlas(), ContextWithoutMaps(*this)}, {}, {}};
+  AddMaps(saved.maps.atlas, stage.mapper, saved.maps.context);
+  StateWriter state;
+  Transfer(state, stage);
+  VisitRest(*this, [&](const auto&... fields) { TransferAll(state, fields...); });
+  if (monocular_start_) monocular_start_->Save(state);
+  saved.state = state.Take();
+  return saved;
+}
+
+void System::Resume(SavedRun saved) {
+  PLUMBLINE_CHECK(frames_.empty() && !loaded_, "a run goes on before its first frame");
+  CheckRigAgrees(saved.maps.context, rectifier());
+  CheckOptionsAgree(saved.maps.context.options_yaml, options_);
+  StateReader state(BytesOf(saved.state), kSource, camera());
+  MappingStage::Checkpoint stage;
+  Transfer(state, stage);
+  stage.mapper = MapperOf(saved.maps, stage.mapper.adjusted_lines);
+  RestoreHistory(stage.history, saved.maps.atlas);
+  VisitRest(*this, [&](auto&... fields) { TransferAll(state, fields...); });
+  if (monocular_start_) monocular_start_->Load(state, saved.maps.atlas);
+  if (state.remaining() != 0) Fail("more bytes");
+  CheckResumed(saved.maps.atlas, stage);
+  mapping_.Resume(std::move(saved.maps.atlas), stage);
+}
+
+void System::CheckResumed(const Atlas& atlas, const MappingStage::Checkpoint& stage) const {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const FrameRecord& record = frames_[i];
+    if (record.id.value != static_cast<std::int64_t>(i)) Fail("frames out of order");
+    if (record.status != FrameStatus::kTracked) continue;
+    const Map* map = atlas.Find(atlas.Current(record.map));
+    if (map == nullptr || !map->Knows(record.reference)) Fail("a frame without its keyframe");
+  }
+  const bool follows = atlas.empty() || atlas.Current(map_) == atlas.active_id();
+  if (next_map_ != stage.history.next_map.value || !follows) {
+    Fail("other maps");
+  }
+  if (tracker_.next_keyframe() < atlas.NextKeyFrameId()) Fail("keyframes that are to come");
+  if (stage.versions.empty() || (tracker_.follows() && stage.versions.back().snapshot == nullptr)) {
+    Fail("a camera that is tracked without a map");
+  }
+}
+
+}  // namespace plumbline

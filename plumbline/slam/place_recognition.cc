@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/place_recognition.h"
+
+#include "plumbline/loop/close_loop.h"
+#include "plumbline/loop/verify_loop.h"
+#include "plumbline/map/covisibility.h"
+#include "plumbline/slam/atlas_places.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+#include <set>
+
+namespace plumbline {
+namespace {
+
+constexpr std::size_t kCandidates = 3;  // keyframes that one is compared with
+// A place that comes back stands out among the keyframes that look alike: the last of so many, or
+// of all, looks as much alike as any other place does.
+constexpr std::size_t kRanked = 40;
+constexpr std::size_t kFewest = 10;  // of them to tell
+constexpr double kStandsOut = 5;
+constexpr std::int64_t kRecent = 20;  // the newest keyframes, among which nothing comes back
+
+const Map* MapOf(const Atlas& atlas, KeyFrameId id) {
+  for (const auto& [map_id, map] : atlas.maps()) {
+    if (map.Find(id) != nullptr) return &map;
+  }
+  return nullptr;
+}
+
+Recognition Describe(const Map& map,
+                     KeyFrameId id,
+                     KeyFrameId older,
+                     const LoopEvidence& evidence) {
+  Recognition place;
+  place.frame = map.Find(id)->frame.id;
+  place.keyframe = id;
+  place.older = older;
+  place.points = evidence.inlier_points;
+  place.lines = evidence.inlier_lines;
+  place.log10_chance = evidence.log10_chance;
+  return place;
+}
+
+// How a keyframe has moved in the world.
+void DescribeMotion(const Placement& before, const Placement& after, Recognition& place) {
+  const Rigid3 motion = Inverse(after.cam_from_world) * before.cam_from_world;
+  place.moved =
+      (Inverse(after.cam_from_world).translation - Inverse(before.cam_from_world).translation)
+          .norm();
+  place.turned_deg = LogSo3(motion.rotation).norm() * 180 / std::numbers::pi;
+  place.scale = after.unit / before.unit;
+}
+
+}  // namespace
+
+PlaceRecognition::PlaceRecognition(const ImagingModel& imaging, const LoopOptions& options)
+    : imaging_(imaging), options_(options), closer_(imaging, options) {}
+
+void PlaceRecognition::Follow(const Atlas& atlas) { plumbline::Follow(atlas, &places_); }
+
+std::vector<KeyFrameId> PlaceRecognition::MostAlike(const Map& map,
+                                                    const Features& features,
+                                                    std::size_t most) const {
+  return plumbline::MostAlike(places_, map, features, most);
+}
+
+// What lies around the keyframe is no place that comes back.
+std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
+                                                     const KeyFrame& keyframe) const {
+  const Map& active = atlas.active();
+  std::set<KeyFrameId> around;
+  for (const auto& covisible : Covisible(active, keyframe.id)) around.insert(covisible.id);
+  const auto allowed = [&](KeyFrameId id) {
+    const Map* map = MapOf(atlas, id);
+    if (map == nullptr || around.contains(id)) return false;
+    return map != &active || map->NumberOf(id) + kRecent < keyframe.number;
+  };
+  const std::vector<PlaceCandidate> ranked =
+      places_.Query(keyframe.frame.features(), kRanked, allowed);
+  const double common = ranked.size() < kFewest ? 0 : ranked.back().score;
+  std::vector<KeyFrameId> ids;
+  for (const PlaceCandidate& candidate : ranked) {
+    if (ids.size() == kCandidates || candidate.score < kStandsOut * common) break;
+    ids.push_back(candidate.id);
+  }
+  return ids;
+}
+
+std::optional<KeyFrameId> PlaceRecognition::Recognize(Atlas& atlas, KeyFrameId id) {
+  if (!options_.enabled) return std::nullopt;
+  const std::vector<KeyFrameId> candidates = Candidates(atlas, *atlas.active().Find(id));
+  if (candidates.empty()) return std::nullopt;
+  if (const auto older = CloseLoop(atlas.active(), id, candidates)) return older;
+  return Join(atlas, id, candidates);
+}
+
+std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Map& map,
+                                                      KeyFrameId id,
+                                                      const std::vector<KeyFrameId>& candidates) {
+  const std::optional<LoopClosure> closure = closer_.Try(map, id, candidates);
+  if (!closure) return std::nullopt;
+  const LoopRecord& record = closure->record;
+  Recognition place = Describe(map, id, record.candidate, record.evidence);
+  const Placement before = map.PlaceOf(id);
+  map.Apply(closure->edit);
+  DescribeMotion(before, map.PlaceOf(id), place);
+  loops_.push_back(place);
+  return record.candidate;
+}
+
+// The map that is older takes the other one in.
+std::optional<KeyFrameId> PlaceRecognition::Join(Atlas& atlas,
+                                                 KeyFrameId id,
+                                                 const std::vector<KeyFrameId>& candidates) {
+  const Map& active = atlas.active();
+  for (const KeyFrameId candidate : candidates) {
+    const Map& other = *MapOf(atlas, candidate);
+    if (&other == &active) continue;
+    const auto edge = VerifyLoop(active, id, other, candidate, imaging_, options_.verification);
+    if (!edge || edge->evidence.asked == 0) continue;
+    MapJoin join{Describe(active, id, candidate, edge->evidence),
+                 std::min(active.id(), other.id()),
+                 std::max(active.id(), other.id())};
+    const Similarity3 other_from_active = CandidateWorldFromQueryWorld(active, other, *edge);
+    const bool other_stays = join.kept == other.id();
+    const Placement before = active.PlaceOf(id);
+    atlas.Join(join.kept, join.gone, other_stays ? other_from_active : Inverse(other_from_active));
+    Map& joined = atlas.Activate(join.kept);
+    joined.Apply(FusePairs(joined, edge->points, edge->lines));
+    closer_.Know(*edge);
+    DescribeMotion(before, joined.PlaceOf(id), join.place);
+    joins_.push_back(join);
+    return candidate;
+  }
+  return std::nullopt;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/loop/loop_closer.h"
+#include "plumbline/map/atlas.h"
+#include "plumbline/place/place_index.h"
+#include "plumbline/slam/map_events.h"
+#include "plumbline/tracking/options.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+// Knows what the keyframes of all maps show, and makes one place of what was seen twice: closes
+// loops within the map that grows, and joins it with another map of the atlas that shows the same.
+//
+// Deterministic; for one thread.
+class PlaceRecognition {
+ public:
+  PlaceRecognition(const ImagingModel& imaging, const LoopOptions& options);
+
+  // Learns what keyframes have come into the maps since the last call, and forgets those that left.
+  void Follow(const Atlas& atlas);
+
+  // Which keyframes show what an image shows, most alike first.
+  std::vector<KeyFrameId> MostAlike(const Map& map,
+                                    const Features& features,
+                                    std::size_t most) const;
+
+  // A keyframe of the active map, which Follow() has seen. Returns the older keyframe that it was
+  // recognized by, where that changed maps at large: then the landmarks of both are fused, and both
+  // are in the active map, which may be another one than before. Adjustment is the caller's.
+  std::optional<KeyFrameId> Recognize(Atlas& atlas, KeyFrameId id);
+
+  const std::vector<Recognition>& loops() const { return loops_; }
+  const std::vector<MapJoin>& joins() const { return joins_; }
+
+  // What it goes on from beside the maps, which Follow() is to see.
+  struct State {
+    LoopCloser::State closer;
+    std::vector<Recognition> loops;
+    std::vector<MapJoin> joins;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.closer, self.loops, self.joins);
+    }
+  };
+  State state() const { return {closer_.state(), loops_, joins_}; }
+  void SetState(const State& state) {
+    closer_.SetState(state.closer);
+    loops_ = state.loops;
+    joins_ = state.joins;
+  }
+
+ private:
+  std::vector<KeyFrameId> Candidates(const Atlas& atlas, const KeyFrame& keyframe) const;
+  std::optional<KeyFrameId> CloseLoop(Map& map,
+                                      KeyFrameId id,
+                                      const std::vector<KeyFrameId>& candidates);
+  std::optional<KeyFrameId> Join(Atlas& atlas,
+                                 KeyFrameId id,
+                                 const std::vector<KeyFrameId>& candidates);
+
+  ImagingModel imaging_;
+  LoopOptions options_;
+  PlaceIndex places_;
+  LoopCloser closer_;
+  std::vector<Recognition> loops_;
+  std::vector<MapJoin> joins_;
+};
+
+}  // namespace plumbline
