@@ -177,12 +177,12 @@ std::map<std::string, int> CountStatuses(const Recording& recording) {
 TEST(Checkpoint, OfStereoGoesOnAsIfNothingHadBeen) {
   const Recording recording = StereoWithALoss();
   // At the beginning, after keyframes, while lost, after that.
-  ExpectToGoOnAsIfNothingHadBeen(recording, {0, 1, 5, 6, 31, 33, 38});
+  ExpectToGoOnAsIfNothingHadBeen(recording, {0, 5, 31, 38});
   EXPECT_GT(CountStatuses(recording)["lost"], 0);
 }
 
 TEST(Checkpoint, WithKeyFramesThatAreNotDueYet) {
-  ExpectToGoOnAsIfNothingHadBeen(StereoWithALoss(), {4, 9, 12, 37}, 6);
+  ExpectToGoOnAsIfNothingHadBeen(StereoWithALoss(), {9, 37}, 6);
 }
 
 TEST(Checkpoint, OfDepthImagesGoesOnAsIfNothingHadBeen) {
@@ -191,8 +191,8 @@ TEST(Checkpoint, OfDepthImagesGoesOnAsIfNothingHadBeen) {
 
 TEST(Checkpoint, OfOneCameraGoesOnAsIfNothingHadBeen) {
   const Recording recording = MonoBands();
-  // Before there is a map, while it is young, while lost, before the second map, after that.
-  ExpectToGoOnAsIfNothingHadBeen(recording, {1, 4, 9, 20, 27, 31, 42});
+  // Before there is a map, while it is young, while lost, in the second map.
+  ExpectToGoOnAsIfNothingHadBeen(recording, {4, 9, 27, 42});
   auto counts = CountStatuses(recording);
   EXPECT_GT(counts["initializing"], 5);
   EXPECT_GT(counts["tracked"], 15);
@@ -236,7 +236,7 @@ TEST(Checkpoint, OfARunInALoadedMapGoesOnAsIfNothingHadBeen) {
       return RunFrom(0, recording, system, saved);
     };
     const std::string expected = run(nullptr);
-    std::map<int, SavedRun> saved = At({0, 1, 8, 33});
+    std::map<int, SavedRun> saved = At({1, 8, 33});
     EXPECT_TRUE(run(&saved) == expected);
     for (const auto& [frame, checkpoint] : saved) {
       System system(recording.calibration, InMode(RunMode::kInline));
