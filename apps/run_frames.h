@@ -33,7 +33,7 @@ struct RunFrames {
 // Frames that are shown with their features, kept until there is time to draw them.
 class KeptViews {
  public:
-  // Of the frames from position `first` on.
+  // Views are kept of some of the frames from position `first` on, spread over them.
   explicit KeptViews(const std::vector<std::size_t>& frames, std::size_t first = 0);
 
   void Offer(std::size_t position, const FrameView& view);

@@ -39,7 +39,8 @@ struct Pairs {
   std::vector<Pair> same, different;
 };
 
-// By keyframe: pose of the rectified left camera in the world of the ground truth.
+// The true pose of each keyframe: cam_from_world of the rectified left camera, in the world of the
+// ground truth.
 std::map<KeyFrameId, Rigid3> TruePoses(const SavedMap& saved, const Dataset& dataset) {
   constexpr std::int64_t kMaxGapNs = 200'000'000;
   const Trajectory truth = dataset.info().ground_truth->OfCamera(dataset.calibration());

@@ -133,7 +133,7 @@ class Tally {
   }
 
  private:
-  // Of the scores of right first candidates.
+  // The score below which this share of the right first candidates lies.
   double Quantile(double share) const {
     std::vector<double> sorted = right_;
     std::sort(sorted.begin(), sorted.end());

@@ -148,7 +148,8 @@ class FullTree {
     return node;
   }
 
-  // By the bit that is set in nearest to half of the descriptors; where all are equal, not at all.
+  // Divides a leaf by the bit that is set in nearest to half of its descriptors. A leaf whose
+  // descriptors are all equal stays whole.
   void Split(std::size_t node) {
     const auto entries = nodes_[node].entries;
     const auto size = static_cast<std::ptrdiff_t>(entries.size());

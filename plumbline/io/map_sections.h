@@ -17,13 +17,15 @@ namespace plumbline {
 // Kinds of sections from this one on are free for what comes after the maps.
 inline constexpr std::uint32_t kAfterMaps = 16;
 
-// As SaveAtlas: all maps of the atlas, with `active` as the one to go on with.
+// Writes all maps of the atlas, with `active` as the one to go on with, into a file that the caller
+// opens and commits. SaveAtlas makes a map file of nothing else.
 void WriteMapSections(const Atlas& atlas,
                       const AtlasContext& context,
                       MapId active,
                       SectionWriter& file);
 
-// As LoadAtlas.
+// Reads the maps that WriteMapSections wrote. Throws InputError as LoadAtlas does, which reads a
+// file of nothing else.
 SavedAtlas ReadMapSections(SectionReader& file);
 
 // The contents of the next section, which must be of this kind (InputError).

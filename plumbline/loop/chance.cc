@@ -35,7 +35,8 @@ class ShiftVotes {
     ++votes_[cell];
   }
 
-  // Of the windows of two by two cells that are more than `near` cells from no shift.
+  // The most votes that a window of two by two cells has. Windows within `near` cells of the shift
+  // by nothing do not count: the right relative pose gets its votes there.
   int Most(int near) const {
     int most = 0;
     for (int y = 0; y + 1 < rows_; ++y) {

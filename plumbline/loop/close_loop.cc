@@ -108,8 +108,8 @@ std::vector<int> AddLoops(const Map& map,
   return places;
 }
 
-// By how much the sum of chi2 of all edges that are believed grows with a loop, at least: without
-// it the sum is at most that of the poses as they are.
+// The least by which a loop makes the sum of chi2 over all believed edges grow. The sum without the
+// loop is not solved for: it is at most that of the poses as they are, which stands in for it.
 double RaisedChi2(const PoseGraph& graph, std::size_t loop, const PoseGraphResult& solved) {
   const int size = graph.motion == PoseGraphMotion::kRigid ? 6 : 7;
   double raised = 0;

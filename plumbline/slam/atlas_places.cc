@@ -2,16 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/atlas_places.h"
 
-#include <algorithm>
-
 namespace plumbline {
 namespace {
-
-bool AnyHas(const Atlas& atlas, KeyFrameId id) {
-  return std::any_of(atlas.maps().begin(), atlas.maps().end(), [&](const auto& entry) {
-    return entry.second.Find(id) != nullptr;
-  });
-}
 
 // Keyframes are newer than all that came before, in whatever map they are.
 void AddNew(const Map& map, KeyFrameId newest, PlaceIndex* index) {
@@ -28,12 +20,19 @@ std::size_t KeyFramesOf(const Atlas& atlas) {
 
 }  // namespace
 
+const Map* MapOf(const Atlas& atlas, KeyFrameId id) {
+  for (const auto& [map_id, map] : atlas.maps()) {
+    if (map.Find(id) != nullptr) return &map;
+  }
+  return nullptr;
+}
+
 void Follow(const Atlas& atlas, PlaceIndex* index) {
   const KeyFrameId newest = index->Newest();
   for (const auto& [id, map] : atlas.maps()) AddNew(map, newest, index);
   if (index->size() == KeyFramesOf(atlas)) return;
   for (const KeyFrameId id : index->Ids()) {
-    if (!AnyHas(atlas, id)) index->Remove(id);
+    if (MapOf(atlas, id) == nullptr) index->Remove(id);
   }
   for (const auto& [map_id, map] : atlas.maps()) {  // adopted maps have older ones
     for (const auto& [id, keyframe] : map.keyframes()) {

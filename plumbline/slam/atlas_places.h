@@ -10,6 +10,9 @@
 
 namespace plumbline {
 
+// The map that has a keyframe; nullptr where none has it (any more).
+const Map* MapOf(const Atlas& atlas, KeyFrameId id);
+
 // Brings an index up to date: afterwards it holds exactly the keyframes that the maps of the atlas
 // hold. So it answers as an index that is made anew, for instance by a run that goes on from a
 // saved map. Cost: that of adding what is new; and where keyframes have left, some tenths of a

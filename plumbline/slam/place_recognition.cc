@@ -23,13 +23,6 @@ constexpr std::size_t kFewest = 10;  // of them to tell
 constexpr double kStandsOut = 5;
 constexpr std::int64_t kRecent = 20;  // the newest keyframes, among which nothing comes back
 
-const Map* MapOf(const Atlas& atlas, KeyFrameId id) {
-  for (const auto& [map_id, map] : atlas.maps()) {
-    if (map.Find(id) != nullptr) return &map;
-  }
-  return nullptr;
-}
-
 Recognition Describe(const Map& map,
                      KeyFrameId id,
                      KeyFrameId older,

@@ -53,6 +53,18 @@ TEST_F(AtlasPlaces, HoldWhatTheMapsHold) {
                           KeyFrameId{5}));
 }
 
+TEST_F(AtlasPlaces, TellWhichMapHasAKeyFrame) {
+  atlas_.Start();
+  Take();
+  Take();
+  atlas_.Start();
+  Take();
+  EXPECT_EQ(MapOf(atlas_, KeyFrameId{1}), atlas_.Find(MapId{0}));
+  EXPECT_EQ(MapOf(atlas_, KeyFrameId{2}), atlas_.Find(MapId{1}));
+  atlas_.Find(MapId{0})->Apply({edit::RemoveKeyFrame{KeyFrameId{1}}});
+  EXPECT_EQ(MapOf(atlas_, KeyFrameId{1}), nullptr);
+}
+
 TEST_F(AtlasPlaces, LoseWhatLeavesTheMaps) {
   atlas_.Start();
   for (int i = 0; i < 4; ++i) Take();
