@@ -28,8 +28,8 @@ struct SupportedLine {
   std::vector<LineInterval> parts;  // that are shown
 };
 
-// The line that the supports of a hypothesis give, after three rounds; nullopt where there are too
-// few.
+// The line that the supports of a hypothesis give, after three rounds, or fewer where the supports
+// stay what they were, as further rounds would then find the same; nullopt where there are too few.
 std::optional<SupportedLine> Support(const LineSupportSearch& search,
                                      const RectifiedCamera& camera,
                                      const LineHypothesis& hypothesis,
@@ -44,7 +44,9 @@ std::optional<SupportedLine> Support(const LineSupportSearch& search,
     line.parts = ShownParts(camera, through->line, line.supports, min_keyframes, kMinShownShare);
     if (line.parts.empty()) return std::nullopt;
     line.hypothesis.interval = {line.parts.front().start, line.parts.back().end};
-    line.supports = search.Find(line.hypothesis);
+    std::vector<LineSupport> supports = search.Find(line.hypothesis);
+    if (supports == line.supports) return line;
+    line.supports = std::move(supports);
   }
   line.parts =
       ShownParts(camera, line.hypothesis.line, line.supports, min_keyframes, kMinShownShare);

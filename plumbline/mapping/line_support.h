@@ -31,6 +31,8 @@ struct LineSupport {
   const KeyFrame* keyframe = nullptr;
   std::size_t feature = 0;
   bool right = false;  // its segment in the right image does so, too
+
+  friend bool operator==(const LineSupport&, const LineSupport&) = default;
 };
 
 // Finds the segments of all keyframes that show a line, whatever landmark they were matched with.
