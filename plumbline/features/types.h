@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/count_bits.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,8 +19,7 @@ namespace plumbline {
 using Descriptor = std::array<std::uint64_t, 4>;
 
 inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
-  return std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]) + std::popcount(a[2] ^ b[2]) +
-         std::popcount(a[3] ^ b[3]);
+  return CountBits(Descriptor{a[0] ^ b[0], a[1] ^ b[1], a[2] ^ b[2], a[3] ^ b[3]});
 }
 
 // A corner in the rectified image. Position in pixels of the full-size image whatever the octave.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/line_triangulation.h"
 
-#include "plumbline/base/elementary.h"
+#include "plumbline/base/largest_angle.h"
 #include "plumbline/geometry/trimming.h"
 
 #include <algorithm>
@@ -70,12 +70,12 @@ struct PlanePair {
 
 PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
   PlanePair widest;
+  LargestAngle largest;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (std::size_t j = i + 1; j < planes.size(); ++j) {
       const Eigen::Vector3d n1 = planes[i].head<3>();
       const Eigen::Vector3d n2 = planes[j].head<3>();
-      const double angle = math::Atan2(n1.cross(n2).norm(), std::abs(n1.dot(n2)));
-      if (angle > widest.angle) widest = {i, j, angle};
+      if (largest.Add(n1.cross(n2).norm(), std::abs(n1.dot(n2)))) widest = {i, j, largest.angle()};
     }
   }
   return widest;

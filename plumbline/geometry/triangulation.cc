@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/triangulation.h"
 
-#include "plumbline/base/elementary.h"
+#include "plumbline/base/largest_angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,15 +29,15 @@ std::vector<Eigen::Vector3d> CentresOf(const RectifiedCamera& camera,
 }
 
 double LargestParallax(const std::vector<Eigen::Vector3d>& centres, const Eigen::Vector3d& point) {
-  double largest = 0;
+  LargestAngle largest;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     for (std::size_t j = i + 1; j < centres.size(); ++j) {
       const Eigen::Vector3d a = centres[i] - point;
       const Eigen::Vector3d b = centres[j] - point;
-      largest = std::max(largest, math::Atan2(a.cross(b).norm(), a.dot(b)));
+      largest.Add(a.cross(b).norm(), a.dot(b));
     }
   }
-  return largest;
+  return largest.angle();
 }
 
 // Homogeneous least squares on u (row 3) - (row 1) = 0 and the like, in the first camera's frame.

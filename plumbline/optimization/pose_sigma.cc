@@ -86,8 +86,9 @@ std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& s
   return sigmas;
 }
 
-bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
-  const std::vector<PoseSigma> sigmas = SigmasOfPoses(problem, state);
+namespace {
+
+bool HoldLoosePoses(const std::vector<PoseSigma>& sigmas, double limit, BaProblem& problem) {
   bool any = false;
   for (std::size_t i = 0; i < sigmas.size(); ++i) {
     if (problem.poses[i].fixed || sigmas[i].AtMost(limit)) continue;
@@ -97,8 +98,10 @@ bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
   return any;
 }
 
-bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem) {
-  const std::vector<PoseSigma> sigmas = SigmasOfPoses(problem, solution);
+bool HoldTornPoses(const BaResult& solution,
+                   const std::vector<PoseSigma>& sigmas,
+                   const PoseLimits& limits,
+                   BaProblem& problem) {
   bool any = false;
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
@@ -121,20 +124,50 @@ bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem
   return any;
 }
 
+bool Failed(const BaResult& result) {
+  return result.termination == BaTermination::kNotFinite ||
+         result.termination == BaTermination::kStopped;
+}
+
+struct Solution {
+  BaResult result;
+  std::vector<PoseSigma> sigmas;  // of `result`; none where it failed
+};
+
+Solution SolveHoldingLoosePoses(BaProblem& problem,
+                                const LocalBaOptions& options,
+                                LineParametrization lines,
+                                double limit,
+                                const StopCheck& stop) {
+  HoldLoosePoses(SigmasOfPoses(problem, InitialState(problem)), limit, problem);
+  const auto solve = [&] {
+    BaResult result = SolveLocalBa(problem, options, lines, stop);
+    std::vector<PoseSigma> sigmas;
+    if (!Failed(result)) sigmas = SigmasOfPoses(problem, result);
+    return Solution{std::move(result), std::move(sigmas)};
+  };
+  Solution solution = solve();
+  // Rejected observations may leave a pose loose that was fixed before.
+  if (!HoldLoosePoses(solution.sigmas, limit, problem)) return solution;
+  return solve();
+}
+
+}  // namespace
+
+bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
+  return HoldLoosePoses(SigmasOfPoses(problem, state), limit, problem);
+}
+
+bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem) {
+  return HoldTornPoses(solution, SigmasOfPoses(problem, solution), limits, problem);
+}
+
 BaResult SolveWithLoosePosesHeld(BaProblem& problem,
                                  const LocalBaOptions& options,
                                  LineParametrization lines,
                                  double limit,
                                  const StopCheck& stop) {
-  HoldLoosePoses(InitialState(problem), limit, problem);
-  BaResult result = SolveLocalBa(problem, options, lines, stop);
-  if (result.termination == BaTermination::kNotFinite ||
-      result.termination == BaTermination::kStopped) {
-    return result;
-  }
-  // Rejected observations may leave a pose loose that was fixed before.
-  if (!HoldLoosePoses(result, limit, problem)) return result;
-  return SolveLocalBa(problem, options, lines, stop);
+  return SolveHoldingLoosePoses(problem, options, lines, limit, stop).result;
 }
 
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
@@ -145,13 +178,13 @@ std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const StopCheck& stop) {
   constexpr int kAttempts = 4;
   for (int attempt = 1;; ++attempt) {
-    BaResult result = SolveWithLoosePosesHeld(problem, options, lines, limits.sigma, stop);
-    if (result.termination == BaTermination::kNotFinite ||
-        result.termination == BaTermination::kStopped) {
-      return std::nullopt;
+    auto [result, sigmas] = SolveHoldingLoosePoses(problem, options, lines, limits.sigma, stop);
+    if (Failed(result)) return std::nullopt;
+    if (normalize) {
+      normalize(result);
+      sigmas = SigmasOfPoses(problem, result);
     }
-    if (normalize) normalize(result);
-    if (!HoldTornPoses(result, limits, problem)) return result;
+    if (!HoldTornPoses(result, sigmas, limits, problem)) return std::move(result);
     if (attempt + 1 < kAttempts) continue;
     for (auto& pose : problem.poses) pose.fixed = true;
   }

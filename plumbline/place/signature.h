@@ -5,7 +5,6 @@
 #include "plumbline/features/types.h"
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -32,8 +31,7 @@ inline int HammingDistance(const Signature& a, const Signature& b) {
   const auto pair = [](std::uint32_t high, std::uint32_t low) {
     return std::uint64_t{high} << 32U | low;
   };
-  return std::popcount(pair(a[0] ^ b[0], a[1] ^ b[1])) +
-         std::popcount(pair(a[2] ^ b[2], a[3] ^ b[3]));
+  return CountBits(std::array{pair(a[0] ^ b[0], a[1] ^ b[1]), pair(a[2] ^ b[2], a[3] ^ b[3])});
 }
 
 }  // namespace plumbline

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/elementary.h"
+
+#include <cmath>
+
+namespace plumbline {
+
+// The largest of many angles between 0 and pi, each given as the two sides atan2 takes. The angle
+// itself is computed only where it may be the largest: atan2 takes ten times as long as telling.
+class LargestAngle {
+ public:
+  // Whether atan2(across, along) is larger than all before, and than 0. across >= 0.
+  bool Add(double across, double along) {
+    // Of two that are as good as equal, the rounded angles decide.
+    constexpr double kClearly = 1e-12;
+    const double ahead = across * along_, behind = along * across_;
+    if (ahead - behind < -kClearly * (std::abs(ahead) + std::abs(behind))) return false;
+    const double angle = math::Atan2(across, along);
+    if (!(angle > angle_)) return false;
+    angle_ = angle;
+    across_ = across;
+    along_ = along;
+    return true;
+  }
+
+  double angle() const { return angle_; }
+
+ private:
+  double angle_ = 0;
+  double across_ = 0, along_ = 1;  // of it
+};
+
+}  // namespace plumbline
