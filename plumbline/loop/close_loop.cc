@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/close_loop.h"
 
-#include "plumbline/loop/essential_graph.h"
 #include "plumbline/map/motion.h"
+#include "plumbline/mapping/correction.h"
 #include "plumbline/optimization/pose_graph.h"
 
 #include <algorithm>
@@ -128,12 +128,10 @@ double RaisedChi2(const PoseGraph& graph, std::size_t loop, const PoseGraphResul
 }  // namespace
 
 Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
-                                                   bool free_scale,
+                                                   EssentialGraph essential,
                                                    std::span<const LoopEdge> earlier,
                                                    const LoopEdge& newest,
                                                    const LoopOptions& options) {
-  EssentialGraph essential =
-      MakeEssentialGraph(map, free_scale, options.drift, options.closing.strong_covisibility);
   ShareInformation(essential.graph);
   const std::size_t odometry = essential.graph.edges.size();
   const std::vector<int> earlier_places = AddLoops(map, earlier, essential);
@@ -154,9 +152,9 @@ Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
   for (const int place : earlier_places) {
     out.earlier_kept.push_back(place < 0 || solved.weights[Index(place)] >= 0.5);
   }
-  out.correction = CorrectionOf(map, essential, solved.poses);
-  Measure(out.correction, newest.query, out);
-  out.edit = Rebased(out.correction, map);
+  const Correction correction = CorrectionOf(map, essential, solved.poses);
+  Measure(correction, newest.query, out);
+  out.edit = Rebased(correction, map);
   const auto& motion = std::get<edit::MoveKeyFrames>(out.edit.front());
   const MapEdit fusion = FusePairs(map, newest.points, newest.lines, motion);
   for (const MapChange& change : fusion) {

@@ -4,11 +4,11 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
+#include "plumbline/loop/essential_graph.h"
 #include "plumbline/loop/loop_edge.h"
 #include "plumbline/loop/options.h"
 #include "plumbline/map/edit.h"
 #include "plumbline/map/map.h"
-#include "plumbline/mapping/correction.h"
 
 #include <array>
 #include <span>
@@ -35,8 +35,7 @@ constexpr auto EnumNames(std::type_identity<ClosingRefusal>) {
 
 // What closing a loop makes of a map.
 struct LoopCorrection {
-  Correction correction;           // of the keyframes; may be rebased on a later map
-  MapEdit edit;                    // the correction, then the landmarks that are one
+  MapEdit edit;                    // the keyframes move, then landmarks that are one are fused
   std::vector<bool> earlier_kept;  // by earlier edge: it agrees with the result
   int merged_points = 0, merged_lines = 0;
   double largest_shift = 0;        // of a keyframe, map units
@@ -46,19 +45,18 @@ struct LoopCorrection {
   double worst_odometry_chi2 = 0;  // of an edge between keyframes
 };
 
-// The map with a loop closed: the pose graph of the keyframes (essential_graph.h) with all loops is
-// solved (SolvePoseGraph), similarities with one camera, else rigid motions; the oldest keyframe
-// and its unit stay. The keyframes move (edit::MoveKeyFrames) with what hangs on them, and the
+// The map with a loop closed: its essential graph (MakeEssentialGraph) with all loops is solved
+// (SolvePoseGraph), similarities with one camera, else rigid motions; the oldest keyframe and its
+// unit stay. The keyframes move (edit::MoveKeyFrames) with what hangs on them, and the
 // pairs of the new loop are fused (FusePairs). Local and whole adjustment are the caller's.
 //
 // Nothing is changed where the loops contradict the new one (graduated non-convexity) or where an
 // edge of odometry, or all together, would be bent by more than drift allows: a right loop raises
 // the sum of chi2 by its degrees of freedom.
 //
-//   free_scale  one camera
-//   cost        about 0.1 s for 3,000 keyframes
+// Cost: about 0.1 s for 3,000 keyframes.
 Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
-                                                   bool free_scale,
+                                                   EssentialGraph essential,
                                                    std::span<const LoopEdge> earlier,
                                                    const LoopEdge& newest,
                                                    const LoopOptions& options);

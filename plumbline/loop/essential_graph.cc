@@ -114,33 +114,6 @@ Matrix7d CovarianceOf(const PoseGraphEdge& edge) {
   return covariance;
 }
 
-// For each pose the edge that leads to it on the way from the first, or -1.
-std::vector<int> ShortestWays(const PoseGraph& graph, int first, int last) {
-  std::vector<std::vector<int>> edges_of(graph.poses.size());
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    edges_of[Index(graph.edges[e].to)].push_back(static_cast<int>(e));
-    edges_of[Index(graph.edges[e].from)].push_back(static_cast<int>(e));
-  }
-  std::vector<int> edge_to(graph.poses.size(), -1);
-  std::vector<bool> reached(graph.poses.size(), false);
-  std::queue<int> queue;
-  queue.push(first);
-  reached[Index(first)] = true;
-  while (!queue.empty() && !reached[Index(last)]) {
-    const int pose = queue.front();
-    queue.pop();
-    for (const int e : edges_of[Index(pose)]) {
-      const PoseGraphEdge& edge = graph.edges[Index(e)];
-      const int other = edge.to == pose ? edge.from : edge.to;
-      if (reached[Index(other)]) continue;
-      reached[Index(other)] = true;
-      edge_to[Index(other)] = e;
-      queue.push(other);
-    }
-  }
-  return edge_to;
-}
-
 }  // namespace
 
 int EssentialGraph::PoseOf(KeyFrameId id) const {
@@ -214,13 +187,44 @@ std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
   return edge;
 }
 
-std::optional<UncertainPose> Along(const PoseGraph& graph, int to, int from) {
+OdometryWays::OdometryWays(const PoseGraph& graph) : graph_(graph), edges_of_(graph.poses.size()) {
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    edges_of_[Index(graph.edges[e].to)].push_back(static_cast<int>(e));
+    edges_of_[Index(graph.edges[e].from)].push_back(static_cast<int>(e));
+  }
+}
+
+// For each pose the edge that leads to it on the way from the first, or -1.
+const std::vector<int>& OdometryWays::WaysFrom(int first) {
+  const auto [entry, is_new] = ways_from_.try_emplace(first, graph_.poses.size(), -1);
+  std::vector<int>& edge_to = entry->second;
+  if (!is_new) return edge_to;
+  std::vector<bool> reached(graph_.poses.size(), false);
+  std::queue<int> queue;
+  queue.push(first);
+  reached[Index(first)] = true;
+  while (!queue.empty()) {
+    const int pose = queue.front();
+    queue.pop();
+    for (const int e : edges_of_[Index(pose)]) {
+      const PoseGraphEdge& edge = graph_.edges[Index(e)];
+      const int other = edge.to == pose ? edge.from : edge.to;
+      if (reached[Index(other)]) continue;
+      reached[Index(other)] = true;
+      edge_to[Index(other)] = e;
+      queue.push(other);
+    }
+  }
+  return edge_to;
+}
+
+std::optional<UncertainPose> OdometryWays::Along(int to, int from) {
   if (to == from) return UncertainPose{};
-  const std::vector<int> edge_to = ShortestWays(graph, from, to);
+  const std::vector<int>& edge_to = WaysFrom(from);
   if (edge_to[Index(to)] < 0) return std::nullopt;
   UncertainPose to_from;
   for (int pose = to; pose != from;) {
-    const PoseGraphEdge& edge = graph.edges[Index(edge_to[Index(pose)])];
+    const PoseGraphEdge& edge = graph_.edges[Index(edge_to[Index(pose)])];
     const UncertainPose step{edge.to_from, CovarianceOf(edge)};
     to_from = Compose(to_from, edge.to == pose ? step : Inverse(step));
     pose = edge.to == pose ? edge.from : edge.to;

@@ -8,6 +8,7 @@
 #include "plumbline/map/map.h"
 #include "plumbline/optimization/pose_graph.h"
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -43,9 +44,23 @@ std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
                                         const EssentialGraph& essential,
                                         const LoopEdge& loop);
 
-// The relative pose of two poses of the graph as odometry has it: along the way with the fewest
-// keyframes, on which the drift of each edge adds to that of the others. nullopt where no edges
-// lead from one to the other. O(edges log edges).
-std::optional<UncertainPose> Along(const PoseGraph& graph, int to, int from);
+// The relative poses of a graph as odometry has them: along the way with the fewest keyframes, on
+// which the drift of each edge adds to that of the others. What was found out about the ways from a
+// pose is kept. The graph must outlive this and stay as it is.
+class OdometryWays {
+ public:
+  explicit OdometryWays(const PoseGraph& graph);
+
+  // nullopt where no edges lead from one to the other. The first time that is asked from a pose
+  // O(edges), then O(length of the way).
+  std::optional<UncertainPose> Along(int to, int from);
+
+ private:
+  const std::vector<int>& WaysFrom(int first);
+
+  const PoseGraph& graph_;
+  std::vector<std::vector<int>> edges_of_;     // by pose
+  std::map<int, std::vector<int>> ways_from_;  // by first pose: by pose the edge that leads to it
+};
 
 }  // namespace plumbline

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/loop_closer.h"
 
-#include "plumbline/loop/essential_graph.h"
 #include "plumbline/loop/pairwise_consistency.h"
 #include "plumbline/loop/uncertain_pose.h"
-#include "plumbline/map/covisibility.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -18,7 +17,7 @@ constexpr std::size_t kMostWaiting = 5;  // loops that wait for another keyframe
 constexpr std::int64_t kWaitFor = 5;     // keyframes that such a loop may be old
 
 // By pair whether the loops agree by way of odometry.
-std::vector<std::vector<bool>> Consistency(const PoseGraph& odometry,
+std::vector<std::vector<bool>> Consistency(OdometryWays& odometry,
                                            const std::vector<PoseGraphEdge>& loops,
                                            double max_chi2) {
   std::vector<std::vector<bool>> consistent(loops.size(), std::vector<bool>(loops.size(), true));
@@ -31,11 +30,35 @@ std::vector<std::vector<bool>> Consistency(const PoseGraph& odometry,
   return consistent;
 }
 
-double DriftChi2(const PoseGraph& odometry, const PoseGraphEdge& loop, const LoopEdge& edge) {
-  const auto drifted = Along(odometry, loop.from, loop.to);
+double DriftChi2(OdometryWays& odometry, const PoseGraphEdge& loop, const LoopEdge& edge) {
+  const auto drifted = odometry.Along(loop.from, loop.to);
   if (!drifted) return 0;
   return ClosingChi2(Compose({loop.to_from, edge.covariance}, *drifted));
 }
+
+// The landmarks of a keyframe, to be compared with those of others.
+class ShownLandmarks {
+ public:
+  explicit ShownLandmarks(const Frame& frame) : points_(frame.points), lines_(frame.lines) {
+    std::sort(points_.begin(), points_.end());
+    std::sort(lines_.begin(), lines_.end());
+  }
+
+  int SharedWith(const Frame& other) const {
+    return Count(points_, other.points) + Count(lines_, other.lines);
+  }
+
+ private:
+  template <class LandmarkId>
+  static int Count(const std::vector<LandmarkId>& sorted, const std::vector<LandmarkId>& others) {
+    return static_cast<int>(std::count_if(others.begin(), others.end(), [&](LandmarkId id) {
+      return id.valid() && std::binary_search(sorted.begin(), sorted.end(), id);
+    }));
+  }
+
+  std::vector<PointId> points_;
+  std::vector<LineId> lines_;
+};
 
 }  // namespace
 
@@ -45,14 +68,13 @@ LoopCloser::LoopCloser(const ImagingModel& imaging, const LoopOptions& options)
 std::vector<KeyFrameId> LoopCloser::WorthTrying(const Map& map,
                                                 KeyFrameId newest,
                                                 std::span<const KeyFrameId> candidates) const {
-  const auto covisible = Covisible(map, newest, options_.closing.min_shared);
+  const ShownLandmarks shown(map.Find(newest)->frame);
   std::vector<KeyFrameId> worth;
-  for (const KeyFrameId candidate : candidates) {
+  for (const KeyFrameId id : candidates) {
     if (static_cast<int>(worth.size()) >= options_.closing.max_candidates) break;
-    if (candidate == newest || map.Find(candidate) == nullptr) continue;
-    const bool is_covisible = std::any_of(
-        covisible.begin(), covisible.end(), [&](const auto& c) { return c.id == candidate; });
-    if (!is_covisible) worth.push_back(candidate);
+    const KeyFrame* candidate = map.Find(id);
+    if (id == newest || candidate == nullptr) continue;
+    if (shown.SharedWith(candidate->frame) < options_.closing.min_shared) worth.push_back(id);
   }
   return worth;
 }
@@ -68,12 +90,13 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
     LoopAttempt& attempt = attempts_.emplace_back();
     attempt.query = newest;
     attempt.candidate = candidate;
-    const auto edge = VerifyLoop(map, newest, map, candidate, imaging_, options_.verification);
+    auto edge = VerifyLoop(map, newest, map, candidate, imaging_, options_.verification);
     if (!edge) {
       attempt.unverified = edge.error();
       continue;
     }
-    auto closure = Close(map, *edge, attempt);
+    attempt.edge = *std::move(edge);
+    auto closure = Close(map, attempt);
     if (!closure) continue;
     last_closed_ = number;
     return closure;
@@ -81,22 +104,23 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
   return std::nullopt;
 }
 
-std::optional<LoopClosure> LoopCloser::Close(const Map& map,
-                                             const LoopEdge& edge,
-                                             LoopAttempt& attempt) {
-  LoopClosure closure;
-  if (!Supported(map, edge, attempt, closure.record.drift_chi2)) return std::nullopt;
-  const auto correction = CloseLoop(map, imaging_.camera.baseline == 0, loops_, edge, options_);
+std::optional<LoopClosure> LoopCloser::Close(const Map& map, LoopAttempt& attempt) {
+  EssentialGraph essential = MakeEssentialGraph(
+      map, imaging_.camera.baseline == 0, options_.drift, options_.closing.strong_covisibility);
+  if (!Supported(map, essential, attempt)) return std::nullopt;
+  const LoopEdge& edge = *attempt.edge;
+  auto correction = CloseLoop(map, std::move(essential), loops_, edge, options_);
   if (!correction) {
     attempt.unclosed = correction.error();
     return std::nullopt;
   }
-  closure.edit = correction->edit;
-  closure.correction = correction->correction;
+  LoopClosure closure;
+  closure.edit = std::move(correction->edit);
   LoopRecord& record = closure.record;
   record.query = edge.query;
   record.candidate = edge.candidate;
   record.evidence = edge.evidence;
+  record.drift_chi2 = attempt.drift_chi2;
   record.merged_points = correction->merged_points;
   record.merged_lines = correction->merged_lines;
   record.largest_shift = correction->largest_shift;
@@ -108,49 +132,66 @@ std::optional<LoopClosure> LoopCloser::Close(const Map& map,
   return closure;
 }
 
-bool LoopCloser::Supported(const Map& map,
-                           const LoopEdge& edge,
-                           LoopAttempt& attempt,
-                           double& drift_chi2) {
-  const EssentialGraph essential = MakeEssentialGraph(
-      map, imaging_.camera.baseline == 0, options_.drift, options_.closing.strong_covisibility);
+// What speaks for a loop beside the images. The attempt tells what speaks against it.
+bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, LoopAttempt& attempt) {
+  const LoopEdge& edge = *attempt.edge;
   const auto newest = LoopAsEdge(map, essential, edge);
   if (!newest) {
     attempt.unclosed = ClosingRefusal::kOutOfMap;
     return false;
   }
-  drift_chi2 = DriftChi2(essential.graph, *newest, edge);
-  attempt.beyond_drift = drift_chi2 > options_.drift.max_chi2;
+  OdometryWays odometry(essential.graph);
+  attempt.drift_chi2 = DriftChi2(odometry, *newest, edge);
+  attempt.beyond_drift = attempt.drift_chi2 > options_.drift.max_chi2;
   if (attempt.beyond_drift) return false;
+  attempt.inconsistent = !AgreesWithTheOthers(map, essential, *newest, odometry);
+  if (attempt.inconsistent) return false;
+  // Nobody beside the query could be asked: another query must say the same.
+  attempt.waits =
+      edge.evidence.asked == 0 && !WasSaidBefore(map, essential, edge, *newest, odometry);
+  if (attempt.waits) Wait(edge);
+  return !attempt.waits;
+}
+
+bool LoopCloser::AgreesWithTheOthers(const Map& map,
+                                     const EssentialGraph& essential,
+                                     const PoseGraphEdge& newest,
+                                     OdometryWays& odometry) const {
   std::vector<PoseGraphEdge> known;
   const std::size_t first = loops_.size() - std::min(loops_.size(), kCompared);
   for (std::size_t i = first; i < loops_.size(); ++i) {
     if (const auto loop = LoopAsEdge(map, essential, loops_[i])) known.push_back(*loop);
   }
-  known.push_back(*newest);
-  const auto set =
-      LargestConsistentSet(Consistency(essential.graph, known, options_.drift.max_chi2));
-  attempt.inconsistent =
-      std::find(set.begin(), set.end(), static_cast<int>(known.size()) - 1) == set.end();
-  if (attempt.inconsistent) return false;
-  if (edge.evidence.asked > 0) return true;
-  // Nobody beside the query could be asked: another query must say the same.
+  // What agrees with all is in every largest set.
+  const bool agrees_with_all = std::all_of(known.begin(), known.end(), [&](const auto& loop) {
+    return CycleChi2(odometry, newest, loop) <= options_.drift.max_chi2;
+  });
+  if (agrees_with_all) return true;
+  known.push_back(newest);
+  const std::vector<int> set =
+      LargestConsistentSet(Consistency(odometry, known, options_.drift.max_chi2));
+  return std::find(set.begin(), set.end(), static_cast<int>(known.size()) - 1) != set.end();
+}
+
+bool LoopCloser::WasSaidBefore(const Map& map,
+                               const EssentialGraph& essential,
+                               const LoopEdge& edge,
+                               const PoseGraphEdge& newest,
+                               OdometryWays& odometry) {
   std::erase_if(waiting_, [&](const LoopEdge& other) {
     return !map.Knows(other.query) ||
            map.NumberOf(other.query) + kWaitFor < map.NumberOf(edge.query);
   });
-  attempt.waits = true;
-  for (const LoopEdge& other : waiting_) {
-    if (other.query == edge.query) continue;
+  return std::any_of(waiting_.begin(), waiting_.end(), [&](const LoopEdge& other) {
+    if (other.query == edge.query) return false;
     const auto loop = LoopAsEdge(map, essential, other);
-    if (loop && CycleChi2(essential.graph, *newest, *loop) <= options_.drift.max_chi2) {
-      attempt.waits = false;
-    }
-  }
-  if (!attempt.waits) return true;
+    return loop && CycleChi2(odometry, newest, *loop) <= options_.drift.max_chi2;
+  });
+}
+
+void LoopCloser::Wait(const LoopEdge& edge) {
   waiting_.push_back(edge);
   if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
-  return false;
 }
 
 void LoopCloser::Take(const LoopEdge& edge, const std::vector<bool>& earlier_kept) {

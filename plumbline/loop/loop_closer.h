@@ -4,11 +4,11 @@
 
 #include "plumbline/association/projection_search.h"
 #include "plumbline/loop/close_loop.h"
+#include "plumbline/loop/essential_graph.h"
 #include "plumbline/loop/loop_edge.h"
 #include "plumbline/loop/options.h"
 #include "plumbline/loop/verify_loop.h"
 #include "plumbline/map/map.h"
-#include "plumbline/mapping/correction.h"
 
 #include <cstdint>
 #include <optional>
@@ -30,8 +30,7 @@ struct LoopRecord {
 };
 
 struct LoopClosure {
-  MapEdit edit;           // for the map as it was given
-  Correction correction;  // the part of it that moves keyframes
+  MapEdit edit;  // for the map as it was given
   LoopRecord record;
 };
 
@@ -39,6 +38,8 @@ struct LoopClosure {
 struct LoopAttempt {
   KeyFrameId query, candidate;
   std::optional<LoopRefusal> unverified;  // not the same place
+  std::optional<LoopEdge> edge;           // as measured, where it is the same place
+  double drift_chi2 = 0;                  // of the edge against what odometry says
   std::optional<ClosingRefusal> unclosed;
   bool beyond_drift = false;  // odometry cannot be so wrong
   bool inconsistent = false;  // the other loops say otherwise
@@ -98,8 +99,18 @@ class LoopCloser {
   std::vector<KeyFrameId> WorthTrying(const Map& map,
                                       KeyFrameId newest,
                                       std::span<const KeyFrameId> candidates) const;
-  std::optional<LoopClosure> Close(const Map& map, const LoopEdge& edge, LoopAttempt& attempt);
-  bool Supported(const Map& map, const LoopEdge& edge, LoopAttempt& attempt, double& drift_chi2);
+  std::optional<LoopClosure> Close(const Map& map, LoopAttempt& attempt);
+  bool Supported(const Map& map, const EssentialGraph& essential, LoopAttempt& attempt);
+  bool AgreesWithTheOthers(const Map& map,
+                           const EssentialGraph& essential,
+                           const PoseGraphEdge& newest,
+                           OdometryWays& odometry) const;
+  bool WasSaidBefore(const Map& map,
+                     const EssentialGraph& essential,
+                     const LoopEdge& edge,
+                     const PoseGraphEdge& newest,
+                     OdometryWays& odometry);
+  void Wait(const LoopEdge& edge);
   void Take(const LoopEdge& edge, const std::vector<bool>& earlier_kept);
 
   ImagingModel imaging_;

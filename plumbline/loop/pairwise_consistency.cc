@@ -56,9 +56,9 @@ class CliqueSearch {
 
 }  // namespace
 
-double CycleChi2(const PoseGraph& graph, const PoseGraphEdge& a, const PoseGraphEdge& b) {
-  const auto query_a_from_b = Along(graph, a.from, b.from);
-  const auto candidate_b_from_a = Along(graph, b.to, a.to);
+double CycleChi2(OdometryWays& odometry, const PoseGraphEdge& a, const PoseGraphEdge& b) {
+  const auto query_a_from_b = odometry.Along(a.from, b.from);
+  const auto candidate_b_from_a = odometry.Along(b.to, a.to);
   if (!query_a_from_b || !candidate_b_from_a) return 0;
   const UncertainPose candidate_a_from_b =
       Compose(Compose(Measured(a), *query_a_from_b), Inverse(Measured(b)));

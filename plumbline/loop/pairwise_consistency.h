@@ -13,8 +13,8 @@ namespace plumbline {
 // How far two loops are from agreeing with each other by way of odometry: the squared Mahalanobis
 // norm of the cycle candidate, query, other query, other candidate and back (Mangelson, Dominic,
 // Eustice and Vasudevan, ICRA 2018, eq. 7). 0 where odometry does not tie them: nothing speaks
-// against the two. `graph` has the edges of odometry only. O(edges of the graph).
-double CycleChi2(const PoseGraph& graph, const PoseGraphEdge& a, const PoseGraphEdge& b);
+// against the two. Cost: two ways.
+double CycleChi2(OdometryWays& odometry, const PoseGraphEdge& a, const PoseGraphEdge& b);
 
 // A largest set of which all are consistent with each other (a clique of the graph), ascending; of
 // several the first in the order of their members. consistent[i][j]: as [j][i].

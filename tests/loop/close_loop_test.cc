@@ -21,6 +21,10 @@ LoopEdge EdgeOf(const LoopScene& scene, KeyFrameId query, KeyFrameId candidate) 
   return *VerifyLoop(scene.map, query, scene.map, candidate, scene.Imaging(), {});
 }
 
+EssentialGraph Essential(const LoopScene& scene, bool free_scale = false) {
+  return MakeEssentialGraph(scene.map, free_scale, {}, 60);
+}
+
 LoopScene Drifted(bool depth = true) {
   LoopSceneOptions options;
   options.sensor.depth = depth;
@@ -34,7 +38,8 @@ constexpr KeyFrameId kCandidate{5};
 TEST(CloseLoop, BringsADriftedMapBack) {
   LoopScene scene = Drifted();
   const double before = WorstPlace(scene);
-  const auto closed = CloseLoop(scene.map, false, {}, EdgeOf(scene, kQuery, kCandidate), {});
+  const auto closed =
+      CloseLoop(scene.map, Essential(scene), {}, EdgeOf(scene, kQuery, kCandidate), {});
   ASSERT_TRUE(closed) << NameOf(closed.error());
   const std::size_t points = scene.map.points().size();
   scene.map.Apply(closed->edit);
@@ -50,7 +55,8 @@ TEST(CloseLoop, BringsADriftedMapBack) {
 TEST(CloseLoop, LeavesTheOldestKeyFrameWhereItIs) {
   LoopScene scene = Drifted();
   const Rigid3 first = scene.map.PoseOf(KeyFrameId{0});
-  scene.map.Apply(CloseLoop(scene.map, false, {}, EdgeOf(scene, kQuery, kCandidate), {})->edit);
+  scene.map.Apply(
+      CloseLoop(scene.map, Essential(scene), {}, EdgeOf(scene, kQuery, kCandidate), {})->edit);
   EXPECT_LT(CentreDistance(first, scene.map.PoseOf(KeyFrameId{0})), 1e-12);
   EXPECT_NEAR(scene.map.Find(KeyFrameId{0})->unit, 1, 1e-12);
 }
@@ -60,7 +66,8 @@ TEST(CloseLoop, UndoesTheDriftOfScaleOfOneCamera) {
   const double before = WorstPlace(scene);
   const double unit = scene.map.Find(kQuery)->unit;
   EXPECT_LT(unit, 0.9);
-  const auto closed = CloseLoop(scene.map, true, {}, EdgeOf(scene, kQuery, kCandidate), {});
+  const auto closed =
+      CloseLoop(scene.map, Essential(scene, true), {}, EdgeOf(scene, kQuery, kCandidate), {});
   ASSERT_TRUE(closed) << NameOf(closed.error());
   scene.map.Apply(closed->edit);
   scene.map.CheckInvariants();
@@ -70,7 +77,8 @@ TEST(CloseLoop, UndoesTheDriftOfScaleOfOneCamera) {
 
 TEST(CloseLoop, TiesTheMapTogether) {
   LoopScene scene = Drifted();
-  scene.map.Apply(CloseLoop(scene.map, false, {}, EdgeOf(scene, kQuery, kCandidate), {})->edit);
+  scene.map.Apply(
+      CloseLoop(scene.map, Essential(scene), {}, EdgeOf(scene, kQuery, kCandidate), {})->edit);
   EXPECT_GT(static_cast<int>(Covisible(scene.map, kQuery, 50).size()), 0);
   bool candidate_is_covisible = false;
   for (const auto& other : Covisible(scene.map, kQuery, 50)) {
@@ -83,7 +91,7 @@ TEST(CloseLoop, RefusesWhatBendsOdometry) {
   LoopScene scene = Drifted();
   LoopEdge edge = EdgeOf(scene, kQuery, kCandidate);
   edge.candidate_from_query.translation += Eigen::Vector3d(0, 8, 0);
-  const auto closed = CloseLoop(scene.map, false, {}, edge, {});
+  const auto closed = CloseLoop(scene.map, Essential(scene), {}, edge, {});
   ASSERT_FALSE(closed);
   EXPECT_TRUE(closed.error() == ClosingRefusal::kBendsOdometry ||
               closed.error() == ClosingRefusal::kContradicted)
@@ -96,7 +104,7 @@ TEST(CloseLoop, RefusesWhatOtherLoopsContradict) {
                                       EdgeOf(scene, KeyFrameId{44}, KeyFrameId{4})};
   LoopEdge edge = EdgeOf(scene, kQuery, kCandidate);
   edge.candidate_from_query.translation += Eigen::Vector3d(0, 1.5, 0);
-  const auto closed = CloseLoop(scene.map, false, earlier, edge, {});
+  const auto closed = CloseLoop(scene.map, Essential(scene), earlier, edge, {});
   ASSERT_FALSE(closed);
   EXPECT_TRUE(closed.error() == ClosingRefusal::kBendsOdometry ||
               closed.error() == ClosingRefusal::kContradicted)
@@ -107,7 +115,8 @@ TEST(CloseLoop, RefusesKeyFramesThatAreNotTied) {
   LoopScene scene = Drifted();
   LoopEdge edge = EdgeOf(scene, kQuery, kCandidate);
   edge.query = edge.candidate;
-  EXPECT_EQ(CloseLoop(scene.map, false, {}, edge, {}).error(), ClosingRefusal::kOutOfMap);
+  EXPECT_EQ(CloseLoop(scene.map, Essential(scene), {}, edge, {}).error(),
+            ClosingRefusal::kOutOfMap);
 }
 
 TEST(CloseLoop, GivesTheSameEveryTime) {
@@ -115,7 +124,7 @@ TEST(CloseLoop, GivesTheSameEveryTime) {
   LoopScene other = Drifted();
   for (LoopScene* scene : {&one, &other}) {
     scene->map.Apply(
-        CloseLoop(scene->map, false, {}, EdgeOf(*scene, kQuery, kCandidate), {})->edit);
+        CloseLoop(scene->map, Essential(*scene), {}, EdgeOf(*scene, kQuery, kCandidate), {})->edit);
   }
   for (const auto& [id, keyframe] : one.map.keyframes()) {
     EXPECT_EQ(keyframe.frame.cam_from_world.translation, other.map.PoseOf(id).translation);

@@ -111,12 +111,13 @@ TEST(LoopAsEdge, FollowsUnits) {
             1e-9);
 }
 
-TEST(Along, IsThePoseOfTheMapWithDriftThatGrows) {
+TEST(OdometryWays, IsThePoseOfTheMapWithDriftThatGrows) {
   const LoopScene scene = MakeLoopScene({});
   const EssentialGraph essential = MakeEssentialGraph(scene.map, false, {}, 100000);
+  OdometryWays odometry(essential.graph);
   double before = 0;
   for (const int other : {1, 5, 20, 40}) {
-    const auto way = Along(essential.graph, 0, other);
+    const auto way = odometry.Along(0, other);
     ASSERT_TRUE(way);
     const Similarity3 direct =
         essential.graph.poses[0] * Inverse(essential.graph.poses[static_cast<std::size_t>(other)]);
@@ -124,17 +125,18 @@ TEST(Along, IsThePoseOfTheMapWithDriftThatGrows) {
     const double drift = way->covariance.topLeftCorner<6, 6>().trace();
     EXPECT_GT(drift, before);
     before = drift;
-    const auto back = Along(essential.graph, other, 0);
+    const auto back = odometry.Along(other, 0);
     EXPECT_LT(LogSim3(back->pose * way->pose).norm(), 1e-9);
   }
 }
 
-TEST(Along, IsNothingWhereNoEdgesLead) {
+TEST(OdometryWays, IsNothingWhereNoEdgesLead) {
   PoseGraph graph;
   graph.poses.resize(2);
   graph.fixed = {true, false};
-  EXPECT_FALSE(Along(graph, 0, 1));
-  EXPECT_TRUE(Along(graph, 1, 1));
+  OdometryWays odometry(graph);
+  EXPECT_FALSE(odometry.Along(0, 1));
+  EXPECT_TRUE(odometry.Along(1, 1));
 }
 
 }  // namespace

@@ -59,7 +59,10 @@ TEST(LoopCloser, TellsIdenticalRoomsApartByDrift) {
   LoopCloser closer(scene.Imaging(), {});
   const std::vector<KeyFrameId> alike{KeyFrameId{15}, KeyFrameId{25}};
   EXPECT_FALSE(closer.Try(scene.map, kQuery, alike));
-  for (const LoopAttempt& attempt : closer.attempts()) EXPECT_TRUE(attempt.beyond_drift);
+  for (const LoopAttempt& attempt : closer.attempts()) {
+    EXPECT_TRUE(attempt.beyond_drift);
+    EXPECT_TRUE(attempt.edge);
+  }
   EXPECT_EQ(closer.attempts().size(), 2U);
   const std::vector<KeyFrameId> right{KeyFrameId{5}};
   EXPECT_TRUE(closer.Try(scene.map, kQuery, right));
