@@ -60,6 +60,12 @@ constexpr std::array kWorlds = {
                "closing loops: 120 m, each place seen again a round later",
                nullptr,
                MakeLoop},
+    WorldEntry{
+        "floors",
+        "two storeys that look alike and a staircase; both walked round, the lower one twice",
+        "loops that must not be closed: what looks the same is 3 m above",
+        nullptr,
+        MakeFloors},
     WorldEntry{"planar",
                "a picture as large as a wall and nothing else; by hand, sideways and up and down",
                "initialization when all points lie in one plane",

@@ -42,6 +42,7 @@ Promise PromiseOf(const std::string& world) {
       {"vicon_difficult", {40, 90, 30, 60, 2.3, 2.3}},
       {"office", {80, 130, 90, 130, 1.4, 1.3}},
       {"loop", {120, 180, 100, 200, 1.5, 1.3}},
+      {"floors", {90, 140, 90, 150, 1.4, 1.3}},
       {"planar", {9, 15, 28, 35, 0.7, 0.5}},
       {"forward", {20, 24, 35, 40, 0.8, 0.3}},
       {"lateral", {20, 26, 30, 40, 0.9, 0.5}},
@@ -403,6 +404,44 @@ TEST(Loop, IsWalkedTwice) {
     }
     EXPECT_TRUE(again) << time << " s at " << then.translation.transpose();
   }
+}
+
+// Of the way through the upper storey most looks as the lower one does 3.2 m below, and what
+// was seen of the lower one is seen again.
+TEST(Floors, AreAlike) {
+  constexpr double kUp = 3.2;
+  const World& world = Made(FindWorld("floors"), 1);
+  const auto height = [&](double time) {
+    return world.path.world_from_camera(time).translation.z();
+  };
+  int above = 0, alike = 0, again = 0, below_again = 0;
+  bool was_above = false;
+  for (double time = 0; time < world.path.duration; time += 0.5) {
+    const Rigid3 now = world.path.world_from_camera(time);
+    const bool is_above = height(time) > kUp + 1.2, is_below = height(time) < 1.8;
+    was_above = was_above || is_above;
+    if (!is_above && !(is_below && was_above)) continue;
+    const Vector3d down = is_above ? Vector3d(0, 0, -kUp) : Vector3d(0, 0, 0);
+    bool found = false;
+    for (double before = 0; before < time - 10 && !found; before += 0.25) {
+      const Rigid3 then = world.path.world_from_camera(before);
+      found = (now.translation + down - then.translation).norm() < 1 &&
+              AngularDistance(now.rotation, then.rotation) < 0.6;
+    }
+    (is_above ? above : below_again) += 1;
+    (is_above ? alike : again) += found ? 1 : 0;
+  }
+  EXPECT_GT(above, 50);
+  EXPECT_GT(alike, 0.75 * above);
+  EXPECT_GT(below_again, 50);
+  EXPECT_GT(again, 0.75 * below_again);
+  // The same textures in the same places, but for little.
+  std::map<std::uint64_t, int> seeds;
+  int twice = 0;
+  for (const Surface& surface : world.scene.surfaces) ++seeds[surface.texture.seed];
+  for (const auto& [seed, count] : seeds) twice += count > 1 ? 1 : 0;
+  EXPECT_GT(twice, 0.8 * static_cast<double>(seeds.size()));
+  EXPECT_LT(twice, static_cast<double>(seeds.size()));
 }
 
 // Metres of a path within a lane's breadth of where it was 15 s and more before, looking the same

@@ -16,6 +16,7 @@ World MakeViconMedium(std::uint64_t seed);
 World MakeViconDifficult(std::uint64_t seed);
 World MakeOffice(std::uint64_t seed);
 World MakeLoop(std::uint64_t seed);
+World MakeFloors(std::uint64_t seed);
 World MakePlanar(std::uint64_t seed);
 World MakeForward(std::uint64_t seed);
 World MakeLateral(std::uint64_t seed);
