@@ -84,6 +84,56 @@ class Poll {
   std::uint64_t all_ = 0;              // that a keyframe can get
 };
 
+// Which keyframes may get votes, by slot: found out when the first feature of one is near.
+class Electorate {
+ public:
+  Electorate(const std::vector<KeyFrameId>& by_slot, const std::function<bool(KeyFrameId)>& allowed)
+      : by_slot_(by_slot), allowed_(allowed), known_(by_slot.size(), Known::kNothing) {}
+
+  // Those features of a leaf that are not known to be of a keyframe that is not allowed. Most of
+  // what looks alike is of the keyframes around, which are not.
+  void Choose(std::span<const FeatureName> leaf, std::vector<FeatureName>* names) const {
+    names->resize(leaf.size());
+    std::size_t count = 0;
+    for (const FeatureName name : leaf) {
+      (*names)[count] = name;
+      count += known_[name.slot()] != Known::kNotAllowed ? 1 : 0;
+    }
+    names->resize(count);
+  }
+
+  bool Allows(std::uint32_t slot) {
+    if (known_[slot] == Known::kNothing) {
+      known_[slot] = allowed_(by_slot_[slot]) ? Known::kAllowed : Known::kNotAllowed;
+      if (known_[slot] == Known::kAllowed) found_.push_back(slot);
+    }
+    return known_[slot] == Known::kAllowed;
+  }
+
+  // Those allowed that were asked for, in this order.
+  const std::vector<std::uint32_t>& found() const { return found_; }
+
+ private:
+  enum class Known : std::uint8_t { kNothing, kAllowed, kNotAllowed };
+  const std::vector<KeyFrameId>& by_slot_;
+  const std::function<bool(KeyFrameId)>& allowed_;
+  std::vector<Known> known_;
+  std::vector<std::uint32_t> found_;
+};
+
+// The best first, the older of two that are equal.
+void KeepBest(std::size_t most, std::vector<PlaceCandidate>* candidates) {
+  const auto better = [](const PlaceCandidate& a, const PlaceCandidate& b) {
+    return a.score != b.score ? a.score > b.score : a.id < b.id;
+  };
+  const std::size_t count = std::min(most, candidates->size());
+  std::partial_sort(candidates->begin(),
+                    candidates->begin() + static_cast<std::ptrdiff_t>(count),
+                    candidates->end(),
+                    better);
+  candidates->resize(count);
+}
+
 }  // namespace
 
 // The most telling bits are shared out among the trees of a kind.
@@ -142,20 +192,29 @@ std::vector<PlaceCandidate> PlaceIndex::Query(
     const Features& features,
     std::size_t most,
     const std::function<bool(KeyFrameId)>& allowed) const {
-  enum class Allowed : std::uint8_t { kUnknown, kYes, kNo };
-  std::vector<Allowed> known(by_slot_.size(), Allowed::kUnknown);
-  std::vector<std::uint32_t> found;
-  Poll poll(by_slot_.size());
-  const auto meet = [&](std::uint32_t slot, int distance) {
-    if (known[slot] == Allowed::kUnknown) {
-      known[slot] = allowed(by_slot_[slot]) ? Allowed::kYes : Allowed::kNo;
-      if (known[slot] == Allowed::kYes) found.push_back(slot);
-    }
-    if (known[slot] == Allowed::kYes) poll.Meet(slot, distance);
-  };
   const auto signatures = SignaturesOf(features);
+  return Query(KindsOfSignatures{signatures[0], signatures[1]}, most, allowed);
+}
+
+std::vector<PlaceCandidate> PlaceIndex::Query(
+    KeyFrameId id, std::size_t most, const std::function<bool(KeyFrameId)>& allowed) const {
+  const auto entry = slots_.find(id);
+  PLUMBLINE_CHECK(entry != slots_.end(), "a keyframe that an index of places does not have");
+  const std::uint32_t slot = entry->second;
+  return Query(KindsOfSignatures{kinds_[0].signatures.Of(slot), kinds_[1].signatures.Of(slot)},
+               most,
+               allowed);
+}
+
+std::vector<PlaceCandidate> PlaceIndex::Query(
+    const KindsOfSignatures& signatures,
+    std::size_t most,
+    const std::function<bool(KeyFrameId)>& allowed) const {
   constexpr std::array<int, 2> kReach = {kPointReach, kLineReach};
   constexpr std::array<NearnessTable, 2> kNearness = {Nearness(kPointReach), Nearness(kLineReach)};
+  Electorate electorate(by_slot_, allowed);
+  Poll poll(by_slot_.size());
+  std::vector<FeatureName> names;
   std::vector<Signature> others;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
     const Kind& kind = kinds_[k];
@@ -163,30 +222,23 @@ std::vector<PlaceCandidate> PlaceIndex::Query(
     for (std::size_t t = 0; t < kTrees; ++t) leaves[t] = kind.trees[t].Alike(signatures[k]);
     for (std::size_t i = 0; i < signatures[k].size(); ++i) {
       for (const auto& leaf_of : leaves) {
-        const std::span<const FeatureName> leaf = leaf_of[i];
-        kind.signatures.Read(leaf, &others);
+        electorate.Choose(leaf_of[i], &names);
+        kind.signatures.Read(names, &others);
         for (std::size_t j = 0; j < others.size(); ++j) {
           const int distance = HammingDistance(signatures[k][i], others[j]);
-          if (distance <= kReach[k]) meet(leaf[j].slot(), distance);
+          if (distance > kReach[k] || !electorate.Allows(names[j].slot())) continue;
+          poll.Meet(names[j].slot(), distance);
         }
       }
       poll.Count(size(), kNearness[k]);
     }
   }
   std::vector<PlaceCandidate> candidates;
-  candidates.reserve(found.size());
-  for (const std::uint32_t slot : found) {
+  candidates.reserve(electorate.found().size());
+  for (const std::uint32_t slot : electorate.found()) {
     candidates.push_back({by_slot_[slot], poll.ScoreOf(slot)});
   }
-  const auto better = [](const PlaceCandidate& a, const PlaceCandidate& b) {
-    return a.score != b.score ? a.score > b.score : a.id < b.id;
-  };
-  const std::size_t count = std::min(most, candidates.size());
-  std::partial_sort(candidates.begin(),
-                    candidates.begin() + static_cast<std::ptrdiff_t>(count),
-                    candidates.end(),
-                    better);
-  candidates.resize(count);
+  KeepBest(most, &candidates);
   return candidates;
 }
 

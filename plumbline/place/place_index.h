@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace plumbline {
@@ -69,16 +70,26 @@ class PlaceIndex {
                                     std::size_t most,
                                     const std::function<bool(KeyFrameId)>& allowed) const;
 
+  // The same for what a keyframe of the index shows, as it is kept there. BugError where it is not.
+  std::vector<PlaceCandidate> Query(KeyFrameId id,
+                                    std::size_t most,
+                                    const std::function<bool(KeyFrameId)>& allowed) const;
+
   // Bytes.
   std::size_t Memory() const;
 
  private:
+  using KindsOfSignatures = std::array<std::span<const Signature>, 2>;
   // Points, or lines.
   struct Kind {
     explicit Kind(std::size_t features);
     SignatureTable signatures;
     std::array<SignatureTree, kTrees> trees;
   };
+
+  std::vector<PlaceCandidate> Query(const KindsOfSignatures& signatures,
+                                    std::size_t most,
+                                    const std::function<bool(KeyFrameId)>& allowed) const;
 
   std::map<KeyFrameId, std::uint32_t> slots_;
   std::vector<KeyFrameId> by_slot_;        // invalid: free

@@ -39,6 +39,9 @@ class SignatureTable {
   // BugError for more than there is room or there are names for.
   void Set(std::uint32_t slot, std::span<const Signature> signatures);
 
+  std::span<const Signature> Of(std::uint32_t slot) const {
+    return {blocks_[slot / kBlock].get() + slot % kBlock * room_, counts_[slot]};
+  }
   // How many a slot has.
   std::size_t Count(std::uint32_t slot) const { return counts_[slot]; }
   const Signature& operator[](FeatureName name) const {

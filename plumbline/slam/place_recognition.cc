@@ -72,7 +72,7 @@ std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
     return map != &active || map->NumberOf(id) + kRecent < keyframe.number;
   };
   const std::vector<PlaceCandidate> ranked =
-      places_.Query(keyframe.frame.features(), kRanked, allowed);
+      places_.Query(keyframe.id, kRanked, allowed);
   const double common = ranked.size() < kFewest ? 0 : ranked.back().score;
   std::vector<KeyFrameId> ids;
   for (const PlaceCandidate& candidate : ranked) {

@@ -123,6 +123,16 @@ TEST(PlaceIndex, GivesOnlyWhatIsAllowed) {
 }
 
 // Many views of the camera's surroundings do not hide the one from long ago.
+TEST(PlaceIndex, AnswersForAKeyFrameAsForItsImage) {
+  const PlaceIndex index = IndexOf(30);
+  const auto others = [](KeyFrameId id) { return id.value % 3 != 1; };
+  for (const KeyFrameId id : index.Ids()) {
+    EXPECT_TRUE(Same(index.Query(id, 10, others),
+                     index.Query(Place(static_cast<std::uint64_t>(id.value)), 10, others)));
+  }
+  EXPECT_THROW(index.Query(KeyFrameId{1000}, 1, others), BugError);
+}
+
 TEST(PlaceIndex, DoesNotCountWhatIsNotAllowedAsAlike) {
   PlaceIndex index = IndexOf(20);
   const Features image = SeenAgain(Place(5), 0.03, 4);
