@@ -17,11 +17,6 @@ namespace {
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-KeyFrameId InMap(const Map& map, KeyFrameId id) {
-  while (id.valid() && map.Find(id) == nullptr) id = map.ParentOf(id);
-  return id;
-}
-
 // Pairs of poses, each once, the lesser index second.
 class Ties {
  public:
@@ -36,7 +31,7 @@ class Ties {
   std::vector<std::pair<int, int>> Gather(const std::vector<KeyFrameId>& keyframes, int strong) {
     for (std::size_t i = 0; i < keyframes.size(); ++i) {
       const KeyFrame& keyframe = *map_.Find(keyframes[i]);
-      const KeyFrameId parent = InMap(map_, keyframe.parent);
+      const KeyFrameId parent = StandIn(map_, keyframe.parent);
       if (parent.valid()) Tie(static_cast<int>(i), PoseOf(parent));
       TieCovisible(static_cast<int>(i), keyframe, strong);
     }
@@ -116,6 +111,11 @@ Matrix7d CovarianceOf(const PoseGraphEdge& edge) {
 
 }  // namespace
 
+KeyFrameId StandIn(const Map& map, KeyFrameId id) {
+  while (id.valid() && map.Find(id) == nullptr) id = map.ParentOf(id);
+  return id;
+}
+
 int EssentialGraph::PoseOf(KeyFrameId id) const {
   const auto place = std::lower_bound(keyframes.begin(), keyframes.end(), id);
   if (place == keyframes.end() || *place != id) return -1;
@@ -163,8 +163,8 @@ void ShareInformation(PoseGraph& graph) {
 std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
                                         const EssentialGraph& essential,
                                         const LoopEdge& loop) {
-  const KeyFrameId query = InMap(map, loop.query);
-  const KeyFrameId candidate = InMap(map, loop.candidate);
+  const KeyFrameId query = StandIn(map, loop.query);
+  const KeyFrameId candidate = StandIn(map, loop.candidate);
   if (!query.valid() || !candidate.valid() || query == candidate) return std::nullopt;
   const Placement query_then = map.PlaceOf(loop.query);
   const Placement candidate_then = map.PlaceOf(loop.candidate);

@@ -14,6 +14,9 @@
 
 namespace plumbline {
 
+// The keyframe itself, or its nearest ancestor that is in the map; invalid where there is none.
+KeyFrameId StandIn(const Map& map, KeyFrameId id);
+
 // The keyframes of a map and what ties them, without landmarks: the pose graph that a loop bends.
 // An edge joins a keyframe with the nearest ancestor that is in the map, and any two that share
 // many landmarks; its relative pose is that of the map, its information what odometry may have

@@ -126,9 +126,7 @@ std::optional<LoopClosure> LoopCloser::Close(const Map& map, LoopAttempt& attemp
   record.largest_shift = correction->largest_shift;
   record.largest_turn = correction->largest_turn;
   record.query_scale = correction->query_scale;
-  record.withdrawn = static_cast<int>(
-      std::count(correction->earlier_kept.begin(), correction->earlier_kept.end(), false));
-  Take(edge, correction->earlier_kept);
+  closure.withdrawn = Take(edge, correction->earlier_kept);
   return closure;
 }
 
@@ -194,14 +192,18 @@ void LoopCloser::Wait(const LoopEdge& edge) {
   if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
 }
 
-void LoopCloser::Take(const LoopEdge& edge, const std::vector<bool>& earlier_kept) {
+// Returns those that are not kept.
+std::vector<LoopEdge> LoopCloser::Take(const LoopEdge& edge,
+                                       const std::vector<bool>& earlier_kept) {
   std::vector<LoopEdge> kept;
+  std::vector<LoopEdge> withdrawn;
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    if (earlier_kept[i]) kept.push_back(std::move(loops_[i]));
+    (earlier_kept[i] ? kept : withdrawn).push_back(std::move(loops_[i]));
   }
   kept.push_back(edge);
   loops_ = std::move(kept);
   waiting_.clear();
+  return withdrawn;
 }
 
 void LoopCloser::Withdraw(std::size_t loop) {

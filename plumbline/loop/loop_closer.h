@@ -26,12 +26,14 @@ struct LoopRecord {
   double largest_shift = 0;  // of a keyframe, map units
   double largest_turn = 0;   // of a keyframe, radians
   double query_scale = 1;    // of lengths around the query
-  int withdrawn = 0;         // earlier loops that the graph leaves out now
 };
 
 struct LoopClosure {
   MapEdit edit;  // for the map as it was given
   LoopRecord record;
+  // Earlier loops that the graph leaves out now. This has forgotten them; what they tie is to be
+  // untied after the edit (OpenLoop).
+  std::vector<LoopEdge> withdrawn;
 };
 
 // What became of a candidate that was looked at.
@@ -72,8 +74,8 @@ class LoopCloser {
   // Of the last call of Try, by candidate that was looked at.
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
 
-  // Takes back a loop that proved wrong: it has no part in later corrections. The index is that in
-  // loops().
+  // Takes back a loop that proved wrong: it has no part in later corrections. What it ties in the
+  // map is the caller's to untie (OpenLoop). The index is that in loops().
   void Withdraw(std::size_t loop);
 
   // What it goes on from beside the map. Another one of the same options that is given the state
@@ -111,7 +113,7 @@ class LoopCloser {
                      const PoseGraphEdge& newest,
                      OdometryWays& odometry);
   void Wait(const LoopEdge& edge);
-  void Take(const LoopEdge& edge, const std::vector<bool>& earlier_kept);
+  std::vector<LoopEdge> Take(const LoopEdge& edge, const std::vector<bool>& earlier_kept);
 
   ImagingModel imaging_;
   LoopOptions options_;

@@ -3,6 +3,7 @@
 #include "plumbline/slam/place_recognition.h"
 
 #include "plumbline/loop/close_loop.h"
+#include "plumbline/loop/open_loop.h"
 #include "plumbline/loop/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/atlas_places.h"
@@ -99,6 +100,7 @@ std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Map& map,
   Recognition place = Describe(map, id, record.candidate, record.evidence);
   const Placement before = map.PlaceOf(id);
   map.Apply(closure->edit);
+  for (const LoopEdge& wrong : closure->withdrawn) map.Apply(OpenLoop(map, wrong));
   DescribeMotion(before, map.PlaceOf(id), place);
   loops_.push_back(place);
   return record.candidate;
