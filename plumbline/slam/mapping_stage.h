@@ -114,6 +114,9 @@ class MappingStage {
   // Throws InputError where no stage can have given it.
   void Resume(Atlas atlas, const Checkpoint& checkpoint);
 
+  // Before the first task; the observer is called in the thread that maps.
+  void Observe(PlaceObserver observer) { places_.Observe(std::move(observer)); }
+
   // The outcome of a relocalization that the frame of the last SnapshotFor() may know, once.
   std::optional<RelocalizationOutcome> TakeRelocalization();
   // From now on SnapshotFor() gives this one until a newer one is due.

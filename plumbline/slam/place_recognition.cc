@@ -72,8 +72,7 @@ std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
     if (map == nullptr || around.contains(id)) return false;
     return map != &active || map->NumberOf(id) + kRecent < keyframe.number;
   };
-  const std::vector<PlaceCandidate> ranked =
-      places_.Query(keyframe.id, kRanked, allowed);
+  const std::vector<PlaceCandidate> ranked = places_.Query(keyframe.id, kRanked, allowed);
   const double common = ranked.size() < kFewest ? 0 : ranked.back().score;
   std::vector<KeyFrameId> ids;
   for (const PlaceCandidate& candidate : ranked) {
@@ -87,14 +86,16 @@ std::optional<KeyFrameId> PlaceRecognition::Recognize(Atlas& atlas, KeyFrameId i
   if (!options_.enabled) return std::nullopt;
   const std::vector<KeyFrameId> candidates = Candidates(atlas, *atlas.active().Find(id));
   if (candidates.empty()) return std::nullopt;
-  if (const auto older = CloseLoop(atlas.active(), id, candidates)) return older;
+  if (const auto older = CloseLoop(atlas, id, candidates)) return older;
   return Join(atlas, id, candidates);
 }
 
-std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Map& map,
+std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Atlas& atlas,
                                                       KeyFrameId id,
                                                       const std::vector<KeyFrameId>& candidates) {
+  Map& map = atlas.active();
   const std::optional<LoopClosure> closure = closer_.Try(map, id, candidates);
+  for (const LoopAttempt& attempt : closer_.attempts()) Tell(atlas, attempt);
   if (!closure) return std::nullopt;
   const LoopRecord& record = closure->record;
   Recognition place = Describe(map, id, record.candidate, record.evidence);
@@ -115,7 +116,17 @@ std::optional<KeyFrameId> PlaceRecognition::Join(Atlas& atlas,
     const Map& other = *MapOf(atlas, candidate);
     if (&other == &active) continue;
     const auto edge = VerifyLoop(active, id, other, candidate, imaging_, options_.verification);
-    if (!edge || edge->evidence.asked == 0) continue;
+    LoopAttempt attempt;
+    attempt.query = id;
+    attempt.candidate = candidate;
+    if (edge) {
+      attempt.edge = *edge;
+      attempt.waits = edge->evidence.asked == 0;
+    } else {
+      attempt.unverified = edge.error();
+    }
+    Tell(atlas, attempt);
+    if (!edge || attempt.waits) continue;
     MapJoin join{Describe(active, id, candidate, edge->evidence),
                  std::min(active.id(), other.id()),
                  std::max(active.id(), other.id())};

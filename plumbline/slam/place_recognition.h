@@ -9,10 +9,16 @@
 #include "plumbline/tracking/options.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
+
+// Is told of a keyframe that was compared with the newest one, before the maps change: what became
+// of it. An attempt without a refusal closes a loop, or joins the maps of the two.
+using PlaceObserver = std::function<void(const Atlas&, const LoopAttempt&)>;
 
 // Knows what the keyframes of all maps show, and makes one place of what was seen twice: closes
 // loops within the map that grows, and joins it with another map of the atlas that shows the same.
@@ -34,6 +40,8 @@ class PlaceRecognition {
   // recognized by, where that changed maps at large: then the landmarks of both are fused, and both
   // are in the active map, which may be another one than before. Adjustment is the caller's.
   std::optional<KeyFrameId> Recognize(Atlas& atlas, KeyFrameId id);
+
+  void Observe(PlaceObserver observer) { observer_ = std::move(observer); }
 
   const std::vector<Recognition>& loops() const { return loops_; }
   const std::vector<MapJoin>& joins() const { return joins_; }
@@ -58,15 +66,20 @@ class PlaceRecognition {
 
  private:
   std::vector<KeyFrameId> Candidates(const Atlas& atlas, const KeyFrame& keyframe) const;
-  std::optional<KeyFrameId> CloseLoop(Map& map,
+  std::optional<KeyFrameId> CloseLoop(Atlas& atlas,
                                       KeyFrameId id,
                                       const std::vector<KeyFrameId>& candidates);
   std::optional<KeyFrameId> Join(Atlas& atlas,
                                  KeyFrameId id,
                                  const std::vector<KeyFrameId>& candidates);
 
+  void Tell(const Atlas& atlas, const LoopAttempt& attempt) const {
+    if (observer_) observer_(atlas, attempt);
+  }
+
   ImagingModel imaging_;
   LoopOptions options_;
+  PlaceObserver observer_;
   PlaceIndex places_;
   LoopCloser closer_;
   std::vector<Recognition> loops_;

@@ -95,6 +95,10 @@ class System {
   const AtlasContext* loaded() const { return loaded_ ? &*loaded_ : nullptr; }
   bool read_only() const { return read_only_; }
 
+  // For measurements: what is compared with each keyframe, and what becomes of it. Before the first
+  // frame; called in the thread that maps.
+  void Observe(PlaceObserver observer) { mapping_.Observe(std::move(observer)); }
+
   // Measure and Track. Throws InputError when an image has another size than the calibration says,
   // or the frame is no later than the one before.
   const FrameRecord& Process(SensorFrame frame);
