@@ -21,6 +21,9 @@ constexpr std::size_t kCandidates = 3;  // keyframes that one is compared with
 // of all, looks as much alike as any other place does.
 constexpr std::size_t kRanked = 40;
 constexpr std::size_t kFewest = 10;  // of them to tell
+// Where there are fewer, one must be more alike than images of another world get (docs/methods/
+// places.md: up to 0.06).
+constexpr double kMoreThanElsewhere = 0.06;
 constexpr double kStandsOut = 5;
 constexpr std::int64_t kRecent = 20;  // the newest keyframes, among which nothing comes back
 
@@ -73,10 +76,11 @@ std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
     return map != &active || map->NumberOf(id) + kRecent < keyframe.number;
   };
   const std::vector<PlaceCandidate> ranked = places_.Query(keyframe.id, kRanked, allowed);
-  const double common = ranked.size() < kFewest ? 0 : ranked.back().score;
+  const double least =
+      ranked.size() < kFewest ? kMoreThanElsewhere : kStandsOut * ranked.back().score;
   std::vector<KeyFrameId> ids;
   for (const PlaceCandidate& candidate : ranked) {
-    if (ids.size() == kCandidates || candidate.score < kStandsOut * common) break;
+    if (ids.size() == kCandidates || candidate.score < least) break;
     ids.push_back(candidate.id);
   }
   return ids;
