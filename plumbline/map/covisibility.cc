@@ -3,26 +3,34 @@
 #include "plumbline/map/covisibility.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <cstdint>
 
 namespace plumbline {
 
-SharedCounts::SharedCounts(const Map& map)
-    : shared_(static_cast<std::size_t>(map.NextKeyFrameId().value), 0) {}
-
 void SharedCounts::Add(const Observations& observations) {
   for (const auto& [keyframe, feature] : observations) {
-    ++shared_[static_cast<std::size_t>(keyframe.value)];
+    const auto id = static_cast<std::size_t>(keyframe.value);
+    if (pages_.size() <= id / kPage) pages_.resize(id / kPage + 1);
+    std::vector<int>& page = pages_[id / kPage];
+    if (page.empty()) page.resize(kPage, 0);
+    ++page[id % kPage];
   }
 }
 
-void SharedCounts::Leave(KeyFrameId id) { shared_[static_cast<std::size_t>(id.value)] = 0; }
+void SharedCounts::Leave(KeyFrameId id) {
+  const std::size_t page = static_cast<std::size_t>(id.value) / kPage;
+  if (page < pages_.size() && !pages_[page].empty()) {
+    pages_[page][static_cast<std::size_t>(id.value) % kPage] = 0;
+  }
+}
 
 std::vector<CovisibleKeyFrame> SharedCounts::Rank(int min_shared) const {
   std::vector<CovisibleKeyFrame> result;
-  for (std::size_t i = 0; i < shared_.size(); ++i) {
-    if (shared_[i] >= std::max(min_shared, 1)) {
-      result.push_back({KeyFrameId{static_cast<std::int64_t>(i)}, shared_[i]});
+  for (std::size_t page = 0; page < pages_.size(); ++page) {
+    for (std::size_t i = 0; i < pages_[page].size(); ++i) {
+      const int shared = pages_[page][i];
+      if (shared < std::max(min_shared, 1)) continue;
+      result.push_back({KeyFrameId{static_cast<std::int64_t>(page * kPage + i)}, shared});
     }
   }
   std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
@@ -34,7 +42,7 @@ std::vector<CovisibleKeyFrame> SharedCounts::Rank(int min_shared) const {
 std::vector<CovisibleKeyFrame> Covisible(const Map& map, KeyFrameId id, int min_shared) {
   const KeyFrame* keyframe = map.Find(id);
   if (keyframe == nullptr) return {};
-  SharedCounts shared(map);
+  SharedCounts shared;
   const auto count = [&](const auto& matches) {
     for (const auto landmark : matches) {
       if (landmark.valid()) shared.Add(map.Find(landmark)->observations);

@@ -4,6 +4,7 @@
 
 #include "plumbline/map/map.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace plumbline {
@@ -13,11 +14,10 @@ struct CovisibleKeyFrame {
   int shared = 0;  // points and lines that both show
 };
 
-// Counts, for each keyframe of a map, the landmarks that it shows of those given.
+// Counts, for each keyframe, the landmarks that it shows of those given. Cost: that of the
+// observations, and a 64th of a look for every id of a keyframe there ever was.
 class SharedCounts {
  public:
-  explicit SharedCounts(const Map& map);
-
   void Add(const Observations& observations);
   void Leave(KeyFrameId id);  // out of the ranking
 
@@ -25,7 +25,9 @@ class SharedCounts {
   std::vector<CovisibleKeyFrame> Rank(int min_shared) const;
 
  private:
-  std::vector<int> shared_;  // by id
+  static constexpr std::size_t kPage = 64;
+
+  std::vector<std::vector<int>> pages_;  // of kPage ids each; empty where none of them is shared
 };
 
 // Landmarks in common from which on two keyframes see the same place, not a few wrong matches.

@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace plumbline {
 
 // Entries by ids that are given one after the other: a std::map, for its order and because entries
-// stay where they are, and an index of it that finds an id without a search. Memory: a pointer for
-// every id up to the largest there ever was.
+// stay where they are, and an index of it that finds an id without a search. The index is a table
+// of pages of kPage ids each; a page is there while one of its ids is. Memory beside the entries:
+// at most a page for each entry, and a pointer for kPage ids up to the largest there ever was.
 template <class Id, class T>
 class IdTable {
  public:
@@ -20,7 +23,7 @@ class IdTable {
   IdTable(IdTable&&) noexcept = default;
   IdTable& operator=(IdTable other) noexcept {
     entries_.swap(other.entries_);
-    index_.swap(other.index_);
+    pages_.swap(other.pages_);
     return *this;
   }
   ~IdTable() = default;
@@ -29,28 +32,53 @@ class IdTable {
   std::map<Id, T>& entries() { return entries_; }
 
   // nullptr where there is none, also of an id that is not valid. O(1).
-  const T* Find(Id id) const { return Contains(id) ? index_[Place(id)] : nullptr; }
-  T* Find(Id id) { return Contains(id) ? index_[Place(id)] : nullptr; }
+  const T* Find(Id id) const { return Indexed(id); }
+  T* Find(Id id) { return Indexed(id); }
 
   // An id that is there already keeps its entry.
   void Insert(Id id, T entry) {
-    IndexOne(id, entries_.emplace(id, std::move(entry)).first->second);
+    const auto [place, is_new] = entries_.emplace(id, std::move(entry));
+    if (is_new) IndexOne(id, place->second);
   }
 
   void Erase(Id id) {
-    if (!Contains(id)) return;
-    index_[Place(id)] = nullptr;
+    if (Indexed(id) == nullptr) return;
+    std::unique_ptr<Page>& page = pages_[PageOf(id)];
+    page->entries[PlaceInPage(id)] = nullptr;
+    if (--page->count == 0) page.reset();
     entries_.erase(id);
   }
 
- private:
-  static std::size_t Place(Id id) { return static_cast<std::size_t>(id.value); }
+  // Pages that are there, for those who want to know what the index takes.
+  std::size_t pages() const {
+    std::size_t count = 0;
+    for (const auto& page : pages_) count += page != nullptr;
+    return count;
+  }
 
-  bool Contains(Id id) const { return id.valid() && Place(id) < index_.size(); }
+  static constexpr std::size_t kPage = 64;
+
+ private:
+  struct Page {
+    std::array<T*, kPage> entries{};  // into entries_
+    std::size_t count = 0;            // of those that are not null
+  };
+
+  static std::size_t PageOf(Id id) { return static_cast<std::size_t>(id.value) / kPage; }
+  static std::size_t PlaceInPage(Id id) { return static_cast<std::size_t>(id.value) % kPage; }
+
+  T* Indexed(Id id) const {
+    if (!id.valid() || PageOf(id) >= pages_.size()) return nullptr;
+    const std::unique_ptr<Page>& page = pages_[PageOf(id)];
+    return page == nullptr ? nullptr : page->entries[PlaceInPage(id)];
+  }
 
   void IndexOne(Id id, T& entry) {
-    if (index_.size() <= Place(id)) index_.resize(Place(id) + 1, nullptr);
-    index_[Place(id)] = &entry;
+    if (pages_.size() <= PageOf(id)) pages_.resize(PageOf(id) + 1);
+    std::unique_ptr<Page>& page = pages_[PageOf(id)];
+    if (page == nullptr) page = std::make_unique<Page>();
+    page->entries[PlaceInPage(id)] = &entry;
+    ++page->count;
   }
 
   void IndexAll() {
@@ -58,7 +86,7 @@ class IdTable {
   }
 
   std::map<Id, T> entries_;
-  std::vector<T*> index_;  // into entries_, by id
+  std::vector<std::unique_ptr<Page>> pages_;  // by id; null where none of the ids is there
 };
 
 }  // namespace plumbline

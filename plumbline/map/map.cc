@@ -42,23 +42,23 @@ bool Map::Knows(KeyFrameId id) const {
 
 std::int64_t Map::NumberOf(KeyFrameId id) const {
   if (const KeyFrame* keyframe = Find(id)) return keyframe->number;
-  const auto removed = removed_keyframes_.find(id);
-  PLUMBLINE_CHECK(removed != removed_keyframes_.end(), "a keyframe that never was in the map");
-  return removed->second.number;
+  const RemovedKeyFrame* removed = removed_keyframes_.Find(id);
+  PLUMBLINE_CHECK(removed != nullptr, "a keyframe that never was in the map");
+  return removed->number;
 }
 
 KeyFrameId Map::ParentOf(KeyFrameId id) const {
   if (const KeyFrame* keyframe = Find(id)) return keyframe->parent;
-  const auto removed = removed_keyframes_.find(id);
-  return removed == removed_keyframes_.end() ? KeyFrameId{} : removed->second.parent;
+  const RemovedKeyFrame* removed = removed_keyframes_.Find(id);
+  return removed == nullptr ? KeyFrameId{} : removed->parent;
 }
 
 Placement Map::PlaceOf(KeyFrameId id) const {
-  std::vector<const RemovedKeyFrame*> chain;  // up to a keyframe that is in the map
-  for (auto it = removed_keyframes_.find(id); it != removed_keyframes_.end();
-       it = removed_keyframes_.find(id)) {
-    chain.push_back(&it->second);
-    id = it->second.parent;
+  // Up to a keyframe that is in the map: one step, but in maps of older files.
+  std::vector<const RemovedKeyFrame*> chain;
+  while (const RemovedKeyFrame* removed = removed_keyframes_.Find(id)) {
+    chain.push_back(removed);
+    id = removed->parent;
   }
   const KeyFrame* keyframe = Find(id);
   PLUMBLINE_CHECK(keyframe != nullptr, "place of a keyframe that never was in the map");
@@ -85,7 +85,7 @@ MapRecord Map::Record() const {
           next_point_,
           next_line_,
           stereo_correction_,
-          removed_keyframes_,
+          removed_keyframes_.entries(),
           merged_points_,
           merged_lines_};
 }
@@ -168,7 +168,9 @@ struct MapChanger {
     for (const auto& [keyframe_id, feature] : observations) Observe(kept, keyframe_id, feature);
     to->score.visible += score.visible;
     to->score.found += score.found;
-    Merged(kept)[gone] = kept;
+    auto& merged = Merged(kept);
+    merged[gone] = kept;
+    if (merged.size() > Map::kMostMerges) merged.erase(merged.begin());
   }
 
   template <class LandmarkId>
@@ -217,10 +219,15 @@ struct MapChanger {
   void Do(const edit::RemoveKeyFrame& change) {
     KeyFrame* keyframe = FindKeyFrame(change.id);
     if (keyframe == nullptr || !keyframe->parent.valid()) return;
-    const Placement parent = map.PlaceOf(keyframe->parent);
+    KeyFrameId parent_id = keyframe->parent;
+    while (FindKeyFrame(parent_id) == nullptr) {
+      PLUMBLINE_CHECK(map.removed_keyframes_.contains(parent_id), "a parent that never was");
+      parent_id = map.ParentOf(parent_id);
+    }
+    const Placement parent = map.PlaceOf(parent_id);
     const Rigid3 cam_from_parent = keyframe->frame.cam_from_world * Inverse(parent.cam_from_world);
-    map.removed_keyframes_[change.id] = {
-        keyframe->parent, {cam_from_parent, parent.unit}, keyframe->unit, keyframe->number};
+    map.removed_keyframes_.Add(
+        change.id, {parent_id, {cam_from_parent, parent.unit}, keyframe->unit, keyframe->number});
     const Frame frame = keyframe->frame;
     for (const PointId id : frame.points) Unobserve(id, change.id);
     for (const LineId id : frame.lines) Unobserve(id, change.id);
@@ -305,12 +312,11 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
     motion.new_from_old.emplace(id, this_from_other);
     keyframe.number += keyframes_taken_in_;
   }
-  for (auto& [id, removed] : other.removed_keyframes_) removed.number += keyframes_taken_in_;
   other.Apply({std::move(motion), edit::CorrectStereo{stereo_correction_}});
   MoveEntries(other.keyframes_, keyframes_);
   MoveEntries(other.points_, points_);
   MoveEntries(other.lines_, lines_);
-  removed_keyframes_.merge(other.removed_keyframes_);
+  removed_keyframes_.Absorb(std::move(other.removed_keyframes_), keyframes_taken_in_);
   merged_points_.merge(other.merged_points_);
   merged_lines_.merge(other.merged_lines_);
   keyframes_taken_in_ += other.keyframes_taken_in_;

@@ -8,7 +8,9 @@
 #include "plumbline/map/landmarks.h"
 #include "plumbline/map/map_record.h"
 #include "plumbline/map/placement.h"
+#include "plumbline/map/removed_keyframes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -30,6 +32,11 @@ class Map {
   const KeyFrame* Find(KeyFrameId id) const;
   const MapPoint* Find(PointId id) const;
   const MapLine* Find(LineId id) const;
+
+  // How many merges are remembered, of each kind. Matches that are on their way into the map are
+  // those of the last few keyframes; a merge more than this one and the one of the oldest landmark
+  // is forgotten.
+  static constexpr std::size_t kMostMerges = std::size_t{1} << 16U;
 
   // The landmark that `id` is today: itself, what it was merged into, or an invalid id.
   PointId Current(PointId id) const;
@@ -90,7 +97,7 @@ class Map {
   IdTable<KeyFrameId, KeyFrame> keyframes_;
   IdTable<PointId, MapPoint> points_;
   IdTable<LineId, MapLine> lines_;
-  std::map<KeyFrameId, RemovedKeyFrame> removed_keyframes_;
+  RemovedKeyFrames removed_keyframes_;
   std::map<PointId, PointId> merged_points_;
   std::map<LineId, LineId> merged_lines_;
 };

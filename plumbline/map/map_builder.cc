@@ -82,7 +82,7 @@ MapBuilder::MapBuilder(MapRecord record, std::string source)
   map_.next_point_ = record.next_point;
   map_.next_line_ = record.next_line;
   map_.stereo_correction_ = record.stereo_correction;
-  map_.removed_keyframes_ = std::move(record.removed_keyframes);
+  map_.removed_keyframes_ = RemovedKeyFrames(std::move(record.removed_keyframes));
   map_.merged_points_ = std::move(record.merged_points);
   map_.merged_lines_ = std::move(record.merged_lines);
 }
@@ -174,7 +174,7 @@ void MapBuilder::Add(MapLine line) {
 // Every keyframe hangs on none, or on one that the map knows, and there is a first one.
 void MapBuilder::CheckParents() const {
   std::map<KeyFrameId, KeyFrameId> parents;
-  for (const auto& [id, removed] : map_.removed_keyframes_) {
+  for (const auto& [id, removed] : map_.removed_keyframes_.entries()) {
     if (!map_.Knows(removed.parent)) Fail("a removed keyframe beside one that never was");
     parents.emplace(id, removed.parent);
   }

@@ -4,20 +4,12 @@
 
 #include "plumbline/base/ids.h"
 #include "plumbline/features/stereo_correction.h"
-#include "plumbline/map/placement.h"
+#include "plumbline/map/removed_keyframes.h"
 
 #include <cstdint>
 #include <map>
 
 namespace plumbline {
-
-// A keyframe that left the map, beside its parent of then.
-struct RemovedKeyFrame {
-  KeyFrameId parent;
-  RelativePose from_parent;
-  double unit = 1;  // its own when it left
-  std::int64_t number = 0;
-};
 
 // All of a map but its keyframes and landmarks: with these it is the whole map (MapBuilder).
 struct MapRecord {

@@ -32,6 +32,12 @@ struct Renumbering {
   }
 };
 
+// Keyframes that were removed do not come along.
+KeyFrameId AncestorInMap(const Map& map, KeyFrameId id) {
+  while (id.valid() && map.Find(id) == nullptr) id = map.ParentOf(id);
+  return id;
+}
+
 template <class Landmark>
 void Renumber(const Renumbering& renumbering, Landmark& landmark) {
   landmark.id = renumbering(landmark.id);
@@ -49,7 +55,7 @@ Map MergeMaps(const Map& first, const Map& second, const Similarity3& first_from
     KeyFrame keyframe = original;
     Move(first_from_second, keyframe);
     keyframe.id = renumbering(keyframe.id);
-    keyframe.parent = renumbering(keyframe.parent);
+    keyframe.parent = renumbering(AncestorInMap(second, keyframe.parent));
     // Matches come with the observations of the landmarks.
     std::fill(keyframe.frame.points.begin(), keyframe.frame.points.end(), PointId{});
     std::fill(keyframe.frame.lines.begin(), keyframe.frame.lines.end(), LineId{});

@@ -81,7 +81,7 @@ class WindowBuilder {
   }
 
   void ChooseFixed() {
-    SharedCounts shared(map_);
+    SharedCounts shared;
     for (const MapPoint* point : points_) shared.Add(point->observations);
     for (const MapLine* line : lines_) shared.Add(line->observations);
     for (const KeyFrameId id : free_) shared.Leave(id);

@@ -420,7 +420,7 @@ MappingStage::Done MappingStage::Do(const RelocalizationRequest& request, std::i
 
 MappingStage::Done MappingStage::Do(const Sighting& sighting, std::int64_t) {
   const Map& map = atlas_.active();
-  SharedCounts shared(map);
+  SharedCounts shared;
   for (const PointId id : sighting.points) {
     if (const MapPoint* point = map.Find(id)) shared.Add(point->observations);
   }

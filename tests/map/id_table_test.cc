@@ -56,5 +56,18 @@ TEST(IdTable, CopiesHaveEntriesOfTheirOwn) {
   EXPECT_EQ(moved.Find(PointId{5}), &moved.entries().rbegin()->second);
 }
 
+// However many ids there ever were, the index is as large as what is there.
+TEST(IdTable, TheIndexStaysSmallWhereOldEntriesGo) {
+  IdTable<PointId, int> table;
+  for (std::int64_t i = 0; i < 100'000; ++i) {
+    table.Insert(PointId{i}, static_cast<int>(i));
+    if (i >= 500) table.Erase(PointId{i - 500});
+    ASSERT_LE(table.pages(), 500 / decltype(table)::kPage + 3) << i;
+  }
+  EXPECT_EQ(table.entries().size(), 500U);
+  EXPECT_EQ(table.Find(PointId{99'499}), nullptr);
+  EXPECT_EQ(*table.Find(PointId{99'500}), 99'500);
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -258,6 +258,44 @@ TEST(Map, RemovedKeyFramesMoveWithTheirAncestors) {
   expect_pose(kF3, before[3]);
 }
 
+TEST(Map, NoChainsOfRemovedKeyFramesGrow) {
+  Rng rng(8);
+  Map map = ChainOfKeyFrames(60);
+  std::vector<Rigid3> before;
+  for (std::int64_t k = 0; k < 60; ++k) {
+    before.push_back(RandomRigid(rng));
+    map.Apply({edit::SetPose{KeyFrameId{k}, before.back()}});
+  }
+  std::vector<std::int64_t> gone;
+  for (std::int64_t k = 1; k < 60; ++k) gone.push_back(k);
+  for (std::size_t i = gone.size(); i > 1; --i) std::swap(gone[i - 1], gone[rng.Index(i)]);
+  for (const std::int64_t k : gone) {
+    map.Apply({edit::RemoveKeyFrame{KeyFrameId{k}}});
+    for (const auto& [id, removed] : map.Record().removed_keyframes) {
+      ASSERT_NE(map.Find(removed.parent), nullptr);
+    }
+  }
+  for (std::int64_t k = 0; k < 60; ++k) {
+    const Rigid3& expected = before[static_cast<std::size_t>(k)];
+    EXPECT_LT(LogSe3(map.PoseOf(KeyFrameId{k}) * Inverse(expected)).norm(), 1e-9) << k;
+  }
+}
+
+TEST(Map, RemembersTheLastMergesOnly) {
+  Map map = ChainOfKeyFrames(2);
+  map.Apply({edit::AddPoint{PointSeenBy(0, {{kF0, 0}})}});
+  const auto count = static_cast<std::int64_t>(Map::kMostMerges) + 100;
+  for (std::int64_t i = 1; i <= count; ++i) {
+    map.Apply({edit::AddPoint{PointSeenBy(i, {{kF1, 1}})},
+               edit::MergePoints{PointId{0}, PointId{i}},
+               edit::RemovePointObservation{PointId{0}, kF1}});
+  }
+  EXPECT_EQ(map.Record().merged_points.size(), Map::kMostMerges);
+  EXPECT_EQ(map.Current(PointId{count}), PointId{0});
+  EXPECT_EQ(map.Current(PointId{1}), PointId{});
+  map.CheckInvariants();
+}
+
 // One random change, mostly of things that exist.
 MapChange RandomChange(const Map& map, Rng& rng) {
   const auto upto = [&](std::int64_t next) {
