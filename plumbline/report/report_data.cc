@@ -124,13 +124,13 @@ Json Counts(const RunCounts& c) {
 }
 
 template <class Value>
-Json Column(const std::vector<FrameRecord>& frames, Value value) {
+Json Column(const FrameLog& frames, Value value) {
   Json column = Json::array();
   for (const FrameRecord& frame : frames) column.push_back(value(frame));
   return column;
 }
 
-Json Frames(const std::vector<FrameRecord>& frames) {
+Json Frames(const FrameLog& frames) {
   using F = FrameRecord;
   const std::int64_t start = frames.empty() ? 0 : frames.front().stamp_ns;
   return {{"seconds",
@@ -151,7 +151,7 @@ Json Frames(const std::vector<FrameRecord>& frames) {
           {"inlier_lines", Column(frames, [](const F& f) { return f.counts.inlier_lines; })}};
 }
 
-Json Stages(const std::vector<FrameRecord>& frames) {
+Json Stages(const FrameLog& frames) {
   Json stages = Json::array();
   for (const StageStatistics& s : TimingStatistics(frames)) {
     Json column = Json::array();

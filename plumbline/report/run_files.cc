@@ -23,9 +23,11 @@ namespace {
 
 using TimeMirror = std::optional<std::int64_t>;  // DatasetInfo::time_mirror_ns
 
-std::vector<FrameRecord> AsRecorded(std::vector<FrameRecord> frames, TimeMirror mirror_ns) {
+FrameLog AsRecorded(FrameLog frames, TimeMirror mirror_ns) {
   if (!mirror_ns) return frames;
-  for (FrameRecord& frame : frames) frame.stamp_ns = *mirror_ns - frame.stamp_ns;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames.Change(i, [&](FrameRecord& frame) { frame.stamp_ns = *mirror_ns - frame.stamp_ns; });
+  }
   return frames;
 }
 
@@ -128,7 +130,7 @@ std::string FormatFrameRow(const FrameRecord& f, MapId final_map) {
                      name(final_map));
 }
 
-std::string FormatFrames(const std::vector<FrameRecord>& frames, const Atlas& atlas) {
+std::string FormatFrames(const FrameLog& frames, const Atlas& atlas) {
   std::string text =
       "frame,timestamp,state,map,reason,keyframe,matched_points,matched_lines,inlier_points,"
       "inlier_lines,shed,final_map\n";
@@ -140,7 +142,7 @@ std::string FormatFrames(const std::vector<FrameRecord>& frames, const Atlas& at
 
 std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t> time_mirror_ns) {
   std::vector<RunFile> files = TrajectoryFiles(system, time_mirror_ns);
-  const auto format = [&system](const std::vector<FrameRecord>& frames) {
+  const auto format = [&system](const FrameLog& frames) {
     return FormatFrames(frames, system.atlas());
   };
   files.push_back(FramesFile("frames.csv", system, time_mirror_ns, format));

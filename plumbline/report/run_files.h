@@ -21,7 +21,7 @@ struct TrajectoryNames {
 // frames.csv: what came of every input frame; a row of it. The map that a pose was reported in may
 // have become part of another one, which `atlas` knows: `final_map`.
 std::string FormatFrameRow(const FrameRecord& frame, MapId final_map);
-std::string FormatFrames(const std::vector<FrameRecord>& frames, const Atlas& atlas = {});
+std::string FormatFrames(const FrameLog& frames, const Atlas& atlas = {});
 
 // The files of a finished run, those first that are worth most for their size. They refer to the
 // system, which must live on, and look at it only when they are written. Each is written whole or

@@ -17,10 +17,15 @@ std::size_t StepFor(std::size_t count, std::size_t limit) {
   return std::max<std::size_t>(1, (count + limit - 1) / std::max<std::size_t>(limit, 1));
 }
 
-std::size_t FrameAt(const std::vector<FrameRecord>& frames, std::int64_t stamp_ns) {
-  const auto at = std::partition_point(
-      frames.begin(), frames.end(), [&](const FrameRecord& f) { return f.stamp_ns < stamp_ns; });
-  return static_cast<std::size_t>(at - frames.begin());
+std::size_t FrameAt(const FrameLog& frames, std::int64_t stamp_ns) {
+  std::size_t first = 0, count = frames.size();  // of those among which the first one later is
+  while (count > 0) {
+    const std::size_t half = count / 2;
+    const bool earlier = frames.StampOf(first + half) < stamp_ns;
+    if (earlier) first += half + 1;
+    count = earlier ? count - half - 1 : half;
+  }
+  return first;
 }
 
 void TakePoses(const System& system,
@@ -78,11 +83,11 @@ void Thin(const RunSceneLimits& limits, RunScene& scene) {
 }
 
 // The ground truth from the first to the last frame of the run.
-Trajectory ReferenceDuring(const std::vector<FrameRecord>& frames, const Dataset& dataset) {
+Trajectory ReferenceDuring(const FrameLog& frames, const Dataset& dataset) {
   Trajectory during;
   if (!dataset.info().ground_truth || frames.empty()) return during;
   for (const StampedPose& pose : dataset.info().ground_truth->OfCamera(dataset.calibration())) {
-    if (pose.stamp_ns >= frames.front().stamp_ns && pose.stamp_ns <= frames.back().stamp_ns) {
+    if (pose.stamp_ns >= frames.StampOf(0) && pose.stamp_ns <= frames.StampOf(frames.size() - 1)) {
       during.push_back(pose);
     }
   }

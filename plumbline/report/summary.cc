@@ -59,7 +59,7 @@ std::optional<TrajectoryError> Compare(const Trajectory& estimate, const Dataset
       dataset.info().ground_truth->OfCamera(dataset.calibration()), estimate, options);
 }
 
-Json Timing(const std::vector<FrameRecord>& frames) {
+Json Timing(const FrameLog& frames) {
   Json json;
   for (const StageStatistics& s : TimingStatistics(frames)) {
     json[s.stage] = {{"median_ms", s.median}, {"p95_ms", s.p95}, {"p99_ms", s.p99}};

@@ -16,7 +16,7 @@ namespace plumbline {
 namespace {
 
 // Stages in the order of first appearance, "total" last.
-std::vector<std::string> StageNames(const std::vector<FrameRecord>& frames) {
+std::vector<std::string> StageNames(const FrameLog& frames) {
   std::vector<std::string> names;
   for (const FrameRecord& frame : frames) {
     for (const StageTime& time : frame.times) {
@@ -44,7 +44,7 @@ std::map<std::string, double> SumByStage(const FrameRecord& frame) {
 
 }  // namespace
 
-std::vector<StageStatistics> TimingStatistics(const std::vector<FrameRecord>& frames) {
+std::vector<StageStatistics> TimingStatistics(const FrameLog& frames) {
   std::map<std::string, std::vector<double>> values;
   for (const FrameRecord& frame : frames) {
     for (const auto& [stage, ms] : SumByStage(frame)) values[stage].push_back(ms);
@@ -66,7 +66,7 @@ std::vector<StageStatistics> TimingStatistics(const std::vector<FrameRecord>& fr
   return result;
 }
 
-std::vector<std::optional<double>> StageMilliseconds(const std::vector<FrameRecord>& frames,
+std::vector<std::optional<double>> StageMilliseconds(const FrameLog& frames,
                                                      const std::string& stage) {
   std::vector<std::optional<double>> column;
   column.reserve(frames.size());
@@ -80,7 +80,7 @@ std::vector<std::optional<double>> StageMilliseconds(const std::vector<FrameReco
   return column;
 }
 
-std::string FormatTimingCsv(const std::vector<FrameRecord>& frames) {
+std::string FormatTimingCsv(const FrameLog& frames) {
   const std::vector<std::string> stages = StageNames(frames);
   std::string text = "frame,timestamp";
   for (const std::string& stage : stages) text += "," + stage + "_ms";
@@ -97,7 +97,7 @@ std::string FormatTimingCsv(const std::vector<FrameRecord>& frames) {
   return text;
 }
 
-std::string FormatTimingJson(const std::vector<FrameRecord>& frames) {
+std::string FormatTimingJson(const FrameLog& frames) {
   nlohmann::ordered_json json;
   for (const StageStatistics& s : TimingStatistics(frames)) {
     json[s.stage] = {{"frames", s.count},

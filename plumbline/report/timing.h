@@ -18,14 +18,14 @@ struct StageStatistics {
 };
 
 // One entry for each stage, in the order of first appearance; "total" is the whole frame.
-std::vector<StageStatistics> TimingStatistics(const std::vector<FrameRecord>& frames);
+std::vector<StageStatistics> TimingStatistics(const FrameLog& frames);
 
 // Milliseconds of one stage in every frame; nullopt where it did not run.
-std::vector<std::optional<double>> StageMilliseconds(const std::vector<FrameRecord>& frames,
+std::vector<std::optional<double>> StageMilliseconds(const FrameLog& frames,
                                                      const std::string& stage);
 
 // A row for each frame, a column for each stage; empty where the stage did not run.
-std::string FormatTimingCsv(const std::vector<FrameRecord>& frames);
-std::string FormatTimingJson(const std::vector<FrameRecord>& frames);
+std::string FormatTimingCsv(const FrameLog& frames);
+std::string FormatTimingJson(const FrameLog& frames);
 
 }  // namespace plumbline

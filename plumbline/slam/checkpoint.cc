@@ -98,14 +98,14 @@ void System::Resume(SavedRun saved) {
   VisitRest(*this, [&](auto&... fields) { TransferAll(state, fields...); });
   if (monocular_start_) monocular_start_->Load(state, saved.maps.atlas);
   if (state.remaining() != 0) Fail("more bytes");
+  if (!frames_.empty()) newest_ = frames_.back();
   CheckResumed(saved.maps.atlas, stage);
   mapping_.Resume(std::move(saved.maps.atlas), stage);
 }
 
 void System::CheckResumed(const Atlas& atlas, const MappingStage::Checkpoint& stage) const {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    const FrameRecord& record = frames_[i];
-    if (record.id.value != static_cast<std::int64_t>(i)) Fail("frames out of order");
+    const FrameRecord record = frames_[i];
     if (record.status != FrameStatus::kTracked) continue;
     const Map* map = atlas.Find(atlas.Current(record.map));
     if (map == nullptr || !map->Knows(record.reference)) Fail("a frame without its keyframe");

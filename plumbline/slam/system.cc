@@ -71,15 +71,20 @@ const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason
   record.stamp_ns = stamp_ns;
   record.reason = reason;
   record.shed = shed;
-  frames_.push_back(std::move(record));
-  return frames_.back();
+  return Keep(std::move(record));
+}
+
+const FrameRecord& System::Keep(FrameRecord record) {
+  frames_.Add(record);
+  newest_ = std::move(record);
+  return newest_;
 }
 
 const FrameRecord& System::Process(SensorFrame frame) { return Track(Measure(std::move(frame))); }
 
 const FrameRecord& System::Track(MeasuredFrame measured) {
-  if (!frames_.empty() && measured.stamp_ns <= frames_.back().stamp_ns) {
-    throw InputError("expected a frame after " + std::to_string(frames_.back().stamp_ns) +
+  if (!frames_.empty() && measured.stamp_ns <= newest_.stamp_ns) {
+    throw InputError("expected a frame after " + std::to_string(newest_.stamp_ns) +
                      " ns, found one of " + std::to_string(measured.stamp_ns) + " ns");
   }
   if (session_.uuid == Uuid()) session_.uuid = SessionUuid(*this, measured);
@@ -96,8 +101,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   clock.Done(start ? "initialize" : "track");
   record.times = clock.Finish();
   view_ = {std::move(measured.images), std::move(result.frame)};
-  frames_.push_back(std::move(record));
-  return frames_.back();
+  return Keep(std::move(record));
 }
 
 TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock) {
@@ -228,12 +232,13 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
   RecordTracking(result, record);
   record.keyframe = true;
   for (std::size_t i = 0; i + 1 < start.frames.size(); ++i) {
-    FrameRecord& earlier = frames_[static_cast<std::size_t>(start.frames[i].value)];
-    earlier.status = FrameStatus::kTracked;
-    earlier.reason.clear();
-    earlier.map = map_;
-    earlier.reference = start.keyframes[i];
-    earlier.keyframe = true;
+    frames_.Change(static_cast<std::size_t>(start.frames[i].value), [&](FrameRecord& earlier) {
+      earlier.status = FrameStatus::kTracked;
+      earlier.reason.clear();
+      earlier.map = map_;
+      earlier.reference = start.keyframes[i];
+      earlier.keyframe = true;
+    });
   }
   return result;
 }
@@ -242,15 +247,17 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
 void System::Demote(const DemotedKeyFrame& gone) {
   tracker_.Rehang(gone.id, gone.parent, gone.from_parent);
   if (monocular_start_) monocular_start_->Rehang(gone.id, gone.parent, gone.from_parent);
-  for (auto record = frames_.rbegin(); record != frames_.rend(); ++record) {
-    if (record->reference == gone.id) {
-      record->reference = gone.parent;
-      record->from_reference = Chained(record->from_reference, gone.from_parent);
-    }
-    if (record->id != gone.frame) continue;
-    record->keyframe = false;
-    record->demoted = true;
-    return;
+  const auto made = static_cast<std::size_t>(gone.frame.value);
+  for (std::size_t i = frames_.size(); i-- > made;) {
+    if (frames_.ReferenceOf(i) != gone.id && i != made) continue;
+    frames_.Change(i, [&](FrameRecord& record) {
+      if (record.reference == gone.id) {
+        record.reference = gone.parent;
+        record.from_reference = Chained(record.from_reference, gone.from_parent);
+      }
+      record.keyframe = record.keyframe && i != made;
+      record.demoted = record.demoted || i == made;
+    });
   }
 }
 
@@ -283,15 +290,17 @@ void System::LoseFramesNotMapped() {
     const Map* map = atlas().Find(atlas().Current(record.map));
     return map != nullptr && map->Knows(record.reference);
   };
-  for (FrameRecord& record : frames_) {
-    if (record.status != FrameStatus::kTracked || has_place(record)) continue;
-    record.status = FrameStatus::kLost;
-    record.reason = kNotMapped;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    frames_.Change(i, [&](FrameRecord& record) {
+      if (record.status != FrameStatus::kTracked || has_place(record)) return;
+      record.status = FrameStatus::kLost;
+      record.reason = kNotMapped;
+    });
   }
 }
 
 void System::CopyMaps(std::function<void(SavedAtlas)> take) {
-  mapping_.Submit(frames_.back().id.value,
+  mapping_.Submit(newest_.id.value,
                   Visit{[context = ContextWithoutMaps(*this), take = std::move(take)](
                             const Atlas& atlas, const LocalMapper::State& mapper) {
                     SavedAtlas copy{atlas, context};
@@ -309,18 +318,17 @@ void System::Finish(const StopCheck& stop) {
     throw;
   }
   const std::vector<StageTime> times = TakeMappingTimes();
-  if (!frames_.empty()) {
-    frames_.back().times.insert(frames_.back().times.end(), times.begin(), times.end());
-  }
+  if (!frames_.empty()) frames_.AddTimes(times);
   if (!monocular_start_) return;
   for (const EarlierFrame& earlier : monocular_start_->Locate(atlas(), stop)) {
-    FrameRecord& record = frames_[static_cast<std::size_t>(earlier.id.value)];
-    record.status = FrameStatus::kTracked;
-    record.reason.clear();
-    record.map = earlier.map;
-    record.reference = earlier.reference;
-    record.from_reference = earlier.from_reference;
-    record.counts = earlier.counts;
+    frames_.Change(static_cast<std::size_t>(earlier.id.value), [&](FrameRecord& record) {
+      record.status = FrameStatus::kTracked;
+      record.reason.clear();
+      record.map = earlier.map;
+      record.reference = earlier.reference;
+      record.from_reference = earlier.from_reference;
+      record.counts = earlier.counts;
+    });
   }
 }
 
@@ -378,8 +386,8 @@ Trajectory System::CausalTrajectory(MapId map) const {
 Session System::session() const {
   Session session = session_;
   if (!frames_.empty()) {
-    session.first_stamp_ns = frames_.front().stamp_ns;
-    session.last_stamp_ns = frames_.back().stamp_ns;
+    session.first_stamp_ns = frames_.StampOf(0);
+    session.last_stamp_ns = newest_.stamp_ns;
   }
   return session;
 }

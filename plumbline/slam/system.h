@@ -12,6 +12,7 @@
 #include "plumbline/map/session.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/execution.h"
+#include "plumbline/slam/frame_log.h"
 #include "plumbline/slam/front_end.h"
 #include "plumbline/slam/load_shedding.h"
 #include "plumbline/slam/map_events.h"
@@ -30,33 +31,6 @@
 #include <vector>
 
 namespace plumbline {
-
-// What came of one input frame.
-enum class FrameStatus { kTracked, kLost, kInitializing, kSkipped };
-constexpr auto EnumNames(std::type_identity<FrameStatus>) {
-  return std::array{std::pair{FrameStatus::kTracked, "tracked"},
-                    std::pair{FrameStatus::kLost, "lost"},
-                    std::pair{FrameStatus::kInitializing, "initializing"},
-                    std::pair{FrameStatus::kSkipped, "skipped"}};
-}
-
-struct FrameRecord {
-  FrameId id;
-  std::int64_t stamp_ns = 0;
-  FrameStatus status = FrameStatus::kSkipped;
-  std::string reason;  // why there is no pose; empty where there is one
-  MapId map;           // that the pose was reported in, where there is one (Atlas::Current)
-  KeyFrameId reference;
-  RelativePose from_reference;
-  std::optional<Rigid3> causal_world_from_camera;  // as first reported, camera as delivered
-  FrameCounts counts;                              // of from_reference
-  bool keyframe = false;
-  Shed shed = Shed::kNothing;  // what a live run left undone for this frame
-  bool demoted = false;        // was a keyframe until mapping had no time for it
-  // In order, "total" last: from the frame's arrival to its end. map_* are steps of mapping that
-  // ended since the last frame, inline within "map", otherwise beside.
-  std::vector<StageTime> times;
-};
 
 // What Process tells of a frame beside its record, for display.
 struct FrameView {
@@ -99,8 +73,9 @@ class System {
   // frame; called in the thread that maps.
   void Observe(PlaceObserver observer) { mapping_.Observe(std::move(observer)); }
 
-  // Measure and Track. Throws InputError when an image has another size than the calibration says,
-  // or the frame is no later than the one before.
+  // What came of the frame; it holds until the next one. Measure and Track. Throws InputError when
+  // an image has another size than the calibration says, or the frame is no later than the one
+  // before.
   const FrameRecord& Process(SensorFrame frame);
   // What can be done ahead, in another thread than the rest; see FrontEnd.
   MeasuredFrame Measure(SensorFrame frame,
@@ -146,7 +121,7 @@ class System {
   void Finish(const StopCheck& stop = {});
   static constexpr const char* kNotMapped = "not_mapped";
 
-  const std::vector<FrameRecord>& frames() const { return frames_; }
+  const FrameLog& frames() const { return frames_; }
   // Complete after Finish, and not to be asked for before but inline (BugError).
   const Atlas& atlas() const { return mapping_.atlas(); }
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
@@ -199,6 +174,7 @@ class System {
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void Demote(const DemotedKeyFrame& gone);
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
+  const FrameRecord& Keep(FrameRecord record);
   void LoseFramesNotMapped();
 
   SlamOptions options_;
@@ -215,7 +191,8 @@ class System {
   std::vector<Relocalization> relocalizations_;
   std::optional<AtlasContext> loaded_;
   bool read_only_ = false;
-  std::vector<FrameRecord> frames_;
+  FrameLog frames_;
+  FrameRecord newest_;  // the last of them
   FrameView view_;
   Session session_;                                             // without the stamps
   mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // made so far

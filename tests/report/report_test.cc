@@ -59,12 +59,13 @@ TEST(FormatFrames, OneRowForEveryFrame) {
 }
 
 TEST(Timing, StatisticsAreOfTheFramesInWhichAStageRan) {
-  std::vector<FrameRecord> frames;
+  FrameLog frames;
   for (int i = 1; i <= 100; ++i) {
-    frames.push_back(TimedFrame(i, {{"track", static_cast<double>(i)}, {"total", 2.0 * i}}));
+    std::vector<StageTime> times = {{"track", static_cast<double>(i)}, {"total", 2.0 * i}};
+    // Twice in one frame: 10.
+    if (i == 1) times.insert(times.begin(), {{"map", 3}, {"map", 7}});
+    frames.Add(TimedFrame(i - 1, std::move(times)));
   }
-  frames[0].times.insert(frames[0].times.begin(), {"map", 7});
-  frames[0].times.insert(frames[0].times.begin(), {"map", 3});  // twice in one frame: 10
   const auto statistics = TimingStatistics(frames);
   ASSERT_EQ(statistics.size(), 3U);
   EXPECT_EQ(statistics[0].stage, "map");
@@ -82,7 +83,7 @@ TEST(Timing, StatisticsAreOfTheFramesInWhichAStageRan) {
 }
 
 TEST(Timing, FilesHaveAColumnForEachStage) {
-  const std::vector<FrameRecord> frames = {
+  const FrameLog frames = {
       TimedFrame(0, {{"track", 1.5}, {"total", 2}}),
       TimedFrame(1, {}),
       TimedFrame(2, {{"track", 1}, {"map", 0.25}, {"map", 0.5}, {"total", 3}})};

@@ -59,7 +59,7 @@ class SimulatedRun {
   void Finish() { pipeline_.Finish(); }
 
   const System& system() const { return system_; }
-  const std::vector<FrameRecord>& frames() const { return system_.frames(); }
+  const FrameLog& frames() const { return system_.frames(); }
   std::size_t most_waiting() const { return most_waiting_; }
 
   int Count(const std::function<bool(const FrameRecord&)>& holds) const {

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/slam/frame_record.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// Words that come again and again, each by a small number.
+class WordTable {
+ public:
+  // Of a word that is new, the next one.
+  std::size_t NumberOf(const std::string& word);
+  bool Contains(const std::string& word) const;
+  std::size_t size() const { return words_.size(); }
+  const std::string& operator[](std::size_t number) const { return words_[number]; }
+
+ private:
+  std::vector<std::string> words_;
+};
+
+// The records of all frames of a run, in order, in as little as each needs: 168 bytes, and 5 for
+// each time. An hour with 30 frames a second and ten times each takes 24 MB. Times lose what single
+// precision does not hold; all else comes out as it went in.
+//
+// Used like a vector whose elements are made when they are asked for.
+class FrameLog {
+ public:
+  FrameLog() = default;
+  FrameLog(std::initializer_list<FrameRecord> records);
+
+  // Whether the record may be the next one: its id is the number of those before, and it says
+  // nothing that there is no room for (256 different stages, 65,536 different reasons).
+  bool Takes(const FrameRecord& record) const;
+  // At the end; BugError where it is not taken.
+  void Add(const FrameRecord& record);
+  // Lets `change` alter the record of a frame, but for its id and times.
+  void Change(std::size_t frame, const std::function<void(FrameRecord&)>& change);
+  // Times that are known later, of the last frame.
+  void AddTimes(const std::vector<StageTime>& times);
+
+  std::size_t size() const { return entries_.size(); }
+  bool empty() const { return entries_.size() == 0; }
+  FrameRecord operator[](std::size_t frame) const;
+  FrameRecord front() const { return (*this)[0]; }
+  FrameRecord back() const { return (*this)[size() - 1]; }
+
+  // Single fields, without making the rest.
+  std::int64_t StampOf(std::size_t frame) const { return entries_[frame].stamp_ns; }
+  KeyFrameId ReferenceOf(std::size_t frame) const { return KeyFrameId{entries_[frame].reference}; }
+
+  class const_iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;  // there is no element to refer to
+    using value_type = FrameRecord;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const FrameRecord*;
+    using reference = FrameRecord;
+
+    const_iterator(const FrameLog& log, std::size_t frame) : log_(&log), frame_(frame) {}
+    FrameRecord operator*() const { return (*log_)[frame_]; }
+    const_iterator& operator++() {
+      ++frame_;
+      return *this;
+    }
+    const_iterator operator++(int) { return {*log_, frame_++}; }
+    friend bool operator==(const const_iterator&, const const_iterator&) = default;
+
+   private:
+    const FrameLog* log_;
+    std::size_t frame_;
+  };
+  const_iterator begin() const { return {*this, 0}; }
+  const_iterator end() const { return {*this, size()}; }
+
+  // Bytes.
+  std::size_t Memory() const;
+
+ private:
+  using Numbers = std::array<double, 7>;  // of a Rigid3
+  struct Compact {
+    std::int64_t stamp_ns = 0;
+    Numbers from_reference{};
+    double unit = 1;
+    Numbers causal{};
+    std::int64_t reference = -1;
+    std::uint32_t first_time = 0;  // in milliseconds_
+    std::int32_t map = -1;
+    std::array<std::int32_t, 4> counts{};
+    std::uint16_t reason = 0;
+    std::uint8_t status = 0, shed = 0;
+    bool keyframe : 1 = false;
+    bool demoted : 1 = false;
+    bool has_causal : 1 = false;
+  };
+  // A list that grows without moving what is in it.
+  template <class T>
+  class Chunks {
+   public:
+    static constexpr std::size_t kChunk = 1024;
+
+    void Add(const T& item) {
+      if (chunks_.empty() || chunks_.back().size() == kChunk)
+        chunks_.emplace_back().reserve(kChunk);
+      chunks_.back().push_back(item);
+    }
+    std::size_t size() const {
+      return chunks_.empty() ? 0 : (chunks_.size() - 1) * kChunk + chunks_.back().size();
+    }
+    T& operator[](std::size_t i) { return chunks_[i / kChunk][i % kChunk]; }
+    const T& operator[](std::size_t i) const { return chunks_[i / kChunk][i % kChunk]; }
+    std::size_t Memory() const {
+      return chunks_.size() * (sizeof(std::vector<T>) + kChunk * sizeof(T));
+    }
+
+   private:
+    std::vector<std::vector<T>> chunks_;
+  };
+
+  static Numbers NumbersOf(const Rigid3& pose);
+  static Rigid3 PoseOf(const Numbers& numbers);
+  void Store(const FrameRecord& record, Compact& entry);
+
+  Chunks<Compact> entries_;
+  Chunks<std::uint8_t> stages_;  // of the times of all frames, one after the other
+  Chunks<float> milliseconds_;
+  WordTable stage_names_, reasons_;
+};
+
+}  // namespace plumbline
