@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 
 namespace plumbline {
 namespace {
@@ -58,31 +60,53 @@ std::ptrdiff_t CountValid(const std::vector<LandmarkId>& matches) {
   return std::count_if(matches.begin(), matches.end(), [](auto id) { return id.valid(); });
 }
 
+// Keyframes so far apart in the order of taking in are of two visits to a place.
+constexpr std::int64_t kVisit = 20;
+
+// How a keyframe is judged by its landmarks.
+struct Redundancy {
+  double share = 0.9;  // of its landmarks that others must show
+  int views = 3;       // so many others ...
+  bool again = false;  // ... of which one is of another visit
+};
+
+bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe) {
+  const std::int64_t apart = map.Find(other)->number - keyframe.number;
+  return apart > kVisit || apart < -kVisit;
+}
+
 // Whether other keyframes show the share of a keyframe's landmarks, points as sharply. Most
 // keyframes have more landmarks of their own than that, and are not looked at further.
-bool IsRedundant(const Map& map, const KeyFrame& keyframe, const CleanupOptions& options) {
+bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rule) {
   const Frame& frame = keyframe.frame;
+  const auto is_met_again = [&](const Observations& observations) {
+    return !rule.again || std::any_of(observations.begin(), observations.end(), [&](const auto& o) {
+      return IsOfAnotherVisit(map, o.first, keyframe);
+    });
+  };
   int landmarks = 0;
   int own = 0;
   const auto count = [&](bool redundant) {
     ++landmarks;
     own += !redundant;
   };
-  const auto is_below_share = [&](int of) { return of - own < options.redundant_share * of; };
+  const auto is_below_share = [&](int of) { return of - own < rule.share * of; };
   const auto at_most = static_cast<int>(CountValid(frame.points) + CountValid(frame.lines));
   for (std::size_t i = 0; i < frame.points.size() && !is_below_share(at_most); ++i) {
     if (!frame.points[i].valid()) continue;
     const auto& observations = map.Find(frame.points[i])->observations;
     if (observations.size() < 2) continue;
     const int octave = frame.features().points[i].octave;
-    count(HasViews(observations, options.redundant_views, [&](const auto& o) {
+    const bool redundant = HasViews(observations, rule.views, [&](const auto& o) {
       return o.first != keyframe.id && OctaveOf(map, o.first, o.second) <= octave + 1;
-    }));
+    });
+    count(redundant && is_met_again(observations));
   }
   for (const LineId id : frame.lines) {
     if (!id.valid()) continue;
-    const auto views = static_cast<int>(map.Find(id)->observations.size());
-    if (views >= 2) count(views - 1 >= options.redundant_views);
+    const auto& observations = map.Find(id)->observations;
+    const auto views = static_cast<int>(observations.size());
+    if (views >= 2) count(views - 1 >= rule.views && is_met_again(observations));
   }
   return landmarks > 0 && !is_below_share(landmarks);
 }
@@ -99,20 +123,69 @@ MapEdit RemoveWeakLandmarks(const Map& map,
   return edit;
 }
 
-MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options) {
-  if (options.redundant_share >= 1) return {};
+namespace {
+
+// The first of the keyframes around `centre`, closest in covisibility, that is redundant; the first
+// keyframe of the map, `centre` and the newest before it are not. At most `most` are looked at.
+const KeyFrame* FindRedundant(const Map& map,
+                              KeyFrameId centre,
+                              std::size_t most,
+                              const Redundancy& rule) {
+  if (rule.share >= 1) return nullptr;
   const KeyFrameId origin = map.keyframes().begin()->first;
   const auto centre_it = map.keyframes().find(centre);
   const KeyFrameId before =
       centre_it == map.keyframes().begin() ? centre : std::prev(centre_it)->first;
   for (const auto& neighbour : Covisible(map, centre)) {
+    if (most-- == 0) break;
     if (neighbour.id == origin || neighbour.id == before) continue;
-    if (IsRedundant(map, *map.Find(neighbour.id), options)) {
-      // One at a time: what others show changes with each removal.
-      return {edit::RemoveKeyFrame{neighbour.id}};
-    }
+    const KeyFrame& keyframe = *map.Find(neighbour.id);
+    if (keyframe.parent.valid() && IsRedundant(map, keyframe, rule)) return &keyframe;
   }
-  return {};
+  return nullptr;
+}
+
+// The landmarks, past their trial, that too few keyframes show when this one is gone.
+template <class Remove, class LandmarkId>
+void RemoveForsaken(const Map& map,
+                    KeyFrameId newest,
+                    const std::vector<LandmarkId>& matches,
+                    const CleanupOptions& options,
+                    MapEdit& edit) {
+  for (const LandmarkId id : matches) {
+    if (!id.valid()) continue;
+    const auto& landmark = *map.Find(id);
+    // Files of merged maps tell of landmarks whose first keyframe is not known any more.
+    const bool on_trial =
+        map.Knows(landmark.created_by) &&
+        map.NumberOf(newest) - map.NumberOf(landmark.created_by) < options.trial_keyframes;
+    const auto left = static_cast<int>(landmark.observations.size()) - 1;
+    if (!on_trial && left < options.min_observations) edit.push_back(Remove{id});
+  }
+}
+
+}  // namespace
+
+MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options) {
+  const KeyFrame* redundant =
+      FindRedundant(map,
+                    centre,
+                    map.keyframes().size(),
+                    {options.redundant_share, options.redundant_views, false});
+  // One at a time: what others show changes with each removal.
+  if (redundant == nullptr) return {};
+  return {edit::RemoveKeyFrame{redundant->id}};
+}
+
+MapEdit RemoveRevisitedKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options) {
+  constexpr std::size_t kLookedAt = 30;
+  const KeyFrame* redundant = FindRedundant(
+      map, centre, kLookedAt, {options.revisited_share, options.redundant_views, true});
+  if (redundant == nullptr) return {};
+  MapEdit edit{edit::RemoveKeyFrame{redundant->id}};
+  RemoveForsaken<edit::RemovePoint>(map, centre, redundant->frame.points, options, edit);
+  RemoveForsaken<edit::RemoveLine>(map, centre, redundant->frame.lines, options, edit);
+  return edit;
 }
 
 }  // namespace plumbline

@@ -84,7 +84,10 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   Timed("fuse", times, [&] { Fuse(map, id); });
   Timed("adjust", times, [&] { Adjust(map, id); });
   if (options_.stereo_calibration) Timed("calibrate", times, [&] { CalibrateStereo(map, id); });
-  Timed("clean_up", times, [&] { map.Apply(RemoveRedundantKeyFrames(map, id, options_.cleanup)); });
+  Timed("clean_up", times, [&] {
+    map.Apply(RemoveRedundantKeyFrames(map, id, options_.cleanup));
+    map.Apply(RemoveRevisitedKeyFrames(map, id, options_.cleanup));
+  });
   return times;
 }
 

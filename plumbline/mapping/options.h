@@ -68,6 +68,7 @@ struct CleanupOptions {
   int min_observations = 2;       // keyframes that must show it one before
   double redundant_share = 0.9;   // of a keyframe's landmarks that others show as well
   int redundant_views = 3;        // so many others
+  double revisited_share = 0.7;   // the same share where a place is seen again
 };
 
 template <class Visitor>
@@ -80,6 +81,11 @@ void VisitFields(Visitor&& visit, CleanupOptions& o) {
         "share of landmarks seen by others that makes a keyframe redundant; 1: never",
         Range{0.1, 1});
   visit("redundant_views", o.redundant_views, "other keyframes that show them", Range{1, 100});
+  visit("revisited_share",
+        o.revisited_share,
+        "the same share where one of these keyframes is of another visit to the place, more than "
+        "20 keyframes before or after; 1: never",
+        Range{0.1, 1});
 }
 
 struct BaWindowOptions {

@@ -3,6 +3,8 @@
 #include "plumbline/mapping/landmark_cleanup.h"
 
 #include "tests/map/map_fixture.h"
+#include <algorithm>
+#include <optional>
 #include <variant>
 
 #include <gtest/gtest.h>
@@ -14,7 +16,8 @@ const CleanupOptions kOptions{.min_found_ratio = 0.25,
                               .trial_keyframes = 3,
                               .min_observations = 2,
                               .redundant_share = 0.9,
-                              .redundant_views = 3};
+                              .redundant_views = 3,
+                              .revisited_share = 0.7};
 
 MapPoint CreatedBy(std::int64_t keyframe, std::int64_t id, const Observations& observations) {
   MapPoint point = PointSeenBy(id, observations);
@@ -144,6 +147,87 @@ TEST(RemoveRedundantKeyFrames, AFinerViewIsNotReplacedByCoarserOnes) {
   Map near = Overlapping(40, 1);
   near.Apply({edit::RemoveKeyFrame{KeyFrameId{1}}, edit::RemoveKeyFrame{KeyFrameId{3}}});
   EXPECT_EQ(Removed(near, 5, kOptions).size(), 1U);
+}
+
+// Keyframes 0 to 3 of one visit and 30 to 33 of another, with keyframes of elsewhere between. Of
+// the 40 landmarks of keyframe 31, `again` are shown by all keyframes of both visits, the others by
+// those of the second.
+Map Revisited(int again) {
+  Map map = ChainOfKeyFrames(34);
+  for (int i = 0; i < 20; ++i) {
+    const auto seen = [&](bool by_both) {
+      Observations observations = SeenBy(30, 33, i);
+      for (std::int64_t k = 0; by_both && k < 4; ++k) observations.emplace(KeyFrameId{k}, i);
+      return observations;
+    };
+    map.Apply({edit::AddPoint{PointSeenBy(i, seen(2 * i < again))},
+               edit::AddLine{LineSeenBy(i, seen(2 * i + 1 < again))}});
+  }
+  map.CheckInvariants();
+  return map;
+}
+
+std::optional<KeyFrameId> RemovedAgain(const Map& map, const CleanupOptions& options = kOptions) {
+  const MapEdit edit = RemoveRevisitedKeyFrames(map, KeyFrameId{33}, options);
+  if (edit.empty()) return std::nullopt;
+  return std::get<edit::RemoveKeyFrame>(edit.front()).id;
+}
+
+TEST(RemoveRevisitedKeyFrames, TakesOutWhatAnotherVisitShows) {
+  EXPECT_EQ(RemovedAgain(Revisited(28)), KeyFrameId{31});  // 70 %; 32 came before the newest
+  CleanupOptions never = kOptions;
+  never.revisited_share = 1;
+  EXPECT_EQ(RemovedAgain(Revisited(28), never), std::nullopt);
+}
+
+TEST(RemoveRevisitedKeyFrames, LeavesWhatOneVisitAloneShows) {
+  Map map = Revisited(0);
+  EXPECT_EQ(RemovedAgain(map), std::nullopt);
+  // The keyframes of the second visit show 26 of 40, the others too little of what they show.
+  map = Revisited(26);
+  for (std::int64_t k = 0; k < 4; ++k) map.Apply({edit::RemoveKeyFrame{KeyFrameId{k}}});
+  EXPECT_EQ(RemovedAgain(map), std::nullopt);
+}
+
+TEST(RemoveRevisitedKeyFrames, HoldsTheNumberOfKeyFramesThroughManyVisits) {
+  Map map = Revisited(40);
+  std::int64_t next = 34;
+  std::size_t most = 0;
+  for (int visit = 0; visit < 10; ++visit) {
+    for (int k = 0; k < 4; ++k, ++next) {
+      KeyFrame keyframe = BlankKeyFrame(next, next - 1);
+      for (int i = 0; i < 20; ++i) {
+        keyframe.frame.points[static_cast<std::size_t>(i)] = PointId{i};
+        keyframe.frame.lines[static_cast<std::size_t>(i)] = LineId{i};
+      }
+      map.Apply({edit::AddKeyFrame{keyframe}});
+      map.Apply(RemoveRedundantKeyFrames(map, KeyFrameId{next}, kOptions));
+      map.Apply(RemoveRevisitedKeyFrames(map, KeyFrameId{next}, kOptions));
+      map.CheckInvariants();
+    }
+    most = std::max(most, map.keyframes().size());
+  }
+  EXPECT_LE(most, 34U);
+  // Every keyframe that ever was still has a place, one step from one that is in the map.
+  for (const auto& [id, removed] : map.Record().removed_keyframes) {
+    EXPECT_NE(map.Find(removed.parent), nullptr);
+    EXPECT_NEAR(Inverse(map.PoseOf(id)).translation.x(), -static_cast<double>(id.value), 1e-9);
+  }
+}
+
+TEST(RemoveRevisitedKeyFrames, LandmarksThatNobodyShowsGo) {
+  Map map = Revisited(40);
+  Observations by_two{{KeyFrameId{31}, 25}, {KeyFrameId{32}, 25}};
+  MapPoint old = PointSeenBy(25, by_two), young = PointSeenBy(26, {});
+  young.observations = {{KeyFrameId{31}, 26}, {KeyFrameId{32}, 26}};
+  old.created_by = KeyFrameId{5};
+  young.created_by = KeyFrameId{32};
+  map.Apply({edit::AddPoint{old}, edit::AddPoint{young}});
+  ASSERT_EQ(RemovedAgain(map), KeyFrameId{31});
+  map.Apply(RemoveRevisitedKeyFrames(map, KeyFrameId{33}, kOptions));
+  EXPECT_EQ(map.Find(PointId{25}), nullptr);
+  EXPECT_NE(map.Find(PointId{26}), nullptr);
+  map.CheckInvariants();
 }
 
 }  // namespace

@@ -1,0 +1,348 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// A camera that walks through the same rooms for hours: rounds_of_a_room SEQUENCE [--rounds 20]
+// [--frames 0] [--sensor mono|stereo|rgbd] [--set KEY=VALUE]...
+//
+// Plays a recorded sequence (its first frames) again and again, forwards and backwards in turn, so
+// that the way is closed; every time with fresh stamps, another brightness and fresh noise of the
+// sensor. Prints a Markdown row for each round: what is in the map, memory, CPU time of a frame and
+// of what a keyframe adds to it, a snapshot, a saved map, and the error of the round in the map of
+// that moment [mm]. What is asked of these figures, and what they were: docs/benchmarks.md.
+#include "plumbline/base/options_io.h"
+#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/io/map_io.h"
+#include "plumbline/map/snapshot.h"
+#include "plumbline/slam/atlas_context.h"
+#include "plumbline/slam/system.h"
+#include "plumbline/synth/sensor.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <unistd.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Setup {
+  fs::path sequence;
+  int rounds = 20;
+  int frames = 0;  // the first so many of the sequence; 0: all
+  std::optional<SensorKind> sensor;
+  std::vector<std::string> settings;
+};
+
+int ParseCount(const std::string& name, const std::string& text) {
+  std::size_t used = 0;
+  int value = -1;
+  try {
+    value = std::stoi(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used != text.size() || text.empty() || value < 0) {
+    throw InputError(fmt::format("{} {}: expected a number from 0 on", name, text));
+  }
+  return value;
+}
+
+SensorKind ParseSensor(const std::string& text) {
+  for (const auto& [kind, name] : EnumNames(std::type_identity<SensorKind>{})) {
+    if (text == name) return kind;
+  }
+  throw InputError(fmt::format("--sensor {}: expected mono, stereo or rgbd", text));
+}
+
+Setup ReadSetup(int count, char** arguments) {
+  Setup setup;
+  if (count < 2) throw InputError("expected the folder of a sequence");
+  setup.sequence = arguments[1];
+  for (int i = 2; i < count; i += 2) {
+    const std::string name = arguments[i];
+    if (i + 1 == count) throw InputError(name + ": expected a value after it");
+    const std::string value = arguments[i + 1];
+    if (name == "--rounds") {
+      setup.rounds = ParseCount(name, value);
+    } else if (name == "--frames") {
+      setup.frames = ParseCount(name, value);
+    } else if (name == "--sensor") {
+      setup.sensor = ParseSensor(value);
+    } else if (name == "--set") {
+      setup.settings.push_back(value);
+    } else {
+      throw InputError(name + ": no such option");
+    }
+  }
+  return setup;
+}
+
+// CPU milliseconds of this process, all its threads.
+double CpuMilliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+double ResidentMegabytes() {
+  std::ifstream file("/proc/self/statm");
+  double size = 0, resident = 0;
+  file >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+// What was asked of the allocator and not given back.
+double HeapMegabytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / (1024.0 * 1024.0);
+}
+
+// What a sensor of this brightness and with noise of its own delivers of a picture. Lens and
+// response curve have had their part in the picture already.
+GrayImage SeenAgain(const GrayImage& picture, double gain, std::uint64_t stream) {
+  Image<float> light(picture.width(), picture.height());
+  std::copy_n(
+      picture.data(),
+      static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height()),
+      light.data());
+  const SensorModel sensor{.gain = gain, .gamma = 1, .vignetting = 0, .noise = 1, .blur_px = 0};
+  return Expose(light, sensor, 1, stream);
+}
+
+// A frame of a round: which picture, and when.
+struct Visit {
+  std::size_t picture = 0;
+  std::int64_t stamp_ns = 0;
+};
+
+// The rounds one after the other, each beginning where the one before ended.
+class Walk {
+ public:
+  Walk(const Dataset& dataset, std::size_t frames) : dataset_(dataset), frames_(frames) {}
+
+  std::vector<Visit> NextRound() {
+    std::vector<Visit> visits;
+    const bool backwards = round_ % 2 == 1;
+    // Where the way turns back, the picture there is taken once.
+    for (std::size_t i = round_ == 0 ? 0 : 1; i < frames_; ++i) {
+      const std::size_t picture = backwards ? frames_ - 1 - i : i;
+      if (last_) now_ns_ += Distance(*last_, picture);
+      last_ = picture;
+      visits.push_back({picture, now_ns_});
+    }
+    ++round_;
+    return visits;
+  }
+
+ private:
+  std::int64_t Distance(std::size_t a, std::size_t b) const {
+    return dataset_.stamp_ns(std::max(a, b)) - dataset_.stamp_ns(std::min(a, b));
+  }
+
+  const Dataset& dataset_;
+  std::size_t frames_;
+  int round_ = 0;
+  std::optional<std::size_t> last_;
+  std::int64_t now_ns_ = 1'000'000'000;
+};
+
+struct RoundFigures {
+  int frames = 0, tracked = 0, keyframes_made = 0;
+  double frame_ms = 0;     // CPU, mean
+  double keyframe_ms = 0;  // CPU that a frame takes more when a keyframe is mapped meanwhile
+};
+
+class Rounds {
+ public:
+  explicit Rounds(const Setup& setup)
+      : setup_(setup),
+        dataset_(OpenDataset(setup.sequence, {.sensor = setup.sensor})),
+        walk_(*dataset_, ChosenFrames()) {
+    OptionTable table(options_);
+    for (const std::string& setting : setup.settings) table.Set(setting);
+    options_.slam.mode = RunMode::kInline;
+    options_.features.parallel = false;
+    system_ = std::make_unique<System>(dataset_->calibration(), options_);
+    if (dataset_->info().ground_truth) {
+      truth_ = dataset_->info().ground_truth->OfCamera(dataset_->calibration());
+    }
+  }
+
+  void Play() {
+    fmt::print(
+        "| round | tracked | maps | keyframes | made | removed | points | lines | merged | loops | "
+        "RSS | heap | frame | keyframe | snapshot | saved | ATE |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (int round = 1; round <= setup_.rounds; ++round) {
+      const std::vector<Visit> visits = walk_.NextRound();
+      const RoundFigures figures = PlayRound(round, visits);
+      Print(round, visits, figures);
+    }
+  }
+
+ private:
+  std::size_t ChosenFrames() const {
+    const std::size_t all = dataset_->size();
+    return setup_.frames == 0 ? all : std::min(all, static_cast<std::size_t>(setup_.frames));
+  }
+
+  SensorFrame See(const Visit& visit, int round) {
+    auto read = dataset_->Read(visit.picture);
+    if (!read) throw InputError(fmt::format("frame {}: cannot be read", visit.picture));
+    SensorFrame frame = *std::move(read);
+    constexpr double kGains[] = {1, 0.85, 1.1, 0.95, 1.05, 0.9, 1.15};
+    const double gain = kGains[static_cast<std::size_t>(round - 1) % std::size(kGains)];
+    const auto stream = [&](std::uint64_t camera) {
+      return (static_cast<std::uint64_t>(round) << 33) + (visit.picture << 1) + camera;
+    };
+    frame.stamp_ns = visit.stamp_ns;
+    frame.left = SeenAgain(frame.left, gain, stream(0));
+    if (frame.right) frame.right = SeenAgain(*frame.right, gain, stream(1));
+    return frame;
+  }
+
+  RoundFigures PlayRound(int round, const std::vector<Visit>& visits) {
+    RoundFigures figures;
+    double mapped_ms = 0, other_ms = 0;
+    int mapped = 0;
+    for (const Visit& visit : visits) {
+      SensorFrame frame = See(visit, round);
+      const double start = CpuMilliseconds();
+      const FrameRecord& record = system_->Process(std::move(frame));
+      const double taken = CpuMilliseconds() - start;
+      ++figures.frames;
+      figures.tracked += record.status == FrameStatus::kTracked;
+      figures.keyframes_made += record.keyframe;
+      const bool maps = std::any_of(record.times.begin(), record.times.end(), [](const auto& time) {
+        return time.stage == "map_take_in";
+      });
+      mapped += maps;
+      (maps ? mapped_ms : other_ms) += taken;
+      truth_by_frame_.push_back(TruthOf(visit.picture, visit.stamp_ns));
+    }
+    figures.frame_ms = (mapped_ms + other_ms) / figures.frames;
+    const int others = std::max(1, figures.frames - mapped);
+    figures.keyframe_ms = mapped_ms / std::max(1, mapped) - other_ms / others;
+    return figures;
+  }
+
+  // The pose that the camera had where a picture was taken, at the time of the visit.
+  std::optional<StampedPose> TruthOf(std::size_t picture, std::int64_t stamp_ns) const {
+    constexpr std::int64_t kMaxGap = 250'000'000;
+    const auto pose = InterpolateAt(truth_, dataset_->stamp_ns(picture), kMaxGap);
+    if (!pose) return std::nullopt;
+    return StampedPose{stamp_ns, *pose};
+  }
+
+  // The camera as delivered in the map of today; nullopt where the keyframe that the frame hangs on
+  // is not in this map, or not yet.
+  std::optional<Rigid3> PoseToday(const FrameRecord& record, const Map& map) const {
+    const bool here = record.status == FrameStatus::kTracked &&
+                      system_->atlas().Current(record.map) == map.id() &&
+                      map.Knows(record.reference);
+    if (!here) return std::nullopt;
+    const Rigid3 rectified_from_delivered{system_->rectifier().rectified_left_from_left(),
+                                          Eigen::Vector3d::Zero()};
+    return Inverse(PoseBeside(map.PlaceOf(record.reference), record.from_reference)) *
+           rectified_from_delivered;
+  }
+
+  // Of the frames of a round, in millimetres.
+  std::optional<double> Error(const Map& map, std::int64_t from_ns) const {
+    Trajectory estimate, truth;
+    for (const FrameRecord& record : system_->frames()) {
+      if (record.stamp_ns < from_ns) continue;
+      if (const auto pose = PoseToday(record, map)) estimate.push_back({record.stamp_ns, *pose});
+    }
+    for (const auto& pose : truth_by_frame_) {
+      if (pose && pose->stamp_ns >= from_ns) truth.push_back(*pose);
+    }
+    TrajectoryErrorOptions options;
+    options.association = TrajectoryAssociation::kNearest;
+    if (dataset_->sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
+    const auto error = CompareTrajectories(truth, estimate, options);
+    if (!error) return std::nullopt;
+    return 1e3 * error->ate.rmse;
+  }
+
+  double SavedMegabytes() const {
+    const fs::path path =
+        fs::temp_directory_path() / fmt::format("rounds_of_a_room_{}.plb", getpid());
+    SaveAtlas(path, system_->atlas(), ContextOf(*system_));
+    const double size = static_cast<double>(fs::file_size(path)) / (1024.0 * 1024.0);
+    fs::remove(path);
+    return size;
+  }
+
+  void Print(int round, const std::vector<Visit>& visits, const RoundFigures& figures) {
+    const double resident = ResidentMegabytes(), heap = HeapMegabytes();
+    const auto main = system_->MainMap();
+    if (!main) {
+      fmt::print("| {} | 0 of {} |\n", round, figures.frames);
+      return;
+    }
+    const Map& map = system_->maps().at(*main);
+    constexpr int kSnapshots = 20;
+    const double start = CpuMilliseconds();
+    for (int i = 0; i < kSnapshots; ++i) TakeSnapshot(map, map.keyframes().rbegin()->first);
+    const double snapshot_ms = (CpuMilliseconds() - start) / kSnapshots;
+    const MapRecord record = map.Record();
+    const auto error = Error(map, visits.front().stamp_ns);
+    fmt::print(
+        "| {} | {} of {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} | {:.0f} | {:.1f} | "
+        "{:.1f} | {:.2f} | {:.1f} | {} |\n",
+        round,
+        figures.tracked,
+        figures.frames,
+        system_->maps().size(),
+        map.keyframes().size(),
+        figures.keyframes_made,
+        record.removed_keyframes.size(),
+        map.points().size(),
+        map.lines().size(),
+        record.merged_points.size() + record.merged_lines.size(),
+        system_->events().loops.size(),
+        resident,
+        heap,
+        figures.frame_ms,
+        figures.keyframe_ms,
+        snapshot_ms,
+        SavedMegabytes(),
+        error ? fmt::format("{:.1f}", *error) : "-");
+    std::fflush(stdout);
+  }
+
+  Setup setup_;
+  SlamOptions options_;
+  std::unique_ptr<Dataset> dataset_;
+  Walk walk_;
+  std::unique_ptr<System> system_;
+  Trajectory truth_;  // of the recording
+  std::vector<std::optional<StampedPose>> truth_by_frame_;
+};
+
+}  // namespace
+}  // namespace plumbline
+
+int main(int count, char** arguments) {
+  try {
+    plumbline::Rounds(plumbline::ReadSetup(count, arguments)).Play();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "rounds_of_a_room: {}\n", error.what());
+    return 2;
+  }
+  return 0;
+}
