@@ -36,6 +36,7 @@ struct MapSnapshot {
   std::shared_ptr<const KeyFrame> reference;  // the centre, for matching by appearance
   std::vector<SnapshotPoint> points;          // sorted by id
   std::vector<SnapshotLine> lines;            // sorted by id
+  bool withdrawn = false;                     // the map proved wrong and is to be left
 
   const SnapshotPoint* Find(PointId id) const;
   const SnapshotLine* Find(LineId id) const;

@@ -92,7 +92,7 @@ template <class Archive, Like<MapSnapshot> T>
 void Transfer(Archive& archive, T& s) {
   TransferAll(
       archive, s.map, s.centre, s.stereo_correction, s.cam_from_world, s.places, s.reference);
-  TransferAll(archive, s.points, s.lines);
+  TransferAll(archive, s.points, s.lines, s.withdrawn);
   if constexpr (Archive::kReading) {
     if (s.reference == nullptr || !s.places.contains(s.centre)) {
       FailState(archive, "a snapshot without its centre");

@@ -380,11 +380,13 @@ MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& ad
   return done;
 }
 
-// A place that was seen before ties the new keyframe to it, and the whole map is adjusted.
+// A place that was seen before ties the new keyframe to it, and the whole map is adjusted; or it
+// tells that a young map is wrong.
 void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times) {
   const auto start = std::chrono::steady_clock::now();
   places_.Follow(atlas_);
-  const std::optional<KeyFrameId> older = places_.Recognize(atlas_, id);
+  std::optional<KeyFrameId> older;
+  if (!places_.Withdraws(atlas_, id)) older = places_.Recognize(atlas_, id);
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
   times.push_back({"recognize", taken.count()});
   if (!older) return;
@@ -455,7 +457,11 @@ std::shared_ptr<const MapSnapshot> MappingStage::TakeSnapshotAround(const Map& m
   const std::vector<KeyFrameId> earlier(centres_.begin(), centres_.end());
   centres_.push_back(centre);
   if (centres_.size() > kRemembered) centres_.pop_front();
-  return TakeSnapshot(map, centre, kSnapshotKeyFrames, earlier);
+  auto snapshot = TakeSnapshot(map, centre, kSnapshotKeyFrames, earlier);
+  if (!places_.IsWithdrawn(map.id())) return snapshot;
+  auto last = std::make_shared<MapSnapshot>(*snapshot);
+  last->withdrawn = true;
+  return last;
 }
 
 }  // namespace plumbline

@@ -75,6 +75,9 @@ struct Visit {
 // (BackgroundAdjustment). What this finds is applied before the first task that was submitted when
 // it was due, to the map as it is then (Rebased), and shows in that task's snapshot.
 //
+// A young map of one camera whose unit runs away is withdrawn (PlaceRecognition::Withdraws): its
+// snapshots say so from then on.
+//
 // All functions are for one thread, the tracker's.
 class MappingStage {
  public:

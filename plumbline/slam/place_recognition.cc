@@ -4,6 +4,7 @@
 
 #include "plumbline/loop/close_loop.h"
 #include "plumbline/loop/open_loop.h"
+#include "plumbline/loop/scale_conflict.h"
 #include "plumbline/loop/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/atlas_places.h"
@@ -72,7 +73,7 @@ std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
   for (const auto& covisible : Covisible(active, keyframe.id)) around.insert(covisible.id);
   const auto allowed = [&](KeyFrameId id) {
     const Map* map = MapOf(atlas, id);
-    if (map == nullptr || around.contains(id)) return false;
+    if (map == nullptr || around.contains(id) || IsWithdrawn(map->id())) return false;
     return map != &active || map->NumberOf(id) + kRecent < keyframe.number;
   };
   const std::vector<PlaceCandidate> ranked = places_.Query(keyframe.id, kRanked, allowed);
@@ -86,8 +87,29 @@ std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
   return ids;
 }
 
+bool PlaceRecognition::Withdraws(const Atlas& atlas, KeyFrameId id) {
+  constexpr std::int64_t kApart = 5;  // keyframes, between which a unit can run away
+  const Map& map = atlas.active();
+  const KeyFrame& keyframe = *map.Find(id);
+  const bool looks = options_.enabled && imaging_.camera.baseline == 0 &&
+                     keyframe.number < kYoungKeyFrames && !IsWithdrawn(map.id());
+  if (!looks) return false;
+  const auto allowed = [&](KeyFrameId other) {
+    const KeyFrame* older = map.Find(other);
+    return older != nullptr && older->number + kApart <= keyframe.number;
+  };
+  std::vector<KeyFrameId> alike;
+  for (const PlaceCandidate& candidate :
+       places_.Query(keyframe.id, kCandidates, allowed)) {
+    alike.push_back(candidate.id);
+  }
+  if (!FindScaleConflict(map, id, alike, imaging_, options_)) return false;
+  withdrawn_.insert(map.id());
+  return true;
+}
+
 std::optional<KeyFrameId> PlaceRecognition::Recognize(Atlas& atlas, KeyFrameId id) {
-  if (!options_.enabled) return std::nullopt;
+  if (!options_.enabled || IsWithdrawn(atlas.active_id())) return std::nullopt;
   const std::vector<KeyFrameId> candidates = Candidates(atlas, *atlas.active().Find(id));
   if (candidates.empty()) return std::nullopt;
   if (const auto older = CloseLoop(atlas, id, candidates)) return older;

@@ -9,8 +9,10 @@
 #include "plumbline/tracking/options.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,14 @@ class PlaceRecognition {
                                     const Features& features,
                                     std::size_t most) const;
 
+  // Whether the active map, young and of one camera, shows with this keyframe that its unit runs
+  // away (FindScaleConflict): among its first kYoungKeyFrames keyframes this looks at the three
+  // older ones that look most alike. A map of which it is so is withdrawn: nothing is joined with
+  // it.
+  static constexpr std::int64_t kYoungKeyFrames = 30;
+  bool Withdraws(const Atlas& atlas, KeyFrameId id);
+  bool IsWithdrawn(MapId map) const { return withdrawn_.contains(map); }
+
   // A keyframe of the active map, which Follow() has seen. Returns the older keyframe that it was
   // recognized by, where that changed maps at large: then the landmarks of both are fused, and both
   // are in the active map, which may be another one than before. Adjustment is the caller's.
@@ -51,17 +61,19 @@ class PlaceRecognition {
     LoopCloser::State closer;
     std::vector<Recognition> loops;
     std::vector<MapJoin> joins;
+    std::set<MapId> withdrawn;
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.closer, self.loops, self.joins);
+      visit(self.closer, self.loops, self.joins, self.withdrawn);
     }
   };
-  State state() const { return {closer_.state(), loops_, joins_}; }
+  State state() const { return {closer_.state(), loops_, joins_, withdrawn_}; }
   void SetState(const State& state) {
     closer_.SetState(state.closer);
     loops_ = state.loops;
     joins_ = state.joins;
+    withdrawn_ = state.withdrawn;
   }
 
  private:
@@ -84,6 +96,7 @@ class PlaceRecognition {
   LoopCloser closer_;
   std::vector<Recognition> loops_;
   std::vector<MapJoin> joins_;
+  std::set<MapId> withdrawn_;
 };
 
 }  // namespace plumbline

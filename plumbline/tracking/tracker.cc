@@ -116,6 +116,10 @@ TrackingResult Tracker::Track(FrameId id,
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
   if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
+  if (snapshot->withdrawn && !use_) {
+    trial_keyframes_ = std::max(trial_keyframes_, 1);  // it did not stand its trial
+    return Fail(std::move(frame), TrackingFailure::kMapWithdrawn, {});
+  }
   return Follow(std::move(frame), *snapshot, live);
 }
 

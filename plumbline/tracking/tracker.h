@@ -31,11 +31,12 @@ constexpr auto EnumNames(std::type_identity<TrackerState>) {
 // Why a frame has no pose.
 enum class TrackingFailure {
   kNone,
-  kTooFewFeatures,    // to start a map
-  kNotRelocalized,    // nothing is known of the camera's place in the map yet
-  kTooFewMatches,     // landmarks found in the image
-  kTooFewInliers,     // of them agree on a pose
-  kPoseNotObservable  // the inliers do not fix the pose to tracking.max_pose_sigma
+  kTooFewFeatures,     // to start a map
+  kNotRelocalized,     // nothing is known of the camera's place in the map yet
+  kTooFewMatches,      // landmarks found in the image
+  kTooFewInliers,      // of them agree on a pose
+  kPoseNotObservable,  // the inliers do not fix the pose to tracking.max_pose_sigma
+  kMapWithdrawn        // the map proved wrong (MapSnapshot::withdrawn)
 };
 constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
   return std::array{std::pair{TrackingFailure::kNone, ""},
@@ -43,7 +44,8 @@ constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
                     std::pair{TrackingFailure::kNotRelocalized, "not_relocalized"},
                     std::pair{TrackingFailure::kTooFewMatches, "too_few_matches"},
                     std::pair{TrackingFailure::kTooFewInliers, "too_few_inliers"},
-                    std::pair{TrackingFailure::kPoseNotObservable, "pose_not_observable"}};
+                    std::pair{TrackingFailure::kPoseNotObservable, "pose_not_observable"},
+                    std::pair{TrackingFailure::kMapWithdrawn, "map_withdrawn"}};
 }
 
 // The next state after a frame. With too many lost frames in a row a new map is to be started.
@@ -109,7 +111,8 @@ class Tracker {
           const Rigid3& world_from_first_cam,
           double min_lost_seconds = 0);
 
-  // snapshot: null exactly while the tracker has no map.
+  // snapshot: null exactly while the tracker has no map. One of a map that was withdrawn ends the
+  // map: the frame has no pose, and the next ones begin another.
   TrackingResult Track(FrameId id,
                        std::int64_t stamp_ns,
                        std::shared_ptr<const IndexedFeatures> indexed,

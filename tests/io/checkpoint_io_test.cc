@@ -96,8 +96,8 @@ TEST(LoadCheckpoint, RefusesAFileWithAnyByteChanged) {
 TEST(LoadCheckpoint, SaysWhatIsWrong) {
   const SavedFile file;
   std::string newer = file.bytes;
-  newer[8] = 2;
-  file.ExpectRefused(newer, "expected a checkpoint of version 1, found version 2");
+  newer[8] = 3;
+  file.ExpectRefused(newer, "expected a checkpoint of version 2, found version 3");
   SaveAtlas(file.folder / "m.plb", MakeSavedAtlas().atlas, MakeSavedAtlas().context);
   file.ExpectRefused(Contents(file.folder / "m.plb"),
                      "expected a Plumbline checkpoint, found another file");

@@ -5,6 +5,7 @@
 #include "plumbline/base/random.h"
 
 #include "tests/support/random_geometry.h"
+
 #include <gtest/gtest.h>
 
 namespace plumbline {

@@ -7,6 +7,8 @@
 #include "tests/loop/loop_scene.h"
 #include "tests/support/synthetic_run.h"
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -145,6 +147,64 @@ TEST(PlaceRecognition, LockstepDoesWhatInlineDoes) {
     const Rigid3& other = b.Find(id)->frame.cam_from_world;
     EXPECT_EQ(keyframe.frame.cam_from_world.translation, other.translation);
     EXPECT_EQ(keyframe.frame.cam_from_world.rotation.coeffs(), other.rotation.coeffs());
+  }
+}
+
+// Round a circle with one camera in 24 keyframes and a bit further; the unit of the map at each.
+testing::LoopScene YoungMap(const std::function<double(int)>& unit) {
+  testing::LoopSceneOptions options;
+  options.sensor.depth = false;
+  options.keyframes_per_round = 24;
+  options.keyframes = 28;
+  options.drift = [unit](int keyframe) {
+    Similarity3 drift;
+    drift.scale = unit(keyframe);
+    return drift;
+  };
+  return testing::MakeLoopScene(options);
+}
+
+Atlas AtlasOf(const Map& map) {
+  Atlas atlas;
+  atlas.Adopt(map);
+  atlas.Activate(map.id());
+  return atlas;
+}
+
+TEST(PlaceRecognition, WithdrawsAYoungMapWhoseUnitRunsAway) {
+  for (const double growth : {1.0, 1.3, 5.0, 150.0}) {
+    const testing::LoopScene scene =
+        YoungMap([&](int keyframe) { return std::pow(growth, keyframe / 24.0); });
+    Atlas atlas = AtlasOf(scene.map);
+    PlaceRecognition places(scene.Imaging(), {});
+    places.Follow(atlas);
+    EXPECT_EQ(places.Withdraws(atlas, scene.Newest()), growth > 2) << growth;
+    EXPECT_EQ(places.IsWithdrawn(scene.map.id()), growth > 2) << growth;
+    if (growth < 2) continue;
+    EXPECT_FALSE(places.Withdraws(atlas, scene.Newest()));  // it is already
+    EXPECT_EQ(places.Recognize(atlas, scene.Newest()), std::nullopt);
+  }
+}
+
+// Halfway round, all has another size. The newest keyframe comes once more, and mapping takes it
+// in.
+TEST(PlaceRecognition, SnapshotsOfAMapThatWasWithdrawnSaySo) {
+  for (const double growth : {1.0, 5.0}) {
+    const testing::LoopScene scene =
+        YoungMap([&](int keyframe) { return keyframe < 14 ? 1 : growth; });
+    SlamOptions options;
+    options.slam.mode = RunMode::kInline;
+    MappingStage stage(scene.Imaging(), options);
+    stage.Continue(AtlasOf(scene.map), {});
+    KeyFrame keyframe = *scene.map.Find(scene.Newest());
+    const Placement parent = scene.map.PlaceOf(keyframe.parent);
+    const RelativePose from_parent{keyframe.frame.cam_from_world * Inverse(parent.cam_from_world),
+                                   parent.unit};
+    keyframe.id = scene.map.NextKeyFrameId();
+    stage.Submit(0, NewKeyFrame{keyframe, {}, from_parent}, false);
+    const auto snapshot = stage.SnapshotFor(5);
+    ASSERT_NE(snapshot, nullptr);
+    EXPECT_EQ(snapshot->withdrawn, growth > 2) << growth;
   }
 }
 

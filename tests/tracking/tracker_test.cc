@@ -187,6 +187,30 @@ TEST(Tracker, GivesUpAYoungMapOfASingleCameraAtOnce) {
   EXPECT_EQ(trusted.Step(PoseOnPath(19), kOneCamera).state, TrackerState::kTracking);
 }
 
+TEST(Tracker, LeavesAMapThatWasWithdrawnAtOnce) {
+  const SyntheticWorld world = MakeMonocularWorld(300, 60);
+  SlamOptions options = SyntheticRun::InlineOptions();
+  options.tracking.trial_keyframes = 0;
+  MappingStage stage(world.Imaging(), options);
+  stage.Submit(
+      16, MakeMapStart(InitialMapOf(world, {0, 8, 16}), world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  const auto snapshot = stage.SnapshotFor(16);
+  Tracker tracker(world.Imaging(), options.tracking, options.lines, options.cutting, Rigid3{});
+  tracker.StartFrom(*snapshot, Vector6d::Zero());
+  const auto track = [&](int frame, const MapSnapshot& seen) {
+    Rng rng(1, "withdrawn", static_cast<std::uint64_t>(frame));
+    const SyntheticFrame sensed = Sense(world, PoseOnPath(frame), kOneCamera, rng);
+    return tracker.Track(FrameId{frame}, 50'000'000 * frame, sensed.indexed, &seen);
+  };
+  EXPECT_TRUE(track(17, *snapshot).cam_from_world);
+  MapSnapshot withdrawn = *snapshot;
+  withdrawn.withdrawn = true;
+  const TrackingResult result = track(18, withdrawn);
+  EXPECT_FALSE(result.cam_from_world);
+  EXPECT_EQ(result.failure, TrackingFailure::kMapWithdrawn);
+  EXPECT_EQ(result.state, TrackerState::kInitializing);
+}
+
 TEST(Tracker, DoesNotStartAMapWithTooLittle) {
   SyntheticRun run(MakeSyntheticWorld(40, 0));  // some half of them in view
   for (int i = 0; i < 15; ++i) {
