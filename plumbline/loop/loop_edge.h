@@ -80,7 +80,7 @@ Similarity3 CandidateFromQueryToday(const LoopEdge& edge,
 Matrix7d InformationOf(const LoopEdge& edge);
 
 // Takes the world of the query's map to that of the candidate's, as the edge has it and both
-// keyframes stand today. For maps that are to be joined (MergeMaps with the candidate's first).
+// keyframes stand today. For maps that are to be joined.
 Similarity3 CandidateWorldFromQueryWorld(const Map& query_map,
                                          const Map& candidate_map,
                                          const LoopEdge& edge);

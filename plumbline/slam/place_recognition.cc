@@ -8,6 +8,7 @@
 #include "plumbline/loop/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/atlas_places.h"
+#include "plumbline/slam/map_join.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -99,8 +100,7 @@ bool PlaceRecognition::Withdraws(const Atlas& atlas, KeyFrameId id) {
     return older != nullptr && older->number + kApart <= keyframe.number;
   };
   std::vector<KeyFrameId> alike;
-  for (const PlaceCandidate& candidate :
-       places_.Query(keyframe.id, kCandidates, allowed)) {
+  for (const PlaceCandidate& candidate : places_.Query(keyframe.id, kCandidates, allowed)) {
     alike.push_back(candidate.id);
   }
   if (!FindScaleConflict(map, id, alike, imaging_, options_)) return false;
@@ -153,14 +153,12 @@ std::optional<KeyFrameId> PlaceRecognition::Join(Atlas& atlas,
     }
     Tell(atlas, attempt);
     if (!edge || attempt.waits) continue;
-    MapJoin join{Describe(active, id, candidate, edge->evidence),
-                 std::min(active.id(), other.id()),
-                 std::max(active.id(), other.id())};
-    const Similarity3 other_from_active = CandidateWorldFromQueryWorld(active, other, *edge);
-    const bool other_stays = join.kept == other.id();
+    MapJoin join{Describe(active, id, candidate, edge->evidence), {}, {}};
     const Placement before = active.PlaceOf(id);
-    atlas.Join(join.kept, join.gone, other_stays ? other_from_active : Inverse(other_from_active));
-    Map& joined = atlas.Activate(join.kept);
+    const JoinedMaps maps = JoinBy(*edge, atlas);
+    join.kept = maps.kept;
+    join.gone = maps.gone;
+    Map& joined = atlas.active();
     joined.Apply(FusePairs(joined, edge->points, edge->lines));
     closer_.Know(*edge);
     DescribeMotion(before, joined.PlaceOf(id), join.place);

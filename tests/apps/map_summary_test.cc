@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/map_summary.h"
 
-#include "plumbline/map/merge_maps.h"
+#include "plumbline/map/renumbering.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"
@@ -58,7 +58,7 @@ TEST(Summarize, CountsAndMeasures) {
 TEST(Summarize, PathsOfMergedMapsAreApart) {
   SavedMap saved = WorldMap(0);
   const double alone = Summarize(saved).path_length;
-  saved.map = MergeMaps(saved.map, saved.map, {1, ExpSo3({0, 1, 0}), {100, 0, 0}});
+  saved.map.Absorb(Renumbered(saved.map, Behind(saved.map)), {1, ExpSo3({0, 1, 0}), {100, 0, 0}});
   EXPECT_NEAR(Summarize(saved).path_length, 2 * alone, 1e-9);
 }
 

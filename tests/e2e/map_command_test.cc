@@ -4,6 +4,7 @@
 #include "plumbline/io/trajectory_io.h"
 
 #include "tests/e2e/poster_run.h"
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -89,6 +90,65 @@ TEST(MapMerge, PutsTheSecondBehindTheFirst) {
   EXPECT_EQ(FilesOf(folder / "both/images").size(), both.map.keyframes().size());
 }
 
+// Where the camera is at a time of the poster sequence, in the world of its first frame.
+Eigen::Vector3d PosterPlace(std::int64_t stamp_ns) {
+  const auto turn = static_cast<int>((stamp_ns - 1'000'000'000) / 50'000'000 % 22);
+  return {MovingPoster::kStep * std::min(turn, 22 - turn), 0, 0};
+}
+
+// Runs over parts of the poster sequence that overlap.
+TEST(MapMerge, FindsWhatBothMapsShow) {
+  const ScratchFolder folder;
+  const auto run = [&](const std::string& part, const std::string& out) {
+    const Outcome outcome = RunProgram(folder,
+                                       "run " + Quoted(Posters().sequence) + " --quiet " + part +
+                                           " --out " + Quoted(folder / out));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  };
+  run("--to 15", "a");
+  run("--from 6", "b");
+  const fs::path both = folder / "both.plb";
+  const Outcome outcome = RunProgram(folder,
+                                     "map merge " + Quoted(folder / "a/map.plb") + " " +
+                                         Quoted(folder / "b/map.plb") + " --out " + Quoted(both));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("show the same places; first_from_second"));
+  const SavedAtlas a = LoadAtlas(folder / "a/map.plb"), b = LoadAtlas(folder / "b/map.plb");
+  const SavedAtlas merged = LoadAtlas(both);
+  EXPECT_EQ(merged.context.sessions.size(), 2U);
+  EXPECT_EQ(merged.context.front_end, a.context.front_end);
+  const Map& map = merged.atlas.active();
+  map.CheckInvariants();
+  EXPECT_EQ(map.keyframes().size(),
+            a.atlas.active().keyframes().size() + b.atlas.active().keyframes().size());
+  EXPECT_LT(map.points().size(),
+            a.atlas.active().points().size() + b.atlas.active().points().size());
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const Eigen::Vector3d place = Inverse(keyframe.frame.cam_from_world).translation;
+    EXPECT_LT((place - PosterPlace(keyframe.frame.stamp_ns)).norm(), 0.01) << id.value;
+  }
+  // The same maps, the same bytes.
+  RunProgram(folder,
+             "map merge " + Quoted(folder / "a/map.plb") + " " + Quoted(folder / "b/map.plb") +
+                 " --out " + Quoted(folder / "again.plb"));
+  EXPECT_TRUE(Contents(both) == Contents(folder / "again.plb"));
+}
+
+TEST(MapMerge, WritesNothingWhereNoPlaceIsShownByBoth) {
+  const ScratchFolder folder;
+  SavedAtlas other = LoadAtlas(Posters().map);
+  Map& map = other.atlas.active();
+  while (!map.points().empty()) map.Apply({edit::RemovePoint{map.points().begin()->first}});
+  while (!map.lines().empty()) map.Apply({edit::RemoveLine{map.lines().begin()->first}});
+  SaveAtlas(folder / "empty.plb", other.atlas, other.context);
+  const fs::path out = folder / "out.plb";
+  ExpectRefusal(RunProgram(folder,
+                           "map merge " + Quoted(Posters().map) + " " +
+                               Quoted(folder / "empty.plb") + " --out " + Quoted(out)),
+                "expected maps that show the same place, found no place that both show");
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST(MapCommands, RefuseFilesThatAreNoWholeMaps) {
   const ScratchFolder folder;
   const std::string whole = Contents(Posters().map);
@@ -166,8 +226,7 @@ TEST(MapCommands, NameWhatIsMissingOrUnknown) {
         "none: no such file or folder"},
        {"export MAP --to colmap --images SEQUENCE --camera tum_vi_512 --out FOLDER/x",
         "expected an image of 512x512 pixels as in the calibration, found 400x300"},
-       {"merge MAP MAP --out FOLDER/x", "map merge: expected --transform"},
-       {"merge MAP MAP --transform '0 0 0 0 0 0 1'", "map merge: expected --out FILE"},
+       {"merge MAP MAP", "map merge: expected --out FILE"},
        {"merge MAP MAP --transform '0 0 0 0 0 1' --out FOLDER/x",
         "--transform: expected \"tx ty tz qx qy qz qw [scale]\", found 6 numbers"},
        {"merge MAP MAP --transform '0 0 0 0 0 0 one' --out FOLDER/x", "found 'one'"},

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/map/merge_maps.h"
+#include "plumbline/map/renumbering.h"
 
 #include "tests/support/random_geometry.h"
 #include "tests/support/true_map.h"
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,13 @@ Map MapOf(const std::vector<int>& frames, std::uint64_t seed) {
 
 const Similarity3 kMotion{1, ExpSo3({0.4, -0.9, 0.3}), {3, -1, 7}};
 const Similarity3 kGrowth{2.5, ExpSo3({-0.4, 0.2, 1.3}), {-4, 2, 0.5}};
+
+// The second behind the first, as part of it.
+Map Together(const Map& first, const Map& second, const Similarity3& first_from_second) {
+  Map together = first;
+  together.Absorb(Renumbered(second, Behind(first)), first_from_second);
+  return together;
+}
 
 // Where each observation of a map's landmarks projects to: pixels, and for lines the distances of
 // both measured ends.
@@ -56,11 +64,11 @@ std::vector<double> Reprojections(const Map& map, const RectifiedCamera& camera)
   return numbers;
 }
 
-TEST(MergeMaps, KeepsAllReprojectionsOfBoth) {
+TEST(Renumbered, AbsorbedKeepsAllReprojectionsOfBoth) {
   const Map first = MapOf({0, 10, 20}, 1), second = MapOf({30, 40}, 2);
   ASSERT_GT(second.lines().size(), 5U);
   for (const Similarity3& motion : {kMotion, kGrowth}) {
-    const Map merged = MergeMaps(first, second, motion);
+    const Map merged = Together(first, second, motion);
     merged.CheckInvariants();
     std::vector<double> before = Reprojections(first, World().camera);
     const std::vector<double> points = Reprojections(second, World().camera);
@@ -74,11 +82,11 @@ TEST(MergeMaps, KeepsAllReprojectionsOfBoth) {
   }
 }
 
-TEST(MergeMaps, RenumbersTheSecondBehindTheFirst) {
+TEST(Renumbered, StandsBehindAnotherMap) {
   Map first = MapOf({0, 10, 20}, 1);
   const Map second = MapOf({30, 40}, 2);
   first.Apply({edit::RemoveKeyFrame{KeyFrameId{1}}});
-  const Map merged = MergeMaps(first, second, kMotion);
+  const Map merged = Together(first, second, kMotion);
   EXPECT_EQ(merged.keyframes().size(), first.keyframes().size() + 2);
   EXPECT_EQ(merged.points().size(), first.points().size() + second.points().size());
   EXPECT_EQ(merged.lines().size(), first.lines().size() + second.lines().size());
@@ -101,10 +109,10 @@ TEST(MergeMaps, RenumbersTheSecondBehindTheFirst) {
 }
 
 // What RefreshPoint and RefreshLine make of the moved keyframes is what has been moved.
-TEST(MergeMaps, MovesAppearancesAsTheirObservationsTell) {
+TEST(Renumbered, AbsorbedHasAppearancesAsObservationsTell) {
   const Map second = MapOf({30, 40}, 2);
   for (const Similarity3& motion : {kMotion, kGrowth}) {
-    const Map merged = MergeMaps(Map(), second, motion);
+    const Map merged = Together(Map(), second, motion);
     Map refreshed = merged;
     for (const auto& [id, point] : merged.points()) {
       refreshed.Apply({edit::RefreshPoint{id}});
@@ -119,10 +127,10 @@ TEST(MergeMaps, MovesAppearancesAsTheirObservationsTell) {
 }
 
 // The information of a line that was measured by keyframes is what they give in the new world, too.
-TEST(MergeMaps, MovesInformationAsItsMeasurementsTell) {
+TEST(Renumbered, AbsorbedHasInformationAsMeasurementsTell) {
   const Map second = MapOf({30, 33, 36, 40}, 2);
   for (const Similarity3& motion : {kMotion, kGrowth}) {
-    const Map merged = MergeMaps(Map(), second, motion);
+    const Map merged = Together(Map(), second, motion);
     RectifiedCamera camera = World().camera;
     camera.baseline *= motion.scale;  // so that the right image stays what it was
     for (const auto& [id, line] : merged.lines()) {
@@ -136,12 +144,30 @@ TEST(MergeMaps, MovesInformationAsItsMeasurementsTell) {
   }
 }
 
-TEST(MergeMaps, IsTheFirstWhereTheSecondIsEmpty) {
+TEST(Renumbered, OfAnEmptyMapAddsNothing) {
   const Map first = MapOf({0, 10}, 1);
-  const Map merged = MergeMaps(first, Map(), kMotion);
+  const Map merged = Together(first, Map(), kMotion);
   merged.CheckInvariants();
   EXPECT_EQ(merged.points().size(), first.points().size());
-  EXPECT_EQ(MergeMaps(Map(), first, {}).lines().size(), first.lines().size());
+  EXPECT_EQ(Together(Map(), first, {}).lines().size(), first.lines().size());
+}
+
+TEST(Renumbered, KnowsWhatWasRemovedOrMerged) {
+  Map map = MapOf({0, 10, 20}, 1);
+  const PointId gone = map.points().begin()->first;
+  const PointId kept = std::next(map.points().begin())->first;
+  map.Apply({edit::MergePoints{kept, gone}, edit::RemoveKeyFrame{KeyFrameId{1}}});
+  const IdOffsets offsets{3, 100, 1000, 2000, {SessionId{4}}};
+  const Map renumbered = Renumbered(map, offsets);
+  renumbered.CheckInvariants();
+  EXPECT_EQ(renumbered.id(), MapId{3});
+  EXPECT_EQ(renumbered.Current(offsets(gone)), offsets(map.Current(gone)));
+  EXPECT_FALSE(renumbered.Knows(KeyFrameId{1}));
+  EXPECT_TRUE(renumbered.Knows(KeyFrameId{101}));
+  EXPECT_EQ(renumbered.PoseOf(KeyFrameId{101}).Matrix(), map.PoseOf(KeyFrameId{1}).Matrix());
+  EXPECT_EQ(renumbered.NumberOf(KeyFrameId{102}), map.NumberOf(KeyFrameId{2}));
+  EXPECT_EQ(renumbered.Find(KeyFrameId{102})->session, SessionId{4});
+  EXPECT_EQ(renumbered.NextLineId(), LineId{map.NextLineId().value + 2000});
 }
 
 }  // namespace

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/map_merge.h"
+
+#include "plumbline/loop/close_loop.h"
+#include "plumbline/loop/essential_graph.h"
+#include "plumbline/loop/pairwise_consistency.h"
+#include "plumbline/loop/verify_loop.h"
+#include "plumbline/map/covisibility.h"
+#include "plumbline/mapping/local_mapper.h"
+#include "plumbline/place/place_index.h"
+#include "plumbline/slam/atlas_places.h"
+#include "plumbline/slam/map_join.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <span>
+
+namespace plumbline {
+namespace {
+
+constexpr std::size_t kCandidates = 3;  // keyframes that one is compared with
+constexpr std::size_t kMostEdges = 40;
+constexpr std::size_t kFewestQueries = 2;
+
+// All places of a list, so that any first part of them is spread over it.
+std::vector<std::size_t> SpreadOrder(std::size_t size) {
+  std::vector<std::size_t> order;
+  if (size > 0) order.push_back(0);
+  for (std::size_t step = std::bit_floor(size); step > 0; step /= 2) {
+    for (std::size_t i = step; i < size; i += 2 * step) order.push_back(i);
+  }
+  return order;
+}
+
+std::vector<KeyFrameId> KeyFramesOf(const Map& map) {
+  std::vector<KeyFrameId> ids;
+  for (const auto& [id, keyframe] : map.keyframes()) ids.push_back(id);
+  return ids;
+}
+
+std::size_t Queries(std::span<const LoopEdge> edges) {
+  std::set<KeyFrameId> queries;
+  for (const LoopEdge& edge : edges) queries.insert(edge.query);
+  return queries.size();
+}
+
+// Those of the chosen places, and the others.
+struct Parts {
+  std::vector<LoopEdge> chosen, others;
+};
+Parts Divide(const std::vector<LoopEdge>& edges, const std::vector<int>& chosen) {
+  Parts parts;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const bool is_chosen =
+        std::find(chosen.begin(), chosen.end(), static_cast<int>(i)) != chosen.end();
+    (is_chosen ? parts.chosen : parts.others).push_back(edges[i]);
+  }
+  return parts;
+}
+
+// The largest set of edges that agree. The map has both ends of the edges, which nothing else ties
+// to each other.
+Parts Agreeing(const Map& map,
+               const std::vector<LoopEdge>& edges,
+               bool free_scale,
+               const LoopOptions& options) {
+  const EssentialGraph essential =
+      MakeEssentialGraph(map, free_scale, options.drift, options.closing.strong_covisibility);
+  std::vector<PoseGraphEdge> loops;
+  for (const LoopEdge& edge : edges) loops.push_back(*LoopAsEdge(map, essential, edge));
+  OdometryWays odometry(essential.graph);
+  std::vector<std::vector<bool>> agree(edges.size(), std::vector<bool>(edges.size(), true));
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      agree[i][j] = CycleChi2(odometry, loops[i], loops[j]) <= options.drift.max_chi2;
+      agree[j][i] = agree[i][j];
+    }
+  }
+  return Divide(edges, LargestConsistentSet(agree));
+}
+
+// The edges to rest the merge on, the surest first.
+Expected<std::vector<LoopEdge>, MergeRefusal> Judged(const Atlas& atlas,
+                                                     const std::vector<LoopEdge>& edges,
+                                                     bool free_scale,
+                                                     const LoopOptions& options) {
+  if (Queries(edges) < kFewestQueries) return MergeRefusal::kNoOverlap;
+  Atlas trial = atlas;
+  JoinBy(edges.front(), trial);
+  Parts parts = Agreeing(trial.active(), edges, free_scale, options);
+  if (Queries(parts.chosen) < kFewestQueries) return MergeRefusal::kNoOverlap;
+  const Parts rivals = Agreeing(trial.active(), parts.others, free_scale, options);
+  if (2 * Queries(rivals.chosen) >= Queries(parts.chosen)) return MergeRefusal::kAmbiguous;
+  std::stable_sort(
+      parts.chosen.begin(), parts.chosen.end(), [](const LoopEdge& a, const LoopEdge& b) {
+        return a.evidence.log10_chance < b.evidence.log10_chance;
+      });
+  return std::move(parts.chosen);
+}
+
+// Bends the joined map so that all edges hold, and fuses what they pair.
+bool Bend(const std::vector<LoopEdge>& edges,
+          bool free_scale,
+          const LoopOptions& options,
+          Map& map) {
+  const auto bent = CloseLoop(
+      map,
+      MakeEssentialGraph(map, free_scale, options.drift, options.closing.strong_covisibility),
+      std::span(edges).subspan(1),
+      edges.front(),
+      options);
+  if (!bent) return false;
+  map.Apply(bent->edit);
+  for (const LoopEdge& edge : std::span(edges).subspan(1)) {
+    map.Apply(FusePairs(map, edge.points, edge.lines));
+  }
+  return true;
+}
+
+// The keyframe of `others` that shares most landmarks with one; nullopt where none shares enough.
+std::optional<KeyFrameId> ClosestAmong(const std::set<KeyFrameId>& others,
+                                       const Map& map,
+                                       KeyFrameId id,
+                                       int min_shared) {
+  std::optional<KeyFrameId> closest;
+  int most = 0;
+  for (const auto& covisible : Covisible(map, id, min_shared)) {
+    if (covisible.shared <= most || !others.contains(covisible.id)) continue;
+    most = covisible.shared;
+    closest = covisible.id;
+  }
+  return closest;
+}
+
+// Fuses and adjusts around every keyframe of the second map that shows what one of the first shows:
+// forwards and backwards, since each one that is tied ties its neighbours. Returns how many.
+int TieAll(const std::set<KeyFrameId>& of_first,
+           std::vector<KeyFrameId> of_second,
+           int min_shared,
+           LocalMapper& mapper,
+           Map& map) {
+  std::set<KeyFrameId> tied;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const KeyFrameId id : of_second) {
+      if (tied.contains(id)) continue;
+      const auto older = ClosestAmong(of_first, map, id, min_shared);
+      if (!older) continue;
+      mapper.Tie(map, id, *older);
+      tied.insert(id);
+    }
+    std::reverse(of_second.begin(), of_second.end());
+  }
+  return static_cast<int>(tied.size());
+}
+
+}  // namespace
+
+std::vector<LoopEdge> FindOverlap(const Map& first,
+                                  const Map& second,
+                                  const ImagingModel& imaging,
+                                  const LoopVerificationOptions& options) {
+  PlaceIndex places;
+  for (const auto& [id, keyframe] : first.keyframes()) places.Add(id, keyframe.frame.features());
+  const std::vector<KeyFrameId> queries = KeyFramesOf(second);
+  std::vector<LoopEdge> edges;
+  for (const std::size_t i : SpreadOrder(queries.size())) {
+    if (edges.size() >= kMostEdges) break;
+    const Features& features = second.Find(queries[i])->frame.features();
+    for (const KeyFrameId candidate : MostAlike(places, first, features, kCandidates)) {
+      const auto edge = VerifyLoop(second, queries[i], first, candidate, imaging, options);
+      if (edge) edges.push_back(*edge);
+    }
+  }
+  return edges;
+}
+
+Expected<MergedMaps, MergeRefusal> MergeBySight(const Atlas& atlas,
+                                                MapId first,
+                                                MapId second,
+                                                const ImagingModel& imaging,
+                                                const SlamOptions& options) {
+  PLUMBLINE_CHECK(atlas.Find(first) != nullptr && atlas.Find(second) != nullptr && first < second,
+                  "maps to be merged, the older one first");
+  const bool free_scale = imaging.camera.baseline == 0;
+  const Map& of_first = *atlas.Find(first);
+  const Map& of_second = *atlas.Find(second);
+  const auto overlap = Judged(atlas,
+                              FindOverlap(of_first, of_second, imaging, options.loop.verification),
+                              free_scale,
+                              options.loop);
+  if (!overlap) return overlap.error();
+  MergedMaps merged{atlas, {}, *overlap};
+  merged.first_from_second = CandidateWorldFromQueryWorld(of_second, of_first, overlap->front());
+  JoinBy(overlap->front(), merged.atlas);
+  Map& map = merged.atlas.active();
+  if (!Bend(*overlap, free_scale, options.loop, map)) return MergeRefusal::kContradicted;
+  const std::vector<KeyFrameId> ids = KeyFramesOf(of_first);
+  LocalMapper mapper(imaging, options.lines, options.mapping);
+  merged.ties = TieAll({ids.begin(), ids.end()},
+                       KeyFramesOf(of_second),
+                       options.loop.closing.min_shared,
+                       mapper,
+                       map);
+  mapper.Finish(map);
+  return merged;
+}
+
+}  // namespace plumbline
