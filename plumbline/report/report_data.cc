@@ -233,6 +233,42 @@ Json MapData(const MapScene& map, const Vector3d& origin, SensorKind sensor) {
           {"error", Error(map, sensor)}};
 }
 
+Json Place(const std::optional<Vector3d>& place, const Vector3d& origin) {
+  if (!place) return nullptr;
+  const Vector3d at = *place - origin;
+  return {Rounded(at.x(), 4), Rounded(at.y(), 4), Rounded(at.z(), 4)};
+}
+
+Json Event(const RunEvent& event, const Vector3d& origin) {
+  const Recognition& place = event.place;
+  Json json = {{"kind", NameOf(event.kind)},
+               {"frame", place.frame.value},
+               {"older_keyframe", place.older.value},
+               {"map", event.map ? Json(event.map->value) : Json(nullptr)},
+               {"older_at", Place(event.older_at, origin)},
+               {"points", place.points},
+               {"lines", place.lines}};
+  if (event.kind != RunEventKind::kRelocalization) {
+    json["keyframe"] = place.keyframe.value;
+    json["at"] = Place(event.at, origin);
+    json["log10_chance"] = Rounded(place.log10_chance, 1);
+    json["moved"] = place.moved;
+    json["turned_deg"] = place.turned_deg;
+    json["scale"] = place.scale;
+  }
+  if (event.join) {
+    json["kept_map"] = event.join->kept.value;
+    json["gone_map"] = event.join->gone.value;
+  }
+  return json;
+}
+
+Json Events(const RunScene& scene) {
+  Json events = Json::array();
+  for (const RunEvent& event : scene.events) events.push_back(Event(event, scene.origin));
+  return events;
+}
+
 Json Scene(const System& system, const Dataset& dataset) {
   const RunScene scene = MakeRunScene(system, dataset);
   Json maps = Json::array();
@@ -253,6 +289,7 @@ Json Scene(const System& system, const Dataset& dataset) {
           {"reference_seconds", reference_seconds.Encoded()},
           {"main", scene.main ? Json(*scene.main) : Json(nullptr)},
           {"maps", std::move(maps)},
+          {"events", Events(scene)},
           // Of the image plane at unit depth: left, top, right, bottom.
           {"frustum",
            {-camera.cx / camera.fx,

@@ -22,8 +22,8 @@ struct ReportContext {
 
 // All that report.html shows, as one JSON object. Its keys are those that report_page.js reads; in
 // short: "run" (what was run, with which options), "counts", "frames" (columns, one entry a frame),
-// "stages" (times), "scene" (maps, trajectories, errors; arrays of float32 in base64, metres,
-// relative to "origin"), "samples" (images as data: URIs, with their features).
+// "stages" (times), "scene" (maps, trajectories, errors, loops and the like; arrays of float32 in
+// base64, metres, relative to "origin"), "samples" (images as data: URIs, with their features).
 //
 // Text that is not UTF-8 is repaired.
 //

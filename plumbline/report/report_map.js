@@ -46,6 +46,7 @@ function viewScene() {
     lines: segments.flatMap((s) => s.lines),
     trajectory: segments.flatMap((s) => s.trajectory),
     gaps: segments.flatMap((s) => s.gaps),
+    loops: shownEvents().map(eventEnds).filter((ends) => ends),
     keyframes: maps.flatMap(keyframesOf),
     places: maps.flatMap((map) => map.frames.map((_, k) => vectorAt(map.positions, k))),
   };
@@ -60,6 +61,7 @@ function layerButtons(view) {
     {text: "Lines", value: "lines", exists: hasLines},
     {text: "Keyframes", value: "keyframes", exists: true},
     {text: "Trajectory", value: "trajectory", exists: true},
+    {text: "Loops", value: "loops", exists: events.some(eventEnds)},
     {text: "Ground truth", value: "reference", exists: scene.reference.length > 0},
     {text: "Grid", value: "grid", exists: true}
   ];
@@ -117,6 +119,11 @@ function buildView(figure, bar) {
       text: "frames without pose",
       kind: "line",
       exists: scene.maps.some((map) => map.frames.some((f, k) => f - map.frames[0] > k))
+    }, {
+      color: paint("loop"),
+      text: "keyframes that show one place",
+      kind: "line",
+      exists: events.some(eventEnds)
     }
   ].filter((entry) => entry.exists);
   figure.append(

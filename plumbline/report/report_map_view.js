@@ -138,7 +138,8 @@ class MapView {
     host.append(this.canvas);
     this.prepare();
     this.visible =
-        {points: true, lines: true, keyframes: true, trajectory: true, reference: true, grid: true};
+        {points: true, lines: true, keyframes: true, trajectory: true, loops: true,
+         reference: true, grid: true};
     this.byHeight = true;
     this.marker = null;
     new ResizeObserver(() => this.request()).observe(this.canvas);
@@ -180,7 +181,7 @@ class MapView {
   //   up          unit vector
   //   frustum     left, top, right, bottom of the image at unit depth
   //   points      Float32Array x y z ...
-  //   lines, trajectory, gaps, reference   [[start, end], ...]
+  //   lines, trajectory, gaps, loops, reference   [[start, end], ...]
   //   keyframes   [{place, turn}], turn a quaternion x y z w
   //   places      positions along the trajectory, for the first view
   setScene(scene) {
@@ -195,7 +196,7 @@ class MapView {
     for (const buffer of Object.values(this.buffers)) gl.deleteBuffer(buffer.id);
     this.buffers = {};
     this.fill("points", scene.points, 3);
-    for (const name of ["lines", "trajectory", "gaps", "reference"]) {
+    for (const name of ["lines", "trajectory", "gaps", "loops", "reference"]) {
       this.fill(name, segmentVertices(scene[name]), 7);
     }
     this.fill("keyframes", segmentVertices(scene.keyframes.flatMap((k) => this.frustum(k))), 7);
@@ -334,6 +335,7 @@ class MapView {
       this.drawLines("trajectory", matrix, "estimate", 2.5 * ratio);
       this.drawLines("gaps", matrix, "lost", 2.5 * ratio);
     }
+    if (this.visible.loops) this.drawLines("loops", matrix, "loop", 2.5 * ratio);
     if (this.visible.keyframes) this.drawLines("keyframes", matrix, "estimate", 1.1 * ratio);
     if (this.marker) {
       gl.disable(gl.DEPTH_TEST);

@@ -54,6 +54,7 @@ function verdict() {
         `${scene.maps.length > 1 ? " of the largest map" : ""}, ${error.alignment} alignment, ` +
         `coverage ${percentTracked()} %)`);
   }
+  if (events.length) parts.push(eventCounts().join(", "));
   if (shedWork().length) parts.push(`behind the camera: ${shedWork().join(", ")}`);
   if (framesPerSecond()) parts.push(`${digits(framesPerSecond())} frames/s`);
   parts.push(`${digits(data.run.peak_memory_mb)} MB of memory at most`);
@@ -107,8 +108,8 @@ function buildHeader() {
   const sensor = {mono: "monocular", stereo: "stereo", rgbd: "RGB-D"}[run.sensor] || run.sensor;
   const duration = frameCount > 1 ? frames.seconds[frameCount - 1] : 0;
   const nav = [
-    ["trajectory", "Trajectory"], ["error", "Error"], ["map", "Map"], ["images", "Images"],
-    ["counts", "Matches"], ["timing", "Timing"], ["options", "Options"]
+    ["trajectory", "Trajectory"], ["error", "Error"], ["map", "Map"],
+    ["events", "Places seen again"], ["images", "Images"], ["counts", "Matches"], ["timing", "Timing"], ["options", "Options"]
   ];
   document.getElementById("head").replaceChildren(
       make("p", {class: "product"}, "Plumbline run"), make("h1", {}, run.name || run.path),
@@ -182,6 +183,7 @@ buildHeader();
 buildTrajectory();
 buildError();
 buildMap();
+buildEvents();
 buildImages();
 buildCounts();
 buildTiming();

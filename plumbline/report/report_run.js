@@ -110,7 +110,8 @@ function frameHead(i) {
   const what = state === "tracked" ? "" : ", " + state + reason;
   const less = {mapping: ", less mapping", lines: ", fewer lines", points: ", fewer points"};
   return {
-    head: `Frame ${i}${what}${frames.keyframe[i] ? ", keyframe" : ""}${less[frames.shed[i]] || ""}`
+    head: `Frame ${i}${what}${frames.keyframe[i] ? ", keyframe" : ""}` +
+        `${less[frames.shed[i]] || ""}${eventsAt(i)}`
   };
 }
 
@@ -123,7 +124,8 @@ function makeTimeFigure(host, title, legend, spec) {
   timeStretch.listen((stretch) => {
     reset.hidden = stretch === null;
   });
-  const figure = chartFigure(title, makeLegend([...legend, ...outageLegend()]), reset);
+  const figure =
+      chartFigure(title, makeLegend([...legend, ...outageLegend(), ...eventLegend()]), reset);
   host.append(figure);
   if (frameCount === 0) return;
   const seconds = [-framePeriod / 2, frames.seconds[frameCount - 1] + framePeriod / 2];
@@ -145,6 +147,7 @@ function makeTimeFigure(host, title, legend, spec) {
             draw: (plot) => {
               drawOutages(plot);
               spec.draw(plot);
+              drawEventMarks(plot);
             },
           }));
 }

@@ -109,6 +109,18 @@ class TrajectoryView {
       });
       if (path.length) this.dot(plot, path[0], 5, "transparent", color("ink"), 2);
     }
+    this.drawEvents(plot);
+  }
+
+  // What ties the path to itself, and where it was found again.
+  drawEvents(plot) {
+    const flat = (place) => this.flat(place, 0);
+    for (const event of shownEvents()) {
+      const ends = eventEnds(event);
+      if (ends) drawLine(plot, ends.map(flat), {color: color("loop"), width: 2.2});
+      const place = eventPlace(event);
+      if (!ends && place) this.dot(plot, flat(place), 4.5, "transparent", color("loop"), 2.2);
+    }
   }
 
   // The ground truth, marked where frames have no pose.
@@ -171,6 +183,10 @@ function buildTrajectory() {
   }
   if (outages.length)
     legend.push({color: paint("lost"), text: "frames without pose", kind: "dashed"});
+  if (shownEvents().some(eventEnds))
+    legend.push({color: paint("loop"), text: "keyframes that show one place", kind: "line"});
+  if (shownEvents().some((event) => !eventEnds(event)))
+    legend.push({color: paint("loop"), text: "found again", kind: "ring"});
   const views = make("div", {class: "pair"});
   body.append(
       make("div", {class: "bar"}, makeLegend(legend), make("span", {class: "spring"}), mapChoice()),

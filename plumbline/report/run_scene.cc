@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace plumbline {
 namespace {
@@ -39,12 +40,16 @@ void TakePoses(const System& system,
   }
 }
 
+// A map that cannot be compared with ground truth is shown in its own world.
+Similarity3 WorldFromMap(const MapScene& scene) {
+  return scene.error ? scene.error->reference_from_estimate : Similarity3();
+}
+
 MapScene MakeMapScene(const System& system, const Dataset& dataset, const Map& map) {
   MapScene scene;
   scene.id = map.id();
   scene.error = CompareWithGroundTruth(system, dataset, map.id());
-  const Similarity3 world_from_map =
-      scene.error ? scene.error->reference_from_estimate : Similarity3();
+  const Similarity3 world_from_map = WorldFromMap(scene);
   TakePoses(system, system.FinalTrajectory(map.id()), world_from_map, scene.frames, scene.poses);
   TakePoses(system,
             system.KeyFrameTrajectory(map.id()),
@@ -118,10 +123,13 @@ RunScene MakeRunScene(const System& system, const Dataset& dataset, const RunSce
     scene.up = {0, 0, 1};
   }
   const auto main = system.MainMap();
+  std::map<MapId, Similarity3> world_from_map;
   for (const auto& [id, map] : system.maps()) {
     if (main == id) scene.main = scene.maps.size();
     scene.maps.push_back(MakeMapScene(system, dataset, map));
+    world_from_map[id] = WorldFromMap(scene.maps.back());
   }
+  scene.events = PlaceEvents(system.events(), system.maps(), world_from_map);
   if (scene.main) {
     const MapScene& map = scene.maps[*scene.main];
     scene.up = UpAxis(map);

@@ -6,6 +6,7 @@
 #include "plumbline/geometry/segment.h"
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/report/run_events.h"
 #include "plumbline/slam/system.h"
 
 #include <cstddef>
@@ -33,6 +34,7 @@ struct MapScene {
 // all such maps share its world; any other stays in its own, the first camera.
 struct RunScene {
   std::vector<MapScene> maps;
+  std::vector<RunEvent> events;        // loops, joins, relocalizations
   std::optional<std::size_t> main;     // index of the map with most frames
   Trajectory reference;                // ground truth of the camera during the run
   Eigen::Vector3d up = {0, -1, 0};     // an axis of the world, or its opposite

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/options_io.h"
 #include "plumbline/report/base64.h"
+#include "plumbline/slam/atlas_context.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/report/poster_run.h"
@@ -131,6 +132,29 @@ TEST(HtmlReport, HoldsTheMapRelativeToItsOrigin) {
   EXPECT_EQ(map["error"]["frames"], map["frames"]);
   EXPECT_EQ(map["error"]["position"].size(), 4U);
   EXPECT_LT(map["error"]["ate"]["rmse"], 0.01);
+}
+
+TEST(HtmlReport, TellsOfPlacesThatWereSeenAgain) {
+  const PosterRun run;
+  const auto plain = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), ContextOf(run)));
+  EXPECT_EQ(plain["scene"]["events"], nlohmann::json::array());
+
+  // A camera that begins in a saved map is found by what it sees.
+  System second(MovingPoster::MakeCalibration(), {});
+  second.Continue({run.system().atlas(), ContextOf(run.system())}, false);
+  for (int i = 0; i < 6; ++i) second.Process(MovingPoster().Frame(i));
+  second.Finish();
+  const std::string page = FormatHtmlReport(second, PosterDataset(6), ContextOf(run));
+  const auto events = DataOf(page)["scene"]["events"];
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0]["kind"], "relocalization");
+  EXPECT_LE(events[0]["frame"], 4);
+  EXPECT_EQ(events[0]["map"], 0);
+  EXPECT_GT(events[0]["points"], 20);
+  EXPECT_EQ(events[0]["older_at"].size(), 3U);
+  EXPECT_FALSE(events[0].contains("moved"));
+  EXPECT_THAT(page, HasSubstr("function buildEvents()"));
+  EXPECT_THAT(page, HasSubstr("--loop:"));
 }
 
 TEST(HtmlReport, TellsTheOptionsThatDifferFromTheDefaults) {
