@@ -4,6 +4,7 @@
 
 #include "plumbline/features/single_precision.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace plumbline {
@@ -33,6 +34,12 @@ Vector6d StereoCorrection::Terms(const RectifiedCamera& camera, const Eigen::Vec
 
 double StereoCorrection::At(const Eigen::Vector2d& px) const {
   return coefficients_.dot(TermsAt(px, centre_, inverse_unit_));
+}
+
+bool StereoCorrection::IsFinite() const {
+  bool finite = true;
+  VisitNumbers(*this, [&](double number) { finite = finite && std::isfinite(number); });
+  return finite;
 }
 
 namespace {

@@ -29,6 +29,7 @@ class StereoCorrection {
   double At(const Eigen::Vector2d& px) const;
   const Vector6d& coefficients() const { return coefficients_; }
   bool operator==(const StereoCorrection&) const = default;
+  bool IsFinite() const;
 
   // Calls visit for each number that `correction`, const or not, is made of.
   template <class Correction, class Visitor>

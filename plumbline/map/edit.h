@@ -7,6 +7,8 @@
 #include "plumbline/map/landmarks.h"
 
 #include <map>
+#include <memory>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -41,6 +43,9 @@ struct MoveKeyFrames {
 // What corrects the disparities of all keyframes, those of later ones too.
 struct CorrectStereo {
   StereoCorrection correction;
+  // Features of keyframes of the map that have it already (WithCorrection), by id: those of others
+  // are made when the edit is applied.
+  std::vector<std::pair<KeyFrameId, std::shared_ptr<const IndexedFeatures>>> ready = {};
 };
 
 // The landmark and its observations.

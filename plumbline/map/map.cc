@@ -250,8 +250,13 @@ struct MapChanger {
 
   void Do(const edit::CorrectStereo& change) {
     map.stereo_correction_ = change.correction;
+    auto ready = change.ready.begin();
     for (auto& [id, keyframe] : map.keyframes_.entries()) {
-      keyframe.frame.indexed = WithCorrection(keyframe.frame.indexed, change.correction);
+      while (ready != change.ready.end() && ready->first < id) ++ready;
+      const bool is_ready = ready != change.ready.end() && ready->first == id &&
+                            ready->second->correction == change.correction;
+      auto& indexed = keyframe.frame.indexed;
+      indexed = is_ready ? ready->second : WithCorrection(indexed, change.correction);
     }
   }
 

@@ -42,13 +42,6 @@ bool AreMeasured(const Features& f) {
          });
 }
 
-bool IsFinite(const StereoCorrection& correction) {
-  bool finite = true;
-  StereoCorrection::VisitNumbers(correction,
-                                 [&](double number) { finite = finite && std::isfinite(number); });
-  return finite;
-}
-
 template <class LandmarkId>
 bool IsInRange(LandmarkId id, LandmarkId next) {
   return id.valid() && id < next;
@@ -94,7 +87,7 @@ void MapBuilder::CheckRecord(const MapRecord& record) const {
     Fail("an id out of range");
   }
   if (record.version < 0 || !is_count(record.keyframes_taken_in)) Fail("a count out of range");
-  if (!IsFinite(record.stereo_correction)) Fail("a stereo correction without a value");
+  if (!record.stereo_correction.IsFinite()) Fail("a stereo correction without a value");
   for (const auto& [id, removed] : record.removed_keyframes) {
     if (!IsInRange(id, record.next_keyframe)) Fail("a removed keyframe that never was");
     if (!IsPose(removed.from_parent.cam_from_keyframe) || !IsUnit(removed.from_parent.unit) ||

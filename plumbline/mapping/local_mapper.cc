@@ -93,17 +93,19 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
 
 void LocalMapper::StartNewMap(Map& map) {
   young_ = {};
+  stereo_change_.GiveUp();
   map.Apply({edit::CorrectStereo{calibrator_.Estimate()}});
 }
 
 LocalMapper::State LocalMapper::state() const {
-  return {young_, calibrator_.evidence(), adjusted_lines_};
+  return {young_, calibrator_.evidence(), adjusted_lines_, stereo_change_.state()};
 }
 
 void LocalMapper::SetState(const State& state) {
   young_ = state.young;
   calibrator_.SetEvidence(state.stereo_evidence);
   adjusted_lines_ = state.adjusted_lines;
+  stereo_change_.SetState(state.stereo_change);
 }
 
 std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFrameId newest) {
@@ -131,6 +133,9 @@ std::vector<MappingStep> LocalMapper::Tie(Map& map, KeyFrameId newest, KeyFrameI
 std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) const {
   constexpr int kRounds = 2;  // with better poses, lines find more of what shows them
   std::vector<MappingStep> times;
+  if (stereo_change_.Running(map)) {
+    map.Apply({edit::CorrectStereo{stereo_change_.state()->correction}});
+  }
   for (int round = 0; round < kRounds; ++round) {
     Timed("finish", times, [&] {
       map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options_, stop), map));
@@ -200,10 +205,13 @@ void LocalMapper::CalibrateStereo(Map& map, KeyFrameId id) {
   constexpr std::int64_t kDelay = 3;
   const KeyFrame* keyframe = WithNumber(map, map.NumberOf(id) - kDelay);
   if (keyframe != nullptr) calibrator_.Observe(map, *keyframe);
-  const StereoCorrection correction = calibrator_.Estimate();
-  if (MaxDifference(imaging_.camera, correction, map.stereo_correction()) > kMinChangePx) {
-    map.Apply({edit::CorrectStereo{correction}});
+  if (!stereo_change_.Running(map)) {
+    const StereoCorrection correction = calibrator_.Estimate();
+    if (MaxDifference(imaging_.camera, correction, map.stereo_correction()) > kMinChangePx) {
+      stereo_change_.Begin(map, correction);
+    }
   }
+  stereo_change_.Step(map);
 }
 
 }  // namespace plumbline

@@ -9,8 +9,10 @@
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/mapping/stereo_calibration.h"
+#include "plumbline/mapping/stereo_change.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +53,8 @@ class LocalMapper {
   // Add's.
   std::vector<MappingStep> Tie(Map& map, KeyFrameId newest, KeyFrameId older);
 
-  // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap). When
+  // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap), with the
+  // stereo correction that it was about to get. When
   // stopped, what is not done is left out: the map is that of the last adjustment that was
   // completed. Times as Add's.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
@@ -69,6 +72,7 @@ class LocalMapper {
     YoungLandmarks young;  // of the map worked on
     StereoEvidence stereo_evidence;
     AdjustedLines adjusted_lines;
+    std::optional<StereoChange::State> stereo_change = {};
   };
   State state() const;
   void SetState(const State& state);
@@ -86,6 +90,7 @@ class LocalMapper {
   MappingOptions options_;
   YoungLandmarks young_;
   StereoCalibrator calibrator_;
+  StereoChange stereo_change_;
   AdjustedLines adjusted_lines_;
 };
 

@@ -63,10 +63,8 @@ void RestoreHistory(const Atlas::History& history, Atlas& atlas) {
 }
 
 // What the mapper remembers of the maps stands with these.
-LocalMapper::State MapperOf(const SavedAtlas& maps, const AdjustedLines& adjusted_lines) {
-  LocalMapper::State mapper;
+LocalMapper::State MapperOf(const SavedAtlas& maps, LocalMapper::State mapper) {
   mapper.stereo_evidence = maps.context.stereo_evidence;
-  mapper.adjusted_lines = adjusted_lines;
   const auto active = maps.context.maps.find(maps.atlas.active_id());
   if (active != maps.context.maps.end()) mapper.young = active->second.young;
   return mapper;
@@ -93,7 +91,7 @@ void System::Resume(SavedRun saved) {
   StateReader state(BytesOf(saved.state), kSource, camera());
   MappingStage::Checkpoint stage;
   Transfer(state, stage);
-  stage.mapper = MapperOf(saved.maps, stage.mapper.adjusted_lines);
+  stage.mapper = MapperOf(saved.maps, stage.mapper);
   RestoreHistory(stage.history, saved.maps.atlas);
   VisitRest(*this, [&](auto&... fields) { TransferAll(state, fields...); });
   if (monocular_start_) monocular_start_->Load(state, saved.maps.atlas);

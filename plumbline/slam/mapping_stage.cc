@@ -138,6 +138,9 @@ void MappingStage::CheckFits(const Atlas& atlas, const Checkpoint& c) {
   }
   for (const MapId id : c.changed) fits = fits && atlas.Find(id) != nullptr;
   for (const KeyFrameId id : c.centres) fits = fits && !atlas.empty() && atlas.active().Knows(id);
+  if (const auto& change = c.mapper.stereo_change) {
+    fits = fits && atlas.Find(change->map) != nullptr && change->correction.IsFinite();
+  }
   if (!fits) throw InputError("expected tasks and maps that agree, found others");
 }
 

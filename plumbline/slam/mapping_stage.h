@@ -285,7 +285,7 @@ struct MappingStage::Checkpoint {
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.mapper.adjusted_lines, self.submitted, self.map_begins, self.dues);
     visit(self.versions, self.outcomes, self.changed, self.centres, self.times);
-    visit(self.history, self.places, self.adjustment);
+    visit(self.history, self.places, self.adjustment, self.mapper.stereo_change);
   }
 };
 

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/stereo_change.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace plumbline {
+
+void StereoChange::Begin(const Map& map, const StereoCorrection& correction) {
+  SetState(State{map.id(), correction});
+}
+
+void StereoChange::GiveUp() { SetState(std::nullopt); }
+
+void StereoChange::SetState(const std::optional<State>& state) {
+  state_ = state;
+  change_ = {};
+}
+
+void StereoChange::Step(Map& map) {
+  const auto freed = static_cast<std::ptrdiff_t>(std::min(kSlice, retired_.size()));
+  retired_.erase(retired_.begin(), retired_.begin() + freed);
+  if (!Running(map)) return;
+  auto keyframe = map.keyframes().lower_bound(state_->next);
+  for (std::size_t i = 0; i < kSlice && keyframe != map.keyframes().end(); ++i, ++keyframe) {
+    const auto& [id, added] = *keyframe;
+    change_.ready.emplace_back(id, WithCorrection(added.frame.indexed, state_->correction));
+    state_->next = KeyFrameId{id.value + 1};
+  }
+  if (keyframe != map.keyframes().end()) return;
+  if (map.keyframes().size() > kSlice) {
+    for (const auto& [id, changed] : map.keyframes()) retired_.push_back(changed.frame.indexed);
+  }
+  change_.correction = state_->correction;
+  map.Apply({std::move(change_)});
+  GiveUp();
+}
+
+}  // namespace plumbline
