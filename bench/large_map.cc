@@ -3,12 +3,15 @@
 //
 // CPU time of what grows with the map, on generated drives: large_map straight|chain|hub|rounds
 // KEYFRAMES... For each the steps of mapping a keyframe at the end of the drive and a snapshot,
-// which are not to grow; the common directions of lines, the search for well seen lines, and the
+// which are not to grow; the change of its stereo correction; writing and reading its file; the
+// common directions of lines, the search for well seen lines, and the
 // adjustment that ends a run (--steps: not these), which may; the largest memory so far.
+#include "plumbline/io/map_io.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/local_mapper.h"
 #include "plumbline/mapping/parallel_lines.h"
+#include "plumbline/mapping/stereo_change.h"
 
 #include "long_drive.h"
 #include <algorithm>
@@ -16,6 +19,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -23,6 +27,7 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace plumbline {
 namespace {
@@ -115,6 +120,43 @@ void MeasureSteps(const LongDrive& drive) {
   fmt::print("snapshot {:.2f} ms\n", 1000 * snapshot);
 }
 
+// The longest of the steps in which all keyframes get another stereo correction.
+void MeasureStereoChange(const LongDrive& drive) {
+  Map map = drive.map;
+  StereoChange change;
+  change.Begin(map, {drive.imaging.camera, 0.3 * Vector6d::Ones()});
+  double longest = 0, all = 0;
+  int steps = 0;
+  // The last one frees what no keyframe has any more.
+  for (bool more = true; more; ++steps) {
+    more = change.Running(map);
+    const double seconds = Measure([&] { change.Step(map); });
+    longest = std::max(longest, seconds);
+    all += seconds;
+  }
+  fmt::print("  another stereo correction in {} steps, {:.1f} ms, the longest {:.1f} ms\n",
+             steps,
+             1000 * all,
+             1000 * longest);
+}
+
+// Seconds and bytes of a map file.
+void MeasureFile(const LongDrive& drive) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("large_map_{}.plb", ::getpid());
+  const double saved = Measure(
+      [&] { SaveMap(path, drive.imaging.camera, Eigen::Quaterniond::Identity(), drive.map); });
+  const double size = static_cast<double>(std::filesystem::file_size(path));
+  std::size_t keyframes = 0;
+  const double loaded = Measure([&] { keyframes = LoadMap(path).map.keyframes().size(); });
+  std::filesystem::remove(path);
+  fmt::print("  file {:.0f} MB, saved in {:.2f} s, loaded in {:.2f} s ({} keyframes)\n",
+             1e-6 * size,
+             saved,
+             loaded,
+             keyframes);
+}
+
 void Run(std::string_view name, DriveShape shape, int keyframes, bool steps_only) {
   LongDrive drive = MakeLongDrive(shape, keyframes);
   std::size_t observations = 0;
@@ -127,6 +169,8 @@ void Run(std::string_view name, DriveShape shape, int keyframes, bool steps_only
              drive.map.lines().size(),
              PeakGigabytes());
   MeasureSteps(drive);
+  MeasureStereoChange(drive);
+  MeasureFile(drive);
   if (steps_only) return;
   std::size_t directions = 0, lines = 0;
   const double common = Measure([&] { directions = CommonDirections(drive.map).size(); });

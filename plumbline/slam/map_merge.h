@@ -36,7 +36,7 @@ struct MergedMaps {
   Similarity3 first_from_second;  // of the worlds, as the surest edge has it
   std::vector<LoopEdge> overlap;  // what the merge rests on, the surest first; queries are
                                   // keyframes of the second
-  int ties = 0;  // keyframes of the second that were fused with the first
+  int ties = 0;                   // keyframes of the second that were fused with the first
 };
 
 // Where keyframes of one map show places of another: each keyframe of the second is compared with
