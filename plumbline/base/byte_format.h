@@ -110,7 +110,12 @@ template <class Archive, class T>
 requires(Archive::kReading) void Transfer(Archive& archive, std::optional<T>& item) {
   std::uint8_t present = 0;
   archive(present);
-  if (present != 0) Transfer(archive, item.emplace());
+  item.reset();
+  if (present == 0) return;
+  // Not emplace(): clang 14 takes a nested class with values of its own for one without a default.
+  T value = T();
+  Transfer(archive, value);
+  item = std::move(value);
 }
 template <class Archive, class T>
 requires(!Archive::kReading) void Transfer(Archive& archive, const std::optional<T>& item) {
