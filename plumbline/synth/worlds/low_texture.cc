@@ -5,6 +5,7 @@
 
 #include <array>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -142,6 +143,32 @@ void AddLamps(SceneBuilder& scene, const std::vector<RoomPlan>& rooms) {
   }
 }
 
+// Another day: the same rooms, a step aside, from a lower height and with a gaze of its own.
+CameraPath SecondDrive(SceneBuilder& random, std::uint64_t seed) {
+  std::vector<Leg> legs = {{{3.7, 1.25}},
+                           {{3.7, 4.8}},  // the meeting room
+                           {{4.55, 4.8}},
+                           {{4.55, 3.75}},
+                           {{3.45, 3.7}},
+                           {{3.45, 1.2}},  // and out
+                           {{11.8, 1.2}},
+                           {{11.8, 4.95}, 0.15},  // the office
+                           {{10.85, 5.0}},
+                           {{10.85, 4.05}},
+                           {{11.8, 3.95}},
+                           {{11.8, 1.15}},
+                           {{14.1, 1.1}},
+                           {{14.15, 1.35}},
+                           {{2.2, 1.35}}};
+  for (Leg& leg : legs) {
+    leg.gaze += random.Random(-0.1, 0.1);
+    leg.pitch = random.Random(-0.1, -0.03);
+  }
+  return WithCarrier(SplinePath(WalkAlong({1.4, 1.25}, legs, 1.05, 0.8), {0.8, 0.55}, 0.6),
+                     Carrier::kWheels,
+                     seed + 1000);
+}
+
 }  // namespace
 
 World MakeLowTexture(std::uint64_t seed) {
@@ -183,7 +210,9 @@ World MakeLowTexture(std::uint64_t seed) {
   };
   for (Leg& leg : legs) leg.pitch = -0.07;  // the ceiling is the richest there is
   const auto walk = WalkAlong({1.2, 1.1}, legs, 1.15, 0.8);
-  return {scene.Take(), WithCarrier(SplinePath(walk, {0.9, 0.55}, 0.6), Carrier::kWheels, seed)};
+  CameraPath path = WithCarrier(SplinePath(walk, {0.9, 0.55}, 0.6), Carrier::kWheels, seed);
+  CameraPath second = SecondDrive(scene, seed);
+  return {scene.Take(), std::move(path), std::move(second)};
 }
 
 }  // namespace plumbline
