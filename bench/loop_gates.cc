@@ -114,6 +114,7 @@ class Gates {
                  attempt.edge->evidence.log10_chance,
                  attempt.drift_chi2,
                  Sigmas(*attempt.edge));
+      if (overlaps) PrintPairs(atlas, attempt);
     }
     fmt::print("\n");
   }
@@ -156,6 +157,33 @@ class Gates {
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().maxCoeff());
     };
     return fmt::format("{:.2f} deg {:.3f} m", largest(0) / kDegree, largest(3));
+  }
+
+  // How far apart on true surfaces the points are that were taken for one: where the rays of their
+  // newest observations meet them. Nothing for a recording.
+  void PrintPairs(const Atlas& atlas, const LoopAttempt& attempt) const {
+    constexpr double kOnePoint = 0.05;  // metres
+    std::vector<double> apart;
+    for (const auto& pair : attempt.edge->points) {
+      const auto a = SurfaceOf(MapWith(atlas, attempt.query), pair.in_query);
+      const auto b = SurfaceOf(MapWith(atlas, attempt.candidate), pair.in_candidate);
+      if (a && b) apart.push_back((*a - *b).norm());
+    }
+    if (apart.empty()) return;
+    std::sort(apart.begin(), apart.end());
+    fmt::print(", {} pairs of points, {} of them two points, {:.3f} m apart in the middle",
+               apart.size(),
+               apart.end() - std::upper_bound(apart.begin(), apart.end(), kOnePoint),
+               apart[apart.size() / 2]);
+  }
+
+  std::optional<Eigen::Vector3d> SurfaceOf(const Map& map, PointId id) const {
+    const MapPoint* point = map.Find(id);
+    if (point == nullptr) return std::nullopt;
+    const auto& [seen_by, feature] = point->observations.newest();
+    const Frame& frame = map.Find(seen_by)->frame;
+    return truth_.SurfaceAt(frame.stamp_ns,
+                            frame.features().points[static_cast<std::size_t>(feature)].px);
   }
 
   std::optional<PoseError> ErrorOf(const Atlas& atlas, const LoopAttempt& attempt) const {

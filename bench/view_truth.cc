@@ -84,9 +84,31 @@ double ViewTruth::SharedView(const KeyFrame& keyframe,
   return static_cast<double>(shared) / std::max(1, all);
 }
 
+std::optional<Eigen::Vector3d> ViewTruth::SurfaceAt(std::int64_t stamp_ns,
+                                                    const Eigen::Vector2d& px) const {
+  const auto from_world = PoseAt(stamp_ns);
+  if (!tracer_ || !from_world) return std::nullopt;
+  return SurfaceAt(Inverse(*from_world), px);
+}
+
+std::optional<Eigen::Vector3d> ViewTruth::SurfaceAt(const Rigid3& world_from,
+                                                    const Eigen::Vector2d& px) const {
+  const Eigen::Vector3d way = world_from.rotation * camera_.Unproject(px);
+  RayTracer::Rays rays;
+  rays.origin = world_from.translation.cast<float>();
+  rays.directions.fill(way.cast<float>());
+  rays.count = 1;
+  unsigned hits[RayTracer::kPacket] = {};
+  tracer_->Trace(rays, tracer_->At(0), hits);
+  if (hits[0] == RayTracer::kNothing) return std::nullopt;
+  const Surface& surface = scene_.surfaces[hits[0]];
+  const Eigen::Vector3d normal = surface.Normal();
+  const double along = normal.dot(surface.origin - world_from.translation) / normal.dot(way);
+  return world_from.translation + along * way;
+}
+
 double ViewTruth::SharedByRays(const Rigid3& from_world, const Rigid3& other_from_world) const {
   constexpr float kMargin = 0.02F;
-  const RayTracer::Moment moment = tracer_->At(0);
   const Rigid3 world_from = Inverse(from_world);
   const Eigen::Vector3f other = Inverse(other_from_world).translation.cast<float>();
   int all = 0;
@@ -94,19 +116,10 @@ double ViewTruth::SharedByRays(const Rigid3& from_world, const Rigid3& other_fro
   for (int i = 0; i < kColumns * kRows; ++i) {
     const Eigen::Vector2d px((i % kColumns + 0.5) * camera_.width / kColumns,
                              (static_cast<double>(i / kColumns) + 0.5) * camera_.height / kRows);
-    const Eigen::Vector3d way = world_from.rotation * camera_.Unproject(px);
-    RayTracer::Rays rays;
-    rays.origin = world_from.translation.cast<float>();
-    rays.directions.fill(way.cast<float>());
-    rays.count = 1;
-    unsigned hits[RayTracer::kPacket] = {};
-    tracer_->Trace(rays, moment, hits);
-    if (hits[0] == RayTracer::kNothing) continue;
+    const auto hit = SurfaceAt(world_from, px);
+    if (!hit) continue;
     ++all;
-    const Surface& surface = scene_.surfaces[hits[0]];
-    const Eigen::Vector3d normal = surface.Normal();
-    const double along = normal.dot(surface.origin - world_from.translation) / normal.dot(way);
-    const Eigen::Vector3d place = world_from.translation + along * way;
+    const Eigen::Vector3d& place = *hit;
     const Eigen::Vector3d seen = other_from_world * place;
     if (seen.z() <= 0 || !camera_.Contains(camera_.Project(seen))) continue;
     shared += tracer_->StillSees(place.cast<float>(), other, kMargin);

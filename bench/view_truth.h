@@ -46,7 +46,13 @@ class ViewTruth {
                     const Rigid3& other_from_world,
                     double unit) const;
 
+  // Where the ray through a pixel of the rectified camera meets a surface, at the start of the
+  // sequence; nullopt for a recording, and where it meets none.
+  std::optional<Eigen::Vector3d> SurfaceAt(std::int64_t stamp_ns, const Eigen::Vector2d& px) const;
+
  private:
+  std::optional<Eigen::Vector3d> SurfaceAt(const Rigid3& world_from,
+                                           const Eigen::Vector2d& px) const;
   double SharedByRays(const Rigid3& from_world, const Rigid3& other_from_world) const;
 
   Trajectory poses_;  // of the left camera

@@ -60,6 +60,15 @@ class ShownLandmarks {
   std::vector<LineId> lines_;
 };
 
+// Whether a candidate shares landmarks with one of some others.
+bool IsBesideAny(const Map& map, KeyFrameId candidate, const std::vector<KeyFrameId>& others) {
+  if (others.empty()) return false;
+  const ShownLandmarks shown(map.Find(candidate)->frame);
+  return std::any_of(others.begin(), others.end(), [&](KeyFrameId other) {
+    return shown.SharedWith(map.Find(other)->frame) > 0;
+  });
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const ImagingModel& imaging, const LoopOptions& options)
@@ -86,7 +95,10 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
   if (map.Find(newest) == nullptr) return std::nullopt;
   const std::int64_t number = map.NumberOf(newest);
   if (last_closed_ >= 0 && number < last_closed_ + options_.closing.pause) return std::nullopt;
+  std::optional<EssentialGraph> essential;
+  std::vector<KeyFrameId> elsewhere;
   for (const KeyFrameId candidate : WorthTrying(map, newest, candidates)) {
+    if (IsBesideAny(map, candidate, elsewhere)) continue;
     LoopAttempt& attempt = attempts_.emplace_back();
     attempt.query = newest;
     attempt.candidate = candidate;
@@ -96,7 +108,12 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
       continue;
     }
     attempt.edge = *std::move(edge);
-    auto closure = Close(map, attempt);
+    if (!essential) {
+      essential = MakeEssentialGraph(
+          map, imaging_.camera.baseline == 0, options_.drift, options_.closing.strong_covisibility);
+    }
+    auto closure = Close(map, *essential, attempt);
+    if (attempt.beyond_drift) elsewhere.push_back(candidate);
     if (!closure) continue;
     last_closed_ = number;
     return closure;
@@ -104,12 +121,12 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
   return std::nullopt;
 }
 
-std::optional<LoopClosure> LoopCloser::Close(const Map& map, LoopAttempt& attempt) {
-  EssentialGraph essential = MakeEssentialGraph(
-      map, imaging_.camera.baseline == 0, options_.drift, options_.closing.strong_covisibility);
+std::optional<LoopClosure> LoopCloser::Close(const Map& map,
+                                             const EssentialGraph& essential,
+                                             LoopAttempt& attempt) {
   if (!Supported(map, essential, attempt)) return std::nullopt;
   const LoopEdge& edge = *attempt.edge;
-  auto correction = CloseLoop(map, std::move(essential), loops_, edge, options_);
+  auto correction = CloseLoop(map, essential, loops_, edge, options_);
   if (!correction) {
     attempt.unclosed = correction.error();
     return std::nullopt;

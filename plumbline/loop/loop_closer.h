@@ -101,7 +101,9 @@ class LoopCloser {
   std::vector<KeyFrameId> WorthTrying(const Map& map,
                                       KeyFrameId newest,
                                       std::span<const KeyFrameId> candidates) const;
-  std::optional<LoopClosure> Close(const Map& map, LoopAttempt& attempt);
+  std::optional<LoopClosure> Close(const Map& map,
+                                   const EssentialGraph& essential,
+                                   LoopAttempt& attempt);
   bool Supported(const Map& map, const EssentialGraph& essential, LoopAttempt& attempt);
   bool AgreesWithTheOthers(const Map& map,
                            const EssentialGraph& essential,

@@ -4,6 +4,7 @@
 
 #include "plumbline/loop/chance.h"
 #include "plumbline/loop/loop_search.h"
+#include "plumbline/loop/uncertain_pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,7 @@ constexpr double kLeastShare = 0.02;  // of landmarks found by chance, however f
 constexpr int kLineWeight = 2;        // of a line against a point, in counts
 constexpr int kLeastTested = 15;      // landmarks in view of a neighbour that is worth asking
 constexpr std::size_t kAsked = 5;     // neighbours of either keyframe
+constexpr double kMaxChange = 24;     // chi2 of what neighbours change: 99.9 % of seven
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
@@ -197,9 +199,7 @@ class Verification {
         RefineAlignment(found_.matches.problem, closer->candidate_from_query, kLastGate);
     if (!last || WeightedCount(*last) < options_.min_inliers) return LoopRefusal::kFewInliers;
     result_ = *last;
-    // Errors of landmarks have much in common: the keyframes they hang on, the calibration.
-    result_.covariance *=
-        std::max(1.0, static_cast<double>(WeightedCount(result_)) / options_.independent_matches);
+    LimitCertainty();
     return std::nullopt;
   }
 
@@ -300,7 +300,7 @@ class Verification {
     }
     const int needed = std::min(options_.confirmations, evidence_.asked);
     if (evidence_.confirmed < needed) return LoopRefusal::kUnconfirmed;
-    AddPairs(more);
+    Settle(more);
     return std::nullopt;
   }
 
@@ -310,10 +310,11 @@ class Verification {
            Log10BinomialTail(found.tested_lines, static_cast<int>(found.lines.size()), line_share_);
   }
 
-  // Pairs that agree, those of the two keyframes first.
-  void AddPairs(const LoopMatches& more) {
+  // The relative pose once more, with what neighbours found: they see the place from elsewhere, and
+  // decide what the two keyframes leave open. Where it would be another one then, as far as the
+  // first one is certain, the map is bent around one of the two, and the first one stays.
+  void Settle(const LoopMatches& more) {
     LoopMatches all = found_.matches;
-    all.problem.sightings.clear();
     all.points.insert(all.points.end(), more.points.begin(), more.points.end());
     all.lines.insert(all.lines.end(), more.lines.begin(), more.lines.end());
     auto& problem = all.problem;
@@ -329,6 +330,16 @@ class Verification {
     for (std::size_t i = 0; i < all.lines.size(); ++i) {
       if (agree->lines[i]) line_pairs_.push_back(all.lines[i]);
     }
+    const Similarity3 change = agree->candidate_from_query * Inverse(result_.candidate_from_query);
+    if (ClosingChi2({change, result_.covariance}) > kMaxChange) return;
+    result_ = *agree;
+    LimitCertainty();
+  }
+
+  // Errors of landmarks have much in common: the keyframes they hang on, the calibration.
+  void LimitCertainty() {
+    result_.covariance *=
+        std::max(1.0, static_cast<double>(WeightedCount(result_)) / options_.independent_matches);
   }
 
   LoopEdge Edge() const {
