@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/byte_stream.h"
+#include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
-#include "plumbline/io/crc32.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/section_file.h"
 

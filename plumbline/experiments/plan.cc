@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/plan.h"
 
+#include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/experiments/metrics.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/crc32.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/starts/start_bench.h"
 

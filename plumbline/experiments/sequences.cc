@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/experiments/sequences.h"
 
+#include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/camera_file.h"
-#include "plumbline/io/crc32.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/synth/sequence_cache.h"

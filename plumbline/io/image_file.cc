@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/image_file.h"
 
+#include "plumbline/base/crc32.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
-#include "plumbline/io/crc32.h"
 #include "plumbline/io/decoder_messages.h"
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 #include "plumbline/io/map_file_v1.h"
 
 #include "plumbline/base/byte_stream.h"
+#include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/features/single_precision.h"
-#include "plumbline/io/crc32.h"
 #include "plumbline/map/map_builder.h"
 
 #include <algorithm>

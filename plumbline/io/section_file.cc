@@ -3,8 +3,8 @@
 #include "plumbline/io/section_file.h"
 
 #include "plumbline/base/byte_stream.h"
+#include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
-#include "plumbline/io/crc32.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "plumbline/io/map_file_v1.h"
 
 #include "plumbline/base/byte_stream.h"
-#include "plumbline/io/crc32.h"
+#include "plumbline/base/crc32.h"
 #include "plumbline/io/map_io.h"
 
 #include "tests/io/scratch_folder.h"

@@ -3,8 +3,8 @@
 #include "plumbline/io/map_io.h"
 
 #include "plumbline/base/byte_stream.h"
+#include "plumbline/base/crc32.h"
 #include "plumbline/io/atomic_file.h"
-#include "plumbline/io/crc32.h"
 
 #include "tests/io/map_fixture.h"
 #include "tests/io/scratch_folder.h"

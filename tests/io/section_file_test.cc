@@ -3,8 +3,8 @@
 #include "plumbline/io/section_file.h"
 
 #include "plumbline/base/byte_stream.h"
+#include "plumbline/base/crc32.h"
 #include "plumbline/base/random.h"
-#include "plumbline/io/crc32.h"
 
 #include "tests/io/scratch_folder.h"
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/text_rows.h"
 
-#include "plumbline/io/crc32.h"
+#include "plumbline/base/crc32.h"
 
 #include "tests/io/scratch_folder.h"
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/io/crc32.h"
+#include "plumbline/base/crc32.h"
 
 #include <cstdint>
 #include <span>
