@@ -21,13 +21,15 @@ namespace plumbline {
 namespace {
 
 CommandSyntax Syntax() {
-  return {"info",
-          "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
-          {"PATH"},
-          {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
-           {"--format", "auto|euroc|tum|kitti|images|video", "how the data is stored (auto)"},
-           {"--camera", "FILE", "camera file or name of a built-in camera"},
-           {"--check", "", "decode every image and name those that cannot be used"}}};
+  return {
+      "info",
+      "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
+      {"PATH"},
+      {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
+       {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "how the data is stored (auto)"},
+       {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
+       {"--camera", "FILE", "camera file or name of a built-in camera"},
+       {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
 template <class Enum>
@@ -143,6 +145,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   DatasetOptions options;
   options.allow_missing_camera = true;
   options.camera = line.Value("--camera");
+  options.topics = line.Values("--topic");
   if (const auto text = line.Value("--sensor")) {
     options.sensor = ParseChoice<SensorKind>("--sensor", *text);
   }

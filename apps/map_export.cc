@@ -60,7 +60,10 @@ CommandSyntax Syntax() {
           {{"--to", "ply|obj|dxf|tum|colmap|nerfstudio", "the form"},
            {"--out", "PATH", "file, or new folder for colmap and nerfstudio"},
            {"--images", "PATH", "the data that the map was made from: its images are written, too"},
-           {"--format", "auto|euroc|tum|kitti|images|video", "of --images (found out from PATH)"},
+           {"--format",
+            "auto|euroc|tum|kitti|images|video|bag|mcap",
+            "of --images (found out from PATH)"},
+           {"--topic", "NAME", "of --images, a bag or an MCAP file; may be repeated"},
            {"--camera", "FILE", "of --images: camera file, or the name of a built-in camera"},
            {"--model", "text|binary|both", "files of a COLMAP model (both)"}}};
 }
@@ -91,12 +94,14 @@ ExportRequest ReadRequest(const CommandLine& line) {
   const bool with_images = colmap || request.format == ExportFormat::kNerfstudio;
   RefuseWithout(line, "--images", with_images, "--to colmap and --to nerfstudio");
   RefuseWithout(line, "--format", line.Has("--images"), "--images");
+  RefuseWithout(line, "--topic", line.Has("--images"), "--images");
   RefuseWithout(line, "--camera", line.Has("--images"), "--images");
   RefuseWithout(line, "--model", colmap, "--to colmap");
   if (const auto images = line.Value("--images")) request.images = *images;
   if (const auto text = line.Value("--format"); text && *text != "auto") {
     request.images_options.format = ParseChoice<DatasetFormat>("--format", *text);
   }
+  request.images_options.topics = line.Values("--topic");
   request.images_options.camera = line.Value("--camera");
   if (const auto text = line.Value("--model")) {
     request.colmap_files = ParseChoice<ColmapFiles>("--model", *text);

@@ -48,7 +48,8 @@ CommandSyntax Syntax() {
       "Tracks the camera through a recorded sequence and maps what it sees.",
       {"PATH"},
       {{"--sensor", "mono|stereo|rgbd", "default: the richest the data offers"},
-       {"--format", "auto|euroc|tum|kitti|images|video", "default: found out from PATH"},
+       {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "default: found out from PATH"},
+       {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated (left, right, depth)"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
        {"--config", "FILE", "options from a YAML file; may be repeated"},
        {"--set", "KEY=VALUE", "one option; may be repeated"},
@@ -164,6 +165,7 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   const auto format = line.Value("--format");
   if (format && *format != "auto") options.format = ParseChoice<DatasetFormat>("--format", *format);
   options.camera = line.Value("--camera");
+  options.topics = line.Values("--topic");
   return options;
 }
 

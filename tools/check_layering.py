@@ -31,7 +31,8 @@ LAYERS = {
              "mapping"],
     "slam": ["base", "geometry", "image", "features", "optimization", "cutting", "map",
              "association", "initialization", "tracking", "mapping", "place", "loop"],
-    "io": ["base", "geometry", "image", "features", "map"],
+    "recording": ["base"],
+    "io": ["base", "geometry", "image", "features", "map", "recording"],
     "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
                "slam"],
     "synth": ["base", "geometry", "image", "io"],
@@ -58,7 +59,9 @@ THIRD_PARTY = {
                 r"(image|features|initialization|io|report)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
     "yaml-cpp/": r"(base|io)/\w+\.cc",
-    "zstd.h": r"io/section_file\.cc",
+    "bzlib.h": r"recording/compression\.cc",
+    "lz4": r"recording/compression\.cc",
+    "zstd.h": r"(io/section_file|recording/compression)\.cc",
 }
 # Headers of the library that bring a heavy third-party header along: for .cc files only.
 HEAVY_HEADERS = {

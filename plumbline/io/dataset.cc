@@ -8,9 +8,16 @@
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/image_folder.h"
 #include "plumbline/io/kitti.h"
+#include "plumbline/io/recorded_dataset.h"
 #include "plumbline/io/tum_rgbd.h"
 #include "plumbline/io/video.h"
+#include "plumbline/recording/mcap.h"
+#include "plumbline/recording/ros_bag.h"
 
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <span>
 #include <system_error>
 
 namespace plumbline {
@@ -23,6 +30,22 @@ DatasetFormat DetectFormat(const fs::path& path) {
   throw InputError(path.string() +
                    ": expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
                    "sequence (image_0/, calib.txt) or a folder of images, found none of them");
+}
+
+// What a file is, also where its beginning is damaged.
+DatasetFormat FormatOfFile(const fs::path& path) {
+  std::array<std::uint8_t, 16> begin{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(begin.data()), begin.size());
+  const std::span<const std::uint8_t> bytes(begin.data(), static_cast<std::size_t>(file.gcount()));
+  if (BeginsAsBag(bytes) || path.extension() == ".bag") return DatasetFormat::kBag;
+  if (BeginsAsMcap(bytes) || path.extension() == ".mcap") return DatasetFormat::kMcap;
+  return DatasetFormat::kVideo;
+}
+
+bool IsFolder(DatasetFormat format) {
+  return format != DatasetFormat::kVideo && format != DatasetFormat::kBag &&
+         format != DatasetFormat::kMcap;
 }
 
 }  // namespace
@@ -40,7 +63,7 @@ Trajectory GroundTruth::OfCamera(const Calibration& calibration) const {
 
 std::optional<DatasetFormat> FindFormat(const fs::path& path) {
   std::error_code error;
-  if (fs::is_regular_file(path, error)) return DatasetFormat::kVideo;
+  if (fs::is_regular_file(path, error)) return FormatOfFile(path);
   const auto has = [&](const char* name) { return fs::exists(path / name, error); };
   if (has("mav0") || has("cam0")) return DatasetFormat::kEuroc;
   if (has("rgb.txt")) return DatasetFormat::kTum;
@@ -54,12 +77,17 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
   const bool folder = fs::is_directory(path, error);
   if (!folder && !fs::is_regular_file(path, error)) {
-    throw InputError(path.string() + ": expected a folder or a video file, found " + KindOf(path));
+    throw InputError(path.string() + ": expected a folder or a file, found " + KindOf(path));
   }
   const DatasetFormat format = options.format ? *options.format : DetectFormat(path);
-  if (folder != (format != DatasetFormat::kVideo)) {
-    throw InputError(path.string() + (folder ? ": expected a video file, found a folder"
+  if (folder != IsFolder(format)) {
+    const bool video = format == DatasetFormat::kVideo;
+    throw InputError(path.string() + (folder ? (video ? ": expected a video file, found a folder"
+                                                      : ": expected a file, found a folder")
                                              : ": expected a folder, found a file"));
+  }
+  if (!options.topics.empty() && format != DatasetFormat::kBag && format != DatasetFormat::kMcap) {
+    throw InputError(path.string() + ": expected a bag or an MCAP file to choose topics of");
   }
   switch (format) {
     case DatasetFormat::kEuroc:
@@ -72,6 +100,9 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
       return OpenImageFolder(path, options);
     case DatasetFormat::kVideo:
       return OpenVideo(path, options);
+    case DatasetFormat::kBag:
+    case DatasetFormat::kMcap:
+      return OpenRecording(path, format, options);
   }
   throw BugError("a format without a reader");
 }

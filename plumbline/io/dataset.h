@@ -28,13 +28,15 @@ constexpr auto EnumNames(std::type_identity<SensorKind>) {
                     std::pair{SensorKind::kRgbd, "rgbd"}};
 }
 
-enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo };
+enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo, kBag, kMcap };
 constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
   return std::array{std::pair{DatasetFormat::kEuroc, "euroc"},
                     std::pair{DatasetFormat::kTum, "tum"},
                     std::pair{DatasetFormat::kKitti, "kitti"},
                     std::pair{DatasetFormat::kImages, "images"},
-                    std::pair{DatasetFormat::kVideo, "video"}};
+                    std::pair{DatasetFormat::kVideo, "video"},
+                    std::pair{DatasetFormat::kBag, "bag"},
+                    std::pair{DatasetFormat::kMcap, "mcap"}};
 }
 
 // Reference poses as delivered with a data set, not transformed.
@@ -96,19 +98,23 @@ struct DatasetOptions {
   // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1"; takes the
   // place of a camera file in the folder (CameraFileIn) and of the calibration of the data.
   std::optional<std::string> camera = std::nullopt;
+  // Bags and MCAP files: the topics of the images, the left camera before the right one. Empty:
+  // found out from what there is.
+  std::vector<std::string> topics = {};
   // Open the data even where there is no calibration, to look at it. `calibration` is a placeholder
   // then. Off: InputError.
   bool allow_missing_camera = false;
 };
 
-// How a recorded sequence is stored: a file is a video, a folder tells by the names in it; nullopt
-// where there is none.
+// How a recorded sequence is stored: a file tells by its first bytes or the end of its name, and is
+// a video otherwise, a folder by the names in it; nullopt where there is none.
 std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
 
 // Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and
-// calib.txt), a folder of images or a video file, and reads its lists, calibration and ground
-// truth, not its images (a video is decoded once, see video.h). Throws InputError naming file and
-// line for what is missing or malformed, and where the data does not offer the sensor asked for.
+// calib.txt), a folder of images, a ROS 1 bag, an MCAP file or a video file, and reads its lists,
+// calibration and ground truth, not its images (a video is decoded once, see video.h, and a bag or
+// an MCAP file read once). Throws InputError naming file and line for what is missing or malformed,
+// and where the data does not offer the sensor asked for.
 std::unique_ptr<Dataset> OpenDataset(const std::filesystem::path& path,
                                      const DatasetOptions& options = {});
 

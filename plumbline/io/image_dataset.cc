@@ -20,20 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The failure of one image, unless it is of another size than the calibration's, which no image of
-// a sequence may be.
-ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted) {
-  if (!failure.other_size) return failure;
-  throw InputError(
-      fmt::format("{}: expected an image of {}x{} pixels as in the calibration, "
-                  "found {}x{}",
-                  failure.path.string(),
-                  wanted.width,
-                  wanted.height,
-                  failure.other_size->width,
-                  failure.other_size->height));
-}
-
 ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
 
 class ImageDataset : public Dataset {
@@ -65,21 +51,6 @@ class ImageDataset : public Dataset {
       frame.depth = *depth;
     }
     return frame;
-  }
-
-  // Reads the first frame that can be read: a calibration of another size shows before the run.
-  void CheckFirstFrame() const {
-    std::optional<ImageFailure> first;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const Expected<SensorFrame, ImageFailure> frame = Read(i);
-      if (frame) return;
-      if (!first) first = frame.error();
-    }
-    throw InputError(fmt::format("{}: expected images, found none of {} that can be read: {}: {}",
-                                 info().path.string(),
-                                 size(),
-                                 first->path.string(),
-                                 first->why));
   }
 
  private:
@@ -143,6 +114,32 @@ bool Exists(const fs::path& path) {
   return fs::exists(path, error);
 }
 
+ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted) {
+  if (!failure.other_size) return failure;
+  throw InputError(
+      fmt::format("{}: expected an image of {}x{} pixels as in the calibration, "
+                  "found {}x{}",
+                  failure.path.string(),
+                  wanted.width,
+                  wanted.height,
+                  failure.other_size->width,
+                  failure.other_size->height));
+}
+
+void CheckFirstFrame(const Dataset& dataset) {
+  std::optional<ImageFailure> first;
+  for (std::size_t i = 0; i < dataset.size(); ++i) {
+    const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
+    if (frame) return;
+    if (!first) first = frame.error();
+  }
+  throw InputError(fmt::format("{}: expected images, found none of {} that can be read: {}: {}",
+                               dataset.info().path.string(),
+                               dataset.size(),
+                               first->path.string(),
+                               first->why));
+}
+
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files) {
   PLUMBLINE_CHECK(files.size() == info.stamps_ns.size(), "one stamp for each frame");
   if (files.empty()) throw InputError(info.path.string() + ": expected frames, found none");
@@ -178,7 +175,7 @@ std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFil
         fmt::format("{} of {} {} images do not exist", missing_other, files.size(), other));
   }
   auto dataset = std::make_unique<ImageDataset>(std::move(info), std::move(files));
-  dataset->CheckFirstFrame();
+  CheckFirstFrame(*dataset);
   return dataset;
 }
 

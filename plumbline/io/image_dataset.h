@@ -36,6 +36,14 @@ struct FrameFiles {
 // InputError when it is read; the first frame that can be read is read right away.
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files);
 
+// The failure of one image, unless it is of another size than the calibration's, `wanted`, which no
+// image of a sequence may be: InputError then.
+ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted);
+
+// Reads frames until one can be read, so that a calibration of another size shows before the run.
+// InputError when none can.
+void CheckFirstFrame(const Dataset& dataset);
+
 // Fills name, path, format, available and sensor: the sensor asked for, or the richest. InputError
 // when the data does not offer it.
 DatasetInfo DescribeDataset(const std::filesystem::path& path,

@@ -24,6 +24,8 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 constexpr std::string_view kEndsEarly = "the file ends early";
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
+constexpr const char* kTooLarge = "the file is larger than 1 GB";
 constexpr const char* kNoImage = "not an image this program can decode";
 
 std::uint32_t BigEndian32(Bytes bytes, std::size_t at) {
@@ -88,35 +90,37 @@ std::optional<std::string> WebpDamage(Bytes bytes) {
 }
 
 // Empty when the decoder refuses.
-cv::Mat Decode(const std::vector<std::uint8_t>& bytes, int flags) {
+cv::Mat Decode(Bytes bytes, int flags) {
   const DecoderCall call;
+  const cv::Mat row(
+      1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data()));
   try {
-    return cv::imdecode(bytes, flags);
+    return cv::imdecode(row, flags);
   } catch (const cv::Exception&) {
     return {};
   }
 }
 
-// The bytes of a file that holds a whole image, by its structure.
+// The bytes of a file.
 Expected<std::vector<std::uint8_t>, ImageFailure> ReadBytes(const std::filesystem::path& path) {
-  constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
     return ImageFailure{path, std::filesystem::exists(path, error) ? "not a file" : "no such file"};
   }
-  if (size > kLargestFile) return ImageFailure{path, "the file is larger than 1 GB"};
+  if (size > kLargestFile) return ImageFailure{path, kTooLarge};
   std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!file) return ImageFailure{path, "cannot be read"};
-  if (bytes.empty()) return ImageFailure{path, "the file is empty"};
-  if (std::optional<std::string> damage = FindDamage(bytes)) return ImageFailure{path, *damage};
   return bytes;
 }
 
-Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
-                                              const std::vector<std::uint8_t>& bytes) {
+// The size of an image that is whole, by the structure of its file.
+Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path, Bytes bytes) {
+  if (bytes.empty()) return ImageFailure{path, "the file is empty"};
+  if (bytes.size() > kLargestFile) return ImageFailure{path, kTooLarge};
+  if (std::optional<std::string> damage = FindDamage(bytes)) return ImageFailure{path, *damage};
   const std::optional<ImageSize> size = SizeInHeader(bytes);
   if (!size) return ImageFailure{path, kNoImage};
   if (std::int64_t{size->width} * size->height > kMostPixels) {
@@ -129,18 +133,17 @@ Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
   return *size;
 }
 
-Expected<cv::Mat, ImageFailure> ReadMat(const std::filesystem::path& path,
-                                        int flags,
-                                        std::optional<ImageSize> wanted) {
-  const auto bytes = ReadBytes(path);
-  if (!bytes) return bytes.error();
-  const auto size = CheckedSize(path, *bytes);
+Expected<cv::Mat, ImageFailure> DecodeMat(const std::filesystem::path& path,
+                                          Bytes bytes,
+                                          int flags,
+                                          std::optional<ImageSize> wanted) {
+  const auto size = CheckedSize(path, bytes);
   if (!size) return size.error();
   if (wanted && *size != *wanted) {
     return ImageFailure{
         path, fmt::format("an image of {}x{} pixels", size->width, size->height), *size};
   }
-  cv::Mat mat = Decode(*bytes, flags);
+  cv::Mat mat = Decode(bytes, flags);
   if (mat.empty() || mat.cols != size->width || mat.rows != size->height) {
     return ImageFailure{path, kNoImage};
   }
@@ -162,27 +165,36 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
   return CheckedSize(path, *bytes);
 }
 
-Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
-                                                std::optional<ImageSize> wanted) {
+Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
+                                                  std::span<const std::uint8_t> bytes,
+                                                  std::optional<ImageSize> wanted) {
   // Decoders that turn colour to grey themselves round differently: take the colours.
   const Expected<cv::Mat, ImageFailure> mat =
-      ReadMat(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
+      DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
   if (!mat) return mat.error();
   if (mat->type() == CV_8UC1) return ToImage<std::uint8_t>(*mat);
-  if (mat->type() != CV_8UC3) return ImageFailure{path, "neither a grey nor a colour image"};
+  if (mat->type() != CV_8UC3) return ImageFailure{name, "neither a grey nor a colour image"};
   GrayImage gray(mat->cols, mat->rows);
   cv::Mat out = AsMat(gray);
   cv::cvtColor(*mat, out, cv::COLOR_BGR2GRAY);
   return gray;
 }
 
-Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,
-                                                  double factor,
-                                                  std::optional<ImageSize> wanted) {
+Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
+                                                std::optional<ImageSize> wanted) {
+  const auto bytes = ReadBytes(path);
+  if (!bytes) return bytes.error();
+  return DecodeGrayImage(path, *bytes, wanted);
+}
+
+Expected<DepthImage, ImageFailure> DecodeDepthImage(const std::filesystem::path& name,
+                                                    std::span<const std::uint8_t> bytes,
+                                                    double factor,
+                                                    std::optional<ImageSize> wanted) {
   PLUMBLINE_CHECK(factor > 0, "depth factor");
-  const Expected<cv::Mat, ImageFailure> mat = ReadMat(path, cv::IMREAD_UNCHANGED, wanted);
+  const Expected<cv::Mat, ImageFailure> mat = DecodeMat(name, bytes, cv::IMREAD_UNCHANGED, wanted);
   if (!mat) return mat.error();
-  if (mat->type() != CV_16UC1) return ImageFailure{path, "not a 16-bit image of one channel"};
+  if (mat->type() != CV_16UC1) return ImageFailure{name, "not a 16-bit image of one channel"};
   DepthImage depth(mat->cols, mat->rows);
   for (int y = 0; y < mat->rows; ++y) {
     const auto* in = mat->ptr<std::uint16_t>(y);
@@ -190,6 +202,14 @@ Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& p
     for (int x = 0; x < mat->cols; ++x) out[x] = static_cast<float>(in[x] / factor);
   }
   return depth;
+}
+
+Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,
+                                                  double factor,
+                                                  std::optional<ImageSize> wanted) {
+  const auto bytes = ReadBytes(path);
+  if (!bytes) return bytes.error();
+  return DecodeDepthImage(path, *bytes, factor, wanted);
 }
 
 }  // namespace plumbline

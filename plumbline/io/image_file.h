@@ -37,6 +37,15 @@ Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& p
                                                   double factor,
                                                   std::optional<ImageSize> wanted = std::nullopt);
 
+// The same from the bytes of a file; `name` is for failures.
+Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
+                                                  std::span<const std::uint8_t> bytes,
+                                                  std::optional<ImageSize> wanted = std::nullopt);
+Expected<DepthImage, ImageFailure> DecodeDepthImage(const std::filesystem::path& name,
+                                                    std::span<const std::uint8_t> bytes,
+                                                    double factor,
+                                                    std::optional<ImageSize> wanted = std::nullopt);
+
 // Why the bytes of a PNG, JPEG or WebP file cannot be whole, found from the structure of the file
 // without decoding; nullopt where nothing is wrong or the type is another one. Decoders return
 // half-filled images for such files.

@@ -6,11 +6,10 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/image_dataset.h"
+#include "plumbline/io/stamp_pairs.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,28 +47,19 @@ std::vector<ListedImage> ReadList(const fs::path& list) {
   return images;
 }
 
-// Index of the image nearest in time, the earlier of two equally near. `images` is not empty.
-std::size_t Nearest(const std::vector<ListedImage>& images, std::int64_t stamp_ns) {
-  const auto after = std::lower_bound(
-      images.begin(), images.end(), stamp_ns, [](const ListedImage& image, std::int64_t stamp) {
-        return image.stamp_ns < stamp;
-      });
-  const auto index = static_cast<std::size_t>(after - images.begin());
-  if (after == images.begin()) return 0;
-  if (after == images.end()) return index - 1;
-  return stamp_ns - images[index - 1].stamp_ns <= after->stamp_ns - stamp_ns ? index - 1 : index;
+std::vector<std::int64_t> StampsOf(const std::vector<ListedImage>& images) {
+  std::vector<std::int64_t> stamps;
+  for (const ListedImage& image : images) stamps.push_back(image.stamp_ns);
+  return stamps;
 }
 
 std::vector<FrameFiles> JoinDepth(const std::vector<ListedImage>& color,
                                   const std::vector<ListedImage>& depth,
                                   DatasetInfo& info) {
   std::vector<FrameFiles> files;
-  for (std::size_t i = 0; i < color.size(); ++i) {
-    const ListedImage& nearest = depth[Nearest(depth, color[i].stamp_ns)];
-    const std::int64_t delay = std::abs(nearest.stamp_ns - color[i].stamp_ns);
-    if (delay > kMaxDepthDelayNs || Nearest(color, nearest.stamp_ns) != i) continue;
+  for (const auto& [i, nearest] : PairByStamp(StampsOf(color), StampsOf(depth), kMaxDepthDelayNs)) {
     info.stamps_ns.push_back(color[i].stamp_ns);
-    files.push_back({color[i].path, std::nullopt, nearest.path});
+    files.push_back({color[i].path, std::nullopt, depth[nearest].path});
   }
   if (files.empty()) {
     throw InputError(info.path.string() +

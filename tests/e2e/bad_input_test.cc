@@ -100,8 +100,8 @@ TEST(BadInput, FilesThatAreMissing) {
         " --sensor stereo"},
        {"an unknown format",
         Remove("none"),
-        "--format: expected euroc, tum, kitti, images or video, found bag",
-        " --format bag"}});
+        "--format: expected euroc, tum, kitti, images, video, bag or mcap, found stream",
+        " --format stream"}});
 }
 
 TEST(BadInput, FilesThatAreBroken) {

@@ -179,9 +179,9 @@ TEST(OpenDataset, APipeIsNotWaitedFor) {
   const ScratchFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(MessageOf([&] { OpenDataset(folder / "pipe"); }),
-              HasSubstr("pipe: expected a folder or a video file, found a pipe"));
+              HasSubstr("pipe: expected a folder or a file, found a pipe"));
   EXPECT_THAT(MessageOf([] { OpenDataset("/dev/null"); }),
-              HasSubstr("/dev/null: expected a folder or a video file, found a device"));
+              HasSubstr("/dev/null: expected a folder or a file, found a device"));
   ExpectErrors(WriteEuroc, {{"none", "", "no error"}});
   WriteEuroc(folder);
   for (const char* name : {"mav0/cam0/data.csv", "mav0/cam0/sensor.yaml"}) {

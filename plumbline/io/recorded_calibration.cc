@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/recorded_calibration.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
+#include "plumbline/geometry/plausible_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+using RowMatrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+// R is written with few digits: it may be off a rotation by so much.
+constexpr double kRotationSlack = 1e-3;
+
+[[noreturn]] void Fail(const RecordedCamera& camera, const std::string& why) {
+  throw InputError(camera.source + ": " + why);
+}
+
+void Check(const RecordedCamera& camera, const std::optional<std::string>& fault) {
+  if (fault) Fail(camera, *fault);
+}
+
+bool AllZero(const std::vector<double>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0; });
+}
+
+void SetDistortion(const RecordedCamera& camera, CameraIntrinsics& intrinsics) {
+  const std::string& model = camera.message.distortion_model;
+  const std::vector<double>& d = camera.message.d;
+  std::size_t used = 0;
+  if (model == "plumb_bob" && (d.size() == 4 || d.size() == 5)) {
+    intrinsics.model = DistortionModel::kRadTan;
+    used = d.size();
+  } else if (model == "equidistant" && d.size() == 4) {
+    intrinsics.model = DistortionModel::kEquidistant;
+    used = d.size();
+  } else if (!AllZero(d) || model == "equidistant") {
+    Fail(
+        camera,
+        fmt::format("expected distortion plumb_bob of 4 or 5 numbers or equidistant of 4, found {} "
+                    "of {}: give --camera FILE",
+                    InQuotes(model),
+                    d.size()));
+  }
+  std::copy_n(d.begin(), used, intrinsics.distortion.begin());
+}
+
+Camera CameraOf(const RecordedCamera& camera) {
+  const CalibrationMessage& message = camera.message;
+  if (message.binning_x > 1 || message.binning_y > 1 || message.roi_x > 0 || message.roi_y > 0) {
+    Fail(camera, "expected whole images, found binned or cut ones: give --camera FILE");
+  }
+  Check(camera, SizeFault(message.width, message.height));
+  CameraIntrinsics intrinsics;
+  intrinsics.width = static_cast<int>(message.width);
+  intrinsics.height = static_cast<int>(message.height);
+  if (camera.rectified) {
+    intrinsics.fx = message.p[0];
+    intrinsics.fy = message.p[5];
+    intrinsics.cx = message.p[2];
+    intrinsics.cy = message.p[6];
+  } else {
+    intrinsics.fx = message.k[0];
+    intrinsics.fy = message.k[4];
+    intrinsics.cx = message.k[2];
+    intrinsics.cy = message.k[5];
+    SetDistortion(camera, intrinsics);
+  }
+  Check(camera, IntrinsicsFault(intrinsics));
+  Check(camera, DistortionFault(intrinsics));
+  return Camera(intrinsics);
+}
+
+// From the camera as it is to the rectified pair.
+Eigen::Quaterniond RectifiedFromCamera(const RecordedCamera& camera) {
+  const RowMatrix3 r = Eigen::Map<const RowMatrix3>(camera.message.r.data());
+  const bool finite = r.allFinite();
+  if (!finite || (r * r.transpose() - RowMatrix3::Identity()).norm() > kRotationSlack ||
+      r.determinant() < 0) {
+    Fail(camera, "expected a rotation in R, found none: give --camera FILE");
+  }
+  return Eigen::Quaterniond(Eigen::Matrix3d(r)).normalized();
+}
+
+// Where the camera stands on the common x axis of the rectified pair, metres.
+double PlaceOnBaseline(const RecordedCamera& camera) {
+  const double fx = camera.message.p[0], shift = camera.message.p[3];
+  if (!std::isfinite(shift) || !(fx > 0)) {
+    Fail(camera, "expected a projection in P, found none: give --camera FILE");
+  }
+  return -shift / fx;
+}
+
+}  // namespace
+
+bool IsCalibrated(const CalibrationMessage& message) {
+  return message.k[0] != 0 || message.p[0] != 0;
+}
+
+Calibration CalibrationOf(const RecordedCamera& left, const std::optional<RecordedCamera>& right) {
+  Calibration calibration;
+  calibration.left = CameraOf(left);
+  calibration.rectified = left.rectified;
+  if (!right) return calibration;
+  if (left.rectified != right->rectified) {
+    Fail(*right, "expected a pair of which both images are rectified or none, found one");
+  }
+  calibration.right = CameraOf(*right);
+  const double baseline = PlaceOnBaseline(*right) - PlaceOnBaseline(left);
+  if (baseline == 0) {
+    Fail(*right, "expected the baseline in P, found 0: give --camera FILE");
+  }
+  const Rigid3 right_from_left_rectified{Eigen::Quaterniond::Identity(), {-baseline, 0, 0}};
+  calibration.right_from_left = right_from_left_rectified;
+  if (!left.rectified) {
+    const Rigid3 rectified_from_left{RectifiedFromCamera(left), Eigen::Vector3d::Zero()};
+    const Rigid3 rectified_from_right{RectifiedFromCamera(*right), Eigen::Vector3d::Zero()};
+    calibration.right_from_left =
+        Inverse(rectified_from_right) * right_from_left_rectified * rectified_from_left;
+  }
+  Check(*right, PairFault(calibration));
+  return calibration;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/recording/image_message.h"
+
+#include <optional>
+#include <string>
+
+namespace plumbline {
+
+// The camera info of one camera, and what it is called.
+struct RecordedCamera {
+  CalibrationMessage message;
+  std::string source;      // "drive.bag: /cam0/camera_info"
+  bool rectified = false;  // its images are: their camera is P, not K and D
+};
+
+// Whether somebody calibrated the camera: drivers send zeros otherwise.
+bool IsCalibrated(const CalibrationMessage& message);
+
+// The calibration that sensor_msgs/CameraInfo (or foxglove.CameraCalibration) describes:
+// plumb_bob (k1 k2 p1 p2 k3), equidistant (k1 k2 k3 k4) or no distortion. Of a pair, R turns each
+// camera into the rectified pair and P of the right one has the baseline: -P[3] / P[0], metres.
+//
+// InputError "source: ..." for other models, binned or cut images, a pair of which only one camera
+// has rectified images or P has no baseline, and numbers that no camera has.
+Calibration CalibrationOf(const RecordedCamera& left, const std::optional<RecordedCamera>& right);
+
+}  // namespace plumbline

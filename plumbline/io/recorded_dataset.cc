@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/recorded_dataset.h"
+
+#include "plumbline/base/printable.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/image_dataset.h"
+#include "plumbline/io/raw_pixels.h"
+#include "plumbline/io/recorded_calibration.h"
+#include "plumbline/io/recorded_topics.h"
+#include "plumbline/io/stamp_pairs.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kMaxPairDelayNs = 5'000'000;
+constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
+constexpr double kMillimetres = 1000;  // of depth in 16 bits, as ROS has it (REP 118)
+constexpr std::size_t kCompressedDepthHeader = 12;
+
+// The messages of a frame.
+struct FrameMessages {
+  StoredMessage left;
+  std::optional<StoredMessage> right, depth;
+};
+
+RawPixels PixelsOf(const ImageMessage& image) {
+  return {image.encoding, image.width, image.height, image.step, image.big_endian, image.data};
+}
+
+class RecordedDataset : public Dataset {
+ public:
+  RecordedDataset(DatasetInfo info,
+                  std::unique_ptr<Recording> file,
+                  std::vector<FrameMessages> frames)
+      : Dataset(std::move(info)), file_(std::move(file)), frames_(std::move(frames)) {}
+
+  Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
+    const FrameMessages& messages = frames_.at(i);
+    const Camera& left_camera = calibration().left;
+    const ImageSize size = SizeOf(left_camera);
+    SensorFrame frame;
+    frame.stamp_ns = stamp_ns(i);
+    const auto left = Gray(messages.left, size);
+    if (!left) return FailureOf(left.error(), size);
+    frame.left = *left;
+    if (messages.right) {
+      const ImageSize right_size = calibration().right ? SizeOf(*calibration().right) : size;
+      const auto right = Gray(*messages.right, right_size);
+      if (!right) return FailureOf(right.error(), right_size);
+      frame.right = *right;
+    }
+    if (messages.depth) {
+      const auto depth = Depth(*messages.depth, size);
+      if (!depth) return FailureOf(depth.error(), size);
+      frame.depth = *depth;
+    }
+    return frame;
+  }
+
+ private:
+  static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
+
+  std::optional<ImageSize> Wanted(ImageSize size) const {
+    return info().has_calibration ? std::optional(size) : std::nullopt;
+  }
+
+  // Hands the message's image to `decode`.
+  template <class Pixel, class Decode>
+  Expected<Image<Pixel>, ImageFailure> ReadImage(const StoredMessage& place,
+                                                 const Decode& decode) const {
+    const Channel& channel = file_->channels()[place.channel];
+    const auto bytes = file_->Message(place);
+    if (!bytes) return ImageFailure{info().path, Printable(channel.topic) + ": " + bytes.error()};
+    const auto message = ParseImage(*FormOf(channel), *bytes);
+    if (!message) {
+      return ImageFailure{info().path, Printable(channel.topic) + ": the file has changed"};
+    }
+    Expected<Image<Pixel>, ImageFailure> image = decode(*message);
+    if (image) return image;
+    ImageFailure failure = image.error();
+    failure.why = Printable(channel.topic) + ": " + failure.why;
+    return failure;
+  }
+
+  Expected<GrayImage, ImageFailure> Gray(const StoredMessage& place, ImageSize size) const {
+    return ReadImage<std::uint8_t>(place, [&](const ImageMessage& image) {
+      if (image.compressed) return DecodeGrayImage(info().path, image.data, Wanted(size));
+      return GrayOfPixels(info().path, PixelsOf(image), Wanted(size));
+    });
+  }
+
+  Expected<DepthImage, ImageFailure> Depth(const StoredMessage& place, ImageSize size) const {
+    const double factor = calibration().depth_factor.value_or(1);
+    return ReadImage<float>(
+        place, [&](const ImageMessage& image) -> Expected<DepthImage, ImageFailure> {
+          if (!image.compressed) {
+            return DepthOfPixels(info().path, PixelsOf(image), factor, Wanted(size));
+          }
+          std::span<const std::uint8_t> bytes = image.data;
+          if (image.encoding.find("compressedDepth") != std::string::npos) {
+            bytes = bytes.subspan(std::min(bytes.size(), kCompressedDepthHeader));
+          }
+          return DecodeDepthImage(info().path, bytes, factor, Wanted(size));
+        });
+  }
+
+  std::unique_ptr<Recording> file_;
+  std::vector<FrameMessages> frames_;
+};
+
+std::vector<std::int64_t> StampsOf(const RecordedTopic& topic) {
+  std::vector<std::int64_t> stamps;
+  for (const RecordedImage& image : topic.images) stamps.push_back(image.stamp_ns);
+  return stamps;
+}
+
+// The images of the left topic with those of another one.
+std::vector<FrameMessages> Join(const RecordedTopic& left,
+                                const RecordedTopic& other,
+                                DatasetInfo& info) {
+  const bool stereo = info.sensor == SensorKind::kStereo;
+  const std::int64_t most_ns = stereo ? kMaxPairDelayNs : kMaxDepthDelayNs;
+  std::vector<FrameMessages> frames;
+  for (const auto& [i, k] : PairByStamp(StampsOf(left), StampsOf(other), most_ns)) {
+    info.stamps_ns.push_back(left.images[i].stamp_ns);
+    FrameMessages frame{left.images[i].place, std::nullopt, std::nullopt};
+    (stereo ? frame.right : frame.depth) = other.images[k].place;
+    frames.push_back(frame);
+  }
+  const auto note = [&](const RecordedTopic& topic, const RecordedTopic& beside) {
+    const std::size_t alone = topic.images.size() - frames.size();
+    if (alone == 0) return;
+    info.notes.push_back(fmt::format("{} images of {} without one of {} within {} ms are left out",
+                                     alone,
+                                     topic.name,
+                                     beside.name,
+                                     most_ns / 1'000'000));
+  };
+  if (frames.empty()) {
+    throw InputError(fmt::format("{}: expected images of {} and {} within {} ms, found none",
+                                 info.path.string(),
+                                 Printable(left.name),
+                                 Printable(other.name),
+                                 most_ns / 1'000'000));
+  }
+  note(left, other);
+  if (stereo) note(other, left);
+  return frames;
+}
+
+// The topics that are read, and which of their images are not.
+void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& info) {
+  std::vector<std::string> names;
+  for (const RecordedTopic* topic : topics) {
+    names.push_back(topic->name);
+    if (topic->without_stamp > 0) {
+      info.notes.push_back(
+          fmt::format("{} images of {} have no stamp: when they were recorded is "
+                      "taken for it",
+                      topic->without_stamp,
+                      topic->name));
+    }
+    if (topic->again > 0) {
+      info.notes.push_back(
+          fmt::format("{} images of {} have the stamp of another one and are left "
+                      "out",
+                      topic->again,
+                      topic->name));
+    }
+  }
+  info.notes.push_back(fmt::format("topics: {}", fmt::join(names, ", ")));
+}
+
+std::optional<RecordedCamera> FindCameraInfo(const RecordedTopics& topics,
+                                             const RecordedTopic& image) {
+  const auto* found = CalibrationFor(topics, image);
+  if (found == nullptr || !IsCalibrated(found->second)) return std::nullopt;
+  return RecordedCamera{found->second,
+                        topics.file->path().string() + ": " + Printable(found->first),
+                        IsRectifiedByName(image.name)};
+}
+
+std::string NoCameraInfo(const fs::path& path, const RecordedTopic& image) {
+  return fmt::format(
+      "{}: expected a calibration of {} (sensor_msgs/CameraInfo), found none: give --camera FILE, "
+      "or put a camera.yaml beside the file (built-in cameras: {})",
+      path.string(),
+      Printable(image.name),
+      fmt::join(BuiltInCameras(), ", "));
+}
+
+std::optional<CameraFile> ReadCalibration(const RecordedTopics& topics,
+                                          const ChosenTopics& chosen,
+                                          SensorKind sensor,
+                                          const DatasetOptions& options) {
+  const fs::path& path = topics.file->path();
+  if (auto given = GivenCamera(path.parent_path(), options, sensor)) return given;
+  const bool stereo = sensor == SensorKind::kStereo;
+  const std::optional<RecordedCamera> left = FindCameraInfo(topics, *chosen.left);
+  const std::optional<RecordedCamera> right =
+      stereo ? FindCameraInfo(topics, *chosen.right) : std::nullopt;
+  if (!left || (stereo && !right)) {
+    if (options.allow_missing_camera) return std::nullopt;
+    throw InputError(NoCameraInfo(path, left ? *chosen.right : *chosen.left));
+  }
+  CameraFile camera{CalibrationOf(*left, right), left->source};
+  if (right) camera.source += " and " + CalibrationFor(topics, *chosen.right)->first;
+  return camera;
+}
+
+std::vector<SensorKind> Available(const ChosenTopics& chosen) {
+  std::vector<SensorKind> available;
+  if (chosen.right != nullptr) available.push_back(SensorKind::kStereo);
+  if (chosen.depth != nullptr) available.push_back(SensorKind::kRgbd);
+  available.push_back(SensorKind::kMono);
+  return available;
+}
+
+// Depth in metres needs no factor, whatever the camera file says.
+void SetDepthFactor(const RecordedTopic& depth, DatasetInfo& info) {
+  std::optional<double>& factor = info.calibration.depth_factor;
+  if (depth.encoding.starts_with("32FC1")) {
+    factor = 1;
+  } else if (!factor) {
+    factor = kMillimetres;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
+                                       DatasetFormat format,
+                                       const DatasetOptions& options) {
+  RecordedTopics topics = ReadTopics(path, format);
+  const ChosenTopics chosen = ChooseTopics(topics, options.topics);
+  DatasetInfo info = DescribeDataset(path, format, Available(chosen), options);
+  const auto camera = ReadCalibration(topics, chosen, info.sensor, options);
+  info.has_calibration = false;
+  if (camera) UseCamera(*camera, info);
+  if (info.sensor == SensorKind::kRgbd) SetDepthFactor(*chosen.depth, info);
+  std::vector<FrameMessages> frames;
+  std::vector<const RecordedTopic*> used = {chosen.left};
+  if (info.sensor == SensorKind::kMono) {
+    for (const RecordedImage& image : chosen.left->images) {
+      info.stamps_ns.push_back(image.stamp_ns);
+      frames.push_back({image.place, std::nullopt, std::nullopt});
+    }
+  } else {
+    used.push_back(info.sensor == SensorKind::kStereo ? chosen.right : chosen.depth);
+    frames = Join(*chosen.left, *used.back(), info);
+  }
+  NoteTopics(used, info);
+  auto dataset =
+      std::make_unique<RecordedDataset>(std::move(info), std::move(topics.file), std::move(frames));
+  CheckFirstFrame(*dataset);
+  return dataset;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/recording/recording.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+enum class MessageKind { kImage, kCompressedImage, kCalibration };
+enum class MessageEncoding { kRos1, kCdr, kProtobuf };
+
+// What of the messages of a channel this program understands.
+struct MessageForm {
+  MessageKind kind = MessageKind::kImage;
+  MessageEncoding encoding = MessageEncoding::kRos1;
+};
+
+// sensor_msgs/Image, CompressedImage and CameraInfo of ROS 1 and (with /msg/, as CDR) ROS 2,
+// foxglove.RawImage, CompressedImage and CameraCalibration as protobuf; nullopt for all others.
+std::optional<MessageForm> FormOf(const Channel& channel);
+
+// An image as it was sent. Nothing of it is checked against the rest.
+struct ImageMessage {
+  std::int64_t stamp_ns = 0;  // of the sensor; 0 where it was not set
+  bool compressed = false;    // `data` is an image file
+  std::string encoding;       // "mono8", "bgr8"; of a compressed one its format: "jpeg"
+  // Of images that are not compressed: pixels, and bytes from row to row.
+  std::uint32_t width = 0, height = 0, step = 0;
+  bool big_endian = false;
+  std::span<const std::uint8_t> data;  // of the message that was parsed
+};
+
+// Numbers of a camera as sensor_msgs/CameraInfo has them.
+struct CalibrationMessage {
+  std::uint32_t width = 0, height = 0;
+  std::string distortion_model;
+  std::vector<double> d;
+  std::array<double, 9> k{}, r{};
+  std::array<double, 12> p{};
+  std::uint32_t binning_x = 0, binning_y = 0;                         // 0 is 1
+  std::uint32_t roi_x = 0, roi_y = 0, roi_width = 0, roi_height = 0;  // all 0: the whole image
+};
+
+// nullopt where the bytes are no such message. `form` is of an image, or of a calibration.
+std::optional<ImageMessage> ParseImage(MessageForm form, std::span<const std::uint8_t> bytes);
+std::optional<CalibrationMessage> ParseCalibration(MessageForm form,
+                                                   std::span<const std::uint8_t> bytes);
+
+}  // namespace plumbline

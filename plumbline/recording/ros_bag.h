@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/recording/recording.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace plumbline {
+
+// Whether a file begins as a bag does, of whatever version.
+bool BeginsAsBag(std::span<const std::uint8_t> bytes);
+
+// Reads a ROS 1 bag of version 2.0 (wiki.ros.org/Bags/Format/2.0) from its first record to its
+// last, chunks not packed, by bzip2 or by LZ4, and hands every message to `sink` in the order of
+// the file. The index is counted and not used: a bag that was cut short or not closed shows.
+//
+// InputError, naming the byte, for what is no such bag, is damaged, ends early, is encrypted or has
+// been left without its index (`rosbag reindex` makes it anew). Cost: reading and unpacking the
+// file once.
+std::unique_ptr<Recording> ReadBag(const std::filesystem::path& path, const MessageSink& sink);
+
+}  // namespace plumbline

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/recording/ros_messages.h"
+
+#include "plumbline/recording/byte_cursor.h"
+
+#include <string_view>
+
+namespace plumbline {
+namespace {
+
+using ByteSpan = std::span<const std::uint8_t>;
+
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr std::size_t kCdrHeader = 4;
+constexpr std::uint32_t kMostCoefficients = 64;
+
+bool IsLittleEndianCdr(ByteSpan bytes) {
+  return bytes.size() >= kCdrHeader && bytes[0] == 0 && bytes[1] == 1;
+}
+
+// The fields of a message in order.
+class FieldReader {
+ public:
+  FieldReader(bool cdr, ByteSpan bytes) : cdr_(cdr), cursor_(cdr ? bytes.subspan(4) : bytes) {}
+
+  bool ok() const { return cursor_.ok(); }
+
+  std::uint8_t U8() { return cursor_.U8(); }
+  std::uint32_t U32() {
+    Align(4);
+    return cursor_.U32();
+  }
+  double F64() {
+    Align(8);
+    return cursor_.F64();
+  }
+  std::string_view Text() {
+    std::string_view text = cursor_.Text(U32());
+    if (cdr_ && text.ends_with('\0')) text.remove_suffix(1);
+    return text;
+  }
+  ByteSpan Bytes() { return cursor_.Take(U32()); }
+
+  // std_msgs/Header; returns its stamp.
+  std::int64_t Header() {
+    if (!cdr_) U32();  // ROS 1 counts messages
+    const std::int64_t seconds = U32();
+    const std::int64_t nanoseconds = U32();
+    Text();  // coordinate frame
+    return seconds * kNsPerSecond + nanoseconds;
+  }
+
+ private:
+  void Align(std::size_t size) {
+    if (cdr_) cursor_.Align(size);
+  }
+
+  bool cdr_;
+  ByteCursor cursor_;
+};
+
+}  // namespace
+
+std::optional<ImageMessage> ParseRosImage(bool cdr, bool compressed, ByteSpan bytes) {
+  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  FieldReader fields(cdr, bytes);
+  ImageMessage image;
+  image.compressed = compressed;
+  image.stamp_ns = fields.Header();
+  if (!compressed) {
+    image.height = fields.U32();
+    image.width = fields.U32();
+  }
+  image.encoding = fields.Text();
+  if (!compressed) {
+    image.big_endian = fields.U8() != 0;
+    image.step = fields.U32();
+  }
+  image.data = fields.Bytes();
+  return fields.ok() ? std::optional(std::move(image)) : std::nullopt;
+}
+
+std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) {
+  if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
+  FieldReader fields(cdr, bytes);
+  CalibrationMessage camera;
+  fields.Header();
+  camera.height = fields.U32();
+  camera.width = fields.U32();
+  camera.distortion_model = fields.Text();
+  const std::uint32_t coefficients = fields.U32();
+  if (coefficients > kMostCoefficients) return std::nullopt;
+  for (std::uint32_t i = 0; i < coefficients; ++i) camera.d.push_back(fields.F64());
+  for (double& number : camera.k) number = fields.F64();
+  for (double& number : camera.r) number = fields.F64();
+  for (double& number : camera.p) number = fields.F64();
+  camera.binning_x = fields.U32();
+  camera.binning_y = fields.U32();
+  camera.roi_x = fields.U32();
+  camera.roi_y = fields.U32();
+  camera.roi_height = fields.U32();
+  camera.roi_width = fields.U32();
+  fields.U8();  // whether the region is to be rectified
+  return fields.ok() ? std::optional(std::move(camera)) : std::nullopt;
+}
+
+}  // namespace plumbline

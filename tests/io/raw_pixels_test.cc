@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/raw_pixels.h"
+
+#include <array>
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+TEST(RawPixels, KnowsWhatEncodingsShow) {
+  for (const char* name : {"mono8", "rgb8", "bgr8", "rgba8", "bgra8", "8UC1", "8UC3", "8UC4"}) {
+    EXPECT_EQ(ContentsOfEncoding(name), ImageContents::kGray) << name;
+  }
+  for (const char* name : {"mono16", "16UC1", "32FC1"}) {
+    EXPECT_EQ(ContentsOfEncoding(name), ImageContents::kDepth) << name;
+  }
+  EXPECT_EQ(ContentsOfEncoding("bayer_rggb8"), std::nullopt);
+  EXPECT_EQ(PixelBytes("rgb8"), 3);
+  EXPECT_EQ(PixelBytes("32FC1"), 4);
+}
+
+TEST(RawPixels, ReadsDepthOfEitherByteOrder) {
+  const std::array<std::uint8_t, 4> bytes = {0x03, 0xE8, 0x00, 0x00};
+  const RawPixels pixels{"16UC1", 2, 1, 4, true, bytes};
+  const auto depth = DepthOfPixels("x", pixels, 1000, std::nullopt);
+  ASSERT_TRUE(depth);
+  EXPECT_EQ(depth->at(0, 0), 1.0F);
+  EXPECT_EQ(depth->at(1, 0), 0.0F);
+  const std::array<std::uint8_t, 4> float_bytes = {0x3F, 0xC0, 0, 0};
+  const RawPixels metres{"32FC1", 1, 1, 4, true, float_bytes};
+  EXPECT_EQ(DepthOfPixels("x", metres, 1000, std::nullopt)->at(0, 0), 1.5F);
+  const std::array<std::uint8_t, 4> negative_bytes = {0xBF, 0xC0, 0, 0};
+  const RawPixels negative{"32FC1", 1, 1, 4, true, negative_bytes};
+  EXPECT_EQ(DepthOfPixels("x", negative, 1000, std::nullopt)->at(0, 0), 0.0F);
+}
+
+TEST(RawPixels, RefusesSizesThatDoNotGoTogether) {
+  const std::array<std::uint8_t, 12> bytes{};
+  const auto why = [&](std::uint32_t width, std::uint32_t height, std::uint32_t step) {
+    const auto image =
+        GrayOfPixels("x", {"mono8", width, height, step, false, bytes}, std::nullopt);
+    return image ? std::string("none") : image.error().why;
+  };
+  EXPECT_EQ(why(4, 3, 4), "none");
+  EXPECT_EQ(why(3, 3, 4), "none");
+  EXPECT_EQ(why(4, 3, 3), "expected rows of at least 4 bytes, found 3");
+  EXPECT_EQ(why(4, 4, 4), "expected 16 bytes of pixels, found 12");
+  EXPECT_EQ(why(0, 3, 4), "an image of 0x3 pixels, expected some and at most 100 million");
+  EXPECT_EQ(why(0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF),
+            "an image of 4294967295x4294967295 pixels, expected some and at most 100 million");
+  const auto other = GrayOfPixels("x", {"mono8", 4, 3, 4, false, bytes}, ImageSize{3, 4});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().other_size, (ImageSize{4, 3}));
+  EXPECT_FALSE(DepthOfPixels("x", {"mono8", 4, 3, 4, false, bytes}, 1, std::nullopt));
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,361 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/dataset.h"
+
+#include "tests/io/dataset_fixtures.h"
+#include "tests/io/scratch_folder.h"
+#include "tests/support/bag_writer.h"
+#include "tests/support/mcap_writer.h"
+#include <bit>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+TestImage Gray(std::int64_t stamp_ns, char value) {
+  return {stamp_ns, "mono8", 8, 6, 8, std::string(48, value)};
+}
+
+void AddImage(BagWriter& bag, const std::string& topic, const TestImage& image) {
+  bag.Add(topic, "sensor_msgs/Image", image.stamp_ns + 7, RawImageMessage(Dialect::kRos1, image));
+}
+
+void AddPacked(BagWriter& bag, const std::string& topic, const TestImage& image) {
+  bag.Add(topic,
+          "sensor_msgs/CompressedImage",
+          image.stamp_ns + 7,
+          CompressedImageMessage(Dialect::kRos1, image));
+}
+
+void AddCamera(BagWriter& bag, const std::string& topic, const TestCamera& camera) {
+  bag.Add(topic, "sensor_msgs/CameraInfo", 1, CalibrationMessageOf(Dialect::kRos1, camera));
+}
+
+TestCamera RightCamera() {
+  TestCamera camera;
+  camera.p[3] = -0.5;  // 0.1 m
+  return camera;
+}
+
+// Three stereo pairs, the third without its right image, calibrated.
+BagWriter StereoBag() {
+  BagWriter bag;
+  AddCamera(bag, "/cam0/camera_info", {});
+  AddCamera(bag, "/cam1/camera_info", RightCamera());
+  for (const int i : {1, 2, 3}) {
+    AddImage(bag, "/cam0/image_raw", Gray(i * kSecond, static_cast<char>(i)));
+    if (i < 3)
+      AddImage(bag, "/cam1/image_raw", Gray(i * kSecond + 1000, static_cast<char>(10 + i)));
+  }
+  return bag;
+}
+
+std::filesystem::path Write(const ScratchFolder& folder, BagWriter bag) {
+  return folder.Write("x.bag", bag.Finish());
+}
+
+TEST(Recordings, ReadsAPairOfABag) {
+  const ScratchFolder folder;
+  const auto dataset = OpenDataset(Write(folder, StereoBag()));
+  EXPECT_EQ(dataset->info().format, DatasetFormat::kBag);
+  EXPECT_EQ(dataset->sensor(), SensorKind::kStereo);
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(kSecond, 2 * kSecond));
+  EXPECT_THAT(dataset->info().notes,
+              Contains(HasSubstr("1 images of /cam0/image_raw without one of /cam1/image_raw")));
+  EXPECT_NEAR(dataset->calibration().right_from_left.translation.x(), -0.1, 1e-12);
+  EXPECT_FALSE(dataset->calibration().rectified);
+  EXPECT_THAT(dataset->info().calibration_source,
+              HasSubstr("/cam0/camera_info and /cam1/camera_info"));
+  const auto frame = dataset->Read(1);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp_ns, 2 * kSecond);
+  EXPECT_EQ(frame->left.at(7, 5), 2);
+  EXPECT_EQ(frame->right->at(0, 0), 12);
+  EXPECT_EQ(OpenDataset(folder / "x.bag", {.sensor = SensorKind::kMono})->size(), 3U);
+}
+
+TEST(Recordings, ReadsMcapOfAllDialects) {
+  const std::map<Dialect, std::vector<std::string>> names = {
+      {Dialect::kRos1,
+       {"ros1", "sensor_msgs/Image", "sensor_msgs/CompressedImage", "sensor_msgs/CameraInfo"}},
+      {Dialect::kCdr,
+       {"cdr",
+        "sensor_msgs/msg/Image",
+        "sensor_msgs/msg/CompressedImage",
+        "sensor_msgs/msg/CameraInfo"}},
+      {Dialect::kProtobuf,
+       {"protobuf",
+        "foxglove.RawImage",
+        "foxglove.CompressedImage",
+        "foxglove.CameraCalibration"}}};
+  for (const auto& [dialect, words] : names) {
+    const ScratchFolder folder;
+    McapWriter file("zstd");
+    file.Add("/camera/info", words[3], words[0], 1, CalibrationMessageOf(dialect, {}));
+    file.Add("/camera/image", words[1], words[0], 2, RawImageMessage(dialect, Gray(kSecond, 'a')));
+    const std::string png = Png(8, 6, 'b');
+    file.Add("/camera/image",
+             words[2],
+             words[0],
+             3,
+             CompressedImageMessage(dialect, {2 * kSecond, "png", 0, 0, 0, png}));
+    const auto dataset = OpenDataset(folder.Write("x.mcap", file.Finish()));
+    EXPECT_EQ(dataset->info().format, DatasetFormat::kMcap);
+    EXPECT_EQ(dataset->sensor(), SensorKind::kMono);
+    ASSERT_THAT(dataset->info().stamps_ns, ElementsAre(kSecond, 2 * kSecond));
+    EXPECT_EQ(dataset->Read(0)->left.at(3, 3), 'a');
+    EXPECT_EQ(dataset->Read(1)->left.at(3, 3), 'b');
+    EXPECT_EQ(dataset->calibration().left.intrinsics().fx, 5);
+  }
+}
+
+TEST(Recordings, TurnsColourIntoGreyAsImageFilesDo) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  const std::vector<std::pair<std::string, std::string>> pixels = {{"bgr8", "\x10\x50\xA0"},
+                                                                   {"rgb8", "\xA0\x50\x10"},
+                                                                   {"bgra8", "\x10\x50\xA0\xFF"},
+                                                                   {"rgba8", "\xA0\x50\x10\xFF"}};
+  std::int64_t stamp = 0;
+  for (const auto& [encoding, pixel] : pixels) {
+    TestImage image{stamp += kSecond, encoding, 8, 6, 0, ""};
+    image.step = static_cast<std::uint32_t>(8 * pixel.size() + 3);  // rows have a margin
+    for (int y = 0; y < 6; ++y) {
+      for (int x = 0; x < 8; ++x) image.data += pixel;
+      image.data += "***";
+    }
+    AddImage(bag, "/c/image", image);
+  }
+  const auto dataset = OpenDataset(Write(folder, bag));
+  // 0.299 R + 0.587 G + 0.114 B
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(dataset->Read(i)->left.at(7, 5), 97) << i;
+}
+
+TEST(Recordings, FindDepthByItsEncoding) {
+  for (const std::string encoding : {"16UC1", "mono16", "32FC1", "16UC1; compressedDepth png"}) {
+    const ScratchFolder folder;
+    BagWriter bag;
+    AddCamera(bag, "/camera/rgb/camera_info", {});
+    AddImage(bag, "/camera/rgb/image_color", Gray(kSecond, 'a'));
+    TestImage depth{kSecond + 15'000'000, encoding, 8, 6, 16, ""};
+    for (int i = 0; i < 48; ++i) {
+      const float metres = i == 0 ? std::numeric_limits<float>::quiet_NaN() : 1.5F;
+      depth.data += encoding == "32FC1" ? LittleEndian(std::bit_cast<std::uint32_t>(metres), 4)
+                                        : LittleEndian(i == 0 ? 0 : 1500, 2);
+    }
+    if (encoding == "32FC1") depth.step = 32;
+    if (encoding.size() > 6) {
+      depth.data = std::string(12, '\0') + Png(8, 6, 1500);
+      AddPacked(bag, "/camera/depth/image/compressedDepth", depth);
+    } else {
+      AddImage(bag, "/camera/depth/image", depth);
+    }
+    const auto path = Write(folder, bag);
+    const auto dataset = OpenDataset(path);
+    ASSERT_EQ(dataset->sensor(), SensorKind::kRgbd) << encoding;
+    const auto frame = dataset->Read(0);
+    ASSERT_TRUE(frame) << frame.error().why;
+    EXPECT_EQ(frame->depth->at(7, 5), 1.5F);
+    EXPECT_EQ(frame->depth->at(0, 0), encoding.size() <= 6 ? 0.0F : 1.5F);
+    EXPECT_EQ(OpenDataset(path, {.sensor = SensorKind::kMono})->sensor(), SensorKind::kMono);
+  }
+}
+
+TEST(Recordings, TakeThePictureThatIsNotPacked) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  AddImage(bag, "/c/image", Gray(kSecond, 'a'));
+  AddPacked(bag, "/c/image/compressed", {kSecond, "png", 0, 0, 0, Png(8, 6, 'b')});
+  const auto path = Write(folder, bag);
+  EXPECT_EQ(OpenDataset(path)->Read(0)->left.at(0, 0), 'a');
+  EXPECT_EQ(OpenDataset(path, {.topics = {"/c/image/compressed"}})->Read(0)->left.at(0, 0), 'b');
+}
+
+TEST(Recordings, ListTopicsWhereTheChoiceIsNotClear) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddImage(bag, "/front/image", Gray(kSecond, 'a'));
+  AddImage(bag, "/back/image", Gray(kSecond, 'b'));
+  const auto path = Write(folder, bag);
+  const std::string camera =
+      folder
+          .Write("pair.yaml",
+                 "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrectified: true\nbaseline: 0.1\n"
+                 "right:\n  size: [8, 6]\n  intrinsics: [5, 5, 4, 3]\n")
+          .string();
+  const auto message = [&](const DatasetOptions& options) {
+    return MessageOf([&] { OpenDataset(path, options); });
+  };
+  EXPECT_THAT(message({.camera = camera}),
+              HasSubstr("found /back/image (mono8, 1 images), /front/image (mono8, 1 images); "
+                        "choose by --topic"));
+  EXPECT_THAT(message({.camera = camera, .topics = {"/side/image"}}),
+              HasSubstr("expected images on topic '/side/image', found none; topics: /back/image"));
+  const auto mono = OpenDataset(path, {.camera = camera, .topics = {"/front/image"}});
+  EXPECT_EQ(mono->sensor(), SensorKind::kMono);
+  EXPECT_EQ(mono->Read(0)->left.at(0, 0), 'a');
+  // In this order left and right.
+  const auto pair =
+      OpenDataset(path, {.camera = camera, .topics = {"/front/image", "/back/image"}});
+  ASSERT_EQ(pair->sensor(), SensorKind::kStereo);
+  EXPECT_EQ(pair->Read(0)->left.at(0, 0), 'a');
+  EXPECT_EQ(pair->Read(0)->right->at(0, 0), 'b');
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path(), {.topics = {"/a"}}); }),
+              HasSubstr("found none of them"));
+}
+
+TEST(Recordings, WantACameraFileWhereThereIsNoCameraInfo) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddImage(bag, "/cam0/image_raw", Gray(kSecond, 'a'));
+  TestCamera uncalibrated;
+  uncalibrated.k = {};
+  uncalibrated.p = {};
+  AddCamera(bag, "/cam0/camera_info", uncalibrated);
+  const auto path = Write(folder, bag);
+  EXPECT_THAT(
+      MessageOf([&] { OpenDataset(path); }),
+      HasSubstr("expected a calibration of /cam0/image_raw (sensor_msgs/CameraInfo), found none: "
+                "give --camera FILE"));
+  EXPECT_FALSE(OpenDataset(path, {.allow_missing_camera = true})->info().has_calibration);
+  EXPECT_THAT(MessageOf([&] { OpenDataset(path, {.camera = "euroc"}); }),
+              HasSubstr("expected an image of 752x480 pixels as in the calibration, found 8x6"));
+}
+
+TEST(Recordings, ReadCamerasAsTheyAreCalibrated) {
+  const ScratchFolder folder;
+  const auto opened =
+      [&](const TestCamera& left, const TestCamera& right, const std::string& image) {
+        BagWriter bag;
+        AddCamera(bag, "/left/camera_info", left);
+        AddCamera(bag, "/right/camera_info", right);
+        AddImage(bag, "/left/" + image, Gray(kSecond, 'a'));
+        AddImage(bag, "/right/" + image, Gray(kSecond, 'b'));
+        return OpenDataset(Write(folder, bag))->calibration();
+      };
+  TestCamera left, right = RightCamera();
+  left.d = {0.1, -0.02, 0.001, 0.002, 0.003};
+  left.p[0] = left.p[5] = right.p[0] = right.p[5] = 4;
+  right.p[3] = -0.4;
+  // Turned by 0.1 about y: the rectified pair lies along the left camera's axis.
+  const double c = 0.995004165278026, s = 0.099833416646828;
+  right.r = {c, 0, -s, 0, 1, 0, s, 0, c};
+  right.model = "equidistant";
+  right.d = {0.01, 0.02, 0.003, 0.004};
+  const Calibration raw = opened(left, right, "image_raw");
+  EXPECT_EQ(raw.left.intrinsics().model, DistortionModel::kRadTan);
+  EXPECT_EQ(raw.left.intrinsics().distortion[4], 0.003);
+  EXPECT_EQ(raw.right->intrinsics().model, DistortionModel::kEquidistant);
+  EXPECT_EQ(raw.left.intrinsics().fx, 5);
+  EXPECT_FALSE(raw.rectified);
+  // In the frame of the right camera, whose x axis is turned.
+  EXPECT_NEAR(raw.right_from_left.translation.norm(), 0.1, 1e-9);
+  EXPECT_NEAR(raw.right_from_left.translation.x(), -0.1 * c, 1e-9);
+  EXPECT_NEAR(raw.right_from_left.translation.z(), 0.1 * s, 1e-9);
+  const Calibration rectified = opened(left, right, "image_rect");
+  EXPECT_TRUE(rectified.rectified);
+  EXPECT_EQ(rectified.left.intrinsics().fx, 4);
+  EXPECT_TRUE(rectified.left.IsIdeal());
+  EXPECT_NEAR(rectified.right_from_left.translation.x(), -0.1, 1e-12);
+
+  const auto message = [&](const TestCamera& a, const TestCamera& b) {
+    return MessageOf([&] { opened(a, b, "image_raw"); });
+  };
+  TestCamera odd = left;
+  odd.model = "rational_polynomial";
+  EXPECT_THAT(message(odd, right), HasSubstr("/left/camera_info: expected distortion plumb_bob"));
+  odd = left;
+  odd.binning = 2;
+  EXPECT_THAT(message(odd, right), HasSubstr("expected whole images, found binned"));
+  odd = left;
+  odd.r = {};
+  EXPECT_THAT(message(odd, right), HasSubstr("expected a rotation in R"));
+  odd = right;
+  odd.p[3] = 0;
+  EXPECT_THAT(message(left, odd), HasSubstr("/right/camera_info: expected the baseline in P"));
+  odd.p[3] = 0.4;
+  EXPECT_THAT(message(left, odd), HasSubstr("expected the right camera to the right"));
+  odd = left;
+  odd.k[0] = -1;
+  EXPECT_THAT(message(odd, right), HasSubstr("/left/camera_info: expected fx"));
+}
+
+TEST(Recordings, FailFrameByFrame) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  AddImage(bag, "/c/image", Gray(kSecond, 'a'));
+  TestImage shorter = Gray(2 * kSecond, 'b');
+  shorter.data.resize(40);
+  AddImage(bag, "/c/image", shorter);
+  const std::string png = Png(8, 6, 'c');
+  AddPacked(bag, "/c/image", {3 * kSecond, "png", 0, 0, 0, png.substr(0, png.size() - 4)});
+  TestImage bayer = Gray(4 * kSecond, 'd');
+  bayer.encoding = "bayer_rggb8";
+  AddImage(bag, "/c/image", bayer);
+  const auto dataset = OpenDataset(Write(folder, bag));
+  ASSERT_EQ(dataset->size(), 4U);
+  EXPECT_TRUE(dataset->Read(0));
+  EXPECT_EQ(dataset->Read(1).error().why, "/c/image: expected 48 bytes of pixels, found 40");
+  EXPECT_EQ(dataset->Read(2).error().why, "/c/image: the file ends early");
+  EXPECT_EQ(dataset->Read(3).error().why,
+            "/c/image: expected an image, found encoding 'bayer_rggb8'");
+}
+
+TEST(Recordings, OrderImagesByTheSensorsStamps) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  AddImage(bag, "/c/image", Gray(3 * kSecond, 'c'));
+  AddImage(bag, "/c/image", Gray(kSecond, 'a'));
+  AddImage(bag, "/c/image", Gray(kSecond, 'x'));
+  bag.Add(
+      "/c/image", "sensor_msgs/Image", 2 * kSecond, RawImageMessage(Dialect::kRos1, Gray(0, 'b')));
+  const auto dataset = OpenDataset(Write(folder, bag));
+  EXPECT_THAT(dataset->info().stamps_ns, ElementsAre(kSecond, 2 * kSecond, 3 * kSecond));
+  EXPECT_EQ(dataset->Read(0)->left.at(0, 0), 'a');
+  EXPECT_EQ(dataset->Read(1)->left.at(0, 0), 'b');
+  EXPECT_THAT(dataset->info().notes, Contains(HasSubstr("1 images of /c/image have no stamp")));
+  EXPECT_THAT(dataset->info().notes,
+              Contains(HasSubstr("1 images of /c/image have the stamp of another")));
+}
+
+TEST(Recordings, RefuseWhatHasNoImages) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  bag.Add("/imu", "sensor_msgs/Imu", 5, "something");
+  EXPECT_THAT(MessageOf([&] { OpenDataset(Write(folder, bag)); }),
+              HasSubstr("found sensor_msgs/Imu"));
+  BagWriter lying;
+  lying.Add("/c/image", "sensor_msgs/Image", 5, "something");
+  EXPECT_THAT(
+      MessageOf([&] { OpenDataset(Write(folder, lying)); }),
+      HasSubstr("expected messages of sensor_msgs/Image on /c/image, found one that is none"));
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.Write("cut.mcap", "")); }),
+              HasSubstr("expected an MCAP file"));
+  BagWriter apart;
+  AddImage(apart, "/cam0/image_raw", Gray(kSecond, 'a'));
+  AddImage(apart, "/cam1/image_raw", Gray(2 * kSecond, 'a'));
+  AddCamera(apart, "/cam0/camera_info", {});
+  AddCamera(apart, "/cam1/camera_info", RightCamera());
+  EXPECT_THAT(MessageOf([&] { OpenDataset(Write(folder, apart)); }),
+              HasSubstr("within 5 ms, found none"));
+}
+
+}  // namespace
+}  // namespace plumbline
