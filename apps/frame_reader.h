@@ -4,38 +4,29 @@
 
 #include "plumbline/io/dataset.h"
 
+#include "apps/patient_reader.h"
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <thread>
 
 namespace plumbline {
 
-// Reads frames of a data set in a thread of its own, so that a disk or network that does not answer
-// holds nobody up for ever.
+// Reads frames of a data set in a thread of its own (patient_reader.h).
 class FrameReader {
  public:
   // Throws std::system_error when no thread can be started.
-  explicit FrameReader(std::shared_ptr<const Dataset> dataset);
-  FrameReader(const FrameReader&) = delete;
-  FrameReader& operator=(const FrameReader&) = delete;
-  // Does not wait for a reading that was given up: its thread stays behind until it ends.
-  ~FrameReader();
+  explicit FrameReader(const std::shared_ptr<const Dataset>& dataset)
+      : reader_([dataset](std::size_t frame) { return dataset->Read(frame); }) {}
 
-  // Dataset::Read(frame). `go_on` is asked about every 50 ms while that takes; when it says no, the
-  // reading has a quarter of a second more, then it is given up: nullopt, and nothing can be read
-  // any more. Rethrows what Dataset::Read throws.
+  // Dataset::Read(frame); nullopt when that was given up.
   std::optional<Expected<SensorFrame, ImageFailure>> Read(std::size_t frame,
-                                                          const std::function<bool()>& go_on);
+                                                          const std::function<bool()>& go_on) {
+    return reader_.Read(frame, go_on);
+  }
 
  private:
-  struct Exchange;
-  static void Work(const std::shared_ptr<Exchange>& exchange);
-
-  std::shared_ptr<Exchange> exchange_;
-  bool given_up_ = false;
-  std::thread thread_;
+  PatientReader<Expected<SensorFrame, ImageFailure>> reader_;
 };
 
 }  // namespace plumbline

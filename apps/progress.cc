@@ -49,6 +49,18 @@ void ProgressLine::Show(std::size_t done, std::size_t total, const std::string& 
             << std::flush;
 }
 
+void ProgressLine::ShowOpen(const std::string& text) {
+  const auto now = Clock::now();
+  const auto interval = terminal_ ? Clock::duration(kBarEvery) : Clock::duration(kLineEvery);
+  if (quiet_ || now - shown_ < interval) return;
+  shown_ = now;
+  std::cerr << (terminal_ ? '\r' + OneLine(text) : text + '\n') << std::flush;
+}
+
+void ProgressLine::End() const {
+  if (!quiet_ && terminal_) std::cerr << std::endl;
+}
+
 void ProgressLine::Say(const std::string& message) const {
   std::cerr << (terminal_ ? "\n" : "") +
                    ("plumbline: " + Printable(message, kLongestMessage) + '\n');
@@ -57,15 +69,20 @@ void ProgressLine::Say(const std::string& message) const {
 void Countdown::Show(std::size_t done, const std::string& note) {
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   const double per_second = static_cast<double>(done) / std::max(seconds, 1e-9);
-  const double left = static_cast<double>(total_ - done) / std::max(per_second, 1e-9);
+  const std::string rest = note.empty() ? "" : note + "  ";
+  if (!total_) {
+    line_.ShowOpen(fmt::format("{} {}  {:.1f} per second  {}", done, what_, per_second, rest));
+    return;
+  }
+  const double left = static_cast<double>(*total_ - done) / std::max(per_second, 1e-9);
   line_.Show(done,
-             total_,
+             *total_,
              fmt::format("{}/{} {}  {:.1f} per second  {}ETA {:.0f} s",
                          done,
-                         total_,
+                         *total_,
                          what_,
                          per_second,
-                         note.empty() ? "" : note + "  ",
+                         rest,
                          left));
 }
 

@@ -8,6 +8,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/reversed_dataset.h"
+#include "plumbline/live/live_source.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/system.h"
 
@@ -45,11 +46,13 @@ constexpr int kWidestBlur = 1001;         // pixels; nothing is left to see by t
 CommandSyntax Syntax() {
   return {
       "run",
-      "Tracks the camera through a recorded sequence and maps what it sees.",
+      "Tracks the camera through a recorded sequence, or while it runs, and maps what it sees.\n"
+      "PATH: a data set; camera:N or camera:N,M; rtsp://...; gst:PIPELINE; - (standard input)",
       {"PATH"},
       {{"--sensor", "mono|stereo|rgbd", "default: the richest the data offers"},
        {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "default: found out from PATH"},
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated (left, right, depth)"},
+       {"--side-by-side", "", "live: each image is a left and a right half"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
        {"--config", "FILE", "options from a YAML file; may be repeated"},
        {"--set", "KEY=VALUE", "one option; may be repeated"},
@@ -134,8 +137,16 @@ void ReadCheckpoint(const CommandLine& line, RunSetup& setup, OptionTable& table
   table.LoadText(setup.saved->maps.context.options_yaml, *file);
 }
 
+// A camera does not wait. Standard input does: nothing is lost where its frames are processed one
+// after the other.
+bool IsLiveByDefault(const std::string& name) {
+  const auto kind = LiveKindOf(name);
+  return kind && *kind != LiveKind::kStandardInput;
+}
+
 RunSetup ReadSetup(const CommandLine& line) {
   RunSetup setup;
+  if (IsLiveByDefault(line.Positional(0))) setup.options.slam.mode = RunMode::kLive;
   OptionTable table(setup.options);
   ReadCheckpoint(line, setup, table);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
@@ -169,7 +180,36 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   return options;
 }
 
+RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
+  for (const char* option : {"--format", "--topic", "--reverse", "--checkpoint", "--resume"}) {
+    if (line.Has(option)) {
+      throw InputError(std::string(option) + ": expected a recording, found a live source");
+    }
+  }
+  RunFrames input;
+  input.blur = setup.blur;
+  input.save_every_s = setup.save_every_s;
+  input.range.from = static_cast<std::size_t>(line.Count("--from", 0, {0, kMostFrames}));
+  input.range.stride = static_cast<std::size_t>(line.Count("--stride", 1, {1, kMostFrames}));
+  input.range.to = static_cast<std::size_t>(line.Count("--to", kMostFrames, {1, kMostFrames}));
+  if (input.range.from >= input.range.to) {
+    throw InputError(fmt::format("--from {}: --to is {}", input.range.from, input.range.to));
+  }
+  LiveOptions options;
+  options.sensor = ReadDatasetOptions(line).sensor;
+  options.camera = line.Value("--camera");
+  options.side_by_side = line.Has("--side-by-side");
+  input.live = OpenLiveSource(line.Positional(0), options);
+  input.dataset = std::make_shared<PassedFrames>(input.live->info());
+  return input;
+}
+
 RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
+  if (LiveKindOf(line.Positional(0))) return OpenLive(line, setup);
+  if (line.Has("--side-by-side")) {
+    throw InputError("--side-by-side: expected a live source, found " +
+                     InQuotes(line.Positional(0)));
+  }
   RunFrames input;
   input.blur = setup.blur;
   input.save_every_s = setup.save_every_s;
@@ -188,7 +228,8 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
 
 // What the run reads. Options that come from a pipe have no place.
 std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) {
-  std::vector<RunInput> inputs = {{line.Positional(0)}};
+  std::vector<RunInput> inputs;
+  if (!LiveKindOf(line.Positional(0))) inputs.push_back({line.Positional(0)});
   std::error_code error;
   const auto add = [&](const std::filesystem::path& path) {
     if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
@@ -266,6 +307,22 @@ void SayBefore(const Dataset& dataset,
   for (const std::string& note : dataset.info().notes) say(note);
 }
 
+// What came of a live source, when it is known.
+void NoteFrames(const System& system, RunFrames& input) {
+  DatasetInfo info = input.live->info();
+  for (std::size_t i = 0; i < system.frames().size(); ++i) {
+    info.stamps_ns.push_back(system.frames()[i].stamp_ns);
+    input.frames.push_back(i);
+  }
+  input.dataset = std::make_shared<PassedFrames>(std::move(info));
+}
+
+std::vector<std::string> ToBeShown(std::span<const std::string> arguments) {
+  std::vector<std::string> shown;
+  for (const std::string& argument : arguments) shown.push_back(WithoutPassword(argument));
+  return shown;
+}
+
 // Prints the result, for whoever still listens.
 void Print(const System& system, const Dataset& dataset, const RunSetup& setup) {
   errno = 0;
@@ -298,29 +355,30 @@ int RunCommand(std::span<const std::string> arguments) {
   const auto start = Clock::now();
   RunSetup setup = ReadSetup(line);
   RunFrames input = OpenInput(line, setup);
-  const Dataset& dataset = *input.dataset;
-  CheckApart(setup.folder, InputsOf(line, dataset));
-  System system(dataset.calibration(), setup.options);
-  system.DescribeSession(PLUMBLINE_VERSION, dataset.info().name);
+  CheckApart(setup.folder, InputsOf(line, *input.dataset));
+  System system(input.dataset->calibration(), setup.options);
+  system.DescribeSession(PLUMBLINE_VERSION, input.dataset->info().name);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
   ResumeFrom(setup, system, input);
   RunFolder folder(setup.folder);
   CheckFolderOfCheckpoint(setup);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();
-  SayBefore(dataset, folder, map_notes, setup.quiet);
+  SayBefore(*input.dataset, folder, map_notes, setup.quiet);
   CatchStopSignals();
-  KeptViews views(input.frames, input.first);
+  KeptViews views(input);
   const Processed processed = ProcessFrames(input, setup.quiet, system, folder, views);
   if (system.frames().empty() && FirstStopSignal()) {
     std::cerr << "plumbline: stopped before the first frame; nothing is written\n";
     return FirstStopSignal()->exit_code;
   }
+  if (input.live != nullptr) NoteFrames(system, input);
+  const Dataset& dataset = *input.dataset;
   RunDescription description{PLUMBLINE_VERSION,
-                             line.Positional(0),
+                             WithoutPassword(line.Positional(0)),
                              setup.options_yaml,
                              setup.options.slam.seed,
-                             {arguments.begin(), arguments.end()}};
+                             ToBeShown(arguments)};
   description.frames_chosen = input.frames.size();
   const WrittenResults written = WriteResults(
       {system, dataset, views, std::move(description), processed.first_pose_seconds, start},

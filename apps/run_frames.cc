@@ -8,7 +8,6 @@
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/pipeline.h"
 
-#include "apps/frame_reader.h"
 #include "apps/map_saver.h"
 #include "apps/progress.h"
 #include "apps/shortage.h"
@@ -38,29 +37,13 @@ SensorFrame Blurred(SensorFrame frame, int size) {
   return frame;
 }
 
-// Waits until a frame is due that was taken `since_first_ns` after the first one. Live only: other
-// modes go as fast as they can.
-class Player {
- public:
-  explicit Player(RunMode mode) : live_(mode == RunMode::kLive) {}
-
-  // False when `go_on`, which is asked often, says so.
-  bool WaitFor(std::int64_t since_first_ns, const std::function<bool()>& go_on) {
-    constexpr std::chrono::milliseconds kAskEvery(50);
-    if (!live_) return go_on();
-    if (since_first_ns == 0) start_ = Clock::now();
-    const Clock::time_point due = start_ + std::chrono::nanoseconds(since_first_ns);
-    while (go_on()) {
-      if (Clock::now() >= due) return true;
-      std::this_thread::sleep_until(std::min(due, Clock::now() + kAskEvery));
-    }
-    return false;
+std::unique_ptr<FrameInput> OpenFrames(const RunFrames& input, RunMode mode, FrameInput::Say say) {
+  if (input.live != nullptr) {
+    return std::make_unique<LiveInput>(input.live, input.range, std::move(say));
   }
-
- private:
-  bool live_;
-  Clock::time_point start_;
-};
+  return std::make_unique<RecordedInput>(
+      input.dataset, input.frames, input.first, mode, std::move(say));
+}
 
 // The work of one run.
 class FrameFeed {
@@ -71,11 +54,13 @@ class FrameFeed {
         system_(system),
         folder_(folder),
         views_(views),
-        progress_(input.frames.size(), quiet),
+        progress_(input.live != nullptr ? std::nullopt : std::optional(input.frames.size()), quiet),
         journal_(input.dataset->info().time_mirror_ns),
         saver_(input.save_every_s > 0 ? std::make_shared<MapSaver>(folder.part() / "map.plb")
                                       : nullptr),
-        reader_(input.dataset),
+        frames_(OpenFrames(input,
+                           system.options().slam.mode,
+                           [this](const std::string& message) { progress_.Say(message); })),
         pipeline_(system, [this](const FrameRecord& record, const FrameView& view) {
           Observe(record, view);
         }) {}
@@ -86,6 +71,7 @@ class FrameFeed {
     Keeping([&] { Feed(); });
     Keeping([&] { pipeline_.Drain(); });
     if (!result_.failure) Keeping([&] { WriteCheckpoint(); });
+    progress_.End();
     NameShortage();
     if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
     folder_.Keep();
@@ -101,7 +87,7 @@ class FrameFeed {
   void Observe(const FrameRecord& record, const FrameView& view) {
     const auto position = static_cast<std::size_t>(record.id.value);
     if (record.reason == Pipeline::kDropped) {
-      progress_.Say(fmt::format("frame {} dropped: tracking is behind", input_.frames[position]));
+      progress_.Say(fmt::format("frame {} dropped: tracking is behind", input_.IndexOf(position)));
     }
     if (!result_.first_pose_seconds && record.status == FrameStatus::kTracked) {
       result_.first_pose_seconds = SecondsSinceProcessStart();
@@ -140,24 +126,21 @@ class FrameFeed {
   }
 
   void Feed() {
-    const Dataset& dataset = *input_.dataset;
-    Player player(system_.options().slam.mode);
     const auto go_on = [this] { return GoOn(); };
-    for (std::size_t position = input_.first; position < input_.frames.size(); ++position) {
-      const std::size_t k = input_.frames[position];
-      if (!go_on()) return;
-      const auto frame = reader_.Read(k, go_on);
-      if (!frame) return;
-      const std::int64_t stamp_ns = dataset.stamp_ns(k);
-      if (!player.WaitFor(stamp_ns - dataset.stamp_ns(input_.frames[input_.first]), go_on)) return;
-      if (*frame) {
-        pipeline_.Feed(Blurred(**frame, input_.blur));
-        continue;
+    while (auto next = frames_->Next(go_on)) {
+      if (next->frame) {
+        pipeline_.Feed(Blurred(*std::move(next->frame), input_.blur));
+      } else {
+        pipeline_.Skip(next->stamp_ns, next->reason);
       }
-      const ImageFailure& failure = frame->error();
-      progress_.Say(fmt::format("frame {} skipped: {}: {}", k, failure.path.string(), failure.why));
-      pipeline_.Skip(stamp_ns, "image_unreadable");
     }
+  }
+
+  // "12 of 30 frames", or "12 frames" of a live source.
+  std::string HowFar() const {
+    const std::size_t done = system_.frames().size();
+    if (input_.live != nullptr) return fmt::format("{} frames", done);
+    return fmt::format("{} of {} frames", done, input_.frames.size());
   }
 
   // Keeps the first failure.
@@ -176,18 +159,16 @@ class FrameFeed {
   // What the machine was short of becomes an InputError, once no more frames are on their way.
   void NameShortage() {
     if (shortage_ == nullptr) return;
-    result_.failure = std::make_exception_ptr(InputError(fmt::format(
-        "{} after {} of {} frames", shortage_, system_.frames().size(), input_.frames.size())));
+    result_.failure =
+        std::make_exception_ptr(InputError(fmt::format("{} after {}", shortage_, HowFar())));
     shortage_ = nullptr;
   }
 
   void SayStopped() const {
     const auto signal = FirstStopSignal();
     if (!signal || quiet_) return;
-    progress_.Say(fmt::format("{} after {} of {} frames: finishing (once more: at once)",
-                              signal->name,
-                              system_.frames().size(),
-                              input_.frames.size()));
+    progress_.Say(
+        fmt::format("{} after {}: finishing (once more: at once)", signal->name, HowFar()));
   }
 
   const RunFrames& input_;
@@ -202,23 +183,38 @@ class FrameFeed {
   RunJournal journal_;
   std::shared_ptr<MapSaver> saver_;  // null where nothing is to be saved before the end
   Clock::time_point saved_ = Clock::now();
-  FrameReader reader_;
+  std::unique_ptr<FrameInput> frames_;
   Pipeline pipeline_;  // last: its thread calls Observe
 };
 
 }  // namespace
 
-KeptViews::KeptViews(const std::vector<std::size_t>& frames, std::size_t first) {
-  if (first >= frames.size()) return;
+KeptViews::KeptViews(const RunFrames& input) {
+  if (input.live != nullptr) live_ = input.range;
+  const std::vector<std::size_t>& frames = input.frames;
+  if (input.first >= frames.size()) return;
   for (std::size_t k = 0; k < kOverlays; ++k) {
-    const std::size_t position = first + k * (frames.size() - 1 - first) / (kOverlays - 1);
+    const std::size_t position =
+        input.first + k * (frames.size() - 1 - input.first) / (kOverlays - 1);
     wanted_[position] = frames[position];
   }
 }
 
 void KeptViews::Offer(std::size_t position, const FrameView& view) {
+  if (view.images.left.empty()) return;
+  if (live_) return OfferOfMany(position, view);
   const auto it = wanted_.find(position);
-  if (it != wanted_.end() && !view.images.left.empty()) views_.emplace_back(it->second, view);
+  if (it != wanted_.end()) views_.emplace_back(it->second, view);
+}
+
+void KeptViews::OfferOfMany(std::size_t position, const FrameView& view) {
+  if (position % every_ != 0) return;
+  views_.emplace_back(live_->from + position * live_->stride, view);
+  if (views_.size() <= kOverlays) return;
+  every_ *= 2;
+  std::erase_if(views_, [this](const auto& kept) {
+    return (kept.first - live_->from) / live_->stride % every_ != 0;
+  });
 }
 
 Processed ProcessFrames(

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "plumbline/io/dataset.h"
+#include "plumbline/live/live_source.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/report/run_journal.h"
 #include "plumbline/slam/system.h"
 
+#include "apps/frame_input.h"
 #include <cstddef>
 #include <exception>
 #include <filesystem>
@@ -21,28 +23,40 @@ namespace plumbline {
 
 // What a run is fed with.
 struct RunFrames {
-  std::shared_ptr<const Dataset> dataset;
-  std::vector<std::size_t> frames;  // by index in the data set
-  int blur = 0;                     // box filter on every image; 0: none
-  int save_every_s = 0;             // map.plb into the part of the folder; 0: never
+  std::shared_ptr<const Dataset> dataset;  // of a live source: what is known of it, no frames
+  std::vector<std::size_t> frames;         // by index in the data set
+  std::shared_ptr<LiveSource> live;        // in place of a data set; may be null
+  LiveRange range;                         // of its frames
+  int blur = 0;                            // box filter on every image; 0: none
+  int save_every_s = 0;                    // map.plb into the part of the folder; 0: never
   std::size_t first = 0;  // position of the first frame that is new: those before are done
   std::optional<std::filesystem::path> checkpoint;  // written when all frames are tracked
   std::string description;                          // for the checkpoint, SavedRun::input
+
+  // Of the frame at a position of the run.
+  std::size_t IndexOf(std::size_t position) const {
+    return live != nullptr ? range.from + position * range.stride : frames[position];
+  }
 };
 
 // Frames that are shown with their features, kept until there is time to draw them.
 class KeptViews {
  public:
-  // Views are kept of some of the frames from position `first` on, spread over them.
-  explicit KeptViews(const std::vector<std::size_t>& frames, std::size_t first = 0);
+  // Views are kept of some of the frames, spread over those that are new. Of a live source, whose
+  // end nobody knows: of every n-th, where n doubles when there are too many.
+  explicit KeptViews(const RunFrames& input);
 
   void Offer(std::size_t position, const FrameView& view);
   // Index in the data set, and the view.
   const std::vector<std::pair<std::size_t, FrameView>>& views() const { return views_; }
 
  private:
+  void OfferOfMany(std::size_t position, const FrameView& view);
+
   std::map<std::size_t, std::size_t> wanted_;  // position in the run -> index in the data set
   std::vector<std::pair<std::size_t, FrameView>> views_;
+  std::optional<LiveRange> live_;
+  std::size_t every_ = 1;  // position that is kept, of a live source
 };
 
 // How far a run came.

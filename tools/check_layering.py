@@ -33,6 +33,7 @@ LAYERS = {
              "association", "initialization", "tracking", "mapping", "place", "loop"],
     "recording": ["base"],
     "io": ["base", "geometry", "image", "features", "map", "recording"],
+    "live": ["base", "geometry", "image", "io"],
     "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
                "slam"],
     "synth": ["base", "geometry", "image", "io"],
@@ -56,7 +57,7 @@ THIRD_PARTY = {
     "nlopt": r"cutting_testbed/nlopt_\w+\.cc",
     "nlohmann/": r"(io|eval|report|experiments)/\w+\.cc",
     "opencv2/": r"image/opencv_bridge\.h|"
-                r"(image|features|initialization|io|report)/\w+\.cc",
+                r"(image|features|initialization|io|live|report)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
     "yaml-cpp/": r"(base|io)/\w+\.cc",
     "bzlib.h": r"recording/compression\.cc",

@@ -103,6 +103,8 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
     case DatasetFormat::kBag:
     case DatasetFormat::kMcap:
       return OpenRecording(path, format, options);
+    case DatasetFormat::kStream:
+      break;
   }
   throw BugError("a format without a reader");
 }

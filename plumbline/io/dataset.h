@@ -28,7 +28,8 @@ constexpr auto EnumNames(std::type_identity<SensorKind>) {
                     std::pair{SensorKind::kRgbd, "rgbd"}};
 }
 
-enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo, kBag, kMcap };
+// kStream is what a live source has in its place, and no format that anybody can ask for.
+enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo, kBag, kMcap, kStream };
 constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
   return std::array{std::pair{DatasetFormat::kEuroc, "euroc"},
                     std::pair{DatasetFormat::kTum, "tum"},

@@ -73,6 +73,10 @@ Json Options(const std::string& yaml) {
   return list;
 }
 
+std::string FormatName(DatasetFormat format) {
+  return format == DatasetFormat::kStream ? "stream" : NameOf(format);
+}
+
 // A word as a shell would read it back.
 std::string ShellWord(const std::string& word) {
   constexpr std::string_view kPlain =
@@ -90,7 +94,7 @@ Json Run(const Dataset& dataset, const ReportContext& context) {
   const auto rate = dataset.calibration().rate_hz;
   return {{"name", dataset.info().name},
           {"path", description.data_path},
-          {"format", NameOf(dataset.info().format)},
+          {"format", FormatName(dataset.info().format)},
           {"sensor", NameOf(dataset.sensor())},
           {"frames_in_sequence", dataset.size()},
           {"frames_chosen", description.frames_chosen},

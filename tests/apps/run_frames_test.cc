@@ -50,7 +50,7 @@ Outcome RunPoster(std::size_t from, const std::function<void()>& fail, RunMode m
   RunFrames input;
   input.dataset = std::make_shared<FailingDataset>(from, fail);
   input.frames = {0, 1, 2, 3, 4, 5, 6, 7};
-  KeptViews views(input.frames);
+  KeptViews views(input);
   const Processed processed = ProcessFrames(input, true, system, folder, views);
   Outcome outcome;
   try {

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/frame_input.h"
+
+#include "plumbline/base/error.h"
+
+#include <algorithm>
+#include <thread>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
+                             std::vector<std::size_t> frames,
+                             std::size_t first,
+                             RunMode mode,
+                             Say say)
+    : dataset_(std::move(dataset)),
+      frames_(std::move(frames)),
+      first_(first),
+      position_(first),
+      live_(mode == RunMode::kLive),
+      say_(std::move(say)),
+      reader_(dataset_) {}
+
+// Waits until a frame is due that was taken `since_first_ns` after the first one.
+bool RecordedInput::WaitFor(std::int64_t since_first_ns, const GoOn& go_on) {
+  constexpr std::chrono::milliseconds kAskEvery(50);
+  if (!live_) return go_on();
+  if (since_first_ns == 0) start_ = Clock::now();
+  const Clock::time_point due = start_ + std::chrono::nanoseconds(since_first_ns);
+  while (go_on()) {
+    if (Clock::now() >= due) return true;
+    std::this_thread::sleep_until(std::min(due, Clock::now() + kAskEvery));
+  }
+  return false;
+}
+
+std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
+  if (position_ >= frames_.size() || !go_on()) return std::nullopt;
+  const std::size_t k = frames_[position_++];
+  const auto read = reader_.Read(k, go_on);
+  if (!read) return std::nullopt;
+  InputFrame next{dataset_->stamp_ns(k), std::nullopt, ""};
+  if (!WaitFor(next.stamp_ns - dataset_->stamp_ns(frames_[first_]), go_on)) return std::nullopt;
+  if (*read) {
+    next.frame = **read;
+    return next;
+  }
+  const ImageFailure& failure = read->error();
+  say_(fmt::format("frame {} skipped: {}: {}", k, failure.path.string(), failure.why));
+  next.reason = "image_unreadable";
+  return next;
+}
+
+LiveInput::LiveInput(const std::shared_ptr<LiveSource>& source, const LiveRange& range, Say say)
+    : name_(source->info().name),
+      range_(range),
+      say_(std::move(say)),
+      reader_([source](std::size_t) { return source->Next(); }) {}
+
+std::optional<InputFrame> LiveInput::Next(const GoOn& go_on) {
+  while (go_on() && next_ < range_.to) {
+    std::optional<LiveEvent> event = reader_.Read(next_, go_on);
+    if (!event) return std::nullopt;
+    if (const auto* end = std::get_if<SourceEnd>(&*event)) {
+      if (next_ == 0) throw InputError(name_ + ": expected frames, found none");
+      if (!end->why.empty()) say_(end->why);
+      return std::nullopt;
+    }
+    InputFrame frame = Take(*std::move(event));
+    const std::size_t k = next_++;
+    if (k >= range_.from && (k - range_.from) % range_.stride == 0) return frame;
+  }
+  return std::nullopt;
+}
+
+// Says once, not for every frame, what is wrong for longer.
+InputFrame LiveInput::Take(LiveEvent event) {
+  InputFrame next;
+  std::string why;
+  if (auto* frame = std::get_if<SensorFrame>(&event)) {
+    next.stamp_ns = frame->stamp_ns;
+    next.frame = std::move(*frame);
+  } else {
+    const MissingFrame& missing = std::get<MissingFrame>(event);
+    next.stamp_ns = missing.stamp_ns;
+    next.reason = missing.reason;
+    why = missing.why;
+  }
+  const bool wrong_size = next.reason == "image_size";
+  if (!why.empty() && !(wrong_size && size_was_wrong_)) {
+    say_(fmt::format("frame {} skipped: {}: {}{}",
+                     next_,
+                     name_,
+                     why,
+                     wrong_size ? "; so are all until the size is that of the calibration" : ""));
+  }
+  size_was_wrong_ = wrong_size;
+  const StampContinuity::Stamp stamp = continuity_.Next(next.stamp_ns);
+  if (stamp.jumped_back_ns) {
+    say_(fmt::format(
+        "frame {}: {}: the stamps jump back by {:.3f} s; from here on they are {:.3f} s "
+        "later in the results",
+        next_,
+        name_,
+        1e-9 * static_cast<double>(*stamp.jumped_back_ns),
+        1e-9 * static_cast<double>(stamp.stamp_ns - next.stamp_ns)));
+  }
+  next.stamp_ns = stamp.stamp_ns;
+  if (next.frame) next.frame->stamp_ns = stamp.stamp_ns;
+  return next;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/image.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/live/live_source.h"
+#include "plumbline/live/stamp_continuity.h"
+#include "plumbline/slam/options.h"
+
+#include "apps/frame_reader.h"
+#include "apps/patient_reader.h"
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// A frame on its way into a run.
+struct InputFrame {
+  std::int64_t stamp_ns = 0;
+  std::optional<SensorFrame> frame;  // nullopt: it could not be had
+  std::string reason;                // then: a word for tables
+};
+
+// Where a run gets its frames from, one after the other.
+class FrameInput {
+ public:
+  using GoOn = std::function<bool()>;
+  using Say = std::function<void(const std::string&)>;
+
+  FrameInput() = default;
+  FrameInput(const FrameInput&) = delete;
+  FrameInput& operator=(const FrameInput&) = delete;
+  virtual ~FrameInput() = default;
+
+  // The next frame when it is there, or due. nullopt: there are no more, or `go_on`, which is asked
+  // often, said no.
+  virtual std::optional<InputFrame> Next(const GoOn& go_on) = 0;
+};
+
+// Some of the frames of a recording, by index. Live runs get them when they are due, as far apart
+// as they were taken; others as soon as they are read.
+class RecordedInput : public FrameInput {
+ public:
+  // first: position of the first frame in `frames` that is wanted.
+  RecordedInput(std::shared_ptr<const Dataset> dataset,
+                std::vector<std::size_t> frames,
+                std::size_t first,
+                RunMode mode,
+                Say say);
+  std::optional<InputFrame> Next(const GoOn& go_on) override;
+
+ private:
+  bool WaitFor(std::int64_t since_first_ns, const GoOn& go_on);
+
+  std::shared_ptr<const Dataset> dataset_;
+  std::vector<std::size_t> frames_;
+  std::size_t first_, position_;
+  bool live_;
+  Say say_;
+  std::chrono::steady_clock::time_point start_;  // when the first one was due
+  FrameReader reader_;
+};
+
+// Which frames of a source are taken: every stride-th from `from` to before `to`.
+struct LiveRange {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  std::size_t stride = 1;
+};
+
+// The frames of a live source with stamps that increase (StampContinuity).
+class LiveInput : public FrameInput {
+ public:
+  LiveInput(const std::shared_ptr<LiveSource>& source, const LiveRange& range, Say say);
+  // InputError where the source ends before its first frame.
+  std::optional<InputFrame> Next(const GoOn& go_on) override;
+
+ private:
+  InputFrame Take(LiveEvent event);
+
+  std::string name_;
+  LiveRange range_;
+  Say say_;
+  std::size_t next_ = 0;  // index of the frame that comes next
+  bool size_was_wrong_ = false;
+  StampContinuity continuity_;
+  PatientReader<LiveEvent> reader_;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/png.h"
+
+#include "tests/e2e/euroc_frames.h"
+#include "tests/e2e/poster_sequence.h"
+#include "tests/e2e/program.h"
+#include "tests/e2e/same_run.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/moving_poster.h"
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+// With the damaged image of the sequence, of frame 163.
+constexpr std::pair<std::size_t, std::size_t> kFrames = {155, 175};
+
+std::string Header(int width, int height) {
+  return fmt::format(
+      "plumbline frames 1\nleft mono8 {0} {1}\nright mono8 {0} {1}\nend\n", width, height);
+}
+
+// Frames of a EuRoC folder as somebody sends them who could not decode one of the images.
+std::vector<std::string> SentFrames(const std::filesystem::path& sequence) {
+  std::vector<std::string> frames;
+  std::string left;
+  ForEachEurocImage(sequence, kFrames, [&](const EurocImage& image) {
+    if (image.camera == 0) {
+      left = image.readable ? image.bytes : "";
+      return;
+    }
+    frames.push_back(left.empty() || !image.readable
+                         ? fmt::format("missing {}\n", image.stamp_ns)
+                         : fmt::format("frame {}\n", image.stamp_ns) + left + image.bytes);
+  });
+  return frames;
+}
+
+// Runs the program on what is written into its standard input, piece by piece at a rate.
+Outcome RunFed(const ScratchFolder& folder,
+               const std::string& arguments,
+               const std::vector<std::string>& pieces,
+               std::chrono::milliseconds interval) {
+  const std::filesystem::path pipe = folder / "pipe";
+  if (::mkfifo(pipe.c_str(), 0600) != 0) throw std::runtime_error("no pipe");
+  std::signal(SIGPIPE, SIG_IGN);  // of a program that reads no more
+  std::thread writer([&] {
+    std::ofstream out(pipe, std::ios::binary);
+    for (const std::string& piece : pieces) {
+      out << piece << std::flush;
+      std::this_thread::sleep_for(interval);
+    }
+  });
+  const Outcome outcome = RunProgram(folder, arguments + " < " + Quoted(pipe));
+  writer.join();
+  std::filesystem::remove(pipe);
+  return outcome;
+}
+
+TEST(RunLive, GivesTheBytesOfTheFolderFromAPipe) {
+  const auto data = FindData("euroc/MH_01_easy_first250");
+  if (!data) GTEST_SKIP() << "real data not found; set PLUMBLINE_DATA";
+  const ScratchFolder folder;
+  std::vector<std::string> pieces = SentFrames(*data);
+  pieces.insert(pieces.begin(), Header(752, 480));
+  const Outcome fed = RunFed(folder,
+                             "run - --camera euroc --out " + Quoted(folder / "fed"),
+                             pieces,
+                             std::chrono::milliseconds(50));
+  ASSERT_EQ(fed.code, 0) << fed.err;
+  EXPECT_THAT(fed.err, HasSubstr("frame 8 skipped: standard input: the sender has no image"));
+  const Outcome whole = RunProgram(folder,
+                                   fmt::format("run {} --from {} --to {} --camera euroc --out {}",
+                                               Quoted(*data),
+                                               kFrames.first,
+                                               kFrames.second,
+                                               Quoted(folder / "folder")));
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  ExpectSameResults(folder / "folder", folder / "fed");
+  const auto summary = nlohmann::json::parse(Contents(folder / "fed/summary.json"));
+  EXPECT_EQ(summary["frames"]["of"], 20);
+  EXPECT_EQ(summary["frames"]["in"], 20);
+}
+
+// Frames of a moving poster, and the camera file that belongs to them.
+class FedPoster : public testing::Test {
+ protected:
+  std::string Arguments(const std::string& out) const {
+    const auto camera = folder_.Write(
+        "camera.yaml",
+        fmt::format(
+            "size: [{0}, {1}]\nintrinsics: [{2}, {2}, {3}, {4}]\nrectified: true\nbaseline: {5}\n"
+            "right:\n  size: [{0}, {1}]\n  intrinsics: [{2}, {2}, {3}, {4}]\n",
+            MovingPoster::kWidth,
+            MovingPoster::kHeight,
+            MovingPoster::kFocal,
+            MovingPoster::kWidth / 2.0,
+            MovingPoster::kHeight / 2.0,
+            MovingPoster::kBaseline));
+    return " --camera " + Quoted(camera) + " --out " + Quoted(folder_ / out);
+  }
+  std::vector<std::string> Pieces(const std::vector<int>& images) const {
+    std::vector<std::string> pieces = {Header(MovingPoster::kWidth, MovingPoster::kHeight)};
+    for (const int i : images) {
+      const SensorFrame frame = poster_.Frame(i);
+      const auto bytes = [](const GrayImage& image) {
+        return std::string(
+            reinterpret_cast<const char*>(image.data()),
+            static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
+      };
+      pieces.push_back(fmt::format("frame {}\n", frame.stamp_ns) + bytes(frame.left) +
+                       bytes(*frame.right));
+    }
+    return pieces;
+  }
+  nlohmann::json Summary(const std::string& out) const {
+    return nlohmann::json::parse(Contents(folder_ / out / "summary.json"));
+  }
+
+  ScratchFolder folder_;
+  MovingPoster poster_;
+};
+
+TEST_F(FedPoster, IsCompleteWhenTheSourceEndsInAFrame) {
+  std::vector<std::string> pieces = Pieces({0, 1, 2, 3, 4, 5});
+  pieces.back().resize(pieces.back().size() / 2);
+  const Outcome outcome =
+      RunFed(folder_, "run -" + Arguments("run"), pieces, std::chrono::milliseconds(1));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("standard input ends in the middle of a frame, behind 5 whole ones"));
+  EXPECT_EQ(Summary("run")["frames"]["tracked"], 5);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "run/.part"));
+}
+
+TEST_F(FedPoster, GoesOnWhenStampsJumpBack) {
+  const Outcome outcome = RunFed(folder_,
+                                 "run -" + Arguments("run"),
+                                 Pieces({3, 4, 5, 6, 3, 4, 5}),
+                                 std::chrono::milliseconds(1));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("frame 4: standard input: the stamps jump back by"));
+  EXPECT_EQ(Summary("run")["frames"]["in"], 7);
+  EXPECT_EQ(Summary("run")["frames"]["tracked"], 7);
+}
+
+TEST_F(FedPoster, KeepsWhatCameBeforeNonsense) {
+  std::vector<std::string> pieces = Pieces({0, 1, 2, 3});
+  pieces.emplace_back("hello\n");
+  const Outcome outcome =
+      RunFed(folder_, "run -" + Arguments("run"), pieces, std::chrono::milliseconds(1));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("standard input: behind 4 frames: expected 'frame' or 'missing'"));
+  EXPECT_EQ(Summary("run")["frames"]["tracked"], 4);
+}
+
+TEST_F(FedPoster, LeavesNothingWhereNoFrameComes) {
+  const Outcome outcome =
+      RunFed(folder_, "run -" + Arguments("run"), Pieces({}), std::chrono::milliseconds(1));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("standard input: expected frames, found none"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "run/summary.json"));
+}
+
+TEST_F(FedPoster, ChoosesFramesAndRefusesWhatNeedsARecording) {
+  const Outcome outcome = RunFed(folder_,
+                                 "run - --from 1 --stride 2 --to 6" + Arguments("run"),
+                                 Pieces({0, 1, 2, 3, 4, 5, 6, 7}),
+                                 std::chrono::milliseconds(1));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Summary("run")["frames"]["in"], 3);
+  for (const std::string option : {"--reverse", "--topic /a", "--checkpoint x", "--format euroc"}) {
+    const Outcome refused =
+        RunProgram(folder_, "run - " + option + Arguments("no") + " < /dev/null");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("expected a recording, found a live source"));
+  }
+}
+
+// Nothing comes, and the pipe stays open: a signal ends it all the same.
+TEST_F(FedPoster, EndsOnASignalWhileItWaits) {
+  const std::vector<std::string> pieces = Pieces({0, 1, 2});
+  const std::string start = "(cat " +
+                            Quoted(folder_.Write("frames",
+                                                 [&] {
+                                                   std::string all;
+                                                   for (const std::string& piece : pieces)
+                                                     all += piece;
+                                                   return all;
+                                                 }())) +
+                            "; sleep 4) | timeout -s INT 2 ";
+  const Outcome outcome = RunProgram(folder_, "run -" + Arguments("run"), start);
+  EXPECT_EQ(Summary("run")["interrupted"], "SIGINT");
+  EXPECT_EQ(Summary("run")["frames"]["tracked"], 3);
+  EXPECT_THAT(outcome.err, HasSubstr("SIGINT after 3 frames: finishing"));
+}
+
+// A pipeline that reads pictures at their rate in place of a camera with two lenses.
+TEST_F(FedPoster, ComesFromAPipeline) {
+  for (int i = 0; i < 12; ++i) {
+    const SensorFrame frame = poster_.Frame(i);
+    GrayImage both(2 * frame.left.width(), frame.left.height());
+    for (int y = 0; y < both.height(); ++y) {
+      std::copy_n(frame.left.row(y), frame.left.width(), both.row(y));
+      std::copy_n(frame.right->row(y), frame.left.width(), both.row(y) + frame.left.width());
+    }
+    WriteGrayPng(folder_ / fmt::format("both_{}.png", i), both);
+  }
+  const std::string pipeline =
+      "'gst:multifilesrc location=" + (folder_ / "both_%d.png").string() +
+      " index=0 stop-index=11 caps=image/png,framerate=(fraction)20/1 ! pngdec'";
+  const Outcome outcome =
+      RunProgram(folder_, "run " + pipeline + " --side-by-side --mode lockstep" + Arguments("run"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err,
+              HasSubstr("no more frames: the stream has ended, or the device is gone"));
+  EXPECT_EQ(Summary("run")["frames"]["in"], 12);
+  EXPECT_EQ(Summary("run")["frames"]["tracked"], 12);
+  EXPECT_EQ(Summary("run")["sensor"], "stereo");
+}
+
+TEST(RunLive, SaysInOneLineThatThereIsNoSource) {
+  const ScratchFolder folder;
+  for (const std::string source : {"camera:99",
+                                   "rtsp://me:secret@127.0.0.1:1/x",
+                                   "'gst:filesrc location=/none'",
+                                   "camera:x"}) {
+    const Outcome outcome =
+        RunProgram(folder, "run " + source + " --camera euroc --out " + Quoted(folder / "run"));
+    EXPECT_EQ(outcome.code, 2) << source;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.find("secret"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

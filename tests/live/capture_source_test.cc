@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/live/capture_source.h"
+
+#include "tests/io/scratch_folder.h"
+#include <string>
+#include <variant>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(CameraDevices, AreOneOrTwo) {
+  EXPECT_THAT(CameraDevices("camera:0"), ElementsAre("0"));
+  EXPECT_THAT(CameraDevices("camera:2,0"), ElementsAre("2", "0"));
+  EXPECT_THAT(CameraDevices("camera:/dev/video2"), ElementsAre("/dev/video2"));
+  for (const char* name :
+       {"camera:", "camera:x", "camera:-1", "camera:0,", "camera:0,1,2", "camera:1000"}) {
+    EXPECT_THAT(MessageOf([&] { CameraDevices(name); }), HasSubstr("expected camera:N")) << name;
+  }
+}
+
+TEST(GstreamerPipeline, GetsASink) {
+  EXPECT_EQ(GstreamerPipeline("gst:a ! b"), "a ! b ! videoconvert ! appsink");
+  EXPECT_EQ(GstreamerPipeline("gst:a ! appsink drop=true"), "a ! appsink drop=true");
+}
+
+// The pictures of a test signal of GStreamer in place of a camera.
+class Pipelines : public testing::Test {
+ protected:
+  LiveOptions Options(const std::string& size) const {
+    return {.camera = folder_
+                          .Write("camera.yaml",
+                                 "size: [" + size +
+                                     "]\nintrinsics: [50, 50, 20, 16]\nrectified: true\n"
+                                     "baseline: 0.1\nright:\n  size: [" +
+                                     size + "]\n  intrinsics: [50, 50, 20, 16]\n")
+                          .string()};
+  }
+  static std::string Signal(const std::string& caps) {
+    return "gst:videotestsrc num-buffers=4 pattern=white ! video/x-raw,framerate=100/1," + caps;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Pipelines, GiveFramesUntilTheyEnd) {
+  const auto source = OpenLiveSource(Signal("width=64,height=48"), Options("64, 48"));
+  EXPECT_EQ(source->info().sensor, SensorKind::kMono);
+  std::int64_t last_ns = 0;
+  int frames = 0;
+  LiveEvent event = source->Next();
+  for (; std::holds_alternative<SensorFrame>(event); event = source->Next(), ++frames) {
+    const auto& frame = std::get<SensorFrame>(event);
+    EXPECT_GT(frame.stamp_ns, last_ns);
+    EXPECT_EQ(frame.left.at(63, 47), 255);
+    last_ns = frame.stamp_ns;
+  }
+  EXPECT_EQ(frames, 4);
+  EXPECT_THAT(std::get<SourceEnd>(event).why, HasSubstr("the stream has ended"));
+}
+
+TEST_F(Pipelines, AreTakenApartSideBySide) {
+  const std::string two =
+      "gst:videotestsrc num-buffers=2 pattern=black ! "
+      "video/x-raw,width=64,height=48,framerate=100/1 ! "
+      "videobox right=-64 fill=white ! videoconvert ! appsink";
+  LiveOptions options = Options("64, 48");
+  options.side_by_side = true;
+  const auto source = OpenLiveSource(two, options);
+  ASSERT_EQ(source->info().sensor, SensorKind::kStereo);
+  const auto frame = std::get<SensorFrame>(source->Next());
+  EXPECT_EQ(frame.left.width(), 64);
+  EXPECT_EQ(frame.left.at(63, 10), 0);
+  EXPECT_EQ(frame.right.value().at(0, 10), 255);
+}
+
+// A test signal that is played nowhere: GStreamer would wait for its first picture for ever.
+TEST_F(Pipelines, AreNotWaitedForWithoutEnd) {
+  LiveOptions options = Options("64, 48");
+  options.patience = std::chrono::milliseconds(300);
+  const std::string stuck = "gst:appsrc ! video/x-raw,width=64,height=48,format=GRAY8 ! appsink";
+  EXPECT_THAT(MessageOf([&] { OpenLiveSource(stuck, options); }),
+              HasSubstr("expected a first frame within 0.3 s, found none"));
+}
+
+TEST_F(Pipelines, MustHaveTheSizeOfTheCalibration) {
+  EXPECT_THAT(MessageOf([&] { OpenLiveSource(Signal("width=32,height=48"), Options("64, 48")); }),
+              HasSubstr("expected images of 64x48 pixels as in the calibration, found 32x48"));
+  EXPECT_THAT(MessageOf([&] { OpenLiveSource(Signal("width=32,height=48"), {}); }),
+              HasSubstr("expected --camera FILE"));
+}
+
+}  // namespace
+}  // namespace plumbline
