@@ -23,7 +23,11 @@ namespace plumbline {
 namespace {
 
 constexpr int kTimeoutMs = 10'000;
-constexpr int kHighestNumber = 999;  // of a device
+// A device that is gone is opened again for so long, so often.
+constexpr std::chrono::seconds kReopenFor(10);
+constexpr std::chrono::milliseconds kReopenEvery(500);
+constexpr std::int64_t kAfterLossNs = 1'000'000;  // from the last frame to the one that is missing
+constexpr int kHighestNumber = 999;               // of a device
 
 std::optional<int> DeviceNumber(const std::string& device) {
   int number = 0;
@@ -99,17 +103,28 @@ struct Taken {
 
 class CaptureDevices {
  public:
-  CaptureDevices(const std::string& name, LiveKind kind) : kind_(kind) {
-    for (const std::string& part : PartsOf(name, kind)) {
-      captures_.emplace_back();
-      if (OpenAs(kind, captures_.back(), part)) continue;
-      throw InputError(fmt::format("{}: expected {}, found none that can be opened",
-                                   Printable(WithoutPassword(name), kLongestMessage),
-                                   kind == LiveKind::kCamera      ? "a camera"
-                                   : kind == LiveKind::kGstreamer ? "a GStreamer pipeline"
-                                                                  : "a stream"));
-    }
+  CaptureDevices(const std::string& name, LiveKind kind)
+      : kind_(kind), parts_(PartsOf(name, kind)) {
+    if (Open()) return;
+    throw InputError(fmt::format("{}: expected {}, found none that can be opened",
+                                 Printable(WithoutPassword(name), kLongestMessage),
+                                 kind == LiveKind::kCamera      ? "a camera"
+                                 : kind == LiveKind::kGstreamer ? "a GStreamer pipeline"
+                                                                : "a stream"));
   }
+
+  // Also again; false where one of them cannot be opened.
+  bool Open() {
+    captures_.clear();
+    for (const std::string& part : parts_) {
+      captures_.emplace_back();
+      if (!OpenAs(kind_, captures_.back(), part)) return false;
+    }
+    return true;
+  }
+
+  // A camera or a stream may come back, a pipeline has ended.
+  bool MayComeBack() const { return kind_ != LiveKind::kGstreamer; }
 
   // nullopt: there are no more.
   std::optional<Taken> Take() {
@@ -134,6 +149,7 @@ class CaptureDevices {
 
  private:
   LiveKind kind_;
+  std::vector<std::string> parts_;  // what is opened
   std::vector<cv::VideoCapture> captures_;
   FrameClock clock_;
 };
@@ -201,27 +217,53 @@ class CaptureSource : public LiveSource {
         first_(std::move(opened.first)) {}
 
   LiveEvent Next() override {
-    std::optional<Taken> taken = first_ ? std::exchange(first_, std::nullopt) : devices_.Take();
+    std::optional<Taken> taken = lost_    ? TakeAgain()
+                                 : first_ ? std::exchange(first_, std::nullopt)
+                                          : devices_.Take();
+    if (!taken && !lost_ && devices_.MayComeBack()) {
+      lost_ = true;
+      return MissingFrame{
+          last_ns_ + kAfterLossNs,
+          "source_lost",
+          fmt::format("no more frames come; it is opened again for {} s", kReopenFor.count())};
+    }
     if (!taken) {
       return SourceEnd{info().name +
                        ": no more frames: the stream has ended, or the device is gone"};
     }
+    lost_ = false;
+    last_ns_ = taken->stamp_ns;
+    return FrameOf(*taken);
+  }
+
+ private:
+  static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
+
+  // The first frame of a device that came back; nullopt where it does not in time.
+  std::optional<Taken> TakeAgain() {
+    const auto end = std::chrono::steady_clock::now() + kReopenFor;
+    do {
+      std::this_thread::sleep_for(kReopenEvery);
+      if (!devices_.Open()) continue;
+      if (auto taken = devices_.Take()) return taken;
+    } while (std::chrono::steady_clock::now() < end);
+    return std::nullopt;
+  }
+
+  LiveEvent FrameOf(const Taken& taken) const {
     SensorFrame frame;
-    frame.stamp_ns = taken->stamp_ns;
+    frame.stamp_ns = taken.stamp_ns;
     const Calibration& calibration = info().calibration;
-    const auto left = GrayOf(ImageOf(*taken, 0, side_by_side_), SizeOf(calibration.left));
+    const auto left = GrayOf(ImageOf(taken, 0, side_by_side_), SizeOf(calibration.left));
     if (!left) return Missing(frame.stamp_ns, left.error());
     frame.left = *left;
     if (calibration.right) {
-      const auto right = GrayOf(ImageOf(*taken, 1, side_by_side_), SizeOf(*calibration.right));
+      const auto right = GrayOf(ImageOf(taken, 1, side_by_side_), SizeOf(*calibration.right));
       if (!right) return Missing(frame.stamp_ns, right.error());
       frame.right = *right;
     }
     return frame;
   }
-
- private:
-  static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
 
   static LiveEvent Missing(std::int64_t stamp_ns, const ImageFailure& failure) {
     return MissingFrame{
@@ -231,6 +273,8 @@ class CaptureSource : public LiveSource {
   CaptureDevices devices_;
   bool side_by_side_;
   std::optional<Taken> first_;
+  bool lost_ = false;
+  std::int64_t last_ns_ = 0;  // stamp of the last frame
 };
 
 }  // namespace

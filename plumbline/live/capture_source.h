@@ -22,8 +22,9 @@ std::string GstreamerPipeline(const std::string& name);
 // Stamps count from the first frame, which has the time of the clock when it arrived: of a camera
 // by its driver's clock, of streams and pipelines by when frames arrive here, as OpenCV tells no
 // other time of them. Two cameras are read one after the other and have the stamp of the first:
-// only hardware that triggers both makes them a pair. A source that is gone ends, as does a stream
-// that says nothing for ten seconds; a frame of another size is missing.
+// only hardware that triggers both makes them a pair. A frame of another size is missing. A camera
+// or a stream that is gone, or says nothing for ten seconds, is opened again for ten seconds, and
+// has one frame missing if it comes back; otherwise it ends, as a pipeline does at once.
 //
 // Waits for the first frame. Errors as of OpenLiveSource.
 std::unique_ptr<LiveSource> OpenCapture(const std::string& name,

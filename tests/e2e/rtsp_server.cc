@@ -3,7 +3,8 @@
 
 // Serves what a pipeline makes as rtsp://127.0.0.1:PORT/stream, and goes away after some seconds:
 //
-//   rtsp_server SECONDS PIPELINE      the payloader is called pay0; prints the port
+//   rtsp_server SECONDS PORT PIPELINE      the payloader is called pay0; PORT 0: any; prints the
+//   port
 
 #include <cstdio>
 #include <cstdlib>
@@ -12,17 +13,17 @@
 #include <gst/rtsp-server/rtsp-server.h>
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: rtsp_server SECONDS PIPELINE\n", stderr);
+  if (argc != 4) {
+    std::fputs("usage: rtsp_server SECONDS PORT PIPELINE\n", stderr);
     return 2;
   }
   gst_init(nullptr, nullptr);
   GMainLoop* loop = g_main_loop_new(nullptr, FALSE);
   GstRTSPServer* server = gst_rtsp_server_new();
   gst_rtsp_server_set_address(server, "127.0.0.1");
-  gst_rtsp_server_set_service(server, "0");  // any port that is free
+  gst_rtsp_server_set_service(server, argv[2]);
   GstRTSPMediaFactory* factory = gst_rtsp_media_factory_new();
-  gst_rtsp_media_factory_set_launch(factory, argv[2]);
+  gst_rtsp_media_factory_set_launch(factory, argv[3]);
   GstRTSPMountPoints* mounts = gst_rtsp_server_get_mount_points(server);
   gst_rtsp_mount_points_add_factory(mounts, "/stream", factory);
   g_object_unref(mounts);
