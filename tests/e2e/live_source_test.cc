@@ -8,6 +8,7 @@
 #include "tests/e2e/same_run.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/moving_poster.h"
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -157,6 +158,37 @@ TEST_F(FedPoster, GoesOnWhenStampsJumpBack) {
   EXPECT_THAT(outcome.err, HasSubstr("frame 4: standard input: the stamps jump back by"));
   EXPECT_EQ(Summary("run")["frames"]["in"], 7);
   EXPECT_EQ(Summary("run")["frames"]["tracked"], 7);
+}
+
+// A recording that begins again somewhere else: what is seen there is a map of its own.
+TEST_F(FedPoster, StartsAnotherMapWhereTheImagesJumpWithTheStamps) {
+  std::vector<std::string> pieces = Pieces({4, 5, 6, 7, 8, 9, 10, 11, 12, 13});
+  std::vector<std::string> elsewhere =
+      Pieces({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19});
+  for (std::size_t i = 1; i < elsewhere.size(); ++i) {
+    std::string& frame = elsewhere[i];
+    // Upside down, in the negative, each image on its own.
+    const std::size_t begin = frame.find('\n') + 1, size = (frame.size() - begin) / 2;
+    for (const std::size_t image : {begin, begin + size}) {
+      std::reverse(frame.begin() + static_cast<std::ptrdiff_t>(image),
+                   frame.begin() + static_cast<std::ptrdiff_t>(image + size));
+      for (std::size_t row = 0; row < MovingPoster::kHeight; ++row) {
+        const auto first =
+            frame.begin() + static_cast<std::ptrdiff_t>(image + row * MovingPoster::kWidth);
+        std::reverse(first, first + MovingPoster::kWidth);
+      }
+      for (std::size_t k = image; k < image + size; ++k) frame[k] = static_cast<char>(~frame[k]);
+    }
+    pieces.push_back(frame);
+  }
+  const Outcome outcome =
+      RunFed(folder_, "run -" + Arguments("run"), pieces, std::chrono::milliseconds(1));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("frame 10: standard input: the stamps jump back by"));
+  EXPECT_GT(Summary("run")["frames"]["lost"], 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "run/trajectory_map1.txt") ||
+              std::filesystem::exists(folder_ / "run/trajectory_map0.txt"))
+      << Contents(folder_ / "run/frames.csv");
 }
 
 TEST_F(FedPoster, KeepsWhatCameBeforeNonsense) {

@@ -80,6 +80,30 @@ TEST_F(Pipelines, AreTakenApartSideBySide) {
   EXPECT_EQ(frame.right.value().at(0, 10), 255);
 }
 
+// The signal becomes smaller and is as large as before in the end.
+TEST_F(Pipelines, LeaveOutFramesOfAnotherSize) {
+  std::string pipeline = "gst:concat name=all ! videoconvert ! appsink";
+  for (const int width : {64, 32, 64}) {
+    pipeline +=
+        " videotestsrc num-buffers=3 pattern=white ! "
+        "video/x-raw,height=48,framerate=100/1,width=" +
+        std::to_string(width) + " ! all.";
+  }
+  const auto source = OpenLiveSource(pipeline, Options("64, 48"));
+  std::string events;
+  LiveEvent event = source->Next();
+  for (; !std::holds_alternative<SourceEnd>(event); event = source->Next()) {
+    if (const auto* missing = std::get_if<MissingFrame>(&event)) {
+      EXPECT_EQ(missing->reason, "image_size");
+      EXPECT_EQ(missing->why, "an image of 32x48 pixels");
+      events += '-';
+    } else {
+      events += '+';
+    }
+  }
+  EXPECT_EQ(events, "+++---+++");
+}
+
 // A test signal that is played nowhere: GStreamer would wait for its first picture for ever.
 TEST_F(Pipelines, AreNotWaitedForWithoutEnd) {
   LiveOptions options = Options("64, 48");
