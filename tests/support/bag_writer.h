@@ -31,9 +31,13 @@ inline std::string PackedForBag(const std::string& bytes, const std::string& how
     return packed;
   }
   if (how == "lz4") {
-    packed.resize(LZ4F_compressFrameBound(bytes.size(), nullptr));
+    // As ROS writes them: its own reader takes no other frames.
+    LZ4F_preferences_t frame{};
+    frame.frameInfo.blockMode = LZ4F_blockIndependent;
+    frame.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
+    packed.resize(LZ4F_compressFrameBound(bytes.size(), &frame));
     packed.resize(
-        LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr));
+        LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), &frame));
     return packed;
   }
   return bytes;
