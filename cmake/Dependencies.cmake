@@ -18,3 +18,11 @@ endif()
 if(PLUMBLINE_BENCHMARKS)
   find_package(benchmark REQUIRED)
 endif()
+if(PLUMBLINE_PYTHON)
+  # Debian's interpreter, whatever others are in the PATH: pybind11, numpy and OpenCV are packages of it.
+  set(Python_EXECUTABLE /usr/bin/python3)
+  find_package(Python 3.11 COMPONENTS Interpreter Development.Module)
+  if(Python_FOUND)
+    find_package(pybind11 2.10 CONFIG)  # not required: without it there is no package for Python
+  endif()
+endif()

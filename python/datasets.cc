@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+#include "plumbline/base/options.h"
+#include "plumbline/io/dataset.h"
+
+#include "apps/command_line.h"
+#include "arrays.h"
+#include "bindings.h"
+#include "frames.h"
+#include "trajectories.h"
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace plumbline::python {
+namespace {
+
+std::shared_ptr<Dataset> Open(const std::filesystem::path& path,
+                              const std::optional<std::string>& sensor,
+                              const std::optional<std::string>& camera,
+                              const std::optional<std::string>& format) {
+  DatasetOptions options;
+  if (sensor) options.sensor = ParseChoice<SensorKind>("sensor", *sensor);
+  if (format) options.format = ParseChoice<DatasetFormat>("format", *format);
+  options.camera = camera;
+  const py::gil_scoped_release release;
+  return OpenDataset(path, options);
+}
+
+std::size_t IndexOf(const Dataset& dataset, py::ssize_t i) {
+  const auto size = static_cast<py::ssize_t>(dataset.size());
+  if (i < -size || i >= size) {
+    throw py::index_error(fmt::format("frame: expected -{} to {}, found {}", size, size - 1, i));
+  }
+  return static_cast<std::size_t>(i < 0 ? i + size : i);
+}
+
+PyFrame Read(const Dataset& dataset, py::ssize_t i) {
+  const std::size_t index = IndexOf(dataset, i);
+  const py::gil_scoped_release release;
+  auto frame = dataset.Read(index);
+  if (frame) return {*frame};
+  throw InputError(frame.error().path.string() + ": " + frame.error().why);
+}
+
+std::optional<PoseList> TruthOf(const Dataset& dataset) {
+  const auto& truth = dataset.info().ground_truth;
+  if (!truth) return std::nullopt;
+  return PoseList{truth->OfCamera(dataset.calibration())};
+}
+
+py::array Right(const py::object& self) {
+  return View(*self.cast<const PyFrame&>().images.right, self);
+}
+
+void BindFrame(py::module_& module) {
+  py::class_<PyFrame, std::shared_ptr<PyFrame>>(
+      module, "Frame", "The images of one instant, before rectification.")
+      .def_property_readonly("stamp_ns", [](const PyFrame& frame) { return frame.images.stamp_ns; })
+      .def_property_readonly(
+          "left",
+          [](const py::object& self) {
+            return View(self.cast<const PyFrame&>().images.left, self);
+          },
+          "(rows, columns) uint8; read-only, keeps the frame alive.")
+      .def_property_readonly(
+          "right",
+          [](const py::object& self) -> py::object {
+            if (!self.cast<const PyFrame&>().images.right) return py::none();
+            return Right(self);
+          },
+          "(rows, columns) uint8 or None; read-only, keeps the frame alive.")
+      .def_property_readonly(
+          "depth",
+          [](const py::object& self) -> py::object {
+            const auto& depth = self.cast<const PyFrame&>().images.depth;
+            if (!depth) return py::none();
+            return View(*depth, self);
+          },
+          "(rows, columns) float32 in metres along z, 0: not measured, or None; read-only, keeps "
+          "the frame alive.");
+}
+
+}  // namespace
+
+void BindDatasets(py::module_& module) {
+  BindFrame(module);
+  py::class_<Dataset, std::shared_ptr<Dataset>>(module, "Dataset", R"(A recorded sequence: frames in
+the order of time, read when they are asked for. len(), indices and iteration.)")
+      .def("__len__", &Dataset::size)
+      .def("__getitem__",
+           &Read,
+           py::arg("index"),
+           "The frame; InputError where an image is missing or damaged, IndexError.")
+      .def_property_readonly(
+          "stamps_ns",
+          [](const Dataset& dataset) { return ToArray(dataset.info().stamps_ns); },
+          "(N,) int64, nanoseconds; a new array.")
+      .def_property_readonly("calibration", &Dataset::calibration)
+      .def_property_readonly("name", [](const Dataset& d) { return d.info().name; })
+      .def_property_readonly("path", [](const Dataset& d) { return d.info().path; })
+      .def_property_readonly(
+          "sensor",
+          [](const Dataset& d) { return NameOf(d.sensor()); },
+          "\"mono\", \"stereo\" or \"rgbd\"")
+      .def_property_readonly("format", [](const Dataset& d) { return NameOf(d.info().format); })
+      .def_property_readonly(
+          "notes",
+          [](const Dataset& d) { return d.info().notes; },
+          "What is missing or left out, a sentence each.")
+      .def_property_readonly(
+          "ground_truth", TruthOf, "Trajectory of the left camera; None where there is none.")
+      .def("__repr__", [](const Dataset& d) {
+        return fmt::format(
+            "<Dataset {}, {}, {} frames>", d.info().name, NameOf(d.sensor()), d.size());
+      });
+  module.def("open",
+             &Open,
+             py::arg("path"),
+             py::arg("sensor") = py::none(),
+             py::arg("camera") = py::none(),
+             py::arg("format") = py::none(),
+             R"(open(path, sensor=None, camera=None, format=None) -> Dataset
+
+Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images or a video.
+sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers). camera: a camera file or
+the name of a built-in camera. format: "euroc", "tum", "kitti", "images" or "video" (None: found
+out). Raises InputError with the program's message.)");
+}
+
+}  // namespace plumbline::python

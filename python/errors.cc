@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+
+#include "bindings.h"
+#include <exception>
+
+namespace plumbline::python {
+namespace {
+
+namespace py = pybind11;
+
+// A new exception class of the package; the module keeps it, and so does this process.
+PyObject* MakeError(py::module_& module,
+                    const char* name,
+                    const char* doc,
+                    const py::tuple& bases) {
+  const std::string full_name = std::string("plumbline.") + name;
+  PyObject* error = PyErr_NewExceptionWithDoc(full_name.c_str(), doc, bases.ptr(), nullptr);
+  if (error == nullptr) throw py::error_already_set();
+  module.add_object(name, error);
+  return error;
+}
+
+}  // namespace
+
+void BindErrors(py::module_& module) {
+  PyObject* base = MakeError(module,
+                             "Error",
+                             "What all errors of this package are.",
+                             py::make_tuple(py::handle(PyExc_Exception)));
+  static PyObject* const input_error =
+      MakeError(module,
+                "InputError",
+                "Bad input: what was expected and what was found, in the words of the program.",
+                py::make_tuple(py::handle(base), py::handle(PyExc_ValueError)));
+  static PyObject* const bug_error = MakeError(module,
+                                               "BugError",
+                                               "A broken invariant of the library itself.",
+                                               py::make_tuple(py::handle(base)));
+  py::register_exception_translator([](std::exception_ptr failure) {
+    try {
+      if (failure) std::rethrow_exception(failure);
+    } catch (const InputError& error) {
+      PyErr_SetString(input_error, error.what());
+    } catch (const BugError& error) {
+      PyErr_SetString(bug_error, error.what());
+    }
+  });
+}
+
+}  // namespace plumbline::python

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/image.h"
+
+#include <memory>
+
+namespace plumbline::python {
+
+// The images of one instant. Never changed once made, so that arrays may look into it.
+struct PyFrame {
+  SensorFrame images;
+};
+
+}  // namespace plumbline::python

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "map_arrays.h"
+
+#include "plumbline/map/map.h"
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace plumbline::python {
+namespace {
+
+// Rows of structured arrays.
+struct PointSighting {
+  std::int64_t point = 0, keyframe = 0;
+  std::int32_t feature = 0, octave = 0;
+  double px[2] = {};
+  double sigma_px = 0, disparity = 0, disparity_sigma = 0;
+};
+struct LineSighting {
+  std::int64_t line = 0, keyframe = 0;
+  std::int32_t feature = 0, octave = 0;
+  double start[2] = {};
+  double end[2] = {};
+  double sigma_px = 0;
+};
+
+template <class Entries>
+Integers IdsOf(const Entries& entries) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(entries.size());
+  for (const auto& [id, entry] : entries) ids.push_back(id.value);
+  return ToArray(ids);
+}
+
+template <class Row>
+py::array RowsToArray(const std::vector<Row>& rows) {
+  return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
+
+}  // namespace
+
+Integers PointIds(const PyMap& map) { return IdsOf(map.map->points()); }
+
+Integers LineIds(const PyMap& map) { return IdsOf(map.map->lines()); }
+
+Integers KeyFrameIds(const PyMap& map) { return IdsOf(map.map->keyframes()); }
+
+Doubles Points(const PyMap& map) {
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& [id, point] : map.map->points()) points.push_back(point.position);
+  return ToArray(points);
+}
+
+Doubles Lines(const PyMap& map) {
+  std::vector<PluckerLine> lines;
+  for (const auto& [id, line] : map.map->lines()) lines.push_back(line.line);
+  return ToArray(lines);
+}
+
+Doubles LineEnds(const PyMap& map) {
+  std::vector<Segment3> segments;
+  for (const auto& [id, line] : map.map->lines()) segments.push_back(line.Interval());
+  return ToArray(segments);
+}
+
+Doubles LineInformation(const PyMap& map) {
+  Doubles array(
+      {static_cast<py::ssize_t>(map.map->lines().size()), py::ssize_t{4}, py::ssize_t{4}});
+  double* out = array.mutable_data();
+  for (const auto& [id, line] : map.map->lines()) {
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>{out} = line.information;
+    out += 16;
+  }
+  return array;
+}
+
+Integers KeyFrameStamps(const PyMap& map) {
+  std::vector<std::int64_t> stamps;
+  for (const auto& [id, keyframe] : map.map->keyframes()) stamps.push_back(keyframe.frame.stamp_ns);
+  return ToArray(stamps);
+}
+
+Doubles KeyFramePoses(const PyMap& map) {
+  std::vector<Rigid3> poses;
+  for (const auto& [id, keyframe] : map.map->keyframes()) {
+    poses.push_back(Inverse(keyframe.frame.cam_from_world));
+  }
+  return ToArray(poses);
+}
+
+py::array PointTracks(const PyMap& map) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<PointSighting> rows;
+  for (const auto& [id, point] : map.map->points()) {
+    for (const auto& [keyframe, feature] : point.observations) {
+      const Features& features = map.map->Find(keyframe)->frame.features();
+      const auto index = static_cast<std::size_t>(feature);
+      const PointFeature& seen = features.points[index];
+      const auto& disparity = features.point_disparity[index];
+      rows.push_back({id.value,
+                      keyframe.value,
+                      feature,
+                      seen.octave,
+                      {seen.px.x(), seen.px.y()},
+                      seen.sigma_px,
+                      disparity ? disparity->px : kNone,
+                      disparity ? disparity->sigma_px : kNone});
+    }
+  }
+  return RowsToArray(rows);
+}
+
+py::array LineTracks(const PyMap& map) {
+  std::vector<LineSighting> rows;
+  for (const auto& [id, line] : map.map->lines()) {
+    for (const auto& [keyframe, feature] : line.observations) {
+      const LineFeature& seen =
+          map.map->Find(keyframe)->frame.features().lines[static_cast<std::size_t>(feature)];
+      rows.push_back({id.value,
+                      keyframe.value,
+                      feature,
+                      seen.octave,
+                      {seen.segment.start.x(), seen.segment.start.y()},
+                      {seen.segment.end.x(), seen.segment.end.y()},
+                      seen.sigma_px});
+    }
+  }
+  return RowsToArray(rows);
+}
+
+void RegisterTrackTypes() {
+  PYBIND11_NUMPY_DTYPE(
+      PointSighting, point, keyframe, feature, octave, px, sigma_px, disparity, disparity_sigma);
+  PYBIND11_NUMPY_DTYPE(LineSighting, line, keyframe, feature, octave, start, end, sigma_px);
+}
+
+}  // namespace plumbline::python

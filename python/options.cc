@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "options.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/slam/options.h"
+#include "plumbline/synth/world.h"
+
+#include "arrays.h"
+#include "bindings.h"
+#include <string>
+#include <variant>
+
+#include <pybind11/stl.h>
+
+namespace plumbline::python {
+namespace {
+
+void SetAll(const py::dict& options, const std::string& prefix, OptionTable& table);
+
+// The value as one writes it behind --set KEY=.
+std::string TextOf(const std::string& key, py::handle value) {
+  // A number of numpy's becomes one of Python's.
+  if (!py::isinstance<py::array>(value) && py::hasattr(value, "item") &&
+      py::hasattr(value, "dtype")) {
+    return TextOf(key, value.attr("item")());
+  }
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::isinstance<py::int_>(value)) return py::str(value).cast<std::string>();
+  if (py::isinstance<py::float_>(value)) return py::repr(value).cast<std::string>();
+  throw InputError(key + ": expected a number, True, False, a text or a dictionary, found " +
+                   Describe(value));
+}
+
+void SetAll(const py::dict& options, const std::string& prefix, OptionTable& table) {
+  for (const auto& [name, value] : options) {
+    if (!py::isinstance<py::str>(name)) {
+      throw InputError((prefix.empty() ? "options" : prefix) +
+                       ": expected names of options, found " + Describe(name));
+    }
+    const std::string key = prefix + name.cast<std::string>();
+    if (py::isinstance<py::dict>(value)) {
+      SetAll(py::reinterpret_borrow<py::dict>(value), key + ".", table);
+    } else {
+      table.Set(key + "=" + TextOf(key, value));
+    }
+  }
+}
+
+struct ToPython {
+  template <class T>
+  py::object operator()(const T* value) const {
+    return py::cast(*value);
+  }
+  py::object operator()(const EnumField& field) const { return py::cast(field.names[field.get()]); }
+};
+
+py::dict GroupOf(py::dict values, const std::string& key) {
+  std::size_t from = 0;
+  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', from)) {
+    const py::str name = key.substr(from, dot - from);
+    if (!values.contains(name)) values[name] = py::dict();
+    values = values[name];
+    from = dot + 1;
+  }
+  return values;
+}
+
+py::dict OptionsOfRun(const py::kwargs& given) {
+  SlamOptions options;
+  OptionTable table(options);
+  SetOptions(given, table);
+  CheckOptions(options);
+  return ValuesOf(table);
+}
+
+std::string HelpOfOptions() {
+  SlamOptions options;
+  return OptionTable(options).Dump();
+}
+
+}  // namespace
+
+void SetOptions(const py::dict& options, OptionTable& table) { SetAll(options, "", table); }
+
+py::dict ValuesOf(const OptionTable& table) {
+  py::dict values;
+  for (const OptionField& field : table.fields()) {
+    const py::str name = field.key.substr(field.key.rfind('.') + 1);
+    GroupOf(values, field.key)[name] = std::visit(ToPython(), field.target);
+  }
+  return values;
+}
+
+void BindOptions(py::module_& module) {
+  module.def("options",
+             OptionsOfRun,
+             R"(options(**options) -> dict
+
+All options of a run in groups, as `System` and `run` take them:
+options()["features"]["line_count"]. Options that are given are checked and take the place
+of the defaults. Raises InputError with the program's message.)");
+  module.def("describe_options",
+             HelpOfOptions,
+             R"(describe_options() -> str
+
+All options of a run with default, meaning, unit and range, as YAML
+(what `plumbline config` prints).)");
+}
+
+}  // namespace plumbline::python

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options_io.h"
+
+#include <pybind11/pybind11.h>
+
+namespace plumbline::python {
+
+// Sets options from keyword arguments: groups are dictionaries, {"features": {"line_count": 100}};
+// dotted keys mean the same. Throws the InputError of `--set KEY=VALUE`.
+void SetOptions(const pybind11::dict& options, OptionTable& table);
+
+// The values of all options, in groups.
+pybind11::dict ValuesOf(const OptionTable& table);
+
+}  // namespace plumbline::python

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "running_system.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/report/summary.h"
+#include "plumbline/slam/atlas_context.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumbline::python {
+namespace {
+
+// An image has the size of the calibration, and is there where it is needed and only there.
+template <class T>
+void CheckImage(const char* name, const Image<T>& image, const Calibration& calibration) {
+  const int width = calibration.left.width(), height = calibration.left.height();
+  if (image.width() == width && image.height() == height) return;
+  throw InputError(
+      fmt::format("{}: expected an image of {} rows and {} columns, as calibrated, found {} and {}",
+                  name,
+                  height,
+                  width,
+                  image.height(),
+                  image.width()));
+}
+
+}  // namespace
+
+RunningSystem::RunningSystem(const Calibration& calibration, const SlamOptions& options)
+    : calibration_(calibration),
+      options_(options),
+      system_(calibration, options),
+      pipeline_(system_, [this](const FrameRecord& record, const FrameView& view) {
+        Observe(record, view);
+      }) {
+  system_.DescribeSession(PLUMBLINE_VERSION, "");
+}
+
+void RunningSystem::Feed(SensorFrame frame) {
+  const auto lock = Enter("feed");
+  CheckRunning("feed");
+  CheckFrame(frame);
+  CheckStamp(frame.stamp_ns);
+  pipeline_.Feed(std::move(frame));
+}
+
+FrameRecord RunningSystem::Process(SensorFrame frame) {
+  const auto lock = Enter("process");
+  CheckRunning("process");
+  CheckFrame(frame);
+  const std::int64_t stamp_ns = frame.stamp_ns;
+  CheckStamp(stamp_ns);
+  pipeline_.Feed(std::move(frame));
+  pipeline_.Drain();
+  {
+    const std::lock_guard records(records_mutex_);
+    if (newest_ && newest_->stamp_ns == stamp_ns) return *newest_;
+  }
+  // Tracking failed: completes what there is, and says why.
+  finished_ = true;
+  pipeline_.Finish();
+  throw BugError("a frame has no record");
+}
+
+void RunningSystem::Skip(std::int64_t stamp_ns, const std::string& reason) {
+  const auto lock = Enter("skip");
+  CheckRunning("skip");
+  CheckStamp(stamp_ns);
+  pipeline_.Skip(stamp_ns, reason);
+}
+
+std::vector<FrameRecord> RunningSystem::TakeRecords() {
+  const std::lock_guard lock(records_mutex_);
+  return std::exchange(records_, {});
+}
+
+std::vector<std::string> RunningSystem::Continue(SavedAtlas saved, bool read_only) {
+  const auto lock = Enter("continue_in");
+  CheckRunning("continue_in");
+  if (last_stamp_ns_ || system_.loaded() != nullptr) {
+    throw InputError("continue_in: expected a system before its first frame, found one that runs");
+  }
+  return system_.Continue(std::move(saved), read_only);
+}
+
+void RunningSystem::Describe(const std::string& data) {
+  const auto lock = Enter("run");
+  system_.DescribeSession(PLUMBLINE_VERSION, data);
+}
+
+void RunningSystem::KeepViews(const std::vector<std::size_t>& frames) {
+  const auto lock = Enter("run");
+  views_ = KeptViews(frames);
+}
+
+void RunningSystem::Finish(const StopCheck& stop) {
+  const auto lock = Enter("finish");
+  CheckRunning("finish");
+  finished_ = true;
+  pipeline_.Finish(stop);
+}
+
+SavedAtlas RunningSystem::CopyMaps() {
+  const auto lock = Enter("maps");
+  if (!last_stamp_ns_) {
+    throw InputError("maps: expected a system with a frame, found one before its first frame");
+  }
+  if (finished_) return {system_.atlas(), ContextOf(system_)};
+  pipeline_.Drain();
+  return system_.Save().maps;
+}
+
+MapEvents RunningSystem::Events() {
+  const auto lock = Enter("events");
+  if (!last_stamp_ns_) return {};
+  if (!finished_) {
+    pipeline_.Drain();
+    system_.Save();  // waits for mapping
+  }
+  return system_.events();
+}
+
+std::unique_lock<std::mutex> RunningSystem::Enter(const char* what) {
+  std::unique_lock lock(entered_, std::try_to_lock);
+  if (lock) return lock;
+  throw InputError(std::string(what) +
+                   ": expected one thread at a time in a system, found another one in it");
+}
+
+void RunningSystem::CheckRunning(const char* what) const {
+  if (!finished_) return;
+  throw InputError(std::string(what) + ": expected a system that runs, found one that is finished");
+}
+
+void RunningSystem::CheckFinished(const char* what) const {
+  if (finished_) return;
+  throw InputError(std::string(what) +
+                   ": expected a system that is finished (finish()), found one that runs");
+}
+
+void RunningSystem::CheckFrame(const SensorFrame& frame) const {
+  CheckImage("left", frame.left, calibration_);
+  if (calibration_.right && !frame.right) {
+    throw InputError("images: expected a left and a right image, as calibrated, found one image");
+  }
+  if (!calibration_.right && calibration_.depth_factor && !frame.depth) {
+    throw InputError("images: expected an image and a depth image, as calibrated, found one image");
+  }
+  if (calibration_.right) CheckImage("right", *frame.right, calibration_);
+  if (frame.depth) CheckImage("depth", *frame.depth, calibration_);
+}
+
+void RunningSystem::CheckStamp(std::int64_t stamp_ns) {
+  if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
+    throw InputError(fmt::format(
+        "stamp_ns: expected a frame after {} ns, found one of {} ns", *last_stamp_ns_, stamp_ns));
+  }
+  last_stamp_ns_ = stamp_ns;
+}
+
+// In the thread that tracks.
+void RunningSystem::Observe(const FrameRecord& record, const FrameView& view) {
+  views_.Offer(static_cast<std::size_t>(record.id.value), view);
+  const std::lock_guard lock(records_mutex_);
+  if (!first_pose_seconds_ && record.status == FrameStatus::kTracked) {
+    first_pose_seconds_ = SecondsSinceProcessStart();
+  }
+  records_.push_back(record);
+  newest_ = record;
+}
+
+}  // namespace plumbline::python

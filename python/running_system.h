@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/stop_check.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/map/saved_atlas.h"
+#include "plumbline/slam/pipeline.h"
+#include "plumbline/slam/system.h"
+
+#include "apps/run_frames.h"
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline::python {
+
+// A System with its Pipeline, as Python uses it: one call at a time, frames in order, nothing after
+// the end; InputError where a caller does otherwise. Knows no Python: all may be called without the
+// GIL.
+class RunningSystem {
+ public:
+  RunningSystem(const Calibration& calibration, const SlamOptions& options);
+
+  const Calibration& calibration() const { return calibration_; }
+  const SlamOptions& options() const { return options_; }
+
+  // Hands the images of a frame over. Its record comes, as those of all frames, out of TakeRecords.
+  void Feed(SensorFrame frame);
+  // Feed, and waits for the record, which TakeRecords will give too.
+  FrameRecord Process(SensorFrame frame);
+  // A frame without images.
+  void Skip(std::int64_t stamp_ns, const std::string& reason);
+  // Of the frames that were tracked since the last call, in order.
+  std::vector<FrameRecord> TakeRecords();
+  std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
+  void Describe(const std::string& data);
+  // From now on views of some of these frames are kept, for the report.
+  void KeepViews(const std::vector<std::size_t>& frames);
+  void Finish(const StopCheck& stop);
+  bool finished() const { return finished_; }
+
+  // The maps when mapping has done what was handed over so far, at any time after the first frame.
+  SavedAtlas CopyMaps();
+  MapEvents Events();
+  // Calls `use` with the system, which must be finished.
+  template <class Use>
+  auto WithFinished(const char* what, const Use& use) {
+    const auto lock = Enter(what);
+    CheckFinished(what);
+    return use(static_cast<const System&>(system_));
+  }
+  const KeptViews& views() const { return views_; }
+  std::optional<double> first_pose_seconds() const { return first_pose_seconds_; }
+  std::chrono::steady_clock::time_point start() const { return start_; }
+
+ private:
+  std::unique_lock<std::mutex> Enter(const char* what);
+  void CheckRunning(const char* what) const;
+  void CheckFinished(const char* what) const;
+  void CheckFrame(const SensorFrame& frame) const;
+  void CheckStamp(std::int64_t stamp_ns);
+  void Observe(const FrameRecord& record, const FrameView& view);
+
+  Calibration calibration_;
+  SlamOptions options_;
+  System system_;
+  std::mutex entered_;
+  bool finished_ = false;
+  std::optional<std::int64_t> last_stamp_ns_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  KeptViews views_{{}};
+  std::optional<double> first_pose_seconds_;
+  std::mutex records_mutex_;
+  std::vector<FrameRecord> records_;  // not taken yet
+  std::optional<FrameRecord> newest_;
+  Pipeline pipeline_;  // last: its thread calls Observe
+};
+
+}  // namespace plumbline::python

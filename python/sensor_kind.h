@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/io/dataset.h"
+
+namespace plumbline::python {
+
+// What the calibration is of.
+inline SensorKind KindOf(const Calibration& calibration) {
+  if (calibration.right) return SensorKind::kStereo;
+  return calibration.depth_factor ? SensorKind::kRgbd : SensorKind::kMono;
+}
+
+}  // namespace plumbline::python

@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/report/run_files.h"
+
+#include "apps/run_results.h"
+#include "arrays.h"
+#include "bindings.h"
+#include "frames.h"
+#include "interruptible.h"
+#include "maps.h"
+#include "options.h"
+#include "running_system.h"
+#include "sensor_kind.h"
+#include "trajectories.h"
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace plumbline::python {
+namespace {
+
+std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration, const py::kwargs& given) {
+  SlamOptions options;
+  OptionTable table(options);
+  SetOptions(given, table);
+  CheckOptions(options);
+  const py::gil_scoped_release release;
+  return std::make_unique<RunningSystem>(calibration, options);
+}
+
+std::int64_t ReadStamp(py::handle value) {
+  if (!py::isinstance<py::int_>(value) || py::isinstance<py::bool_>(value)) {
+    const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    PyErr_Clear();
+    if (!index || py::isinstance<py::bool_>(value)) {
+      throw InputError("stamp_ns: expected a whole number of nanoseconds, found " +
+                       Describe(value));
+    }
+    return ReadStamp(index);
+  }
+  const long long stamp = PyLong_AsLongLong(value.ptr());
+  if (stamp == -1 && PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    throw InputError("stamp_ns: expected nanoseconds of 64 bits, found " +
+                     py::str(value).cast<std::string>());
+  }
+  return stamp;
+}
+
+// A frame as it is, an image, or a pair of images, the second one by the kind of the sensor.
+SensorFrame ReadImages(const Calibration& calibration, py::handle images, py::handle stamp) {
+  if (py::isinstance<PyFrame>(images)) {
+    if (!stamp.is_none()) {
+      throw InputError("stamp_ns: expected none beside a Frame, which has its own, found " +
+                       Describe(stamp));
+    }
+    return images.cast<const PyFrame&>().images;
+  }
+  SensorFrame frame;
+  frame.stamp_ns = ReadStamp(stamp);
+  if (!py::isinstance<py::tuple>(images) && !py::isinstance<py::list>(images)) {
+    frame.left = ReadGray(images, "images");
+    return frame;
+  }
+  const auto pair = py::reinterpret_borrow<py::sequence>(images);
+  const SensorKind kind = KindOf(calibration);
+  const std::size_t wanted = kind == SensorKind::kMono ? 1 : 2;
+  if (pair.size() != wanted) {
+    throw InputError(
+        fmt::format("images: expected {} for {}, found {}", wanted, NameOf(kind), pair.size()));
+  }
+  frame.left = ReadGray(py::object(pair[0]), "left");
+  if (kind == SensorKind::kStereo) frame.right = ReadGray(py::object(pair[1]), "right");
+  if (kind == SensorKind::kRgbd) {
+    frame.depth = ReadDepth(py::object(pair[1]), "depth", calibration.depth_factor);
+  }
+  return frame;
+}
+
+FrameRecord Process(RunningSystem& system, py::handle images, py::handle stamp) {
+  SensorFrame frame = ReadImages(system.calibration(), images, stamp);
+  const py::gil_scoped_release release;
+  return system.Process(std::move(frame));
+}
+
+void Feed(RunningSystem& system, py::handle images, py::handle stamp) {
+  SensorFrame frame = ReadImages(system.calibration(), images, stamp);
+  const py::gil_scoped_release release;
+  system.Feed(std::move(frame));
+}
+
+PyAtlas SnapshotOf(RunningSystem& system) {
+  const py::gil_scoped_release release;
+  return {std::make_shared<const SavedAtlas>(system.CopyMaps())};
+}
+
+std::vector<std::string> ContinueIn(RunningSystem& system, const PyAtlas& atlas, bool read_only) {
+  const py::gil_scoped_release release;
+  return system.Continue(*atlas.saved, read_only);
+}
+
+using TrajectoryOf = Trajectory (System::*)(MapId) const;
+
+template <TrajectoryOf of>
+PoseList TrajectoryIn(RunningSystem& system, const std::optional<std::int64_t>& map) {
+  return system.WithFinished("trajectory", [&](const System& finished) {
+    if (map && !finished.maps().contains(MapId{*map})) {
+      throw InputError(fmt::format("map: expected the id of a map, found {}", *map));
+    }
+    const auto id = map ? MapId{*map} : finished.MainMap();
+    return PoseList{id ? (finished.*of)(*id) : Trajectory()};
+  });
+}
+
+py::dict PlaceDict(const Recognition& place) {
+  py::dict dict;
+  dict["frame"] = place.frame.value;
+  dict["keyframe"] = place.keyframe.value;
+  dict["older"] = place.older.value;
+  dict["points"] = place.points;
+  dict["lines"] = place.lines;
+  dict["log10_chance"] = place.log10_chance;
+  dict["moved"] = place.moved;
+  dict["turned_deg"] = place.turned_deg;
+  dict["scale"] = place.scale;
+  return dict;
+}
+
+py::dict EventsOf(RunningSystem& system) {
+  MapEvents events;
+  {
+    const py::gil_scoped_release release;
+    events = system.Events();
+  }
+  py::list loops, joins, relocalizations;
+  for (const Recognition& loop : events.loops) loops.append(PlaceDict(loop));
+  for (const MapJoin& join : events.joins) {
+    py::dict dict = PlaceDict(join.place);
+    dict["kept"] = join.kept.value;
+    dict["gone"] = join.gone.value;
+    joins.append(dict);
+  }
+  for (const Relocalization& found : events.relocalizations) {
+    py::dict dict;
+    dict["frame"] = found.frame.value;
+    dict["keyframe"] = found.keyframe.value;
+    dict["points"] = found.points;
+    dict["lines"] = found.lines;
+    relocalizations.append(dict);
+  }
+  py::dict dict;
+  dict["loops"] = loops;
+  dict["joins"] = joins;
+  dict["relocalizations"] = relocalizations;
+  return dict;
+}
+
+// The files of `plumbline run --out`, but for what a program alone can tell (exit by a signal).
+std::string WriteRun(RunningSystem& system,
+                     RunFolder& folder,
+                     const std::shared_ptr<Dataset>& dataset,
+                     std::size_t frames_chosen,
+                     const std::vector<std::string>& arguments) {
+  const py::gil_scoped_release release;
+  SlamOptions options = system.options();
+  folder.Keep();
+  RunDescription description{PLUMBLINE_VERSION,
+                             dataset->info().path.string(),
+                             OptionTable(options).Dump(),
+                             options.slam.seed,
+                             arguments};
+  description.frames_chosen = frames_chosen;
+  const WrittenResults written = system.WithFinished("save", [&](const System& finished) {
+    return WriteResults({finished,
+                         *dataset,
+                         system.views(),
+                         std::move(description),
+                         system.first_pose_seconds(),
+                         system.start()},
+                        folder);
+  });
+  if (written.failure) throw InputError(*written.failure);
+  return folder.path().string();
+}
+
+std::unique_ptr<RunFolder> OpenFolder(const std::filesystem::path& folder,
+                                      const Dataset& dataset,
+                                      const std::optional<std::filesystem::path>& map) {
+  std::vector<RunInput> inputs = {{dataset.info().path}};
+  if (map) inputs.push_back({*map, true});
+  if (dataset.info().ground_truth) inputs.push_back({dataset.info().ground_truth->path});
+  CheckApart(folder, inputs);
+  return std::make_unique<RunFolder>(folder);
+}
+
+void BindRecord(py::module_& module) {
+  py::class_<FrameRecord>(module, "FrameResult", "What came of one frame.")
+      .def_property_readonly("index", [](const FrameRecord& r) { return r.id.value; })
+      .def_readonly("stamp_ns", &FrameRecord::stamp_ns)
+      .def_property_readonly(
+          "status",
+          [](const FrameRecord& r) { return NameOf(r.status); },
+          "\"tracked\", \"lost\", \"initializing\" or \"skipped\"")
+      .def_readonly(
+          "reason", &FrameRecord::reason, "Why there is no pose; empty where there is one.")
+      .def_readonly("keyframe", &FrameRecord::keyframe)
+      .def_property_readonly(
+          "map",
+          [](const FrameRecord& r) -> std::optional<std::int64_t> {
+            if (!r.map.valid()) return std::nullopt;
+            return r.map.value;
+          },
+          "Id of the map that the pose was reported in, or None.")
+      .def_property_readonly(
+          "world_from_camera",
+          [](const FrameRecord& r) -> py::object {
+            if (!r.causal_world_from_camera) return py::none();
+            return ToArray(*r.causal_world_from_camera);
+          },
+          "(4, 4) of the left camera as delivered, as first reported, or None; a new array.")
+      .def_property_readonly("matched_points",
+                             [](const FrameRecord& r) { return r.counts.matched_points; })
+      .def_property_readonly("matched_lines",
+                             [](const FrameRecord& r) { return r.counts.matched_lines; })
+      .def_property_readonly("inlier_points",
+                             [](const FrameRecord& r) { return r.counts.inlier_points; })
+      .def_property_readonly("inlier_lines",
+                             [](const FrameRecord& r) { return r.counts.inlier_lines; })
+      .def_property_readonly(
+          "times_ms",
+          [](const FrameRecord& r) {
+            py::dict times;
+            for (const StageTime& time : r.times) times[py::str(time.stage)] = time.milliseconds;
+            return times;
+          },
+          "Milliseconds of each stage, \"total\" from the frame's arrival to its end.")
+      .def("__repr__", [](const FrameRecord& r) {
+        return fmt::format("<FrameResult {}: {}{}>",
+                           r.id.value,
+                           NameOf(r.status),
+                           r.reason.empty() ? "" : ", " + r.reason);
+      });
+}
+
+void BindFeeding(py::class_<RunningSystem>& system) {
+  system
+      .def(py::init(&MakeSystem), py::arg("calibration"), R"(System(calibration, **options)
+
+options: groups as dictionaries, features={"line_count": 100}, slam={"seed": 3}, or dotted keys,
+**{"features.line_count": 100}. Raises InputError with the program's message.)")
+      .def("process",
+           &Process,
+           py::arg("images"),
+           py::arg("stamp_ns") = py::none(),
+           R"(process(images, stamp_ns=None) -> FrameResult
+
+Takes a frame and waits until it is tracked. images: a Frame (its own stamp), an array of uint8
+(rows, columns), a pair (left, right), or (left, depth) with depth in metres (float) or in 16 bits
+over the calibration's depth_factor. They are copied, and may be changed at once. stamp_ns: whole
+nanoseconds, later than the frame before. The GIL is released meanwhile.)")
+      .def("feed",
+           &Feed,
+           py::arg("images"),
+           py::arg("stamp_ns") = py::none(),
+           R"(feed(images, stamp_ns=None)
+
+The same without waiting: with slam.mode lockstep tracking is up to two frames behind, with live
+frames may be dropped. What came of the frames is told by results().)")
+      .def("skip",
+           &RunningSystem::Skip,
+           py::arg("stamp_ns"),
+           py::arg("reason"),
+           py::call_guard<py::gil_scoped_release>(),
+           "skip(stamp_ns, reason)\n\nA frame that could not be read.")
+      .def("results",
+           &RunningSystem::TakeRecords,
+           py::call_guard<py::gil_scoped_release>(),
+           R"(results() -> list of FrameResult
+
+Of the frames that were tracked since the last call, in order, those of process() too.)")
+      .def("continue_in",
+           &ContinueIn,
+           py::arg("atlas"),
+           py::arg("read_only") = false,
+           R"(continue_in(atlas, read_only=False) -> list of str
+
+Before the first frame: goes on in the active map of an Atlas, where the camera is looked for.
+read_only: only localizes, and changes nothing. Returns what makes the map harder to use.)");
+}
+
+void BindResults(py::class_<RunningSystem>& system) {
+  const auto map = py::arg("map") = py::none();
+  system
+      .def(
+          "finish",
+          [](RunningSystem& running) {
+            RunInterruptibly([&](const StopCheck& stop) { running.Finish(stop); });
+          },
+          R"(finish()
+
+Completes the mapping and adjusts the maps; no more frames after that. Ctrl-C cuts the adjustment
+short and raises KeyboardInterrupt; the system is finished then, too.)")
+      .def_property_readonly("finished", &RunningSystem::finished)
+      .def("maps", &SnapshotOf, R"(maps() -> Atlas
+
+A copy of the maps as they are when mapping has done what was handed over so far; at any time after
+the first frame. Changes no result but of live runs.)")
+      .def("events", &EventsOf, R"(events() -> dict
+
+What changed maps at large so far, in order: "loops" that were closed, maps that were joined
+("joins"), "relocalizations" of a lost camera; lists of dictionaries. At any time.)")
+      .def("trajectory",
+           &TrajectoryIn<&System::FinalTrajectory>,
+           map,
+           R"(trajectory(map=None) -> Trajectory
+
+After finish(): all frames with a pose, in the map with this id (None: where most frames are).)")
+      .def("causal_trajectory",
+           &TrajectoryIn<&System::CausalTrajectory>,
+           map,
+           "causal_trajectory(map=None) -> Trajectory\n\nPoses as first reported.")
+      .def("keyframe_trajectory",
+           &TrajectoryIn<&System::KeyFrameTrajectory>,
+           map,
+           "keyframe_trajectory(map=None) -> Trajectory")
+      .def_property_readonly(
+          "main_map",
+          [](RunningSystem& running) {
+            return running.WithFinished("main_map",
+                                        [](const System& s) -> std::optional<std::int64_t> {
+                                          if (!s.MainMap()) return std::nullopt;
+                                          return s.MainMap()->value;
+                                        });
+          },
+          "After finish(): id of the map in which most frames have a pose, or None.")
+      .def_property_readonly("calibration", &RunningSystem::calibration)
+      .def_property_readonly(
+          "options",
+          [](const RunningSystem& running) {
+            SlamOptions options = running.options();
+            return ValuesOf(OptionTable(options));
+          },
+          "All options in groups; a new dictionary.");
+}
+
+}  // namespace
+
+void BindSystem(py::module_& module) {
+  BindRecord(module);
+  py::class_<RunningSystem> system(
+      module, "System", R"(The whole of SLAM for one camera: feed frames
+in order, then finish(). Poses are world_from_camera of the left camera as delivered; the world is
+that camera at the first keyframe of each map. One thread at a time; several systems may run in
+several threads.)");
+  BindFeeding(system);
+  BindResults(system);
+  system.def("_describe", &RunningSystem::Describe).def("_keep_views", &RunningSystem::KeepViews);
+  py::class_<RunFolder>(module, "_RunFolder").def(py::init(&OpenFolder));
+  module.def("_write_run", &WriteRun);
+}
+
+}  // namespace plumbline::python

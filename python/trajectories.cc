@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectories.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/geometry/alignment.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include "apps/command_line.h"
+#include "arrays.h"
+#include "bindings.h"
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace plumbline::python {
+namespace {
+
+Trajectory MakeTrajectory(py::handle stamps_ns, py::handle positions, py::handle quaternions) {
+  const py::array stamps = py::array::ensure(stamps_ns);
+  if (!stamps || stamps.ndim() != 1 || (stamps.size() > 0 && stamps.dtype().kind() != 'i')) {
+    PyErr_Clear();
+    throw InputError(
+        "stamps_ns: expected whole numbers of shape (N,), nanoseconds, found " +
+        Describe(stamps ? py::object(stamps) : py::reinterpret_borrow<py::object>(stamps_ns)));
+  }
+  const auto stamp = Integers::ensure(stamps);
+  const std::vector<Eigen::Vector3d> centres = ReadVectors3(positions, "positions");
+  const Doubles turns = ReadDoubles(quaternions, "quaternions", {kAny, 4});
+  CheckCount("positions", static_cast<std::size_t>(stamp.size()), centres.size());
+  CheckCount("quaternions", centres.size(), static_cast<std::size_t>(turns.shape(0)));
+  Trajectory poses;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    Eigen::Quaterniond q;
+    q.coeffs() = Eigen::Map<const Eigen::Vector4d>(turns.data(row));
+    if (std::abs(q.norm() - 1) > 0.01) {
+      throw InputError(
+          fmt::format("quaternions: expected a norm of 1, found {:.3g} at [{}]", q.norm(), i));
+    }
+    const std::int64_t ns = stamp.data()[row];
+    if (!poses.empty() && ns <= poses.back().stamp_ns) {
+      throw InputError(
+          fmt::format("stamps_ns: expected ascending stamps, found {} after {} at [{}]",
+                      ns,
+                      poses.back().stamp_ns,
+                      i));
+    }
+    poses.push_back({ns, {q.normalized(), centres[i]}});
+  }
+  return poses;
+}
+
+Integers StampsOf(const PoseList& list) {
+  std::vector<std::int64_t> stamps;
+  for (const StampedPose& pose : list.poses) stamps.push_back(pose.stamp_ns);
+  return ToArray(stamps);
+}
+
+Doubles PosesOf(const PoseList& list) {
+  std::vector<Rigid3> poses;
+  for (const StampedPose& pose : list.poses) poses.push_back(pose.world_from_camera);
+  return ToArray(poses);
+}
+
+Doubles PositionsOf(const PoseList& list) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const StampedPose& pose : list.poses) {
+    positions.push_back(pose.world_from_camera.translation);
+  }
+  return ToArray(positions);
+}
+
+Doubles QuaternionsOf(const PoseList& list) {
+  Doubles array({static_cast<py::ssize_t>(list.poses.size()), py::ssize_t{4}});
+  double* out = array.mutable_data();
+  for (const StampedPose& pose : list.poses) {
+    Eigen::Map<Eigen::Vector4d>{out} = pose.world_from_camera.rotation.coeffs();
+    out += 4;
+  }
+  return array;
+}
+
+py::dict StatisticsDict(const ErrorStatistics& errors) {
+  py::dict dict;
+  dict["count"] = errors.count;
+  dict["rmse"] = errors.rmse;
+  dict["mean"] = errors.mean;
+  dict["median"] = errors.median;
+  dict["max"] = errors.max;
+  return dict;
+}
+
+py::object OptionalStatistics(const std::optional<ErrorStatistics>& errors) {
+  if (!errors) return py::none();
+  return StatisticsDict(*errors);
+}
+
+py::dict Compare(const PoseList& reference,
+                 const PoseList& estimate,
+                 const std::string& alignment,
+                 const std::string& association,
+                 double window_s,
+                 double max_gap_s) {
+  TrajectoryErrorOptions options;
+  options.alignment = ParseChoice<TrajectoryAlignment>("alignment", alignment);
+  options.association = ParseChoice<TrajectoryAssociation>("association", association);
+  for (const auto& [name, seconds] : {std::pair{"window_s", window_s}, {"max_gap_s", max_gap_s}}) {
+    if (seconds > 0 && seconds < 1e6) continue;
+    throw InputError(fmt::format("{}: expected seconds greater than 0, found {}", name, seconds));
+  }
+  options.window.duration_ns = static_cast<std::int64_t>(std::llround(1e9 * window_s));
+  options.max_gap_ns = static_cast<std::int64_t>(std::llround(1e9 * max_gap_s));
+  const auto error = CompareTrajectories(reference.poses, estimate.poses, options);
+  if (!error)
+    throw InputError("estimate: expected poses within the time of the reference, found none");
+  py::dict dict;
+  std::vector<std::int64_t> stamps;
+  std::vector<double> positions, rotations;
+  for (const EvaluatedPose& pose : error->poses) {
+    stamps.push_back(pose.stamp_ns);
+    positions.push_back(pose.position_error);
+    rotations.push_back(pose.rotation_error);
+  }
+  dict["ate"] = StatisticsDict(error->ate);
+  dict["rpe"] = OptionalStatistics(error->rpe);
+  dict["roe"] = OptionalStatistics(error->roe);
+  dict["scale"] = error->reference_from_estimate.scale;
+  dict["scale_drift"] = error->scale_drift;
+  dict["reference_from_estimate"] = ToArray(error->reference_from_estimate.Matrix());
+  dict["degenerate"] = error->degenerate.has_value();
+  dict["stamps_ns"] = ToArray(stamps);
+  dict["position_errors"] = ToArray(positions);
+  dict["rotation_errors"] = ToArray(rotations);
+  return dict;
+}
+
+py::tuple Align(py::handle source, py::handle target, bool with_scale) {
+  const auto from = ReadVectors3(source, "source");
+  const auto to = ReadVectors3(target, "target");
+  CheckCount("target", from.size(), to.size());
+  const auto alignment =
+      AlignPoints(from, to, with_scale ? AlignmentScale::kFree : AlignmentScale::kFixed);
+  if (!alignment) {
+    constexpr std::array kReasons{"fewer than three", "all in one place", "all on one line"};
+    throw InputError(
+        fmt::format("source, target: expected points that determine a motion, found {}",
+                    kReasons[static_cast<std::size_t>(alignment.error())]));
+  }
+  return py::make_tuple(ToArray(alignment->target_from_source.Matrix()), alignment->rmse);
+}
+
+void BindComparison(py::module_& module) {
+  module.def(
+      "compare_trajectories",
+      &Compare,
+      py::arg("reference"),
+      py::arg("estimate"),
+      py::arg("alignment") = "se3",
+      py::arg("association") = "interpolate",
+      py::arg("window_s") = 3.0,
+      py::arg("max_gap_s") = 0.1,
+      R"(compare_trajectories(reference, estimate, alignment="se3", association="interpolate",
+                     window_s=3.0, max_gap_s=0.1) -> dict
+
+Errors of an estimated trajectory, of the same camera, after the alignment that minimises the
+squared distances (Umeyama, PAMI 1991): alignment "none", "se3" or "sim3".
+
+"ate" [m], "rpe" [m/s], "roe" [rad/s]: dictionaries of count, rmse, mean, median, max (None where
+nothing spans the window); "scale", "scale_drift"; "reference_from_estimate" (4, 4);
+"degenerate": positions do not determine the alignment; "stamps_ns" (N,),
+"position_errors" (N,) [m], "rotation_errors" (N,) [rad] of the poses that were compared.
+All arrays are new.)");
+  module.def("align_points",
+             &Align,
+             py::arg("source"),
+             py::arg("target"),
+             py::arg("with_scale") = false,
+             R"(align_points(source, target, with_scale=False) -> (numpy.ndarray, float)
+
+The motion (4, 4; with_scale: similarity) target_from_source that brings points (N, 3) nearest to
+points (N, 3), and the root mean square distance left. Umeyama, PAMI 1991. New array.)");
+}
+
+}  // namespace
+
+void BindTrajectories(py::module_& module) {
+  py::class_<PoseList>(module, "Trajectory", R"(Poses of one camera, stamps ascending.)")
+      .def(py::init([](py::handle stamps, py::handle positions, py::handle quaternions) {
+             return PoseList{MakeTrajectory(stamps, positions, quaternions)};
+           }),
+           py::arg("stamps_ns"),
+           py::arg("positions"),
+           py::arg("quaternions"),
+           R"(Trajectory(stamps_ns, positions, quaternions)
+
+stamps (N,) in nanoseconds, camera centres (N, 3) in the world, quaternions (N, 4) x y z w of
+world_from_camera.)")
+      .def_static(
+          "load",
+          [](const std::filesystem::path& path) { return PoseList{ReadTrajectory(path).poses}; },
+          py::arg("path"),
+          "load(path) -> Trajectory\n\nReads the form of TUM, EuRoC or KITTI.")
+      .def(
+          "save",
+          [](const PoseList& list, const std::filesystem::path& path) {
+            WriteTum(path, list.poses);
+          },
+          py::arg("path"),
+          "save(path)\n\nWrites the form of TUM, the bytes of `plumbline run`.")
+      .def(
+          "to_tum",
+          [](const PoseList& list) { return FormatTum(list.poses); },
+          "to_tum() -> str\n\nThe text that save writes.")
+      .def("__len__", [](const PoseList& list) { return list.poses.size(); })
+      .def_property_readonly("stamps_ns", StampsOf, "(N,) int64, nanoseconds; a new array.")
+      .def_property_readonly("poses", PosesOf, "(N, 4, 4) world_from_camera; a new array.")
+      .def_property_readonly("positions", PositionsOf, "(N, 3) camera centres; a new array.")
+      .def_property_readonly(
+          "quaternions", QuaternionsOf, "(N, 4) x y z w of world_from_camera; a new array.")
+      .def_property_readonly(
+          "length",
+          [](const PoseList& list) { return PathLength(list.poses); },
+          "Sum of the distances between successive positions.");
+  BindComparison(module);
+}
+
+}  // namespace plumbline::python

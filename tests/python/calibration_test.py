@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: Apache-2.0
+"""Calibrations from files, texts and numbers; options."""
+import subprocess
+
+import numpy as np
+import pytest
+
+import plumbline
+
+
+def test_a_pinhole():
+    camera = plumbline.pinhole(640, 480, 500, 501, 320, 240)
+    assert (camera.sensor, camera.width, camera.height) == ("mono", 640, 480)
+    np.testing.assert_array_equal(camera.K, [[500, 0, 320], [0, 501, 240], [0, 0, 1]])
+    assert camera.baseline is None and camera.depth_factor is None
+    again = plumbline.Calibration.parse(camera.to_yaml())
+    assert again.to_yaml() == camera.to_yaml()
+
+
+def test_a_pair_and_depth():
+    pair = plumbline.pinhole(640, 480, 500, 500, 320, 240, baseline=0.2)
+    assert pair.sensor == "stereo" and pair.baseline == pytest.approx(0.2)
+    assert pair.rectified_camera().baseline == pytest.approx(0.2)
+    depth = plumbline.pinhole(640, 480, np.float32(500), 500, 320, 240, depth_factor=5000,
+                              rate_hz=30, distortion="radtan",
+                              coefficients=[-0.1, 0.01, 0, 0])
+    assert (depth.sensor, depth.depth_factor, depth.rate_hz) == ("rgbd", 5000, 30)
+
+
+def test_a_file_and_a_built_in_camera(tmp_path):
+    (tmp_path / "camera.yaml").write_text(plumbline.pinhole(
+        640, 480, 500, 500, 320, 240, baseline=0.2).to_yaml())
+    assert plumbline.Calibration.load(str(tmp_path / "camera.yaml")).sensor == "stereo"
+    assert plumbline.Calibration.load(str(tmp_path / "camera.yaml"), "mono").sensor == "mono"
+    assert "tum_fr1" in plumbline.built_in_cameras()
+    assert plumbline.Calibration.load("tum_fr1").width == 640
+
+
+def test_data_sets_tell_what_they_are(dataset, sequence):
+    assert len(dataset) == 12 and len(dataset.stamps_ns) == 12
+    assert (dataset.sensor, dataset.format, dataset.name) == ("stereo", "euroc", sequence.name)
+    assert dataset.calibration.sensor == "stereo"
+    assert plumbline.open(sequence, sensor="mono")[0].right is None
+    assert dataset[-1].stamp_ns == dataset.stamps_ns[-1]
+    assert len(dataset.ground_truth) > 12
+    assert dataset[0].left.dtype == np.uint8 and dataset[0].depth is None
+
+
+def test_options_in_groups_and_with_dots():
+    defaults = plumbline.options()
+    assert defaults["slam"]["mode"] == "lockstep"
+    assert defaults["features"]["line"]["merge"] is True
+    changed = plumbline.options(features={"line_count": np.int32(50), "line": {"merge": False}},
+                                **{"slam.seed": 7, "slam.mode": "inline",
+                                   "tracking.max_pose_sigma": np.float64(0.01)})
+    assert changed["features"]["line_count"] == 50
+    assert changed["features"]["line"]["merge"] is False
+    assert changed["slam"] == {"mode": "inline", "seed": 7, "lag": defaults["slam"]["lag"]}
+    assert changed["tracking"]["max_pose_sigma"] == 0.01
+    assert plumbline.options(**changed) == changed
+    assert "line_count: 200" in plumbline.describe_options()
+    camera = plumbline.pinhole(640, 480, 500, 500, 320, 240)
+    assert plumbline.System(camera, **changed).options == changed
+
+
+def test_messages_are_those_of_the_program(program, sequence):
+    for setting, options in (
+            ("features.line_count=-1", {"features.line_count": -1}),
+            ("slam.mode=fast", {"slam": {"mode": "fast"}}),
+            ("featuers.lines=false", {"featuers.lines": False})):
+        done = subprocess.run([program, "run", sequence, "--set", setting], text=True,
+                              capture_output=True)
+        with pytest.raises(plumbline.InputError) as caught:
+            plumbline.run(sequence, **options)
+        assert done.returncode == 2
+        assert done.stderr == f"plumbline: {caught.value}\n"
+    done = subprocess.run([program, "run", sequence / "nothing"], text=True, capture_output=True)
+    with pytest.raises(plumbline.InputError) as caught:
+        plumbline.run(sequence / "nothing")
+    assert done.stderr == f"plumbline: {caught.value}\n"

@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: Apache-2.0
+"""Maps as arrays, and what is written of them."""
+import gc
+import subprocess
+
+import numpy as np
+import pytest
+
+import plumbline
+
+
+def test_arrays_fit_together(finished):
+    m = finished.map
+    points, lines, ends = m.points, m.lines, m.line_ends
+    assert points.shape == (len(m.point_ids), 3) and len(points) > 500
+    assert lines.shape == (len(m.line_ids), 6) and ends.shape == (len(lines), 2, 3)
+    assert m.line_information.shape == (len(lines), 4, 4)
+    np.testing.assert_allclose(m.line_information, np.swapaxes(m.line_information, 1, 2), rtol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(lines[:, 3:], axis=1), 1)
+    for end in (0, 1):  # moment = X x direction
+        np.testing.assert_allclose(np.cross(ends[:, end], lines[:, 3:]), lines[:, :3], atol=1e-9)
+    assert m.keyframe_poses.shape == (len(m.keyframe_ids), 4, 4)
+    assert sorted(m.keyframe_stamps_ns) == list(m.keyframe_stamps_ns)
+
+
+def test_tracks_are_where_points_project(finished):
+    m = finished.map
+    tracks = m.point_tracks
+    points = m.points[np.searchsorted(m.point_ids, tracks["point"])]
+    poses = m.keyframe_poses[np.searchsorted(m.keyframe_ids, tracks["keyframe"])]
+    in_camera = np.einsum("nji,nj->ni", poses[:, :3, :3], points - poses[:, :3, 3])
+    pixels = in_camera @ m.camera.K.T
+    pixels = pixels[:, :2] / pixels[:, 2:]
+    errors = np.linalg.norm(pixels - tracks["px"], axis=1) / tracks["sigma_px"]
+    assert np.median(errors) < 2
+    depth = m.camera.fx * m.camera.baseline / in_camera[:, 2]
+    seen = ~np.isnan(tracks["disparity"])
+    assert seen.mean() > 0.5
+    assert np.median(np.abs(depth - tracks["disparity"])[seen]) < 1
+
+
+def test_tracks_of_lines_are_where_lines_project(finished):
+    m = finished.map
+    tracks = m.line_tracks
+    lines = m.lines[np.searchsorted(m.line_ids, tracks["line"])]
+    world_from_camera = m.keyframe_poses[np.searchsorted(m.keyframe_ids, tracks["keyframe"])]
+    turn = np.swapaxes(world_from_camera[:, :3, :3], 1, 2)
+    centre = world_from_camera[:, :3, 3]
+    moment = np.einsum("nij,nj->ni", turn, lines[:, :3] - np.cross(centre, lines[:, 3:]))
+    inverse = np.linalg.inv(m.camera.K)
+    image = moment @ inverse  # K^-T m
+    image /= np.linalg.norm(image[:, :2], axis=1)[:, None]
+    distance = np.einsum("ni,ni->n", image[:, :2], tracks["start"]) + image[:, 2]
+    assert np.median(np.abs(distance)) < 0.5
+
+
+def test_arrays_of_maps_are_read_only_copies(finished):
+    m = finished.map
+    for name in ("points", "lines", "line_ends", "line_information", "point_ids", "line_ids",
+                 "keyframe_ids", "keyframe_stamps_ns", "keyframe_poses", "point_tracks",
+                 "line_tracks"):
+        array = getattr(m, name)
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = array[0]
+        assert getattr(m, name) is not array
+
+
+def test_arrays_outlive_their_owners(sequence):
+    dataset = plumbline.open(sequence)
+    frame = dataset[0]
+    before = np.array(frame.left)
+    left = frame.left
+    del frame, dataset
+    gc.collect()
+    np.testing.assert_array_equal(left, before)
+    with pytest.raises(ValueError, match="read-only"):
+        left[0, 0] = 1
+    one = plumbline.run(plumbline.open(sequence), stop=3).maps[0]
+    gc.collect()
+    assert len(one.points) == len(one.point_ids)
+
+
+def test_maps_are_saved_and_read(finished, tmp_path):
+    finished.maps.save(tmp_path / "a.plb")
+    atlas = plumbline.load_map(tmp_path / "a.plb")
+    atlas.save(tmp_path / "b.plb")
+    assert (tmp_path / "a.plb").read_bytes() == (tmp_path / "b.plb").read_bytes()
+    assert len(atlas) == 1 and atlas.active.id == atlas[0].id == atlas[-1].id
+    np.testing.assert_array_equal(atlas[0].points, finished.map.points)
+    with pytest.raises(IndexError, match="expected -1 to 0, found 1"):
+        atlas[1]
+    with pytest.raises(plumbline.InputError, match="nothing.plb"):
+        plumbline.load_map(tmp_path / "nothing.plb")
+
+
+def test_maps_are_exported(program, finished, tmp_path):
+    finished.maps.save(tmp_path / "map.plb")
+    for form in ("ply", "obj", "dxf", "tum"):
+        finished.map.export(tmp_path / f"python.{form}", form)
+        subprocess.run([program, "map", "export", tmp_path / "map.plb", "--to", form, "--out",
+                        tmp_path / f"program.{form}"], check=True, stdout=subprocess.DEVNULL)
+        assert (tmp_path / f"python.{form}").read_bytes() == \
+            (tmp_path / f"program.{form}").read_bytes()
+    finished.map.export(tmp_path / "python", "colmap")
+    subprocess.run([program, "map", "export", tmp_path / "map.plb", "--to", "colmap", "--out",
+                    tmp_path / "program"], check=True, stdout=subprocess.DEVNULL)
+    files = [path for path in (tmp_path / "program").rglob("*") if path.is_file()]
+    assert len(files) == 9
+    for path in files:
+        other = tmp_path / "python" / path.relative_to(tmp_path / "program")
+        assert other.read_bytes() == path.read_bytes(), other
+    with pytest.raises(plumbline.InputError,
+                       match="format: expected ply, obj, dxf, tum or colmap, found xml"):
+        finished.map.export(tmp_path / "a", "xml")
+
+
+def test_the_line_map_is_what_a_run_gives_out(finished, tmp_path):
+    lines = finished.map.line_map()
+    finished.map.export(tmp_path / "lines.obj", "obj")
+    written = (tmp_path / "lines.obj").read_text().count("\nl ")
+    assert len(lines["segments"]) == written >= 10
+    assert lines["segments"].shape == (len(lines["sigmas"]), 2, 3)
+    assert (lines["sigmas"] > 0).all() and (lines["keyframes"] >= 4).all()
+
+
+def test_trajectories_of_keyframes_are_of_the_camera_as_delivered(finished):
+    m = finished.map
+    np.testing.assert_array_equal(m.keyframe_trajectory().stamps_ns, m.keyframe_stamps_ns)
+    np.testing.assert_allclose(m.keyframe_trajectory().positions, m.keyframe_poses[:, :3, 3])
+    assert m.keyframe_trajectory().to_tum() == finished.system.keyframe_trajectory().to_tum()

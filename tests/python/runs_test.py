@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs: what the program does, frame by frame or in one call."""
+import signal
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+import plumbline
+
+# Files of a run that have nothing to do with the clock.
+SAME = ["trajectory.txt", "trajectory_causal.txt", "keyframes.txt", "frames.csv", "map.plb",
+        "options.yaml", "lines.obj", "lines.dxf", "map.ply"]
+
+
+def test_a_run_writes_the_bytes_of_the_program(program, sequence, tmp_path):
+    subprocess.run([program, "run", sequence, "--quiet", "--out", tmp_path / "program", "--set",
+                    "features.line_count=100"], check=True)
+    run = plumbline.run(sequence, out=tmp_path / "python", features={"line_count": 100})
+    for name in SAME:
+        assert (tmp_path / "python" / name).read_bytes() == \
+            (tmp_path / "program" / name).read_bytes(), name
+    assert run.out == str(tmp_path / "python")
+    text = (tmp_path / "program" / "trajectory.txt").read_text()
+    assert run.trajectory.to_tum() == text
+    assert len(text.splitlines()) == 12
+    # An ordinary folder of results: the program reads it, and another run may replace it.
+    subprocess.run([program, "map", "info", tmp_path / "python" / "map.plb"], check=True,
+                   stdout=subprocess.DEVNULL)
+    plumbline.run(sequence, out=tmp_path / "python", stop=4)
+
+
+def test_frames_from_anywhere_give_the_same_poses(dataset, finished):
+    system = plumbline.System(dataset.calibration)
+    for frame in dataset:
+        images = (np.array(frame.left), np.asfortranarray(frame.right))
+        result = system.process(images, np.int64(frame.stamp_ns))
+        for image in images:
+            image[:] = 0  # they were copied
+        assert result.stamp_ns == frame.stamp_ns
+        assert result.status == "tracked"
+    system.finish()
+    assert system.trajectory().to_tum() == finished.trajectory.to_tum()
+    assert len(system.results()) == 12
+
+
+def test_modes_that_promise_it_give_the_same_bytes(dataset, finished):
+    inline = plumbline.run(dataset, slam={"mode": "inline"})
+    assert inline.trajectory.to_tum() == finished.trajectory.to_tum()
+
+
+def test_a_live_run_follows_the_clock(dataset):
+    run = plumbline.run(dataset, stop=4, slam={"mode": "live"})
+    assert len(run.results) == 4
+
+
+def test_results_come_in_order(dataset):
+    seen = []
+    run = plumbline.run(dataset, start=2, stop=9, stride=2, on_frame=seen.append)
+    assert [result.index for result in seen] == [0, 1, 2, 3]
+    assert [result.stamp_ns for result in run.results] == dataset.stamps_ns[2:9:2].tolist()
+    assert seen[0].keyframe
+    np.testing.assert_allclose(seen[0].world_from_camera, np.eye(4), atol=1e-12)
+    assert seen[1].inlier_points > 100 and seen[1].inlier_lines > 10
+    assert seen[1].times_ms["total"] > 0
+
+
+def test_errors_are_small(finished):
+    assert finished.errors["ate"]["count"] == 12
+    assert finished.errors["ate"]["rmse"] < 0.01
+    assert np.linalg.norm(finished.trajectory.positions[-1]) == pytest.approx(
+        np.linalg.norm(finished.dataset.ground_truth.positions[-1]
+                       - finished.dataset.ground_truth.positions[0]), abs=0.5)
+
+
+def test_a_snapshot_changes_no_result(dataset, finished):
+    system = plumbline.System(dataset.calibration)
+    sizes = []
+    for frame in dataset:
+        system.process(frame)
+        sizes.append(len(system.maps()[0].keyframe_ids))
+        assert system.events()["loops"] == []
+    system.finish()
+    assert sizes == sorted(sizes) and 1 <= sizes[0] < sizes[-1]
+    assert system.trajectory().to_tum() == finished.trajectory.to_tum()
+
+
+def test_the_camera_is_found_in_a_map(finished, dataset, tmp_path):
+    finished.maps.save(tmp_path / "map.plb")
+    run = plumbline.run(dataset, start=3, map=tmp_path / "map.plb", localize=True)
+    assert sum(result.status == "tracked" for result in run.results) >= 7
+    assert len(run.system.events()["relocalizations"]) >= 1
+    np.testing.assert_array_equal(run.map.points, finished.map.points)
+    centre = run.trajectory.positions[-1]
+    assert np.linalg.norm(centre - finished.trajectory.positions[-1]) < 0.01
+
+
+def test_one_camera_and_depth(dataset):
+    world = plumbline.Synth("room", frames=5, scale=0.4, samples=1, rate_hz=10)
+    calibration = world.calibration
+    text = calibration.to_yaml().split("right:")[0] + "depth_factor: 5000\n"
+    for factor in (None, 5000):
+        system = plumbline.System(plumbline.Calibration.parse(text, "rgbd"))
+        for frame in world:
+            depth = frame.depth if factor is None else np.uint16(np.minimum(
+                np.round(frame.depth * factor), 65535))
+            result = system.process([frame.left, depth], frame.stamp_ns)
+        assert result.status == "tracked"
+    mono = plumbline.System(plumbline.Calibration.parse(text, "mono"))
+    assert mono.process(world[0].left, 0).status == "initializing"
+
+
+def interrupted(code: str, *arguments) -> subprocess.CompletedProcess:
+    """Runs code that prints a line when it begins, and sends it Ctrl-C then."""
+    child = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), *map(str, arguments)],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    child.stdout.readline()
+    child.send_signal(signal.SIGINT)
+    out, err = child.communicate(timeout=60)
+    return subprocess.CompletedProcess(child.args, child.returncode, out, err)
+
+
+def test_ctrl_c_ends_a_run_and_keeps_its_results(sequence, tmp_path):
+    done = interrupted("""
+        import sys, time, plumbline
+        def slowly(result):
+            print(result.index, flush=True)
+            time.sleep(0.2)
+        try:
+            plumbline.run(sys.argv[1], out=sys.argv[2], on_frame=slowly)
+        except KeyboardInterrupt:
+            print("interrupted")
+        """, sequence, tmp_path / "out")
+    assert done.stdout.endswith("interrupted\n"), done
+    lines = len((tmp_path / "out" / "trajectory.txt").read_text().splitlines())
+    assert 1 <= lines < 12
+
+
+def test_ctrl_c_ends_a_rendering(tmp_path):
+    done = interrupted("""
+        import sys, plumbline
+        print("begins", flush=True)
+        try:
+            plumbline.render("room", sys.argv[1], frames=2000, scale=0.3, samples=1)
+        except KeyboardInterrupt:
+            print("interrupted")
+        """, tmp_path / "world")
+    assert done.stdout == "interrupted\n", done
