@@ -1,19 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/slam/map_merge.h"
-
 #include "plumbline/base/error.h"
-#include "plumbline/base/options_io.h"
-#include "plumbline/features/front_end_fingerprint.h"
-#include "plumbline/geometry/camera_difference.h"
 #include "plumbline/geometry/sim3.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/text_rows.h"
-#include "plumbline/map/gathering.h"
-#include "plumbline/slam/options.h"
 
 #include "apps/command_line.h"
 #include "apps/map_commands.h"
+#include "apps/merge_atlases.h"
 #include <cmath>
 #include <iostream>
 #include <optional>
@@ -95,60 +89,6 @@ MergeRequest ReadRequest(const CommandLine& line) {
   return request;
 }
 
-SavedAtlas LoadMaps(const std::string& file) {
-  SavedAtlas saved = LoadAtlas(file);
-  if (saved.atlas.empty()) throw InputError(file + ": expected a map, found none in the file");
-  return saved;
-}
-
-void CheckCameras(const MergeRequest& request,
-                  const AtlasContext& first,
-                  const AtlasContext& second) {
-  auto difference = CameraDifference({first.camera, first.rectified_from_left},
-                                     {second.camera, second.rectified_from_left});
-  if (!difference && first.octave_scale != second.octave_scale) {
-    difference = fmt::format(
-        "octaves {} and {} times as large as the next", first.octave_scale, second.octave_scale);
-  }
-  if (!difference) return;
-  throw InputError(request.second + ": expected a map of the camera of " + request.first +
-                   ", found another one: " + *difference);
-}
-
-void JoinAsTold(const MergeRequest& request, MapId second, SavedAtlas& saved) {
-  const double scale = request.first_from_second->scale;
-  if (saved.context.camera.baseline > 0 && scale != 1) {
-    FailTransform(
-        fmt::format("the scale {:g} for maps of measured depth, whose scale is 1", scale));
-  }
-  saved.atlas.Join(saved.atlas.active_id(), second, *request.first_from_second);
-}
-
-std::string WhyNotMerged(MergeRefusal refusal) {
-  switch (refusal) {
-    case MergeRefusal::kNoOverlap:
-      return "no place that both show for certain";
-    case MergeRefusal::kAmbiguous:
-      return "places that look alike: the second map may lie in more than one way";
-    case MergeRefusal::kContradicted:
-      return "places that both show, but shapes of the maps that contradict each other";
-  }
-  throw BugError("a reason without words");
-}
-
-// The options that the first map was made with, as far as this program knows them.
-SlamOptions OptionsOf(const MergeRequest& request, const AtlasContext& first) {
-  SlamOptions options;
-  if (first.options_yaml.empty()) return options;
-  try {
-    OptionTable(options).LoadText(first.options_yaml, request.first);
-  } catch (const InputError& error) {
-    std::cerr << fmt::format("{}; merging with the default options\n", error.what());
-    return {};
-  }
-  return options;
-}
-
 std::string ToText(const Similarity3& transform) {
   const Eigen::Vector3d& t = transform.translation;
   const Eigen::Quaterniond& q = transform.rotation;
@@ -163,38 +103,13 @@ std::string ToText(const Similarity3& transform) {
                      transform.scale);
 }
 
-void JoinBySight(const MergeRequest& request, MapId second, SavedAtlas& saved) {
-  const ImagingModel imaging{saved.context.camera, saved.context.octave_scale};
-  const auto merged = MergeBySight(
-      saved.atlas, saved.atlas.active_id(), second, imaging, OptionsOf(request, saved.context));
-  if (!merged) {
-    throw InputError(fmt::format("{} and {}: expected maps that show the same place, found {}",
-                                 request.first,
-                                 request.second,
-                                 WhyNotMerged(merged.error())));
-  }
-  saved.atlas = merged->atlas;
+void PrintOverlap(const MergedAtlases& merged) {
   std::cout << fmt::format(
       "{} pairs of keyframes show the same places; first_from_second {}\n"
       "{} keyframes of the second map fused with the first\n",
-      merged->overlap.size(),
-      ToText(merged->first_from_second),
-      merged->ties);
-}
-
-SavedAtlas Merge(const MergeRequest& request) {
-  SavedAtlas first = LoadMaps(request.first);
-  const SavedAtlas second = LoadMaps(request.second);
-  CheckCameras(request, first.context, second.context);
-  for (const std::string& difference :
-       Differences(first.context.front_end, second.context.front_end)) {
-    std::cerr << fmt::format("{}: {} (now: {})\n", request.first, difference, request.second);
-  }
-  GatheredAtlases gathered = Gather(std::move(first), second);
-  const auto join = request.first_from_second ? JoinAsTold : JoinBySight;
-  join(request, gathered.second, gathered.saved);
-  SettleJoined(gathered.saved);
-  return std::move(gathered.saved);
+      merged.overlap.size(),
+      ToText(merged.first_from_second),
+      merged.ties);
 }
 
 }  // namespace
@@ -206,9 +121,15 @@ int MapMergeCommand(std::span<const std::string> arguments) {
     return 0;
   }
   const MergeRequest request = ReadRequest(line);
-  const SavedAtlas saved = Merge(request);
-  SaveAtlas(request.out, saved.atlas, saved.context);
-  const Map& map = saved.atlas.active();
+  NamedAtlas first{request.first, LoadAtlas(request.first)};
+  const NamedAtlas second{request.second, LoadAtlas(request.second)};
+  const MergedAtlases merged = MergeAtlases(
+      std::move(first), second, request.first_from_second, [](const std::string& remark) {
+        std::cerr << remark << '\n';
+      });
+  if (!request.first_from_second) PrintOverlap(merged);
+  SaveAtlas(request.out, merged.saved.atlas, merged.saved.context);
+  const Map& map = merged.saved.atlas.active();
   std::cout << fmt::format("{}: {} keyframes, {} points, {} lines\n",
                            request.out,
                            map.keyframes().size(),

@@ -13,6 +13,7 @@ void BindCalibration(pybind11::module_& module);
 void BindTrajectories(pybind11::module_& module);
 void BindDatasets(pybind11::module_& module);
 void BindMaps(pybind11::module_& module);
+void BindMapMerging(pybind11::module_& module);
 void BindSystem(pybind11::module_& module);
 void BindLines(pybind11::module_& module);
 void BindInitialization(pybind11::module_& module);

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_plumbline, module) {
   python::BindTrajectories(module);
   python::BindDatasets(module);
   python::BindMaps(module);
+  python::BindMapMerging(module);
   python::BindSystem(module);
   python::BindLines(module);
   python::BindInitialization(module);

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: Apache-2.0
 """Wrong arguments: an exception that says what was expected and what was found, and no crash."""
+import functools
 import shutil
 
 import numpy as np
@@ -64,6 +65,23 @@ def pose(**points):
 
 def adjust(**arguments):
     return plumbline.bundle_adjust(CAMERA, [EYE, EYE], points=[[0, 0, 5.0]], **arguments)
+
+
+@functools.cache
+def room():
+    """A system that has a map of a world whose depth is measured."""
+    world = plumbline.Synth("room", frames=1, scale=0.3, samples=1)
+    made = plumbline.System(world.calibration)
+    made.process(world[0])
+    return made.maps()
+
+
+def merged(transform):
+    return plumbline.merge_maps(room(), room(), transform)
+
+
+def empty():
+    return system(frames=1).maps()
 
 
 WORLD = [[0, 0, 5.0], [1, 0, 5]]
@@ -165,6 +183,13 @@ CASES = {
     "no pixels": (lambda: plumbline.RectifiedCamera(1, 1, 0, 0, 0, 4), "expected at least 1"),
     "negative baseline": (lambda: plumbline.RectifiedCamera(1, 1, 0, 0, 4, 4, -1), "baseline"),
     "no map file": (lambda: plumbline.load_map("/nothing.plb"), "/nothing.plb"),
+    "merging with a mirror": (lambda: merged(np.diag([1, -1, 1, 1])), "transform: expected a rotation"),
+    "merging with a stretch": (lambda: merged(np.diag([1, 2, 1, 1])), "transform: expected a rotation"),
+    "merging with 3 x 3": (lambda: merged(np.eye(3)), r"transform: expected numbers of shape \(4, 4\)"),
+    "merging with another scale": (lambda: merged(np.diag([2, 2, 2, 1])),
+                                   "transform: expected a motion of the scale 1, found the scale 2"),
+    "merging without a map": (lambda: plumbline.merge_maps(empty(), empty()),
+                              "first: expected a map, found none"),
     # Trajectories.
     "stamps of floats": (lambda: trajectory(stamps=[0.5, 1.5]),
                          "stamps_ns: expected whole numbers"),

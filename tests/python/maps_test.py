@@ -115,6 +115,39 @@ def test_maps_are_exported(program, finished, tmp_path):
         finished.map.export(tmp_path / "a", "xml")
 
 
+def test_maps_are_merged_as_by_the_program(program, dataset, tmp_path):
+    first = plumbline.run(dataset, stop=7).maps
+    second = plumbline.run(dataset, start=5).maps
+    both, told = plumbline.merge_maps(first, second)
+    first.save(tmp_path / "first.plb")
+    second.save(tmp_path / "second.plb")
+    both.save(tmp_path / "both.plb")
+    subprocess.run([program, "map", "merge", tmp_path / "first.plb", tmp_path / "second.plb",
+                    "--out", tmp_path / "program.plb"], check=True, stdout=subprocess.DEVNULL)
+    assert (tmp_path / "both.plb").read_bytes() == (tmp_path / "program.plb").read_bytes()
+    assert len(both) == 1
+    assert len(both.active.keyframe_ids) == len(first.active.keyframe_ids) + \
+        len(second.active.keyframe_ids)
+    assert len(told["pairs"]) >= 2 and told["ties"] >= 1 and told["remarks"] == []
+    assert set(told["pairs"][:, 0]) <= set(first.active.keyframe_ids.tolist())
+    truth = {pose[0]: pose[1] for pose in zip(dataset.ground_truth.stamps_ns.tolist(),
+                                              dataset.ground_truth.poses)}
+    starts = [truth[one.active.keyframe_stamps_ns[0]] for one in (first, second)]
+    np.testing.assert_allclose(told["first_from_second"], np.linalg.inv(starts[0]) @ starts[1],
+                               atol=0.02)
+
+
+def test_maps_are_merged_as_told(finished):
+    moved = np.eye(4)
+    moved[:3, 3] = [0, 0, 20]
+    both, told = plumbline.merge_maps(finished.maps, finished.maps, moved)
+    np.testing.assert_array_equal(told["first_from_second"], moved)
+    assert told["pairs"].shape == (0, 2) and told["ties"] == 0
+    np.testing.assert_allclose(
+        both.active.points, np.concatenate([finished.map.points, finished.map.points + moved[:3, 3]]),
+        atol=1e-9)
+
+
 def test_the_line_map_is_what_a_run_gives_out(finished, tmp_path):
     lines = finished.map.line_map()
     finished.map.export(tmp_path / "lines.obj", "obj")

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/merge_atlases.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/features/front_end_fingerprint.h"
+#include "plumbline/geometry/camera_difference.h"
+#include "plumbline/map/gathering.h"
+#include "plumbline/slam/options.h"
+
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+namespace {
+
+void CheckHasMap(const NamedAtlas& atlas) {
+  if (!atlas.saved.atlas.empty()) return;
+  throw InputError(atlas.name + ": expected a map, found none in the file");
+}
+
+void CheckCameras(const NamedAtlas& first, const NamedAtlas& second) {
+  const AtlasContext &a = first.saved.context, &b = second.saved.context;
+  auto difference =
+      CameraDifference({a.camera, a.rectified_from_left}, {b.camera, b.rectified_from_left});
+  if (!difference && a.octave_scale != b.octave_scale) {
+    difference =
+        fmt::format("octaves {} and {} times as large as the next", a.octave_scale, b.octave_scale);
+  }
+  if (!difference) return;
+  throw InputError(second.name + ": expected a map of the camera of " + first.name +
+                   ", found another one: " + *difference);
+}
+
+std::string WhyNotMerged(MergeRefusal refusal) {
+  switch (refusal) {
+    case MergeRefusal::kNoOverlap:
+      return "no place that both show for certain";
+    case MergeRefusal::kAmbiguous:
+      return "places that look alike: the second map may lie in more than one way";
+    case MergeRefusal::kContradicted:
+      return "places that both show, but shapes of the maps that contradict each other";
+  }
+  throw BugError("a reason without words");
+}
+
+// The options that the first map was made with, as far as this program knows them.
+SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const Remark& remark) {
+  SlamOptions options;
+  if (first.options_yaml.empty()) return options;
+  try {
+    OptionTable(options).LoadText(first.options_yaml, name);
+  } catch (const InputError& error) {
+    remark(fmt::format("{}; merging with the default options", error.what()));
+    return {};
+  }
+  return options;
+}
+
+void JoinAsTold(const Similarity3& transform, MapId second, MergedAtlases& merged) {
+  Atlas& atlas = merged.saved.atlas;
+  if (merged.saved.context.camera.baseline > 0 && transform.scale != 1) {
+    throw InputError(fmt::format(
+        "transform: expected a motion of the scale 1, found the scale {:g} for maps of measured "
+        "depth, whose scale is 1",
+        transform.scale));
+  }
+  atlas.Join(atlas.active_id(), second, transform);
+  merged.first_from_second = transform;
+}
+
+}  // namespace
+
+MergedAtlases MergeAtlases(NamedAtlas first,
+                           const NamedAtlas& second,
+                           const std::optional<Similarity3>& transform,
+                           const Remark& remark) {
+  CheckHasMap(first);
+  CheckHasMap(second);
+  CheckCameras(first, second);
+  for (const std::string& difference :
+       Differences(first.saved.context.front_end, second.saved.context.front_end)) {
+    remark(fmt::format("{}: {} (now: {})", first.name, difference, second.name));
+  }
+  GatheredAtlases gathered = Gather(std::move(first.saved), second.saved);
+  MergedAtlases merged;
+  merged.saved = std::move(gathered.saved);
+  if (transform) {
+    JoinAsTold(*transform, gathered.second, merged);
+  } else {
+    const AtlasContext& context = merged.saved.context;
+    auto found = MergeBySight(merged.saved.atlas,
+                              merged.saved.atlas.active_id(),
+                              gathered.second,
+                              {context.camera, context.octave_scale},
+                              OptionsOf(first.name, context, remark));
+    if (!found) {
+      throw InputError(fmt::format("{} and {}: expected maps that show the same place, found {}",
+                                   first.name,
+                                   second.name,
+                                   WhyNotMerged(found.error())));
+    }
+    merged.saved.atlas = std::move(found->atlas);
+    merged.first_from_second = found->first_from_second;
+    merged.overlap = std::move(found->overlap);
+    merged.ties = found->ties;
+  }
+  SettleJoined(merged.saved);
+  return merged;
+}
+
+}  // namespace plumbline
