@@ -93,7 +93,9 @@ void RunningSystem::Describe(const std::string& data) {
 
 void RunningSystem::KeepViews(const std::vector<std::size_t>& frames) {
   const auto lock = Enter("run");
-  views_ = KeptViews(frames);
+  RunFrames input;
+  input.frames = frames;
+  views_ = KeptViews(input);
 }
 
 void RunningSystem::Finish(const StopCheck& stop) {
