@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/catalog.h"
+#include "lab/experiments/computed.h"
+#include "lab/experiments/job_runner.h"
+#include "lab/experiments/plan.h"
+#include "lab/experiments/results.h"
 #include "plumbline/base/error.h"
-#include "plumbline/experiments/catalog.h"
-#include "plumbline/experiments/computed.h"
-#include "plumbline/experiments/job_runner.h"
-#include "plumbline/experiments/plan.h"
-#include "plumbline/experiments/results.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"

@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <malloc.h>
@@ -33,19 +34,37 @@ struct Command {
 constexpr std::array kCommands = {
     Command{"run", RunCommand, "track the camera through a sequence and map what it sees"},
     Command{"evaluate", EvaluateCommand, "errors of a trajectory against ground truth"},
+#ifdef PLUMBLINE_WITH_LAB
     Command{"starts", StartsCommand, "try monocular starts at many frames, against ground truth"},
+#endif
+#ifdef PLUMBLINE_WITH_WORLDS
     Command{"synth", SynthCommand, "render a stereo sequence of an invented world"},
+#endif
+#ifdef PLUMBLINE_WITH_LAB
     Command{"experiment", ExperimentCommand, "make the tables and plots of an experiment"},
+#endif
     Command{"info", InfoCommand, "what is at a path: format, sensors, frames, calibration"},
     Command{"map", MapCommand, "look into saved maps, export them, make one of two"},
     Command{"config", ConfigCommand, "all options with values and help, as a config file"},
 };
+
+// Commands that a build may lack, and what it has to be configured with to have them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOptional = {{
+    {"starts", "-DPLUMBLINE_LAB=ON"},
+    {"synth", "-DPLUMBLINE_WORLDS=ON"},
+    {"experiment", "-DPLUMBLINE_LAB=ON"},
+}};
 
 const Command& FindCommand(const std::string& name) {
   std::vector<std::string> names = {"help"};
   for (const Command& command : kCommands) {
     if (command.name == name) return command;
     names.emplace_back(command.name);
+  }
+  for (const auto& [optional, option] : kOptional) {
+    if (optional != name) continue;
+    throw InputError(name + " is not part of this build of plumbline; configure with " +
+                     std::string(option));
   }
   const std::optional<std::string> nearest = NearestName(name, names);
   throw InputError("unknown command " + InQuotes(name) +

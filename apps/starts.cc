@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/starts/start_bench.h"
+#include "lab/starts/start_figures.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
-#include "plumbline/starts/start_bench.h"
-#include "plumbline/starts/start_figures.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"

@@ -8,7 +8,7 @@
 #include "plumbline/features/match_points.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
-#include "plumbline/synth/sequence.h"
+#include "worlds/sequence.h"
 
 #include "tests/support/data_folder.h"
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/optimization/ceres_solve.h"
+#include "lab/ceres_reference/ceres_solve.h"
 #include "plumbline/optimization/pose_only.h"
 
 #include "tests/optimization/pose_scene.h"

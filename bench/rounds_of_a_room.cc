@@ -16,7 +16,7 @@
 #include "plumbline/map/snapshot.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/system.h"
-#include "plumbline/synth/sensor.h"
+#include "worlds/sensor.h"
 
 #include <algorithm>
 #include <cstdint>

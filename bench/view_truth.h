@@ -7,8 +7,8 @@
 #include "plumbline/geometry/trajectory.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/map/map.h"
-#include "plumbline/synth/ray_tracer.h"
-#include "plumbline/synth/scene.h"
+#include "worlds/ray_tracer.h"
+#include "worlds/scene.h"
 
 #include <cstdint>
 #include <memory>

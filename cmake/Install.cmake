@@ -22,7 +22,7 @@ install(EXPORT plumbline_targets NAMESPACE plumbline:: DESTINATION ${package_dir
 # Headers need Eigen alone (tests: package.PublicHeadersNeedEigenAlone); those that bring a heavier
 # library along are for our own .cc files.
 install(DIRECTORY plumbline DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
-        PATTERN log.h EXCLUDE PATTERN opencv_bridge.h EXCLUDE PATTERN "ceres_*.h" EXCLUDE)
+        PATTERN log.h EXCLUDE PATTERN opencv_bridge.h EXCLUDE)
 
 configure_package_config_file(cmake/plumbline-config.cmake.in plumbline-config.cmake
                               INSTALL_DESTINATION ${package_dir})

@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/slam/options.h"
-#include "plumbline/synth/world.h"
+#include "worlds/world.h"
 
 #include "arrays.h"
 #include "bindings.h"

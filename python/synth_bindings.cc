@@ -3,8 +3,8 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/dataset.h"
-#include "plumbline/synth/sequence.h"
-#include "plumbline/synth/write_sequence.h"
+#include "worlds/sequence.h"
+#include "worlds/write_sequence.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"

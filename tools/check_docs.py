@@ -153,7 +153,7 @@ def test_name_problems(root, documents):
 
 def problems(root):
     documents = sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md")])
-    sources = sorted(path for folder in ("plumbline", "apps", "tests", "bench")
+    sources = sorted(path for folder in ("plumbline", "worlds", "lab", "apps", "tests", "bench")
                      for path in (root / folder).rglob("*") if path.suffix in (".h", ".cc"))
     yield from link_problems(root, documents)
     yield from index_problems(root)

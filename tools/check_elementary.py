@@ -60,7 +60,8 @@ def fix(path):
 
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
-    files = sorted(path for folder in ("plumbline", "apps") for path in (root / folder).rglob("*")
+    files = sorted(path for folder in ("plumbline", "worlds", "lab", "apps")
+                   for path in (root / folder).rglob("*")
                    if path.suffix in (".h", ".cc") and path.name != "elementary.cc")
     if sys.argv[1:] == ["--fix"]:
         for path in files:

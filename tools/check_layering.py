@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that the modules depend on each other only as the table LAYERS says.
 
-Three things must agree: the row of a module in LAYERS, the DEPS in its CMakeLists.txt, and what its
+The product is plumbline/MODULE, the renderer worlds/, the laboratory lab/MODULE. Three things must agree: the row of a module in LAYERS, the DEPS in its CMakeLists.txt, and what its
 files include. Third-party headers may be included only where THIRD_PARTY says. Exit status: 0 clean,
 1 violations (one a line, file:line).
 """
@@ -34,28 +34,33 @@ LAYERS = {
     "recording": ["base"],
     "io": ["base", "geometry", "image", "features", "map", "recording"],
     "live": ["base", "geometry", "image", "io"],
-    "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
-               "slam"],
-    "synth": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
+    "worlds": ["base", "geometry", "image", "io"],
+    "ceres_reference": ["base", "geometry", "optimization"],
+    "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
+               "slam"],
     "cutting_testbed": ["base", "geometry", "optimization", "cutting"],
     "experiments": ["base", "geometry", "image", "features", "map", "association", "initialization",
-                    "io", "slam", "starts", "synth", "eval", "cutting", "cutting_testbed"],
+                    "io", "slam", "starts", "worlds", "eval", "cutting", "cutting_testbed"],
 }
-# third-party prefix -> the files of plumbline/ that may include it (regular expression). Headers are
-# left out but for three, so that nobody needs more than Eigen and fmt to include the library.
+# The modules that are not in plumbline/, and where they are. The product includes none of them, and the
+# worlds include nothing of the laboratory.
+RENDERER = "worlds"
+LABORATORY = {"ceres_reference", "starts", "cutting_testbed", "experiments"}
+# third-party prefix -> the files that may include it (regular expression; those of the product without
+# plumbline/). Headers are left out but for three, so that nobody needs more than Eigen and fmt to include the library.
 THIRD_PARTY = {
     "CLI/": None,
     "benchmark/": None,
-    "ceres/": r"optimization/ceres_\w+\.(h|cc)",
-    "coin/": r"cutting_testbed/ipopt_\w+\.cc",
-    "embree3/": r"synth/\w+\.cc",
-    "fmt/": r"base/log\.h|\w+/\w+\.cc",
+    "ceres/": r"lab/ceres_reference/ceres_\w+\.(h|cc)",
+    "coin/": r"lab/cutting_testbed/ipopt_\w+\.cc",
+    "embree3/": r"worlds/\w+\.cc",
+    "fmt/": r"base/log\.h|(\w+/)+\w+\.cc",
     "gmock/": None,
     "gtest/": None,
-    "nlopt": r"cutting_testbed/nlopt_\w+\.cc",
-    "nlohmann/": r"(io|eval|report|experiments)/\w+\.cc",
+    "nlopt": r"lab/cutting_testbed/nlopt_\w+\.cc",
+    "nlohmann/": r"(io|eval|report|lab/experiments)/\w+\.cc",
     "opencv2/": r"image/opencv_bridge\.h|"
                 r"(image|features|initialization|io|live|report)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
@@ -67,8 +72,8 @@ THIRD_PARTY = {
 # Headers of the library that bring a heavy third-party header along: for .cc files only.
 HEAVY_HEADERS = {
     "plumbline/image/opencv_bridge.h",
-    "plumbline/optimization/ceres_manifolds.h",
-    "plumbline/optimization/ceres_terms.h",
+    "lab/ceres_reference/ceres_manifolds.h",
+    "lab/ceres_reference/ceres_terms.h",
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s+["<]([^">]+)[">]')
@@ -97,14 +102,38 @@ def declared_dependencies(text):
         yield match[1], dependencies
 
 
-def cmake_problems(folder, module):
-    path = folder / "CMakeLists.txt"
+def folder_of(module):
+    """Where a module is, relative to the repository."""
+    if module == RENDERER:
+        return module
+    return f"lab/{module}" if module in LABORATORY else f"plumbline/{module}"
+
+
+def module_of(target):
+    """The module that an included file of ours belongs to; None for other files."""
+    first, *rest = target.split("/")
+    if first == RENDERER:
+        return first
+    return rest[0] if first in ("plumbline", "lab") and len(rest) > 1 else None
+
+
+def part_problems():
+    """The table itself keeps product, worlds and laboratory apart."""
+    for module, allowed in LAYERS.items():
+        part = folder_of(module).split("/")[0]
+        beyond = {"plumbline": LABORATORY | {RENDERER}, "worlds": LABORATORY, "lab": set()}[part]
+        for other in sorted(beyond & set(allowed)):
+            yield f"tools/check_layering.py: {folder_of(module)} may not depend on {folder_of(other)}"
+
+
+def cmake_problems(root, module):
+    where = f"{folder_of(module)}/CMakeLists.txt"
+    path = root / where
     if not path.is_file():
-        yield f"plumbline/{module}: no CMakeLists.txt"
+        yield f"{folder_of(module)}: no CMakeLists.txt"
         return
     targets = dict(declared_dependencies(path.read_text()))
     row = set(LAYERS[module])
-    where = f"plumbline/{module}/CMakeLists.txt"
     if module not in targets:
         yield f"{where}: defines no module {module}"
     for target, dependencies in targets.items():
@@ -115,39 +144,41 @@ def cmake_problems(folder, module):
             yield f"{where}: {target} may not depend on {sorted(dependencies - row - {module})}"
 
 
-def include_problems(path, relative, module):
+def include_problems(path, where, module):
+    relative = where.removeprefix("plumbline/")
     for number, line in enumerate(path.read_text().splitlines(), 1):
         match = INCLUDE.match(line)
         if not match:
             continue
-        target, where = match[1], f"plumbline/{relative}:{number}"
-        if target.startswith("plumbline/"):
-            other = target.split("/")[1]
+        target, place = match[1], f"{where}:{number}"
+        other = module_of(target)
+        if other is not None:
             if other != module and other not in LAYERS[module]:
-                yield f"{where}: {module} may not include {other}"
+                yield f"{place}: {module} may not include {other}"
             if target in HEAVY_HEADERS and path.suffix == ".h":
-                yield f"{where}: {target} may be included in .cc files only"
+                yield f"{place}: {target} may be included in .cc files only"
         elif target.startswith(("apps/", "tests/")):
-            yield f"{where}: the library may not include {target}"
+            yield f"{place}: the library may not include {target}"
         for prefix, users in THIRD_PARTY.items():
             if target.startswith(prefix) and not (users and re.fullmatch(users, relative)):
-                yield f"{where}: {target} is not allowed here"
+                yield f"{place}: {target} is not allowed here"
 
 
 def problems(root):
     yield from table_problems()
-    library = root / "plumbline"
-    folders = {path.name for path in library.iterdir() if path.is_dir()}
+    yield from part_problems()
+    folders = {module_of(path.relative_to(root).as_posix() + "/x")
+               for parent in ("plumbline", "lab") for path in (root / parent).iterdir() if path.is_dir()}
+    folders |= {RENDERER} if (root / RENDERER).is_dir() else set()
     for module in sorted(folders - LAYERS.keys()):
-        yield f"plumbline/{module}: has no row in the table of tools/check_layering.py"
+        yield f"{folder_of(module)}: has no row in the table of tools/check_layering.py"
     for module in sorted(LAYERS.keys() - folders):
-        yield f"tools/check_layering.py: there is no plumbline/{module}"
+        yield f"tools/check_layering.py: there is no {folder_of(module)}"
     for module in sorted(folders & LAYERS.keys()):
-        yield from cmake_problems(library / module, module)
-        for path in sorted((library / module).rglob("*")):
+        yield from cmake_problems(root, module)
+        for path in sorted((root / folder_of(module)).rglob("*")):
             if path.suffix in (".h", ".cc"):
-                relative = path.relative_to(library).as_posix()
-                yield from include_problems(path, relative, module)
+                yield from include_problems(path, path.relative_to(root).as_posix(), module)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that every plumbline/x/y.cc has a tests/x/y_test.cc and that every test file is built.
+"""Checks that every plumbline/x/y.cc has a tests/x/y_test.cc, every worlds/y.cc a tests/worlds/y_test.cc
+and every lab/x/y.cc a tests/lab/x/y_test.cc, and that every test file is built.
 
 Sources that another file tests are listed with that file in tools/tests_elsewhere.txt; an entry that
 is not needed any more is an error too. Exit status: 0 clean, 1 problems (one a line).
@@ -27,9 +28,11 @@ def read_elsewhere(root):
 def problems(root):
     elsewhere, found = read_elsewhere(root)
     yield from found
-    for path in sorted((root / "plumbline").rglob("*.cc")):
+    for path in sorted(path for part in ("plumbline", "worlds", "lab")
+                       for path in (root / part).rglob("*.cc")):
         source = path.relative_to(root)
-        test = pathlib.Path("tests") / source.relative_to("plumbline").with_suffix("")
+        test = pathlib.Path("tests") / source.as_posix().removeprefix("plumbline/")
+        test = test.with_suffix("")
         test = test.with_name(test.name + "_test.cc")
         exists = (root / test).is_file()
         number = elsewhere.get(source.as_posix())

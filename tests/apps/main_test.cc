@@ -44,9 +44,32 @@ TEST(Program, HelpListsTheCommands) {
   EXPECT_THAT(RunProgram("--version").out, StartsWith("plumbline 0."));
 }
 
+// The commands of this build: those of the worlds and of the laboratory may be left out.
+std::vector<std::string> Commands() {
+  std::vector<std::string> names = {"run", "evaluate", "info", "map", "config"};
+#ifdef PLUMBLINE_WITH_WORLDS
+  names.insert(names.end(), {"synth"});
+#endif
+#ifdef PLUMBLINE_WITH_LAB
+  names.insert(names.end(), {"experiment", "starts"});
+#endif
+  return names;
+}
+
+TEST(Program, ACommandThatWasNotBuiltSaysHowToBuildIt) {
+  const std::vector<std::string> built = Commands();
+  for (const std::string name : {"synth", "experiment", "starts"}) {
+    if (std::find(built.begin(), built.end(), name) != built.end()) continue;
+    const Outcome outcome = RunProgram(name);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(name + " is not part of this build"));
+    EXPECT_THAT(outcome.err, HasSubstr("configure with -DPLUMBLINE_"));
+  }
+  if (built.size() == 8) GTEST_SKIP() << "all commands were built";
+}
+
 TEST(Program, EveryCommandHasHelp) {
-  for (const std::string name :
-       {"run", "evaluate", "synth", "experiment", "info", "map", "config"}) {
+  for (const std::string& name : Commands()) {
     const Outcome outcome = RunProgram(name + " --help");
     EXPECT_EQ(outcome.code, 0) << name;
     EXPECT_THAT(outcome.out, StartsWith("plumbline " + name));

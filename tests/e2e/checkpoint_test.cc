@@ -4,8 +4,8 @@
 // Runs that stop in the middle and are gone on with: --checkpoint and --resume.
 //
 // PLUMBLINE_PAUSES=5 stops each recorded sequence and world at five frames, one after the other.
-#include "plumbline/synth/sequence_cache.h"
-#include "plumbline/synth/world.h"
+#include "worlds/sequence_cache.h"
+#include "worlds/world.h"
 
 #include "tests/e2e/poster_run.h"
 #include "tests/e2e/program.h"

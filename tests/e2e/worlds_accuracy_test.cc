@@ -6,8 +6,8 @@
 //
 //   plumbline synth WORLD --set scale=0.5 --set frames=100 --out W
 //   plumbline run W --out R && plumbline evaluate W R
-#include "plumbline/synth/sequence_cache.h"
-#include "plumbline/synth/world.h"
+#include "worlds/sequence_cache.h"
+#include "worlds/world.h"
 
 #include "tests/e2e/program.h"
 #include <filesystem>

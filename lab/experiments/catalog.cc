@@ -1,0 +1,333 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/catalog.h"
+
+#include "lab/experiments/computed.h"
+#include "plumbline/base/error.h"
+#include "plumbline/base/printable.h"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+// Starts on recorded sequences and on the worlds made for them, as large as they are.
+Experiment StartExperiment(const std::string& name,
+                           const std::string& help,
+                           std::vector<Variant> variants,
+                           const std::string& abscissa) {
+  const auto world = [](const char* pattern, const char* frames) {
+    return SequenceChoice{pattern, {frames, "depth=true", "depth_noise=0"}, "depth"};
+  };
+  // There is too little parallax for any map.
+  const auto still = [&](const char* pattern, const char* frames) {
+    SequenceChoice choice = world(pattern, frames);
+    choice.arguments = {"--least-parallax", "0.5"};
+    return choice;
+  };
+  Experiment experiment;
+  experiment.name = name;
+  experiment.help = help;
+  experiment.sequences = {world("worlds/planar", "frames=500"),
+                          world("worlds/forward", "frames=500"),
+                          world("worlds/lateral", "frames=500"),
+                          world("worlds/office", "frames=400"),
+                          world("worlds/lowtexture", "frames=400"),
+                          still("worlds/rotation", "frames=300"),
+                          still("worlds/static", "frames=200"),
+                          {"euroc/*"},
+                          {"kitti/*"},
+                          {"tum/*"},
+                          {"icl/*"}};
+  experiment.variants = std::move(variants);
+  experiment.metrics = {"starts",
+                        "possible",
+                        "success",
+                        "wrong",
+                        "success_in_the_end",
+                        "late",
+                        "wrong_rate",
+                        "waiting",
+                        "accepted",
+                        "map_frames",
+                        "map_frames_p95",
+                        "map_seconds",
+                        "map_seconds_p95",
+                        "map_parallax",
+                        "rotation_error",
+                        "rotation_error_p95",
+                        "direction_error",
+                        "direction_error_p95",
+                        "depth_error",
+                        "depth_error_p95",
+                        "depth_outliers",
+                        "map_points",
+                        "map_lines",
+                        "add_ms",
+                        "add_p95_ms",
+                        "add_max_ms"};
+  experiment.plots = {
+      "success", "wrong", "map_frames", "rotation_error", "direction_error", "depth_error"};
+  experiment.runs = 1;
+  experiment.command = RunCommandKind::kStarts;
+  experiment.size = WorldSize::kFull;
+  // Without ICL, whose depth is not known.
+  const std::vector<std::string> synthetic = {"worlds/*"}, real = {"euroc/*", "kitti/*", "tum/*"};
+  experiment.pools = {{"synthetic", synthetic}, {"real", real}, {"all", synthetic}};
+  experiment.pools.back().patterns.insert(
+      experiment.pools.back().patterns.end(), real.begin(), real.end());
+  experiment.abscissa = abscissa;
+  return experiment;
+}
+
+// Figure 7 of the first paper.
+std::vector<Variant> FrameVariants() {
+  std::vector<Variant> variants;
+  for (const char* method : {"rank1", "rank1_klt"}) {
+    for (int frames = 3; frames <= 10; ++frames) {
+      const std::string number = std::to_string(frames);
+      variants.push_back(
+          {method + ("_m" + number),
+           {std::string("initialization.method=") + method, "initialization.frames=" + number},
+           {},
+           method,
+           static_cast<double>(frames)});
+    }
+  }
+  return variants;
+}
+
+// Figure 8 of the first paper.
+std::vector<Variant> PointVariants() {
+  std::vector<Variant> variants;
+  for (const char* method : {"rank1", "rank1_klt", "two_view"}) {
+    for (const int points : {100, 200, 500, 1000, 2000}) {
+      const std::string number = std::to_string(points);
+      variants.push_back(
+          {method + ("_p" + number),
+           {std::string("initialization.method=") + method, "features.point_count=" + number},
+           {},
+           method,
+           static_cast<double>(points)});
+    }
+  }
+  return variants;
+}
+
+// Lines by every way to have them, with several cameras or depth where there is.
+Experiment LineExperiment() {
+  Experiment experiment;
+  experiment.name = "lines";
+  experiment.help = "points alone and with lines by each way to parametrize, weigh and make them";
+  experiment.sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}};
+  experiment.variants = {
+      {"points", {"features.lines=false"}},
+      {"plucker", {}},
+      {"plucker_left", {"lines.parametrization=plucker_left"}},
+      {"endpoints", {"lines.parametrization=endpoints"}},
+      {"projected", {"lines.residual=projected_ends"}},
+      {"projected_endpoints", {"lines.residual=projected_ends", "lines.parametrization=endpoints"}},
+      {"two_view", {"lines.reconstruction=two_view"}},
+      {"scalar", {"lines.weighting=scalar"}},
+      {"unweighted", {"lines.weighting=none"}}};
+  experiment.metrics = {"ate",
+                        "rpe_mean",
+                        "rpe_rmse",
+                        "roe_rmse",
+                        "lost",
+                        "keyframes",
+                        "lines",
+                        "line_recall",
+                        "line_precision",
+                        "line_angle",
+                        "line_distance",
+                        "line_multiplicity",
+                        "map_line_bytes",
+                        "adjusted_line_bytes",
+                        "adjust_ms",
+                        "adjust_p95_ms",
+                        "cpu_ms",
+                        "memory_mb"};
+  experiment.plots = {"ate", "rpe_rmse", "line_recall", "line_precision", "adjust_ms"};
+  experiment.runs = 10;
+  experiment.size = WorldSize::kFull;
+  experiment.reference = "plucker";
+  return experiment;
+}
+
+// The same with the left camera alone: points and lines after each way to begin.
+Experiment MonocularLineExperiment() {
+  const std::vector<std::string> mono = {"--sensor", "mono"};
+  Experiment experiment = LineExperiment();
+  experiment.name = "lines_mono";
+  experiment.help = "points alone and with lines from one camera, by each way to begin the map";
+  experiment.variants = {{"points", {"features.lines=false"}, mono},
+                         {"plucker", {}, mono},
+                         {"plucker_left", {"lines.parametrization=plucker_left"}, mono},
+                         {"endpoints", {"lines.parametrization=endpoints"}, mono},
+                         {"two_view_lines", {"lines.reconstruction=two_view"}, mono},
+                         {"klt_start", {"initialization.method=rank1_klt"}, mono},
+                         {"two_view_start", {"initialization.method=two_view"}, mono}};
+  experiment.metrics.insert(experiment.metrics.begin() + 1, {"ate_causal", "scale_drift"});
+  return experiment;
+}
+
+// Table 1 to 3 of the second paper: what is tracked, how lines are weighted and whether they are
+// cut, against the last frame (the paper's setting, with its residuals) and against the map (ours),
+// on sharp and on blurred images. Weights do not matter to points alone; PL has those of the
+// defaults as well.
+// PL80: the 80 points and lines that tell most about the pose, chosen together.
+std::vector<Variant> CuttingVariants() {
+  struct Setting {
+    std::string name;
+    std::vector<std::string> settings;
+  };
+  const std::vector<Setting> references = {
+      {"last", {"tracking.reference=last_frame", "lines.residual=projected_ends"}}, {"map", {}}};
+  const std::vector<Setting> kinds = {{"P", {"features.lines=false"}},
+                                      {"L", {"features.points=false"}},
+                                      {"L+Cut", {"features.points=false", "cutting.method=greedy"}},
+                                      {"PL", {}},
+                                      {"PL+Cut", {"cutting.method=greedy"}},
+                                      {"PL80", {"cutting.budget=80"}},
+                                      {"PL80+Cut", {"cutting.method=greedy", "cutting.budget=80"}}};
+  std::vector<Variant> variants;
+  for (const bool blurred : {false, true}) {
+    for (const Setting& reference : references) {
+      for (const Setting& kind : kinds) {
+        for (const std::string weighting : {"none", "scalar", "covariance"}) {
+          const bool points_alone = kind.name == "P";
+          if (points_alone && weighting != "none") continue;
+          const bool whole_with_points = kind.name == "PL" || kind.name == "PL80";
+          if (!whole_with_points && weighting == "covariance") continue;
+          Variant variant{reference.name + "_" + kind.name, reference.settings};
+          variant.settings.insert(
+              variant.settings.end(), kind.settings.begin(), kind.settings.end());
+          if (!points_alone) {
+            variant.name += "_" + weighting;
+            variant.settings.push_back("lines.weighting=" + weighting);
+          }
+          if (blurred) {
+            variant.name += "_blur";
+            variant.arguments = {"--blur", "5"};
+          }
+          variants.push_back(std::move(variant));
+        }
+      }
+    }
+  }
+  return variants;
+}
+
+Experiment CuttingExperiment() {
+  Experiment experiment;
+  experiment.name = "cutting";
+  experiment.help =
+      "line cutting and line weights against the last frame and against the map, sharp and blurred";
+  experiment.sequences = {{"worlds/lowtexture"}, {"worlds/vicon_*"}, {"euroc/*"}};
+  experiment.variants = CuttingVariants();
+  experiment.metrics = {"rpe_causal_mean",
+                        "rpe_causal_rmse",
+                        "roe_causal_mean",
+                        "roe_causal_rmse",
+                        "coverage",
+                        "lost",
+                        "cpu_ms"};
+  experiment.plots = {"rpe_causal_mean", "roe_causal_mean"};
+  experiment.runs = 10;
+  experiment.size = WorldSize::kFull;
+  experiment.tolerated_failures = 2;
+  return experiment;
+}
+
+// Recorded sequences in ways on which nothing was tuned.
+Experiment RobustnessExperiment() {
+  Experiment experiment;
+  experiment.name = "robustness";
+  experiment.help = "recordings as they are, played backwards, with fewer images, and blurred";
+  experiment.sequences = {{"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}};
+  experiment.variants = {{"as_recorded", {}},
+                         {"reversed", {}, {"--reverse"}},
+                         {"every_2nd", {}, {"--stride", "2"}},
+                         {"every_3rd", {}, {"--stride", "3"}},
+                         {"every_4th", {}, {"--stride", "4"}},
+                         {"every_5th", {}, {"--stride", "5"}},
+                         {"blurred", {}, {"--blur", "5"}}};
+  experiment.metrics = {
+      "ate", "ate_causal", "rpe_rmse", "coverage", "lost", "initializing", "maps", "keyframes"};
+  experiment.plots = {"ate", "coverage"};
+  experiment.reference = "as_recorded";
+  return experiment;
+}
+
+// The same with the left camera alone. ICL-NUIM has no other and is in the experiment above.
+Experiment MonocularRobustnessExperiment() {
+  Experiment experiment = RobustnessExperiment();
+  experiment.name = "robustness_mono";
+  experiment.help = "recordings in the same ways, from the left camera alone";
+  experiment.sequences = {{"euroc/*"}, {"kitti/*"}, {"tum/*"}};
+  for (Variant& variant : experiment.variants) {
+    variant.arguments.insert(variant.arguments.end(), {"--sensor", "mono"});
+  }
+  experiment.metrics.emplace_back("scale_drift");
+  return experiment;
+}
+
+}  // namespace
+
+std::span<const Experiment> Experiments() {
+  static const std::array kExperiments = {
+      Experiment{
+          .name = "sensors",
+          .help = "points, lines and both together on every sequence there is",
+          .sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}, {"icl/*"}},
+          .variants = {{"points", {"features.lines=false"}},
+                       {"lines", {"features.points=false"}},
+                       {"both", {}}},
+          .metrics = {"ate",          "rpe_mean",    "rpe_rmse",       "roe_mean",  "roe_rmse",
+                      "ate_causal",   "lost",        "skipped",        "keyframes", "points",
+                      "lines",        "line_recall", "line_precision", "fps",       "frame_ms",
+                      "frame_p95_ms", "cpu_ms",      "first_pose_s",   "memory_mb", "dropped"},
+          .plots = {"ate", "rpe_rmse", "roe_rmse", "coverage", "frame_ms"}},
+      LineExperiment(),
+      MonocularLineExperiment(),
+      CuttingExperiment(),
+      RobustnessExperiment(),
+      MonocularRobustnessExperiment(),
+      StartExperiment(
+          "initialization",
+          "how often, how soon and how well a monocular map begins, by several methods",
+          {{"rank1", {"initialization.method=rank1"}},
+           {"rank1_descriptors",
+            {"initialization.method=rank1", "initialization.matching=descriptors"}},
+           {"rank1_unweighted", {"initialization.method=rank1", "initialization.reweighting=0"}},
+           {"rank1_klt", {"initialization.method=rank1_klt"}},
+           {"two_view", {"initialization.method=two_view"}}},
+          ""),
+      StartExperiment("initialization_frames",
+                      "monocular starts by the number of frames that are solved together",
+                      FrameVariants(),
+                      "frames after the reference"),
+      StartExperiment("initialization_points",
+                      "monocular starts by the number of points in an image",
+                      PointVariants(),
+                      "points in an image"),
+  };
+  return kExperiments;
+}
+
+const Experiment& FindExperiment(std::string_view name) {
+  std::string names;
+  for (const Experiment& experiment : Experiments()) {
+    if (experiment.name == name) return experiment;
+    names += (names.empty() ? "" : ", ") + experiment.name;
+  }
+  for (const ComputedExperiment& experiment : ComputedExperiments())
+    names += ", " + experiment.name;
+  throw InputError("there is no experiment " + InQuotes(name) + "; there are: " + names);
+}
+
+}  // namespace plumbline

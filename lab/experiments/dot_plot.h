@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/table.h"
+#include "plumbline/eval/figure.h"
+
+#include <cstddef>
+
+namespace plumbline {
+
+// A plot of one column of a table: a band for each sequence, in it for each variant a dot at the
+// median and a bar over the range of the runs. The axis begins at 0, or is logarithmic where the
+// values span more than a factor of 30. Variants without a value say so in words; beside an ATE
+// stands the coverage where it is below 99 %.
+Figure DotPlot(const Plan& plan, const ResultTable& table, std::size_t column);
+
+}  // namespace plumbline

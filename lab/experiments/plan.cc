@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/plan.h"
+
+#include "lab/experiments/metrics.h"
+#include "lab/starts/start_bench.h"
+#include "plumbline/base/crc32.h"
+#include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/slam/options.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kMark = "job.txt";
+
+std::optional<std::string> ReadText(const fs::path& path) {
+  try {
+    return ReadInputFile(path);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+template <class Options>
+void CheckSettingsAs(const Experiment& experiment, const std::vector<std::string>& settings) {
+  Options options;
+  OptionTable table(options);
+  for (const std::string& setting : settings) table.Set(setting);
+  for (const Variant& variant : experiment.variants) {
+    for (const std::string& setting : variant.settings) table.Set(setting);
+  }
+}
+
+void CheckSettings(const Experiment& experiment, const std::vector<std::string>& settings) {
+  if (experiment.command == RunCommandKind::kStarts) {
+    CheckSettingsAs<StartOptions>(experiment, settings);
+  } else {
+    CheckSettingsAs<SlamOptions>(experiment, settings);
+  }
+}
+
+bool IsChosen(const std::string& name, const std::vector<std::string>& only) {
+  return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& pattern) {
+           const bool wild = pattern.find_first_of("*?") != std::string::npos;
+           return wild ? MatchesPattern(name, pattern) : name.find(pattern) != std::string::npos;
+         });
+}
+
+// Run k leaves out the k - 1 frames that are played first; where the sequence is played backwards
+// these are its last ones.
+std::vector<std::string> PlayedFrames(const ExperimentSequence& sequence,
+                                      const Variant& variant,
+                                      int run) {
+  const auto& arguments = variant.arguments;
+  const bool reversed =
+      std::find(arguments.begin(), arguments.end(), "--reverse") != arguments.end();
+  const auto left_out = static_cast<std::size_t>(run - 1);
+  if (reversed && left_out > 0 && sequence.frames > left_out) {
+    return {"--to", std::to_string(sequence.frames - left_out)};
+  }
+  return {"--from", std::to_string(left_out)};
+}
+
+Job MakeJob(const ExperimentSequence& sequence,
+            const Variant& variant,
+            int run,
+            RunCommandKind command,
+            const PlanRequest& request) {
+  std::vector<std::string> arguments = {"--seed", std::to_string(run)};
+  const std::vector<std::string> frames = PlayedFrames(sequence, variant, run);
+  arguments.insert(arguments.end(), frames.begin(), frames.end());
+  arguments.insert(arguments.end(), sequence.arguments.begin(), sequence.arguments.end());
+  arguments.insert(arguments.end(), variant.arguments.begin(), variant.arguments.end());
+  for (const auto* settings : {&request.settings, &variant.settings}) {
+    for (const std::string& setting : *settings) {
+      arguments.emplace_back("--set");
+      arguments.push_back(setting);
+    }
+  }
+  Job job;
+  job.run = run;
+  job.folder = request.out / "runs" / sequence.name / variant.name / std::to_string(run);
+  job.key = fmt::format("program {}\nsequence {}: {}\narguments {}\n",
+                        request.program,
+                        sequence.name,
+                        sequence.identity,
+                        fmt::join(arguments, " "));
+  const std::string name = command == RunCommandKind::kStarts ? "starts" : "run";
+  job.command = {name, sequence.path.string(), "--out", job.folder.string(), "--quiet"};
+  job.command.insert(job.command.end(), arguments.begin(), arguments.end());
+  return job;
+}
+
+[[noreturn]] void FailNothing(const Plan& plan, const PlanRequest& request) {
+  if (plan.sequences.empty()) {
+    throw InputError(fmt::format(
+        "{}: no sequence found for {}{}",
+        plan.experiment.name,
+        fmt::join(plan.missing, ", "),
+        request.sources.data ? " in " + request.sources.data->string() : " without --data"));
+  }
+  std::vector<std::string> names;
+  for (const ExperimentSequence& sequence : plan.sequences) names.push_back(sequence.name);
+  std::vector<std::string> variants;
+  for (const Variant& variant : plan.experiment.variants) variants.push_back(variant.name);
+  throw InputError(fmt::format("--only {}: expected part of one of {}, with / and one of {}",
+                               fmt::join(request.only, " --only "),
+                               fmt::join(names, ", "),
+                               fmt::join(variants, ", ")));
+}
+
+}  // namespace
+
+std::string Plan::NameOf(const Job& job) const {
+  return fmt::format("{}/{}/{}", SequenceOf(job).name, VariantOf(job).name, job.run);
+}
+
+Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
+  CheckSettings(experiment, request.settings);
+  FoundSequences found = FindSequences(experiment.sequences, request.sources);
+  Plan plan;
+  plan.experiment = experiment;
+  plan.missing = std::move(found.missing);
+  plan.out = request.out;
+  plan.cache = request.sources.cache;
+  const int runs = request.runs.value_or(experiment.runs);
+  for (ExperimentSequence& sequence : found.sequences) {
+    std::vector<Job> jobs;
+    for (std::size_t v = 0; v < experiment.variants.size(); ++v) {
+      const Variant& variant = experiment.variants[v];
+      if (!IsChosen(sequence.name + "/" + variant.name, request.only)) continue;
+      for (int run = 1; run <= runs; ++run) {
+        jobs.push_back(MakeJob(sequence, variant, run, experiment.command, request));
+        jobs.back().variant = v;
+        jobs.back().sequence = plan.sequences.size();
+      }
+    }
+    if (jobs.empty()) continue;
+    plan.sequences.push_back(sequence);
+    plan.jobs.insert(plan.jobs.end(), jobs.begin(), jobs.end());
+  }
+  if (plan.jobs.empty()) {
+    plan.sequences = std::move(found.sequences);
+    FailNothing(plan, request);
+  }
+  return plan;
+}
+
+std::string ProgramId(const fs::path& program) {
+  std::ifstream file(program, std::ios::binary);
+  std::vector<std::uint8_t> block(1 << 20);
+  std::uint32_t checksum = 0;
+  std::uint64_t size = 0;
+  while (file) {
+    file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
+    const auto count = static_cast<std::size_t>(file.gcount());
+    checksum = Crc32(std::span(block.data(), count), checksum);
+    size += count;
+  }
+  if (size == 0) throw InputError("cannot read the program " + program.string());
+  return fmt::format("{} bytes, checksum {:08x}", size, checksum);
+}
+
+bool IsDone(const Job& job) {
+  return ReadText(job.folder / kMark) == job.key && ReadFigures(job.folder).has_value();
+}
+
+void MarkDone(const Job& job) { WriteFileAtomically(job.folder / kMark, job.key); }
+
+void MarkUndone(const Job& job) {
+  std::error_code error;
+  fs::remove(job.folder / kMark, error);
+  if (error) {
+    throw InputError("cannot remove " + (job.folder / kMark).string() + ": " + error.message());
+  }
+}
+
+}  // namespace plumbline

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/catalog.h"
+#include "lab/experiments/sequences.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// One run of one variant on one sequence, by a program of its own.
+struct Job {
+  std::size_t sequence = 0, variant = 0;  // in the plan
+  int run = 1;  // run k has seed k and leaves out the k - 1 frames played first
+  std::vector<std::string> command;  // the arguments of the program: "run", PATH, ...
+  std::filesystem::path folder;      // OUT/runs/<sequence>/<variant>/<run>
+  // All that the result depends on, as text: program, sequence, arguments. A job is done while the
+  // folder holds the result of the same key.
+  std::string key;
+};
+
+// All that is to be done for an experiment.
+struct Plan {
+  Experiment experiment;
+  std::vector<ExperimentSequence> sequences;  // those with a job
+  std::vector<std::string> missing;           // patterns that nothing was found for
+  std::vector<Job> jobs;                      // by sequence, then variant, then run
+  std::filesystem::path out, cache;
+
+  const ExperimentSequence& SequenceOf(const Job& job) const { return sequences[job.sequence]; }
+  const Variant& VariantOf(const Job& job) const { return experiment.variants[job.variant]; }
+  // "euroc/MH_01_easy/points/1"
+  std::string NameOf(const Job& job) const;
+};
+
+struct PlanRequest {
+  SequenceSources sources;
+  std::filesystem::path out;
+  std::optional<int> runs = std::nullopt;  // nullopt: as the experiment has it
+  // Sequences and variants to keep, any of these: part of SEQUENCE/VARIANT, or a pattern with * and
+  // ? for all of it. Empty: all.
+  std::vector<std::string> only = {};
+  // KEY=VALUE for all runs; what a variant sets itself goes before it.
+  std::vector<std::string> settings = {};
+  std::string program;  // ProgramId
+};
+
+// Lists the jobs of an experiment. Throws InputError where a setting is wrong, nothing is found, or
+// `only` leaves nothing.
+Plan MakePlan(const Experiment& experiment, const PlanRequest& request);
+
+// Tells builds of a program apart: size and checksum of its file. Throws InputError when it cannot
+// be read.
+std::string ProgramId(const std::filesystem::path& program);
+
+// Whether the folder of a job holds its result.
+bool IsDone(const Job& job);
+// Marks the result in the folder of a job as whole, or as not.
+void MarkDone(const Job& job);
+void MarkUndone(const Job& job);
+
+}  // namespace plumbline

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/results.h"
+
+#include "lab/experiments/dot_plot.h"
+#include "lab/experiments/figure_list.h"
+#include "lab/experiments/start_plots.h"
+#include "lab/experiments/start_pools.h"
+#include "lab/experiments/table.h"
+#include "lab/experiments/table_page.h"
+#include "plumbline/base/error.h"
+#include "plumbline/io/atomic_file.h"
+
+#include <algorithm>
+#include <system_error>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+void RemovePlots(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".svg") old.push_back(entry.path());
+  }
+  for (const fs::path& path : old) fs::remove(path, error);
+}
+
+std::vector<PagePlot> MakePlots(const Plan& plan, const std::vector<ResultTable>& tables) {
+  std::vector<PagePlot> plots;
+  if (!plan.experiment.abscissa.empty()) return plots;  // they are over that
+  for (const std::string& name : plan.experiment.plots) {
+    for (const ResultTable& table : tables) {
+      const auto column = std::find_if(
+          table.columns.begin(), table.columns.end(), [&](auto* m) { return m->name == name; });
+      if (column == table.columns.end()) continue;
+      const auto index = static_cast<std::size_t>(column - table.columns.begin());
+      plots.push_back({name, ToSvg(DotPlot(plan, table, index))});
+    }
+  }
+  return plots;
+}
+
+void WriteTables(const Plan& plan,
+                 const std::vector<JobResult>& results,
+                 const std::vector<PagePlot>& more_plots) {
+  MakeFolder(plan.out / "plots");
+  RemovePlots(plan.out / "plots");
+  const std::vector<PairedRatio> ratios = PairedRatios(plan, results);
+  std::vector<ResultTable> tables;
+  for (const MetricKind kind : {MetricKind::kRepeatable, MetricKind::kTiming}) {
+    const bool timing = kind == MetricKind::kTiming;
+    tables.push_back(MakeTable(plan, results, kind));
+    WriteFileAtomically(plan.out / (timing ? "timing.json" : "results.json"),
+                        FormatResults(plan.experiment.name, CollectResults(plan, results, kind)));
+    WriteFileAtomically(
+        plan.out / (timing ? "timing.md" : "table.md"),
+        FormatMarkdown(plan, tables.back()) + (timing ? "" : FormatRatios(plan, ratios)));
+  }
+  std::vector<PagePlot> plots = MakePlots(plan, tables);
+  plots.insert(plots.end(), more_plots.begin(), more_plots.end());
+  for (const PagePlot& plot : plots) {
+    WriteFileAtomically(plan.out / "plots" / (plot.metric + ".svg"), plot.svg);
+  }
+  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots, ratios));
+}
+
+}  // namespace
+
+std::vector<const Metric*> MetricsOf(const Experiment& experiment, MetricKind kind) {
+  std::vector<const Metric*> metrics;
+  const auto add = [&](const std::string& name) {
+    const Metric* metric = FindMetric(name);
+    PLUMBLINE_CHECK(metric != nullptr, "no metric is called " + name);
+    if (metric->timing != (kind == MetricKind::kTiming)) return;
+    if (std::find(metrics.begin(), metrics.end(), metric) == metrics.end()) {
+      metrics.push_back(metric);
+    }
+  };
+  for (const auto* names : {&experiment.metrics, &experiment.plots}) {
+    for (const std::string& name : *names) {
+      add(name);
+      if (name.starts_with("ate")) add("coverage");
+    }
+  }
+  return metrics;
+}
+
+std::vector<ResultRow> CollectResults(const Plan& plan,
+                                      const std::vector<JobResult>& results,
+                                      MetricKind kind) {
+  std::vector<ResultRow> rows;
+  for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+    const Job& job = plan.jobs[i];
+    for (const Metric* metric : MetricsOf(plan.experiment, kind)) {
+      ResultRow row{plan.SequenceOf(job).name, plan.VariantOf(job).name, job.run, metric, {}, {}};
+      const auto& figures = results[i].figures;
+      if (!figures) {
+        row.reason = results[i].reason;
+      } else if (const auto value = figures->values.find(metric->name);
+                 value != figures->values.end()) {
+        row.value = value->second;
+      } else {
+        const auto reason = figures->reasons.find(metric->name);
+        row.reason = reason == figures->reasons.end() ? "not measured" : reason->second;
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+std::string FormatResults(const std::string& experiment, const std::vector<ResultRow>& rows) {
+  std::vector<FigureRow> figures;
+  figures.reserve(rows.size());
+  for (const ResultRow& row : rows) {
+    figures.push_back({row.sequence,
+                       row.variant,
+                       row.seed,
+                       std::string(row.metric->name),
+                       row.value,
+                       std::string(row.metric->unit),
+                       row.reason});
+  }
+  return FormatFigureList(experiment, figures);
+}
+
+void WriteResults(const Plan& plan, const std::vector<JobResult>& results) {
+  if (plan.experiment.command != RunCommandKind::kStarts) {
+    WriteTables(plan, results, {});
+    return;
+  }
+  const StartsByJob starts = ReadStartsByJob(plan, results);
+  const PooledResults pooled = WithPools(plan, results, starts);
+  WriteTables(pooled.plan, pooled.results, StartPlots(plan, starts));
+  WriteFileAtomically(plan.out / "starts.csv", FormatStartsByJob(plan, starts));
+}
+
+}  // namespace plumbline

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/paired_ratios.h"
+#include "lab/experiments/table.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumbline {
+
+struct PagePlot {
+  std::string metric;
+  std::string svg;
+};
+
+// The style sheet of all pages of experiments.
+std::string_view TablePageStyle();
+
+// One page that needs nothing else, not even scripts: the tables with the best of each sequence
+// marked, the errors against a reference where there is one, the plots, what the variants are, what
+// failed and what is missing.
+std::string FormatPage(const Plan& plan,
+                       const std::vector<ResultTable>& tables,
+                       const std::vector<PagePlot>& plots,
+                       const std::vector<PairedRatio>& ratios = {});
+
+}  // namespace plumbline

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/starts/true_depth.h"
+#include "plumbline/geometry/se3.h"
+
+#include <memory>
+#include <optional>
+
+namespace plumbline {
+
+// What is known of a sequence beside the images that an initializer gets.
+class StartTruth {
+ public:
+  virtual ~StartTruth() = default;
+  // Pose of the rectified camera; nullopt: unknown.
+  virtual std::optional<Rigid3> WorldFromCamera(int frame) const = 0;
+  // nullptr: unknown.
+  virtual std::shared_ptr<const TrueDepth> DepthAt(int frame) const = 0;
+};
+
+}  // namespace plumbline

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/paired_ratios.h"
+
+#include "plumbline/base/random.h"
+
+#include "tests/io/scratch_folder.h"
+#include "tests/lab/experiments/experiment_fixtures.h"
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::HasSubstr;
+
+// Sequences a and b, variants one and two, two runs of each: a/one/1, a/one/2, a/two/1, ...
+Plan PlanWithReference(const ScratchFolder& folder) {
+  Plan plan = PlanOfTwo(folder);
+  plan.experiment.reference = "one";
+  return plan;
+}
+
+const PairedRatio& Find(const std::vector<PairedRatio>& ratios,
+                        std::optional<std::size_t> sequence,
+                        std::size_t variant) {
+  const auto found = std::find_if(ratios.begin(), ratios.end(), [&](const PairedRatio& r) {
+    return r.sequence == sequence && r.variant == variant;
+  });
+  EXPECT_NE(found, ratios.end());
+  return *found;
+}
+
+TEST(PairedRatios, AreGeometricMeansOverTheRuns) {
+  const ScratchFolder folder;
+  const auto ratios = PairedRatios(PlanWithReference(folder),
+                                   {Success(2, "a"),
+                                    Success(4, "b"),
+                                    Success(4, "c"),
+                                    Success(4, "d"),
+                                    Success(1, "e"),
+                                    Success(1, "f"),
+                                    Success(8, "g"),
+                                    Success(2, "h")});
+  const PairedRatio& a = Find(ratios, 0, 1);
+  EXPECT_EQ(a.pairs, 2);
+  EXPECT_NEAR(a.ratio, std::sqrt(2.0), 1e-12);  // of 2 and 1
+  EXPECT_NEAR(a.low, 1, 1e-12);
+  EXPECT_NEAR(a.high, 2, 1e-12);
+  EXPECT_NEAR(Find(ratios, 1, 1).ratio, 4, 1e-12);  // of 8 and 2
+  const PairedRatio& all = Find(ratios, std::nullopt, 1);
+  EXPECT_NEAR(all.ratio, std::pow(2.0, 1.25), 1e-12);
+  EXPECT_EQ(all.pairs, 4);
+  EXPECT_LT(all.low, all.ratio);
+  EXPECT_GT(all.high, all.ratio);
+  EXPECT_NEAR(Find(ratios, std::nullopt, 0).ratio, 1, 1e-12);  // the reference against itself
+}
+
+// The mean of many draws from a normal distribution is known; so is its interval.
+TEST(PairedRatios, IntervalsHaveTheWidthOfTheMeansSpread) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.reference = "one";
+  experiment.runs = 100;
+  const Plan plan = MakePlan(experiment, RequestIn(folder));
+  Rng rng(1);
+  std::vector<JobResult> results;
+  for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+    const double ate = plan.jobs[i].variant == 0 ? 1 : std::exp(rng.Normal(0.5));
+    results.push_back(Success(ate, std::to_string(i)));
+  }
+  const auto ratios = PairedRatios(plan, results);
+  const PairedRatio& r = Find(ratios, 0, 1);
+  const double half_width = 0.5 * std::log(r.high / r.low);
+  EXPECT_NEAR(half_width, 1.96 * 0.5 / std::sqrt(100.0), 0.02);
+}
+
+TEST(PairedRatios, LeaveOutWhatCannotBeComparedAndCountWhoLosesAlone) {
+  const ScratchFolder folder;
+  JobResult lost = Success(3, "c", 60);
+  lost.figures->values["lost"] = 4;
+  const auto ratios = PairedRatios(PlanWithReference(folder),
+                                   {Success(2, "a"),
+                                    Success(2, "b"),
+                                    lost,
+                                    Success(1, "d"),
+                                    Success(2, "e"),
+                                    Success(2, "e"),
+                                    NoResult("crashed"),
+                                    Success(1, "f")});
+  const PairedRatio& a = Find(ratios, 0, 1);
+  EXPECT_EQ(a.pairs, 1);
+  EXPECT_EQ(a.left_out, 1);
+  EXPECT_EQ(a.lost_alone, 1);
+  EXPECT_NEAR(a.ratio, 0.5, 1e-12);
+  EXPECT_EQ(Find(ratios, 1, 1).lost_alone, 1);
+  EXPECT_EQ(Find(ratios, 0, 0).lost_alone, 0);
+}
+
+TEST(PairedRatios, SamePairsCountOnce) {
+  const ScratchFolder folder;
+  const auto ratios = PairedRatios(PlanWithReference(folder),
+                                   {Success(2, "a"),
+                                    Success(2, "a"),
+                                    Success(3, "b"),
+                                    Success(3, "b"),
+                                    NoResult("x"),
+                                    NoResult("x"),
+                                    NoResult("x"),
+                                    NoResult("x")});
+  EXPECT_EQ(Find(ratios, 0, 1).pairs, 1);
+  EXPECT_EQ(RatioText(Find(ratios, 0, 1)), "1.500 (1.500-1.500)");
+}
+
+TEST(PairedRatios, AreThereOnlyWithAReference) {
+  const ScratchFolder folder;
+  const Plan plan = PlanOfTwo(folder);
+  const std::vector<JobResult> results(plan.jobs.size(), Success(1, "a"));
+  EXPECT_TRUE(PairedRatios(plan, results).empty());
+  EXPECT_EQ(FormatRatios(plan, {}), "");
+  const ScratchFolder other;
+  const Plan with = PlanWithReference(other);
+  EXPECT_THAT(FormatRatios(with, PairedRatios(with, results)), HasSubstr("## ATE against one"));
+}
+
+}  // namespace
+}  // namespace plumbline

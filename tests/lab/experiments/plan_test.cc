@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/plan.h"
+
+#include "tests/io/scratch_folder.h"
+#include "tests/lab/experiments/experiment_fixtures.h"
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> NamesOf(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const Job& job : plan.jobs) names.push_back(plan.NameOf(job));
+  return names;
+}
+
+TEST(Plan, HasAJobForEachSequenceVariantAndRun) {
+  const ScratchFolder folder;
+  const Plan plan = PlanOfTwo(folder);
+  EXPECT_THAT(NamesOf(plan),
+              ElementsAre("euroc/a/one/1",
+                          "euroc/a/one/2",
+                          "euroc/a/two/1",
+                          "euroc/a/two/2",
+                          "euroc/b/one/1",
+                          "euroc/b/one/2",
+                          "euroc/b/two/1",
+                          "euroc/b/two/2"));
+  EXPECT_EQ(plan.jobs[1].folder, folder / "out/runs/euroc/a/one/2");
+}
+
+TEST(Plan, RunKHasSeedKAndBeginsAtFrameKMinusOne) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.variants[0].arguments = {"--blur", "5"};
+  PlanRequest request = RequestIn(folder);
+  request.settings = {"slam.mode=inline"};
+  const Plan plan = MakePlan(experiment, request);
+  EXPECT_THAT(plan.jobs[1].command,
+              ElementsAre("run",
+                          (folder / "data/euroc/a").string(),
+                          "--out",
+                          (folder / "out/runs/euroc/a/one/2").string(),
+                          "--quiet",
+                          "--seed",
+                          "2",
+                          "--from",
+                          "1",
+                          "--blur",
+                          "5",
+                          "--set",
+                          "slam.mode=inline",
+                          "--set",
+                          "features.lines=false"));
+}
+
+TEST(Plan, RunKLeavesOutTheLastFramesOfASequencePlayedBackwards) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");  // of three frames
+  Experiment experiment = TwoVariants();
+  experiment.variants[0].arguments = {"--reverse"};
+  experiment.runs = 4;
+  const Plan plan = MakePlan(experiment, RequestIn(folder));
+  const auto frames = [&](std::size_t job) {
+    const std::vector<std::string>& command = plan.jobs.at(job).command;
+    return command.at(7) + " " + command.at(8);
+  };
+  EXPECT_EQ(frames(0), "--from 0");
+  EXPECT_EQ(frames(1), "--to 2");
+  EXPECT_EQ(frames(2), "--to 1");
+  EXPECT_EQ(frames(3), "--from 3") << "nothing is left: the run is to say so";
+  EXPECT_EQ(frames(5), "--from 1") << "another variant plays forward";
+}
+
+TEST(Plan, KeysFollowAllThatTheResultDependsOn) {
+  const ScratchFolder folder;
+  const std::string key = PlanOfTwo(folder).jobs[0].key;
+  EXPECT_EQ(PlanOfTwo(folder).jobs[0].key, key);
+  EXPECT_THAT(key, HasSubstr("features.lines=false"));
+  EXPECT_EQ(key.find(folder.path().string()), std::string::npos) << "moving the data is no change";
+  PlanRequest other = RequestIn(folder);
+  other.program = "another build";
+  EXPECT_NE(MakePlan(TwoVariants(), other).jobs[0].key, key);
+  other = RequestIn(folder);
+  other.settings = {"slam.lag=2"};
+  EXPECT_NE(MakePlan(TwoVariants(), other).jobs[0].key, key);
+  EXPECT_NE(PlanOfTwo(folder).jobs[1].key, key);
+  folder.Write("data/euroc/a/mav0/state_groundtruth_estimate0/data.csv",
+               "1000000000,0,0,0,1,0,0,0\n");
+  EXPECT_NE(MakePlan(TwoVariants(), RequestIn(folder)).jobs[0].key, key);
+}
+
+TEST(Plan, OnlyKeepsWhatItNames) {
+  const ScratchFolder folder;
+  PlanOfTwo(folder);
+  PlanRequest request = RequestIn(folder);
+  request.runs = 1;
+  const auto chosen = [&](const std::vector<std::string>& only) {
+    request.only = only;
+    return NamesOf(MakePlan(TwoVariants(), request));
+  };
+  EXPECT_THAT(chosen({"euroc/b"}), ElementsAre("euroc/b/one/1", "euroc/b/two/1"));
+  EXPECT_THAT(chosen({"*/two"}), ElementsAre("euroc/a/two/1", "euroc/b/two/1"));
+  EXPECT_THAT(chosen({"a/one", "euroc/b/t*"}), ElementsAre("euroc/a/one/1", "euroc/b/two/1"));
+  EXPECT_THAT(chosen({"euroc/?/one"}), ElementsAre("euroc/a/one/1", "euroc/b/one/1"));
+  request.only = {"a/three"};
+  EXPECT_THAT(MessageOf([&] { MakePlan(TwoVariants(), request); }),
+              HasSubstr("--only a/three: expected part of one of euroc/a, euroc/b, with / and one "
+                        "of one, two"));
+}
+
+TEST(Plan, RefusesWhatCannotBeRunBeforeAnyRun) {
+  const ScratchFolder folder;
+  PlanOfTwo(folder);
+  PlanRequest request = RequestIn(folder);
+  request.settings = {"features.lnies=true"};
+  EXPECT_THAT(MessageOf([&] { MakePlan(TwoVariants(), request); }),
+              HasSubstr("did you mean 'features.lines'?"));
+  Experiment experiment = TwoVariants();
+  experiment.sequences = {{"kitti/*"}, {"tum/*"}};
+  EXPECT_THAT(MessageOf([&] { MakePlan(experiment, RequestIn(folder)); }),
+              HasSubstr("pair: no sequence found for kitti/*, tum/* in "));
+  request = RequestIn(folder);
+  request.sources.data = std::nullopt;
+  EXPECT_THAT(MessageOf([&] { MakePlan(TwoVariants(), request); }), HasSubstr("without --data"));
+}
+
+TEST(Plan, AJobIsDoneWhileItsFolderHoldsTheResultOfTheSameKey) {
+  const ScratchFolder folder;
+  Job job = PlanOfTwo(folder).jobs[0];
+  EXPECT_FALSE(IsDone(job));
+  folder.Write("out/runs/euroc/a/one/1/summary.json", Summary(0.01));
+  EXPECT_FALSE(IsDone(job)) << "a run that nobody saw the end of";
+  MarkDone(job);
+  EXPECT_TRUE(IsDone(job));
+  const std::string key = job.key;
+  job.key += "changed";
+  EXPECT_FALSE(IsDone(job));
+  job.key = key;
+  folder.Write("out/runs/euroc/a/one/1/summary.json", Summary(0.01).substr(0, 30));
+  EXPECT_FALSE(IsDone(job)) << "half a file";
+  folder.Write("out/runs/euroc/a/one/1/summary.json", Summary(0.01));
+  MarkUndone(job);
+  EXPECT_FALSE(IsDone(job));
+}
+
+TEST(ProgramId, IsThatOfTheBytes) {
+  const ScratchFolder folder;
+  const std::string id = ProgramId(folder.Write("a", "program"));
+  EXPECT_EQ(ProgramId(folder.Write("b", "program")), id);
+  EXPECT_NE(ProgramId(folder.Write("c", "Program")), id);
+  EXPECT_THAT(MessageOf([&] { ProgramId(folder / "none"); }), HasSubstr("cannot read the program"));
+}
+
+TEST(Plan, StartsAreACommandOfTheirOwnWithTheirOwnOptions) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.command = RunCommandKind::kStarts;
+  experiment.sequences[0].arguments = {"--least-parallax", "0.5"};
+  experiment.variants = {{"few", {"initialization.frames=4"}}};
+  const Plan plan = MakePlan(experiment, RequestIn(folder));
+  EXPECT_THAT(plan.jobs[0].command,
+              ElementsAre("starts",
+                          (folder / "data/euroc/a").string(),
+                          "--out",
+                          (folder / "out/runs/euroc/a/few/1").string(),
+                          "--quiet",
+                          "--seed",
+                          "1",
+                          "--from",
+                          "0",
+                          "--least-parallax",
+                          "0.5",
+                          "--set",
+                          "initialization.frames=4"));
+  experiment.variants = {{"few", {"tracking.reference=last_frame"}}};
+  EXPECT_THAT(MessageOf([&] { MakePlan(experiment, RequestIn(folder)); }),
+              HasSubstr("unknown option 'tracking.reference'"));
+}
+
+}  // namespace
+}  // namespace plumbline

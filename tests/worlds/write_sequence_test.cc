@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "worlds/write_sequence.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/dataset.h"
+
+#include "tests/io/scratch_folder.h"
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+SynthOptions Small() {
+  SynthOptions options;
+  options.frames = 3;
+  options.texel = 20;
+  return options;
+}
+
+std::map<std::string, std::string> AllFiles(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files[fs::relative(entry.path(), folder).string()] = ReadInputFile(entry.path());
+    }
+  }
+  return files;
+}
+
+TEST(SyntheticSequence, BytesDoNotDependOnThreads) {
+  const ScratchFolder folder;
+  WriteSequence(SyntheticSequence("room", Small(), 1), SequenceFormat::kEuroc, folder / "one", 1);
+  int last = 0;
+  WriteSequence(SyntheticSequence("room", Small(), 2),
+                SequenceFormat::kEuroc,
+                folder / "two",
+                2,
+                [&](int done) { EXPECT_EQ(done, ++last); });
+  EXPECT_EQ(last, 3);
+  const auto one = AllFiles(folder / "one"), two = AllFiles(folder / "two");
+  // 6 images, 2 x (data.csv, sensor.yaml), imu0 (3), ground truth, lines, surfaces, world
+  EXPECT_EQ(one.size(), 17U);
+  ASSERT_EQ(one.size(), two.size());
+  for (const auto& [name, bytes] : one) {
+    ASSERT_TRUE(two.contains(name)) << name;
+    EXPECT_TRUE(two.at(name) == bytes) << name;
+  }
+}
+
+TEST(SyntheticSequence, SeedsMakeDifferentImages) {
+  SynthOptions options = Small();
+  const GrayImage a = SyntheticSequence("room", options, 1).RenderImage(0, 0);
+  options.seed = 2;
+  const GrayImage b = SyntheticSequence("room", options, 1).RenderImage(0, 0);
+  int different = 0;
+  for (int i = 0; i < a.width() * a.height(); ++i) different += a.data()[i] != b.data()[i] ? 1 : 0;
+  EXPECT_GT(different, a.width() * a.height() / 2);
+}
+
+TEST(SyntheticSequence, OpensAsEurocWithTheSameGeometry) {
+  for (const bool distortion : {true, false}) {
+    const ScratchFolder folder;
+    SynthOptions options = Small();
+    options.frames = 2;
+    options.distortion = distortion;
+    const SyntheticSequence sequence("room", options, 1);
+    WriteSequence(sequence, SequenceFormat::kEuroc, folder / "room", 1);
+    const auto dataset = OpenDataset(folder / "room");
+    EXPECT_EQ(dataset->sensor(), SensorKind::kStereo);
+    ASSERT_EQ(dataset->size(), 2U);
+    EXPECT_EQ(dataset->stamp_ns(1), sequence.StampNs(1));
+
+    const Calibration& read = dataset->calibration();
+    const Calibration& made = sequence.calibration();
+    EXPECT_LT(LogSe3(Inverse(read.right_from_left) * made.right_from_left).norm(), 1e-9);
+    ASSERT_TRUE(read.right && read.body_from_left && read.rate_hz);
+    EXPECT_LT(LogSe3(Inverse(*read.body_from_left) * *made.body_from_left).norm(), 1e-9);
+    EXPECT_NEAR(*read.rate_hz, 20, 1e-9);
+    const Eigen::Vector3d point(0.7, -0.4, 1.5);
+    EXPECT_LT((*read.left.Project(point) - *made.left.Project(point)).norm(), 1e-9);
+    EXPECT_LT((*read.right->Project(point) - *made.right->Project(point)).norm(), 1e-9);
+
+    ASSERT_TRUE(dataset->info().ground_truth);
+    const Trajectory poses = dataset->info().ground_truth->OfCamera(read);
+    EXPECT_EQ(poses.size(), 11U);  // 200 Hz between frames of 20 Hz
+    for (const StampedPose& frame : sequence.GroundTruth()) {
+      const auto found = InterpolateAt(poses, frame.stamp_ns, 0);
+      ASSERT_TRUE(found);
+      EXPECT_LT(LogSe3(Inverse(*found) * frame.world_from_camera).norm(), 1e-9);
+    }
+
+    const auto pair = dataset->Read(1);
+    ASSERT_TRUE(static_cast<bool>(pair));
+    ASSERT_TRUE(pair->right);
+    const GrayImage image = sequence.RenderImage(1, 1);
+    EXPECT_TRUE(std::equal(
+        image.data(), image.data() + image.width() * image.height(), pair->right->data()));
+  }
+}
+
+TEST(WriteSequence, TumFolderHasDepthAndTheSamePoses) {
+  const ScratchFolder folder;
+  SynthOptions options = Small();
+  options.depth_noise = 0;
+  const SyntheticSequence sequence("room", options, 1);
+  WriteSequence(sequence, SequenceFormat::kTum, folder / "room", 1);
+  const auto dataset = OpenDataset(folder / "room");
+  EXPECT_EQ(dataset->sensor(), SensorKind::kRgbd);
+  ASSERT_EQ(dataset->size(), 3U);
+  const Calibration& read = dataset->calibration();
+  const Eigen::Vector3d point(0.7, -0.4, 1.5);
+  EXPECT_LT((*read.left.Project(point) - *sequence.calibration().left.Project(point)).norm(), 1e-9);
+  const Trajectory poses = dataset->info().ground_truth->OfCamera(read);
+  for (const StampedPose& frame : sequence.GroundTruth()) {
+    const auto found = InterpolateAt(poses, frame.stamp_ns, 0);
+    ASSERT_TRUE(found);
+    EXPECT_LT(LogSe3(Inverse(*found) * frame.world_from_camera).norm(), 1e-8);
+  }
+  const auto frame = dataset->Read(1);
+  ASSERT_TRUE(static_cast<bool>(frame));
+  ASSERT_TRUE(frame->depth);
+  const Rendering ideal = sequence.RenderIdeal(1, 0);
+  for (int i = 0; i < ideal.depth.width() * ideal.depth.height(); ++i) {
+    ASSERT_NEAR(
+        frame->depth->data()[i], ideal.depth.data()[i], 1.01e-4);  // half a step of 1/5000 m
+  }
+}
+
+TEST(WriteSequence, EurocFolderHasDepthWhereAskedFor) {
+  const ScratchFolder folder;
+  SynthOptions options = Small();
+  options.frames = 1;
+  options.depth = true;
+  WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kEuroc, folder / "room", 1);
+  EXPECT_TRUE(fs::exists(folder / "room" / "mav0" / "depth0" / "data" / "1500000000000000000.png"));
+  EXPECT_TRUE(fs::exists(folder / "room" / "mav0" / "depth0" / "data.csv"));
+}
+
+TEST(WriteSequence, WorldYamlSaysHowItWasMade) {
+  const ScratchFolder folder;
+  SynthOptions options = Small();
+  options.frames = 1;
+  WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kEuroc, folder / "room", 1);
+  const std::string world = ReadInputFile(folder / "room" / "world.yaml");
+  EXPECT_THAT(world, testing::HasSubstr("world: room\nformat: euroc\n"));
+  EXPECT_THAT(world, testing::HasSubstr("\nframes: 1"));
+  EXPECT_FALSE(fs::exists(folder / "room" / "world.yaml.part"));
+}
+
+TEST(WriteSequence, ABrokenCallLeavesNothingThatLooksWhole) {
+  const ScratchFolder folder;
+  const SyntheticSequence sequence("room", Small(), 1);
+  const auto broken = [](int done) {
+    if (done == 2) throw InputError("killed");
+  };
+  WriteSequence(sequence, SequenceFormat::kEuroc, folder / "room", 1);
+  EXPECT_THROW(WriteSequence(sequence, SequenceFormat::kEuroc, folder / "room", 1, broken),
+               InputError);
+  EXPECT_FALSE(fs::exists(folder / "room" / "world.yaml"));
+  EXPECT_THROW(OpenDataset(folder / "room"), InputError);
+  // The next call clears what is there, also of the other format.
+  WriteSequence(sequence, SequenceFormat::kTum, folder / "room", 1);
+  EXPECT_TRUE(fs::exists(folder / "room" / "world.yaml"));
+  EXPECT_FALSE(fs::exists(folder / "room" / "mav0"));
+  EXPECT_EQ(OpenDataset(folder / "room")->sensor(), SensorKind::kRgbd);
+}
+
+TEST(WriteSequence, TouchesNoFolderOfOthers) {
+  const ScratchFolder folder;
+  MakeFolder(folder / "mine");
+  WriteFileAtomically(folder / "mine" / "diary.txt", "dear");
+  const SyntheticSequence sequence("room", Small(), 1);
+  for (const char* name : {"mine", "mine/diary.txt"}) {
+    EXPECT_THROW(WriteSequence(sequence, SequenceFormat::kEuroc, folder / name, 1), InputError);
+  }
+  EXPECT_EQ(ReadInputFile(folder / "mine" / "diary.txt"), "dear");
+}
+
+TEST(SyntheticSequence, RefusesWhatCannotBe) {
+  EXPECT_THROW(SyntheticSequence("atlantis", Small(), 1), InputError);
+  SynthOptions options = Small();
+  options.shutter_ms = 40;
+  options.readout_ms = 20;
+  EXPECT_THROW(SyntheticSequence("room", options, 1), InputError);
+  options = Small();
+  options.camera = SynthCamera::kKitti;
+  options.distortion = true;
+  EXPECT_THROW(SyntheticSequence("room", options, 1), InputError);
+}
+
+TEST(SyntheticSequence, ScaleMakesTheSameImageSmaller) {
+  SynthOptions options = Small();
+  options.noise = 0;
+  options.vignetting = 0;
+  options.samples = 16;
+  options.texel = 1;
+  const Image<float> whole = SyntheticSequence("room", options, 2).RenderIdeal(1, 0).light;
+  options.scale = 0.5;
+  options.texel = 0.5;  // of a pixel twice as large
+  const Image<float> half = SyntheticSequence("room", options, 2).RenderIdeal(1, 0).light;
+  ASSERT_EQ(half.width(), 376);
+  ASSERT_EQ(half.height(), 240);
+  double difference = 0, contrast = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 376; ++x) {
+      const float mean = 0.25F * (whole.at(2 * x, 2 * y) + whole.at(2 * x + 1, 2 * y) +
+                                  whole.at(2 * x, 2 * y + 1) + whole.at(2 * x + 1, 2 * y + 1));
+      difference += static_cast<double>(std::abs(half.at(x, y) - mean));
+      if (x > 0) contrast += static_cast<double>(std::abs(half.at(x, y) - half.at(x - 1, y)));
+    }
+  }
+  EXPECT_LT(difference, 0.5 * contrast);
+}
+
+TEST(SyntheticSequence, KittisCamerasAreIdealAndScale) {
+  SynthOptions options = Small();
+  options.camera = SynthCamera::kKitti;
+  options.distortion = false;
+  options.scale = 0.5;
+  options.baseline = 0.537;
+  const Calibration calibration = SyntheticSequence("planar", options, 2).calibration();
+  const CameraIntrinsics& left = calibration.left.intrinsics();
+  EXPECT_EQ(left.width, 621);
+  EXPECT_EQ(left.height, 188);
+  EXPECT_NEAR(left.fx, 359.428, 1e-9);
+  EXPECT_NEAR(left.cx, 0.5 * (607.1928 + 0.5) - 0.5, 1e-9);
+  EXPECT_EQ(calibration.right->intrinsics().cx, left.cx);
+  EXPECT_TRUE(calibration.rectified);
+  EXPECT_NEAR(calibration.right_from_left.translation.x(), -0.537, 1e-12);
+}
+
+TEST(SyntheticSequence, AutoExposureFollowsTheScene) {
+  SynthOptions options = Small();
+  options.auto_exposure = true;
+  options.noise = 0;
+  const auto mean = [&](double speed, int frame) {
+    options.speed = speed;
+    const SyntheticSequence sequence("room", options, 2);
+    const GrayImage image = sequence.RenderImage(frame, 0);
+    double sum = 0;
+    for (int i = 0; i < image.width() * image.height(); ++i) sum += image.data()[i];
+    return sum / (image.width() * image.height());
+  };
+  // The mean is the control's aim times the exposure asked for, at the start exactly.
+  options.exposure = 1;
+  EXPECT_NEAR(mean(1, 0), 85 * (1 - options.vignetting / 3), 8);
+}
+
+TEST(SyntheticSequence, UnknownWorldsAreNamed) {
+  try {
+    const SyntheticSequence sequence("moon", Small(), 1);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::MatchesRegex("world: expected one of room.*, found moon"));
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/calibration.h"
+#include "plumbline/geometry/trajectory.h"
+#include "plumbline/image/image.h"
+#include "worlds/imu.h"
+#include "worlds/renderer.h"
+#include "worlds/sensor.h"
+#include "worlds/synth_options.h"
+#include "worlds/true_lines.h"
+#include "worlds/world.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumbline {
+
+// A recording of a world, made on demand: stereo pairs, depth, inertial samples, exact poses.
+//
+// Frame i is taken at StampNs(i), the middle of its exposure (of the middle row with a rolling
+// shutter). The body (what EuRoC's ground truth and inertial sensor are about) is not the camera:
+// calibration().body_from_left. Everything is a function of world and options; the Render functions
+// may be called from several threads.
+class SyntheticSequence {
+ public:
+  // Throws InputError for an unknown world or options that contradict each other. `threads` speeds
+  // up the preparation of textures and light.
+  SyntheticSequence(std::string_view world, const SynthOptions& options, int threads);
+
+  int size() const { return frames_; }
+  std::int64_t StampNs(int frame) const;
+  const std::string& world() const { return world_; }
+  const SynthOptions& options() const { return options_; }
+  const Calibration& calibration() const { return calibration_; }
+  const Scene& scene() const { return made_.scene; }
+  const Renderer& renderer() const { return renderer_; }
+
+  // Seconds from the first frame.
+  double TimeOf(int frame) const;
+  Rigid3 WorldFromLeft(double time) const { return made_.path.world_from_camera(time); }
+  Rigid3 WorldFromBody(double time) const;
+  // Poses of the left camera, `per_frame` of them for each frame interval, from the first frame to
+  // the last.
+  Trajectory GroundTruth(int per_frame = 1) const;
+  ImuRecording Imu() const;
+  // The true lines of the world that the left camera sees, see TrueLines.
+  std::vector<TrueLine> Lines(int threads) const;
+
+  // What the ideal sensor sees: camera 0 is the left one.
+  Rendering RenderIdeal(int frame, int camera) const;
+  // What the camera delivers of it: exposure, vignetting, noise, response, rounding.
+  GrayImage Sense(const Image<float>& light, int frame, int camera) const;
+  GrayImage RenderImage(int frame, int camera) const {
+    return Sense(RenderIdeal(frame, camera).light, frame, camera);
+  }
+  // What a depth sensor registered to the left camera delivers.
+  DepthImage SenseDepthOf(const DepthImage& depth, int frame) const;
+
+ private:
+  std::vector<double> FindGains(int threads) const;
+
+  std::string world_;
+  SynthOptions options_;
+  Calibration calibration_;
+  World made_;
+  int frames_;
+  Renderer renderer_;
+  RayTable left_rays_;
+  RayTable right_rays_;
+  std::vector<double> gains_;  // of each frame, by auto exposure; empty without
+};
+
+}  // namespace plumbline

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "worlds/sequence.h"
+
+#include <filesystem>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// The parts of WriteSequence: how a sequence becomes the files of one format.
+
+// Text in the classic locale with so many digits.
+std::ostringstream TextStream(int digits);
+
+// A row of inertial samples: stamp [ns], rates, forces.
+std::string ImuCsv(const SyntheticSequence& sequence, const std::vector<ImuSample>& samples);
+
+// Images come first, one frame after the other on `threads` threads with `done(frame)` after each;
+// the lists that name them last.
+void WriteEurocFolder(const SyntheticSequence& sequence,
+                      const std::filesystem::path& folder,
+                      int threads,
+                      const std::function<void(int)>& done);
+void WriteTumFolder(const SyntheticSequence& sequence,
+                    const std::filesystem::path& folder,
+                    int threads,
+                    const std::function<void(int)>& done);
+
+}  // namespace plumbline

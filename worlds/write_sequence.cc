@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "worlds/write_sequence.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/io/atomic_file.h"
+#include "plumbline/io/true_world.h"
+#include "worlds/sequence_formats.h"
+
+#include <iomanip>
+#include <locale>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kWorldFile = "world.yaml";
+constexpr const char* kPartFile = "world.yaml.part";  // while the folder is not whole
+
+std::string WorldYaml(const SyntheticSequence& sequence, SequenceFormat format) {
+  SynthOptions options = sequence.options();
+  return "# Rendered by Plumbline; the same options give the same bytes again.\nworld: " +
+         sequence.world() + "\nformat: " + NameOf(format) + "\n" + OptionTable(options).Dump();
+}
+
+// Takes away what an earlier call left, whole or not; refuses to touch anything else.
+void ClearFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
+  if (!fs::is_directory(folder, error)) {
+    throw InputError(folder.string() + ": expected a folder, found a file");
+  }
+  if (!fs::exists(folder / kWorldFile) && !fs::exists(folder / kPartFile)) {
+    throw InputError(folder.string() +
+                     ": expected an empty folder or one with a rendered sequence (world.yaml), "
+                     "found other files");
+  }
+  for (const char* name : {kWorldFile,
+                           "mav0",
+                           "rgb",
+                           "depth",
+                           "rgb.txt",
+                           "depth.txt",
+                           "groundtruth.txt",
+                           "camera.yaml",
+                           "imu.csv",
+                           "imu_ideal.csv",
+                           "lines.csv",
+                           "surfaces.csv"}) {
+    fs::remove_all(folder / name, error);
+    if (error)
+      throw InputError("cannot remove " + (folder / name).string() + ": " + error.message());
+  }
+}
+
+std::vector<Parallelogram> StillSurfaces(const Scene& scene) {
+  std::vector<Parallelogram> still;
+  for (const Surface& surface : scene.surfaces) {
+    if (!surface.body) still.push_back({surface.origin, surface.side_u, surface.side_v});
+  }
+  return still;
+}
+
+}  // namespace
+
+std::ostringstream TextStream(int digits) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(digits);
+  return text;
+}
+
+std::string ImuCsv(const SyntheticSequence& sequence, const std::vector<ImuSample>& samples) {
+  std::ostringstream text = TextStream(12);
+  text << "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],a_RS_S_x [m "
+          "s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
+  for (const ImuSample& sample : samples) {
+    const Eigen::Vector3d &w = sample.angular_rate, &a = sample.specific_force;
+    text << sequence.StampNs(0) + std::llround(sample.time * 1e9) << ',' << w.x() << ',' << w.y()
+         << ',' << w.z() << ',' << a.x() << ',' << a.y() << ',' << a.z() << '\n';
+  }
+  return text.str();
+}
+
+void PrepareSequenceFolder(const fs::path& folder) {
+  ClearFolder(folder);
+  MakeFolder(folder);
+  WriteFileAtomically(folder / kPartFile, "");
+}
+
+void WriteSequence(const SyntheticSequence& sequence,
+                   SequenceFormat format,
+                   const fs::path& folder,
+                   int threads,
+                   const std::function<void(int)>& progress) {
+  PrepareSequenceFolder(folder);
+  const std::string description = WorldYaml(sequence, format);
+  WriteFileAtomically(folder / kPartFile, description);
+  std::mutex mutex;
+  int frames_done = 0;
+  const auto done = [&](int /*frame*/) {
+    const std::lock_guard lock(mutex);
+    ++frames_done;
+    if (progress) progress(frames_done);
+  };
+  switch (format) {
+    case SequenceFormat::kEuroc:
+      WriteEurocFolder(sequence, folder, threads, done);
+      break;
+    case SequenceFormat::kTum:
+      WriteTumFolder(sequence, folder, threads, done);
+      break;
+  }
+  WriteTrueLines(folder / "lines.csv", sequence.Lines(threads));
+  WriteSurfaces(folder / "surfaces.csv", StillSurfaces(sequence.scene()));
+  WriteFileAtomically(folder / kWorldFile, description);
+  fs::remove(folder / kPartFile);
+}
+
+}  // namespace plumbline
