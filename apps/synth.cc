@@ -22,18 +22,12 @@ CommandSyntax Syntax() {
   return {
       "synth",
       "Renders a sequence of an invented world with exact ground truth: poses, depth, 3D lines, "
-      "inertial samples.",
+      "inertial samples. WORLD is the name of a built-in world or a file FILE.yaml of your own.",
       {"[WORLD]"},
       {{"--out", "DIR", "folder to write, made where it does not exist"},
        {"--format", "euroc|tum", "stereo as a EuRoC folder or RGB-D as a TUM folder (euroc)"},
        {"--set", "KEY=VALUE", "set an option of the world; may be repeated"},
        {"--list", "", "list the worlds and the options (with WORLD: its own default values)"}}};
-}
-
-SynthOptions DefaultsOf(const WorldEntry& world) {
-  SynthOptions options;
-  if (world.adjust != nullptr) world.adjust(options);
-  return options;
 }
 
 void List(const std::string& name) {
@@ -44,9 +38,10 @@ void List(const std::string& name) {
       std::cout << "  " << std::left << std::setw(18) << world.name << world.help << '\n';
     }
   } else {
-    const WorldEntry& world = FindWorld(name);
-    std::cout << world.name << ": " << world.help << "\nFor " << world.purpose << ".\n";
-    options = DefaultsOf(world);
+    const WorldSource world = OpenWorld(name);
+    std::cout << world.name << ": " << world.help << '\n';
+    if (!world.purpose.empty()) std::cout << "For " << world.purpose << ".\n";
+    options = world.defaults;
     const World made = world.make(options.seed);
     const double seconds = made.path.duration / options.speed;
     std::cout << "The whole path takes " << std::fixed << std::setprecision(1) << seconds << " s, "
@@ -73,7 +68,8 @@ int SynthCommand(std::span<const std::string> arguments) {
   if (name.empty()) {
     throw InputError("synth: expected the name of a world; plumbline synth --list shows them");
   }
-  SynthOptions options = DefaultsOf(FindWorld(name));
+  const WorldSource world = OpenWorld(name);
+  SynthOptions options = world.defaults;
   OptionTable table(options);
   for (const std::string& setting : line.Values("--set")) table.Set(setting);
   SequenceFormat format = SequenceFormat::kEuroc;
@@ -84,7 +80,7 @@ int SynthCommand(std::span<const std::string> arguments) {
   if (!folder) throw InputError("synth: expected --out DIR");
   PrepareSequenceFolder(*folder);
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const SyntheticSequence sequence(name, options, threads);
+  const SyntheticSequence sequence(world, options, threads);
   Countdown progress("frames", static_cast<std::size_t>(sequence.size()));
   WriteSequence(sequence, format, *folder, threads, [&](int done) {
     progress.Show(static_cast<std::size_t>(done));

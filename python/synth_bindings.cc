@@ -29,9 +29,7 @@ namespace {
 int Threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 SynthOptions ReadSynthOptions(const std::string& world, const py::kwargs& given) {
-  const WorldEntry& entry = FindWorld(world);
-  SynthOptions options;
-  if (entry.adjust != nullptr) entry.adjust(options);
+  SynthOptions options = OpenWorld(world).defaults;
   OptionTable table(options);
   SetOptions(given, table);
   return options;

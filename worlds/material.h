@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 namespace plumbline {
 
@@ -26,6 +29,25 @@ enum class Material {
   kMural,      // a large picture with structure at all scales, no repetition
   kBlank,      // a freshly painted wall: nothing but the faintest unevenness
 };
+constexpr auto EnumNames(std::type_identity<Material>) {
+  return std::array{std::pair{Material::kPaint, "paint"},
+                    std::pair{Material::kPlaster, "plaster"},
+                    std::pair{Material::kPlanks, "planks"},
+                    std::pair{Material::kWood, "wood"},
+                    std::pair{Material::kTiles, "tiles"},
+                    std::pair{Material::kCarpet, "carpet"},
+                    std::pair{Material::kPoster, "poster"},
+                    std::pair{Material::kCardboard, "cardboard"},
+                    std::pair{Material::kBrick, "brick"},
+                    std::pair{Material::kSpine, "spine"},
+                    std::pair{Material::kMetal, "metal"},
+                    std::pair{Material::kConcrete, "concrete"},
+                    std::pair{Material::kFabric, "fabric"},
+                    std::pair{Material::kAcoustic, "acoustic"},
+                    std::pair{Material::kScreen, "screen"},
+                    std::pair{Material::kMural, "mural"},
+                    std::pair{Material::kBlank, "blank"}};
+}
 
 struct TextureRecipe {
   Material material = Material::kPaint;

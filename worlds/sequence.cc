@@ -102,11 +102,11 @@ Calibration MakeCalibration(const SynthOptions& options) {
   return calibration;
 }
 
-World MakeWorld(std::string_view name, const SynthOptions& options) {
-  World world = FindWorld(name).make(options.seed);
+World MakeWorld(const WorldSource& source, const SynthOptions& options) {
+  World world = source.make(options.seed);
   if (options.path == 2) {
     if (!world.second_path) {
-      throw InputError("path: expected 1, found 2: " + std::string(name) + " has one way only");
+      throw InputError("path: expected 1, found 2: " + source.name + " has one way only");
     }
     world.path = *std::move(world.second_path);
   }
@@ -168,10 +168,16 @@ double Mean(const Image<float>& image) {
 SyntheticSequence::SyntheticSequence(std::string_view world,
                                      const SynthOptions& options,
                                      int threads)
-    : world_(FindWorld(world).name),
+    : SyntheticSequence(OpenWorld(world), options, threads) {}
+
+SyntheticSequence::SyntheticSequence(const WorldSource& source,
+                                     const SynthOptions& options,
+                                     int threads)
+    : world_(source.name),
+      world_text_(source.text),
       options_(Checked(options)),
       calibration_(MakeCalibration(options)),
-      made_(MakeWorld(world, options)),
+      made_(MakeWorld(source, options)),
       frames_(CountFrames(made_.path, options)),
       renderer_(
           made_.scene,

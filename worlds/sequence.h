@@ -27,13 +27,16 @@ namespace plumbline {
 // may be called from several threads.
 class SyntheticSequence {
  public:
-  // Throws InputError for an unknown world or options that contradict each other. `threads` speeds
-  // up the preparation of textures and light.
+  // `world` is a name or a file (OpenWorld). Throws InputError for an unknown world or options that
+  // contradict each other. `threads` speeds up the preparation of textures and light.
   SyntheticSequence(std::string_view world, const SynthOptions& options, int threads);
+  SyntheticSequence(const WorldSource& source, const SynthOptions& options, int threads);
 
   int size() const { return frames_; }
   std::int64_t StampNs(int frame) const;
   const std::string& world() const { return world_; }
+  // The text of the file that describes the world; empty for a built-in one.
+  const std::string& world_text() const { return world_text_; }
   const SynthOptions& options() const { return options_; }
   const Calibration& calibration() const { return calibration_; }
   const Scene& scene() const { return made_.scene; }
@@ -64,6 +67,7 @@ class SyntheticSequence {
   std::vector<double> FindGains(int threads) const;
 
   std::string world_;
+  std::string world_text_;
   SynthOptions options_;
   Calibration calibration_;
   World made_;

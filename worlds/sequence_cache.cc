@@ -84,11 +84,11 @@ bool IsWhole(const fs::path& folder) {
 }  // namespace
 
 std::string SequenceKey(std::string_view world, const SynthOptions& options) {
-  FindWorld(world);  // throws for an unknown one
+  const WorldSource source = OpenWorld(world);  // throws for an unknown one
   SynthOptions copy = options;
   const std::string text =
-      std::string(world) + "\n" + OptionTable(copy).Dump() + PLUMBLINE_WORLDS_ID;
-  return fmt::format("{}-{:016x}", world, Hash(text));
+      source.name + "\n" + OptionTable(copy).Dump() + source.text + PLUMBLINE_WORLDS_ID;
+  return fmt::format("{}-{:016x}", source.name, Hash(text));
 }
 
 fs::path CachedSequence(const fs::path& cache_folder,

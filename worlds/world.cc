@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "worlds/built_in/worlds.h"
+#include "worlds/world_file.h"
 
 #include <array>
 #include <string>
@@ -128,7 +129,16 @@ const WorldEntry& FindWorld(std::string_view name) {
     if (name == known.name) return known;
     names += std::string(names.empty() ? "" : ", ") + known.name;
   }
-  throw InputError("world: expected one of " + names + ", found " + Printable(name));
+  throw InputError("world: expected one of " + names + " or a file FILE.yaml, found " +
+                   Printable(name));
+}
+
+WorldSource OpenWorld(std::string_view name_or_file) {
+  if (name_or_file.ends_with(".yaml")) return ReadWorldFile(std::string(name_or_file));
+  const WorldEntry& entry = FindWorld(name_or_file);
+  WorldSource source{entry.name, entry.help, entry.purpose, {}, entry.make, ""};
+  if (entry.adjust != nullptr) entry.adjust(source.defaults);
+  return source;
 }
 
 }  // namespace plumbline

@@ -7,8 +7,10 @@
 #include "worlds/synth_options.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace plumbline {
@@ -20,7 +22,7 @@ struct World {
   std::optional<CameraPath> second_path = {};
 };
 
-// A world that can be rendered as a recorded sequence.
+// A built-in world that can be rendered as a recorded sequence.
 struct WorldEntry {
   const char* name;
   const char* help;                   // one line: what is in it, how the camera moves
@@ -29,10 +31,24 @@ struct WorldEntry {
   World (*make)(std::uint64_t seed);  // everything in it is a function of the seed
 };
 
-// The worlds there are, in the order shown to users.
+// A world by whatever it is given: a built-in one or that of a file.
+struct WorldSource {
+  std::string name;
+  std::string help;       // one line: what is in it
+  std::string purpose;    // one line: what it is for; empty for files
+  SynthOptions defaults;  // how it is recorded unless told otherwise
+  std::function<World(std::uint64_t seed)> make;
+  std::string text;  // of the file it comes from; empty for built-in worlds
+};
+
+// The built-in worlds, in the order shown to users.
 std::span<const WorldEntry> Worlds();
 
 // The world of that name. Throws InputError for an unknown one, with the names there are.
 const WorldEntry& FindWorld(std::string_view name);
+
+// A built-in world by its name, or that of a file whose name ends with .yaml (world_file.h). Throws
+// InputError for an unknown name and for a file that describes no world.
+WorldSource OpenWorld(std::string_view name_or_file);
 
 }  // namespace plumbline

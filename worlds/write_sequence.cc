@@ -21,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kWorldFile = "world.yaml";
-constexpr const char* kPartFile = "world.yaml.part";  // while the folder is not whole
+constexpr const char* kPartFile = "world.yaml.part";              // while the folder is not whole
+constexpr const char* kDescriptionFile = "described_world.yaml";  // a copy of a user's file
 
 std::string WorldYaml(const SyntheticSequence& sequence, SequenceFormat format) {
   SynthOptions options = sequence.options();
@@ -52,7 +53,8 @@ void ClearFolder(const fs::path& folder) {
                            "imu.csv",
                            "imu_ideal.csv",
                            "lines.csv",
-                           "surfaces.csv"}) {
+                           "surfaces.csv",
+                           kDescriptionFile}) {
     fs::remove_all(folder / name, error);
     if (error)
       throw InputError("cannot remove " + (folder / name).string() + ": " + error.message());
@@ -116,6 +118,9 @@ void WriteSequence(const SyntheticSequence& sequence,
     case SequenceFormat::kTum:
       WriteTumFolder(sequence, folder, threads, done);
       break;
+  }
+  if (!sequence.world_text().empty()) {
+    WriteFileAtomically(folder / kDescriptionFile, sequence.world_text());
   }
   WriteTrueLines(folder / "lines.csv", sequence.Lines(threads));
   WriteSurfaces(folder / "surfaces.csv", StillSurfaces(sequence.scene()));

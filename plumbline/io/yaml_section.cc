@@ -99,7 +99,7 @@ struct YamlSection::Place {
 
 YamlSection YamlSection::Parse(const std::string& yaml, const std::string& source) {
   const YAML::Node node = ParseYaml(IsOpenCvDialect(yaml) ? FromOpenCvDialect(yaml) : yaml, source);
-  if (!node.IsMap()) throw InputError(source + ":1: expected 'key: value' rows of a camera file");
+  if (!node.IsMap()) throw InputError(source + ":1: expected 'key: value' rows");
   return YamlSection(std::make_shared<const Place>(Place{node, source, ""}));
 }
 
@@ -113,6 +113,27 @@ YamlSection YamlSection::Child(const std::string& key) const {
   if (!Has(key) || !place_->node[key].IsMap()) Fail(key, "expected a group of keys, found none");
   return YamlSection(std::make_shared<const Place>(
       Place{place_->node[key], place_->source, place_->prefix + key + "."}));
+}
+
+std::vector<YamlSection> YamlSection::Items(const std::string& key) const {
+  const YAML::Node list = place_->node[key];
+  if (!list.IsDefined() || !list.IsSequence()) Fail(key, "expected a list of groups, found none");
+  std::vector<YamlSection> items;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string name = fmt::format("{}[{}]", key, i);
+    if (!list[i].IsMap()) place_->Fail(list[i], name, "expected a group of keys");
+    items.push_back(YamlSection(std::make_shared<const Place>(
+        Place{list[i], place_->source, place_->prefix + name + "."})));
+  }
+  return items;
+}
+
+std::vector<std::string> YamlSection::Keys() const {
+  std::vector<std::string> keys;
+  for (const auto& entry : place_->node) {
+    keys.push_back(entry.first.IsScalar() ? entry.first.Scalar() : "[...]");
+  }
+  return keys;
 }
 
 std::string YamlSection::Text(const std::string& key) const {

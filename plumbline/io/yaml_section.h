@@ -27,6 +27,11 @@ class YamlSection {
   [[noreturn]] void Fail(const std::string& key, const std::string& message) const;
 
   YamlSection Child(const std::string& key) const;
+  // The groups of a list of groups, in the order of the file; messages call them key[0], key[1],
+  // ...
+  std::vector<YamlSection> Items(const std::string& key) const;
+  // The keys of this group, in the order of the file.
+  std::vector<std::string> Keys() const;
   std::string Text(const std::string& key) const;
   bool Bool(const std::string& key) const;
   double Number(const std::string& key) const;
