@@ -3,12 +3,11 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/nearest_name.h"
 #include "plumbline/base/printable.h"
-#include "plumbline/io/decoder_messages.h"
+#include "plumbline/io/process_settings.h"
 
 #include "apps/commands.h"
 #include "apps/shortage.h"
 #include <array>
-#include <csignal>
 #include <exception>
 #include <iomanip>
 #include <iostream>
@@ -18,9 +17,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <malloc.h>
-#include <opencv2/core/utility.hpp>
 
 namespace plumbline {
 namespace {
@@ -79,22 +75,6 @@ void PrintHelp(std::ostream& out) {
   }
   out << "  " << std::setw(12) << "help"
       << "this text; `plumbline COMMAND --help` for a command\n";
-}
-
-// What holds for the whole program, whatever the command.
-void SetUpProcess() {
-  DropDecoderMessages();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is a file that cannot be written
-  cv::setNumThreads(1);  // the threads are ours: OpenCV's would get in the way of other stages
-#ifdef __GLIBC__
-  // Images come and go at frame rate. Keeping their memory, rather than have the kernel hand out
-  // and clear it anew for every frame, saves a tenth of the time (page faults: 1/28).
-  // NOLINTBEGIN(concurrency-mt-unsafe): there is one thread yet
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
-  mallopt(M_TOP_PAD, 16 << 20);
-  // NOLINTEND(concurrency-mt-unsafe)
-#endif
 }
 
 int Dispatch(std::span<const std::string> arguments) {

@@ -3,12 +3,14 @@
 //
 // Tracks a sequence and prints where the camera was: consumer PATH
 #include <plumbline/io/dataset.h>
+#include <plumbline/io/process_settings.h>
 #include <plumbline/slam/system.h>
 
 #include <iostream>
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
+  plumbline::SetUpProcess();
   const auto dataset = plumbline::OpenDataset(argv[1]);
   plumbline::System system(dataset->calibration(), plumbline::SlamOptions{});
   for (std::size_t i = 0; i < dataset->size(); ++i) {
