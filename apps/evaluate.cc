@@ -3,6 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/eval/line_map_figure.h"
+#include "plumbline/eval/trajectory_figure.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/printable.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "apps/command_line.h"

@@ -6,6 +6,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/obj_lines.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/io/true_world.h"
 

@@ -7,8 +7,10 @@
 #include "plumbline/io/checkpoint_io.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/reversed_dataset.h"
 #include "plumbline/live/live_source.h"
+#include "plumbline/live/open_live_source.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/system.h"
 

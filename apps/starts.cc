@@ -4,8 +4,10 @@
 #include "lab/starts/start_figures.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
+#include "plumbline/initialization/make_initializer.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
+#include "worlds/world_catalog.h"
 #include "worlds/write_sequence.h"
 
 #include "apps/command_line.h"

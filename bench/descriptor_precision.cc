@@ -8,6 +8,7 @@
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 
 #include "bench/line_correspondence.h"
 #include "bench/sequence_images.h"

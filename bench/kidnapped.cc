@@ -14,6 +14,7 @@
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/alignment.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/slam/system.h"
 
 #include <algorithm>

@@ -16,6 +16,7 @@
 // one of them closes a loop or joins maps, or shares landmarks with keyframes at least 10 s older.
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/system.h"
 

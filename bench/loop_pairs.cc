@@ -12,6 +12,7 @@
 #include "plumbline/geometry/alignment.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/loop/loop_closer.h"
 #include "plumbline/loop/verify_loop.h"
 #include "plumbline/map/covisibility.h"

@@ -8,6 +8,7 @@
 #include "plumbline/features/match_points.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 #include "worlds/sequence.h"
 
 #include "tests/support/data_folder.h"

@@ -17,6 +17,7 @@
 #include "plumbline/geometry/alignment.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/slam/system.h"
 
 #include <algorithm>

@@ -13,6 +13,7 @@
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/system.h"
@@ -281,7 +282,7 @@ class Rounds {
   double SavedMegabytes() const {
     const fs::path path =
         fs::temp_directory_path() / fmt::format("rounds_of_a_room_{}.plb", getpid());
-    SaveAtlas(path, system_->atlas(), ContextOf(*system_));
+    SaveAtlas(path, system_->atlas(), system_->Context());
     const double size = static_cast<double>(fs::file_size(path)) / (1024.0 * 1024.0);
     fs::remove(path);
     return size;

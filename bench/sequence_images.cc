@@ -4,6 +4,7 @@
 
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 
 #include <ctime>
 #include <filesystem>

@@ -14,6 +14,7 @@
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 
 #include <algorithm>
 #include <array>

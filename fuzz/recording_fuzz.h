@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 
 #include "fuzz/input_folder.h"
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"

@@ -110,7 +110,7 @@ SavedAtlas RunningSystem::CopyMaps() {
   if (!last_stamp_ns_) {
     throw InputError("maps: expected a system with a frame, found one before its first frame");
   }
-  if (finished_) return {system_.atlas(), ContextOf(system_)};
+  if (finished_) return {system_.atlas(), system_.Context()};
   pipeline_.Drain();
   return system_.Save().maps;
 }

@@ -4,6 +4,7 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/dataset.h"
 #include "worlds/sequence.h"
+#include "worlds/world_catalog.h"
 #include "worlds/write_sequence.h"
 
 #include "apps/command_line.h"

@@ -6,6 +6,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/parallel.h"
 #include "worlds/noise.h"
+#include "worlds/world_catalog.h"
 
 #include <algorithm>
 #include <cmath>

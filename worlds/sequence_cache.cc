@@ -6,6 +6,7 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/atomic_file.h"
 #include "worlds/world.h"
+#include "worlds/world_catalog.h"
 #include "worlds/write_sequence.h"
 
 #include <cerrno>

@@ -5,6 +5,7 @@
 #include <plumbline/io/dataset.h>
 #include <plumbline/io/process_settings.h>
 #include <plumbline/slam/system.h>
+#include <plumbline/io/open_dataset.h>
 
 #include <iostream>
 

@@ -3,6 +3,7 @@
 #include "lab/cutting_testbed/joint_optimizers.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/cutting/pose_information.h"
 
 namespace plumbline {

@@ -4,6 +4,7 @@
 
 #include "lab/cutting_testbed/pose_from_lines.h"
 #include "plumbline/base/error.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/cutting/cut_residuals.h"
 
 #include <algorithm>

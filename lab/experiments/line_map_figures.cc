@@ -7,6 +7,7 @@
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/obj_lines.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/io/true_world.h"
 

@@ -7,9 +7,11 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 #include "worlds/sequence_cache.h"
 #include "worlds/world.h"
+#include "worlds/world_catalog.h"
 
 #include <algorithm>
 #include <cstdint>

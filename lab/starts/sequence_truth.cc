@@ -4,6 +4,7 @@
 
 #include "plumbline/base/input_file.h"
 #include "plumbline/features/extractor.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/yaml_section.h"
 

@@ -29,11 +29,6 @@ Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
   return information;
 }
 
-Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information) {
-  constexpr double kUnknownLineSigma = 0.5;  // radians
-  return information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
-}
-
 Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,
                                           const OrthonormalLine& orthonormal,
                                           double t) {

@@ -20,10 +20,6 @@ Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 std::size_t i,
                                 const PluckerLine& line);
 
-// The information with its open directions held: a standard deviation of 0.5 rad for the tangent,
-// which lines without information then have.
-Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
-
 // How the place of the line at parameter t (PluckerLine::PointAt) moves across the line with its
 // orthonormal tangent.
 Eigen::Matrix<double, 3, 4> ShiftJacobian(const PluckerLine& line,

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/association/measurements.h"
 
-#include "plumbline/association/line_information.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 
@@ -46,6 +45,11 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
   LineMeasurement measurement = Measure(right->segment, right->sigma_px, weighting);
   measurement.in_right_camera = true;
   return measurement;
+}
+
+Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information) {
+  constexpr double kUnknownLineSigma = 0.5;  // radians
+  return information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
 }
 
 void AddLandmarkUncertainty(const RectifiedCamera& camera,

@@ -71,6 +71,10 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
                                                 std::size_t i,
                                                 LineWeighting weighting);
 
+// The information with its open directions held: a standard deviation of 0.5 rad for the tangent,
+// which lines without information then have.
+Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
+
 // Adds to the covariance of a measurement what the uncertainty of the 3D line makes of it:
 // Sigma + J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
 // derivative of the two residuals by it at the given pose. For scalar weighting the mean of the two

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/cutting/pose_information.h"
 #include "plumbline/cutting/single_line.h"
 

@@ -2,100 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/options.h"
-#include "plumbline/geometry/rectified_camera.h"
-#include "plumbline/geometry/se3.h"
-#include "plumbline/geometry/segment.h"
+#include "plumbline/cutting/cutting_problem.h"
 
-#include <array>
-#include <type_traits>
-#include <utility>
 #include <vector>
-
-#include <Eigen/Core>
 
 // Good line cutting: of each 3D line only the piece is used for the pose that tells most about it
 // (second paper, section 4). Derivation and what is not right in print:
 // docs/methods/line-cutting.md.
 namespace plumbline {
-
-enum class CuttingMethod {
-  kNone,          // full length
-  kGreedy,        // Algorithm 1: one line after the other, once
-  kGreedySweeps,  // the same until nothing changes
-  kJoint,         // all ratios at once, gradient ascent from full length
-  kDrop,          // leave out the most uncertain lines, keep the others whole
-};
-enum class CuttingInformation {
-  kIndependent,  // J^T W J, the two cut points taken as independent, as the paper does
-  kPrinted,      // second paper, eq 5 to the letter
-  kCorrelated,   // J^T C^-1 J with the covariance between the cut points: cutting changes nothing
-};
-
-constexpr auto EnumNames(std::type_identity<CuttingMethod>) {
-  return std::array{std::pair{CuttingMethod::kNone, "none"},
-                    std::pair{CuttingMethod::kGreedy, "greedy"},
-                    std::pair{CuttingMethod::kGreedySweeps, "greedy_sweeps"},
-                    std::pair{CuttingMethod::kJoint, "joint"},
-                    std::pair{CuttingMethod::kDrop, "drop"}};
-}
-constexpr auto EnumNames(std::type_identity<CuttingInformation>) {
-  return std::array{std::pair{CuttingInformation::kIndependent, "independent"},
-                    std::pair{CuttingInformation::kPrinted, "printed"},
-                    std::pair{CuttingInformation::kCorrelated, "correlated"}};
-}
-
-struct CuttingOptions {
-  CuttingMethod method = CuttingMethod::kNone;
-  CuttingInformation information = CuttingInformation::kIndependent;
-  double drop_share = 0.3;
-  int budget = 0;
-};
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, CuttingOptions& o) {
-  visit("method",
-        o.method,
-        "of cutting lines before the pose is optimized: none, greedy (one line after the other, "
-        "once), greedy_sweeps (until nothing changes), joint (all at once), drop (leave out the "
-        "most uncertain lines instead)");
-  visit("information",
-        o.information,
-        "what cutting maximizes: independent (errors of the two cut points taken as independent), "
-        "printed (eq 5 of the second paper), correlated (as they are; cutting gains nothing)");
-  visit("drop_share", o.drop_share, "of the lines that drop leaves out", Range{0, 1});
-  visit("budget",
-        o.budget,
-        "points and lines that decide about the pose of a frame, chosen together by what they tell "
-        "about it (0: all)",
-        Range{0, 100000});
-}
-
-// A 3D line seen in the image, linearized at the present estimate of the pose.
-struct CuttableLine {
-  Segment3 segment_in_cam;           // ends at ratio 0 and 1; both with z > kMinDepth
-  Eigen::Matrix3d start_covariance;  // of the ends, camera frame, m^2; positive semidefinite,
-  Eigen::Matrix3d end_covariance;    // the errors of the two ends independent
-  Eigen::Vector3d image_line;        // as measured, scaled as by LineThrough(Segment2), pixels
-  double sigma_px = 1;               // of the measured line across itself; greater than 0
-};
-
-struct CuttingProblem {
-  RectifiedCamera camera;
-  std::vector<CuttableLine> lines;
-  // Of everything else that fixes the pose, above all points: J^T W J in whitened residuals for the
-  // left perturbation exp([rotation, translation]) cam_from_world. Constant in the cutting (eq. 7).
-  Matrix6d other_information = Matrix6d::Zero();
-};
-
-// Where a line is cut: the piece from ratio `first` to ratio `second` of its 3D segment,
-// X(a) = (1 - a) start + a end, 0 <= first <= second <= 1. Equal ratios: one point counted twice.
-struct LineCut {
-  double first = 0, second = 1;
-  bool used = true;  // false: left out (drop)
-
-  bool operator==(const LineCut&) const = default;
-};
 
 // Cuts for all lines, in their order.
 //
@@ -126,22 +40,5 @@ struct LineCut {
 // the order of the lines. Throws BugError where the input breaks the conditions above.
 //   cost: 60 lines 0.1 ms with greedy and independent; correlated twice, printed 25 times that
 std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOptions& options);
-
-// The pose is held by so much in every direction, in rad^-2 and map units^-2: information matrices
-// of few lines stay regular, others do not notice.
-inline constexpr double kPriorInformation = 1e-6;
-
-inline Eigen::Vector3d PointAt(const Segment3& segment, double ratio) {
-  return (1 - ratio) * segment.start + ratio * segment.end;
-}
-// The piece that is left.
-inline Segment3 CutSegment(const Segment3& segment, const LineCut& cut) {
-  return {PointAt(segment, cut.first), PointAt(segment, cut.second)};
-}
-// Where the image of PointAt(segment, ratio) lies between the images of the ends, 0 to 1.
-inline double ImageRatio(const Segment3& segment_in_cam, double ratio) {
-  const double end = ratio * segment_in_cam.end.z();
-  return end / ((1 - ratio) * segment_in_cam.start.z() + end);
-}
 
 }  // namespace plumbline

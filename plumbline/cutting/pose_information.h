@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/cutting/cut_residuals.h"
+#include "plumbline/cutting/cutting_problem.h"
 
 #include <vector>
 

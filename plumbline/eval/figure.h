@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/eval/trajectory_error.h"
-
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,10 +34,6 @@ struct Figure {
   std::vector<Polyline> lines;
   std::vector<Text> texts;
 };
-
-// The evaluated trajectory from above beside its reference, and below the position error over time.
-// "Above" is along the axis in which the reference moves least.
-Figure TrajectoryFigure(const TrajectoryError& error);
 
 // The figure as a self-contained SVG document, white background.
 std::string ToSvg(const Figure& figure);

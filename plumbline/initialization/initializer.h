@@ -105,9 +105,4 @@ class Initializer {
   virtual void Load(StateReader& archive) = 0;
 };
 
-// The method that the options name. `seed` is that of everything random in it.
-std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
-                                             const InitializationOptions& options,
-                                             std::uint64_t seed);
-
 }  // namespace plumbline

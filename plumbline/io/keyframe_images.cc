@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/camera_difference.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include "plumbline/base/printable.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/recording/mcap.h"
+#include "plumbline/recording/parse_image_message.h"
 #include "plumbline/recording/ros_bag.h"
 
 #include <algorithm>

@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/live/live_source.h"
 
-#include "plumbline/live/capture_source.h"
-#include "plumbline/live/raw_stream.h"
-
-#include <unistd.h>
-
 namespace plumbline {
 
 std::optional<LiveKind> LiveKindOf(std::string_view name) {
@@ -15,18 +10,6 @@ std::optional<LiveKind> LiveKindOf(std::string_view name) {
   if (name.starts_with("rtsp://") || name.starts_with("rtsps://")) return LiveKind::kNetwork;
   if (name.starts_with("gst:")) return LiveKind::kGstreamer;
   return std::nullopt;
-}
-
-std::unique_ptr<LiveSource> OpenLiveSource(const std::string& name, const LiveOptions& options) {
-  const auto kind = LiveKindOf(name);
-  PLUMBLINE_CHECK(kind.has_value(), "the name of a live source");
-  if (*kind != LiveKind::kStandardInput) return OpenCapture(name, *kind, options);
-  if (options.side_by_side) {
-    throw InputError(
-        "--side-by-side: expected a camera, found standard input, whose header names "
-        "both images");
-  }
-  return OpenRawStream(STDIN_FILENO, options);
 }
 
 std::string WithoutPassword(const std::string& name) {

@@ -63,17 +63,6 @@ struct LiveOptions {
 enum class LiveKind { kStandardInput, kCamera, kNetwork, kGstreamer };
 std::optional<LiveKind> LiveKindOf(std::string_view name);
 
-// Opens
-//   -                standard input (raw_stream.h)
-//   camera:0         a camera by number, "camera:0,1" two of them as a stereo pair, or by its
-//   device:
-//                    "camera:/dev/video2" (capture_source.h)
-//   rtsp://...       a network stream, also rtsps://
-//   gst:PIPELINE     what a GStreamer pipeline makes
-// and waits for its first frame or header. InputError where there is no such source, no camera
-// file is named, or images are of another size than it says.
-std::unique_ptr<LiveSource> OpenLiveSource(const std::string& name, const LiveOptions& options);
-
 // The name without the password that a URL may have: rtsp://user:***@host/.
 std::string WithoutPassword(const std::string& name);
 

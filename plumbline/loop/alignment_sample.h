@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/loop/landmark_alignment.h"
+#include "plumbline/geometry/sim3.h"
+#include "plumbline/loop/alignment_problem.h"
 
 #include <optional>
 #include <span>

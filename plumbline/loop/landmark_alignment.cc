@@ -3,6 +3,7 @@
 #include "plumbline/loop/landmark_alignment.h"
 
 #include "plumbline/association/line_information.h"
+#include "plumbline/association/measurements.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/loop/alignment_sample.h"

@@ -2,48 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/sim3.h"
-#include "plumbline/map/landmarks.h"
-#include "plumbline/optimization/problem.h"
+#include "plumbline/loop/alignment_problem.h"
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 namespace plumbline {
-
-// The relative pose of two cameras from landmarks that both of them know, as plain data: "query"
-// and "candidate" are cameras, everything is in the frame and the unit of one of them.
-
-// A point in the frame of a camera.
-struct CameraPoint {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-
-struct AlignmentProblem {
-  struct PointPair {
-    CameraPoint in_query, in_candidate;
-  };
-  struct LinePair {
-    LineModel in_query, in_candidate;
-  };
-  // A point that only one of the two knows the place of; the other one saw it.
-  struct Sighting {
-    bool known_to_query = true;
-    CameraPoint point;
-    PointMeasurement measurement;  // by the other
-  };
-
-  RectifiedCamera camera;
-  bool free_scale = false;  // one camera
-  std::vector<PointPair> points;
-  std::vector<LinePair> lines;
-  std::vector<Sighting> sightings;
-};
 
 struct AlignmentResult {
   Similarity3 candidate_from_query;

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/recording/recording.h"
-
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,10 +18,6 @@ struct MessageForm {
   MessageKind kind = MessageKind::kImage;
   MessageEncoding encoding = MessageEncoding::kRos1;
 };
-
-// sensor_msgs/Image, CompressedImage and CameraInfo of ROS 1 and (with /msg/, as CDR) ROS 2,
-// foxglove.RawImage, CompressedImage and CameraCalibration as protobuf; nullopt for all others.
-std::optional<MessageForm> FormOf(const Channel& channel);
 
 // An image as it was sent. Nothing of it is checked against the rest.
 struct ImageMessage {
@@ -47,10 +40,5 @@ struct CalibrationMessage {
   std::uint32_t binning_x = 0, binning_y = 0;                         // 0 is 1
   std::uint32_t roi_x = 0, roi_y = 0, roi_width = 0, roi_height = 0;  // all 0: the whole image
 };
-
-// nullopt where the bytes are no such message. `form` is of an image, or of a calibration.
-std::optional<ImageMessage> ParseImage(MessageForm form, std::span<const std::uint8_t> bytes);
-std::optional<CalibrationMessage> ParseCalibration(MessageForm form,
-                                                   std::span<const std::uint8_t> bytes);
 
 }  // namespace plumbline

@@ -153,7 +153,7 @@ RunFile MapFile(const System& system) {
   return {"map.plb", [&system](const std::filesystem::path& path) {
             SaveAtlas(path,
                       system.atlas(),
-                      ContextOf(system),
+                      system.Context(),
                       system.MainMap().value_or(system.atlas().active_id()));
           }};
 }

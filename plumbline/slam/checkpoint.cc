@@ -74,7 +74,7 @@ LocalMapper::State MapperOf(const SavedAtlas& maps, LocalMapper::State mapper) {
 
 SavedRun System::Save() {
   const MappingStage::Checkpoint stage = mapping_.Save();
-  SavedRun saved{{mapping_.atlas(), ContextWithoutMaps(*this)}, {}, {}};
+  SavedRun saved{{mapping_.atlas(), ContextWithoutMaps()}, {}, {}};
   AddMaps(saved.maps.atlas, stage.mapper, saved.maps.context);
   StateWriter state;
   Transfer(state, stage);

@@ -3,6 +3,7 @@
 #include "plumbline/slam/monocular_start.h"
 
 #include "plumbline/image/image.h"
+#include "plumbline/initialization/make_initializer.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/map/state_format.h"
 

@@ -4,7 +4,7 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/base/options.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/image/rectify.h"
 #include "plumbline/initialization/options.h"

@@ -87,7 +87,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
     throw InputError("expected a frame after " + std::to_string(newest_.stamp_ns) +
                      " ns, found one of " + std::to_string(measured.stamp_ns) + " ns");
   }
-  if (session_.uuid == Uuid()) session_.uuid = SessionUuid(*this, measured);
+  if (session_.uuid == Uuid()) session_.uuid = SessionUuid(measured);
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
   record.stamp_ns = measured.stamp_ns;
@@ -301,7 +301,7 @@ void System::LoseFramesNotMapped() {
 
 void System::CopyMaps(std::function<void(SavedAtlas)> take) {
   mapping_.Submit(newest_.id.value,
-                  Visit{[context = ContextWithoutMaps(*this), take = std::move(take)](
+                  Visit{[context = ContextWithoutMaps(), take = std::move(take)](
                             const Atlas& atlas, const LocalMapper::State& mapper) {
                     SavedAtlas copy{atlas, context};
                     AddMaps(atlas, mapper, copy.context);

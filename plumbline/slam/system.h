@@ -124,6 +124,8 @@ class System {
   const FrameLog& frames() const { return frames_; }
   // Complete after Finish, and not to be asked for before but inline (BugError).
   const Atlas& atlas() const { return mapping_.atlas(); }
+  // What the maps were made with, for SaveAtlas; like atlas().
+  AtlasContext Context() const;
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
   const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
   // What mapping remembers; like atlas().
@@ -155,6 +157,10 @@ class System {
   std::optional<MapId> MainMap() const;
 
  private:
+  // The id of the session that begins with this frame.
+  Uuid SessionUuid(const MeasuredFrame& first) const;
+  // What the thread that tracks knows of Context() at any time.
+  AtlasContext ContextWithoutMaps() const;
   // Of the maps, the stage and the start of a monocular map the caller takes care.
   template <class Self, class Visitor>
   static void VisitRest(Self& self, const Visitor& visit) {

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include <Eigen/Geometry>
+
 namespace plumbline {
 
 double SampsonChi2(const Eigen::Matrix3d& essential, const RayMatch& match) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/solvers/relative_pose.h"
+#include "plumbline/solvers/ray_match.h"
 
 #include <span>
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/geometry/se3.h"
-#include "plumbline/solvers/relative_pose.h"
+#include "plumbline/solvers/ray_match.h"
 
 #include <array>
 #include <optional>

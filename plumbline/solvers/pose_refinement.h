@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/random.h"
 #include "plumbline/geometry/se3.h"
-#include "plumbline/solvers/relative_pose.h"
+#include "plumbline/solvers/ray_match.h"
 
 #include <optional>
 #include <span>

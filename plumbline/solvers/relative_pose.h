@@ -5,6 +5,7 @@
 #include "plumbline/base/options.h"
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/se3.h"
+#include "plumbline/solvers/ray_match.h"
 
 #include <array>
 #include <span>
@@ -15,15 +16,6 @@
 #include <Eigen/Core>
 
 namespace plumbline {
-
-// One point seen by two cameras: ideal image coordinates (x/z, y/z) and the standard deviation of
-// each of them (pixels over the focal length).
-struct RayMatch {
-  Eigen::Vector2d a = Eigen::Vector2d::Zero();
-  Eigen::Vector2d b = Eigen::Vector2d::Zero();
-  double sigma_a = 1e-3;
-  double sigma_b = 1e-3;
-};
 
 enum class RelativePoseModel { kEssential, kHomography };
 

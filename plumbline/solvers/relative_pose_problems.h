@@ -6,7 +6,7 @@
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
 #include "plumbline/solvers/homography.h"
-#include "plumbline/solvers/relative_pose.h"
+#include "plumbline/solvers/ray_match.h"
 
 #include <array>
 #include <cstddef>

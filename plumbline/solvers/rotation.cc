@@ -5,6 +5,7 @@
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/median.h"
+#include "plumbline/geometry/se3.h"
 #include "plumbline/solvers/ransac.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/association/measurements.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/tracker.h"

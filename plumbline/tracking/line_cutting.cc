@@ -3,6 +3,7 @@
 #include "plumbline/tracking/line_cutting.h"
 
 #include "plumbline/association/line_information.h"
+#include "plumbline/association/measurements.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/cutting/choose_features.h"
 #include "plumbline/cutting/cut_residuals.h"

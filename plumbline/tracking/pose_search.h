@@ -4,7 +4,7 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/frame_association.h"

@@ -5,7 +5,7 @@
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/options.h"
-#include "plumbline/cutting/cut_lines.h"
+#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/map.h"
 #include "plumbline/tracking/options.h"

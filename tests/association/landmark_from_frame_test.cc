@@ -3,6 +3,7 @@
 #include "plumbline/association/landmark_from_frame.h"
 
 #include "plumbline/association/line_information.h"
+#include "plumbline/association/measurements.h"
 
 #include <cmath>
 #include <memory>

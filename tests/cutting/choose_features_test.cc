@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting/choose_features.h"
 
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/cutting/pose_information.h"
 
 #include "tests/cutting/random_points.h"

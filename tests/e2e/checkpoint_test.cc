@@ -6,6 +6,7 @@
 // PLUMBLINE_PAUSES=5 stops each recorded sequence and world at five frames, one after the other.
 #include "worlds/sequence_cache.h"
 #include "worlds/world.h"
+#include "worlds/world_catalog.h"
 
 #include "tests/e2e/poster_run.h"
 #include "tests/e2e/program.h"

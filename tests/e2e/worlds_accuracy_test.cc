@@ -8,6 +8,7 @@
 //   plumbline run W --out R && plumbline evaluate W R
 #include "worlds/sequence_cache.h"
 #include "worlds/world.h"
+#include "worlds/world_catalog.h"
 
 #include "tests/e2e/program.h"
 #include <filesystem>

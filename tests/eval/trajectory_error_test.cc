@@ -4,6 +4,7 @@
 
 #include "plumbline/base/random.h"
 #include "plumbline/eval/figure.h"
+#include "plumbline/eval/trajectory_figure.h"
 
 #include "tests/support/random_geometry.h"
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "plumbline/initialization/initializer.h"
 
 #include "plumbline/initialization/klt_initializer.h"
+#include "plumbline/initialization/make_initializer.h"
 #include "plumbline/initialization/rank1_initializer.h"
 #include "plumbline/initialization/two_view.h"
 

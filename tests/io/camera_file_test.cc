@@ -3,6 +3,7 @@
 #include "plumbline/io/camera_file.h"
 
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/dataset.h"
 
+#include "plumbline/io/open_dataset.h"
+
 #include "tests/io/dataset_fixtures.h"
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"

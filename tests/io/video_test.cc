@@ -3,6 +3,7 @@
 #include "plumbline/io/video.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/reversed_dataset.h"
 
 #include "tests/io/scratch_folder.h"

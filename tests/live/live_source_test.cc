@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/live/live_source.h"
 
+#include "plumbline/live/open_live_source.h"
+
 #include "tests/io/scratch_folder.h"
 
 #include <gmock/gmock.h>

@@ -141,7 +141,7 @@ TEST(HtmlReport, TellsOfPlacesThatWereSeenAgain) {
 
   // A camera that begins in a saved map is found by what it sees.
   System second(MovingPoster::MakeCalibration(), {});
-  second.Continue({run.system().atlas(), ContextOf(run.system())}, false);
+  second.Continue({run.system().atlas(), run.system().Context()}, false);
   for (int i = 0; i < 6; ++i) second.Process(MovingPoster().Frame(i));
   second.Finish();
   const std::string page = FormatHtmlReport(second, PosterDataset(6), ContextOf(run));

@@ -23,13 +23,13 @@ std::unique_ptr<System> RunPoster(int from, int to, const SlamOptions& options =
   return system;
 }
 
-TEST(ContextOf, SaysWhatTheMapsWereMadeWith) {
+TEST(SystemContext, SaysWhatTheMapsWereMadeWith) {
   SlamOptions options;
   options.slam.seed = 5;
   options.features.orb.scale_factor = 1.25;
   auto system = RunPoster(0, 4, options);
   system->DescribeSession("0.1", "poster");
-  const AtlasContext context = ContextOf(*system);
+  const AtlasContext context = system->Context();
   EXPECT_EQ(context.camera.fx, system->camera().fx);
   EXPECT_EQ(context.octave_scale, 1.25);
   EXPECT_NE(context.calibration, 0U);
@@ -45,7 +45,7 @@ TEST(ContextOf, SaysWhatTheMapsWereMadeWith) {
   EXPECT_FALSE(context.maps.at(MapId{0}).young.points.empty());
 }
 
-TEST(ContextOf, NamesASessionByItsInput) {
+TEST(SystemContext, NamesASessionByItsInput) {
   const auto uuid = [](int from, const SlamOptions& options = {}) {
     return RunPoster(from, from + 3, options)->session().uuid;
   };
@@ -60,9 +60,9 @@ TEST(ContextOf, NamesASessionByItsInput) {
   EXPECT_NE(uuid(0, options), first);
 }
 
-TEST(ContextOf, IsThereWithoutAnyMap) {
+TEST(SystemContext, IsThereWithoutAnyMap) {
   const System system(MovingPoster::MakeCalibration(), {});
-  EXPECT_TRUE(ContextOf(system).maps.empty());
+  EXPECT_TRUE(system.Context().maps.empty());
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ std::string ResultsOf(System& system) {
     Transfer(results, record);
   }
   const ScratchFolder folder;
-  SaveAtlas(folder / "m.plb", system.atlas(), ContextOf(system));
+  SaveAtlas(folder / "m.plb", system.atlas(), system.Context());
   return results.Take() + Contents(folder / "m.plb");
 }
 
@@ -228,7 +228,7 @@ TEST(Checkpoint, OfARunInALoadedMapGoesOnAsIfNothingHadBeen) {
   System first(recording.calibration, InMode(RunMode::kInline));
   for (int i = 0; i < 20; ++i) first.Process(recording.frame(i));
   first.Finish();
-  const SavedAtlas map{first.atlas(), ContextOf(first)};
+  const SavedAtlas map{first.atlas(), first.Context()};
   for (const bool read_only : {false, true}) {
     const auto run = [&](std::map<int, SavedRun>* saved) {
       System system(recording.calibration, InMode(RunMode::kInline));

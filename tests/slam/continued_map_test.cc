@@ -30,7 +30,7 @@ SavedAtlas MappedPoster() {
   const MovingPoster poster;
   for (int i = 0; i < kFrames; ++i) system.Process(poster.Frame(i));
   system.Finish();
-  return {system.atlas(), ContextOf(system)};
+  return {system.atlas(), system.Context()};
 }
 
 // Frame `first` on of the same poster, in the map.
@@ -197,9 +197,9 @@ TEST(ContinuedMap, TellsWhatIsDifferentInTheFrontEnd) {
 TEST(ContinuedMap, NamesTheSessionsThatMadeIt) {
   const SavedAtlas saved = MappedPoster();
   const auto read = GoOn(saved, true, 5, 10, RunMode::kInline);
-  EXPECT_EQ(ContextOf(*read).sessions.size(), 1U);
+  EXPECT_EQ(read->Context().sessions.size(), 1U);
   const auto grown = GoOn(saved, false, 20, 70, RunMode::kInline);
-  const AtlasContext context = ContextOf(*grown);
+  const AtlasContext context = grown->Context();
   ASSERT_EQ(context.sessions.size(), 2U);
   EXPECT_NE(context.sessions[0].uuid, context.sessions[1].uuid);
   EXPECT_EQ(context.maps.at(MapId{0}).uuid, saved.context.maps.at(MapId{0}).uuid);

@@ -3,7 +3,9 @@
 #include "worlds/sequence_cache.h"
 
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 #include "worlds/world.h"
+#include "worlds/world_catalog.h"
 
 #include "tests/io/scratch_folder.h"
 #include <filesystem>

@@ -3,6 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/se3.h"
 #include "worlds/world.h"
+#include "worlds/world_catalog.h"
 
 #include <algorithm>
 #include <cmath>

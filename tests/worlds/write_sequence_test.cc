@@ -6,6 +6,7 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 
 #include "tests/io/scratch_folder.h"
 #include <algorithm>

@@ -4,6 +4,7 @@
 
 #include "worlds/sequence_cache.h"
 #include "worlds/world.h"
+#include "worlds/world_catalog.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/lab/experiments/experiment_fixtures.h"

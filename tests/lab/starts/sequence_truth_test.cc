@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/starts/sequence_truth.h"
 
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/io/png.h"
 
 #include "tests/e2e/poster_sequence.h"

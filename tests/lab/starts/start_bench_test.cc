@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/starts/start_bench.h"
 
+#include "plumbline/io/open_dataset.h"
+
 #include "tests/e2e/poster_sequence.h"
 #include "tests/io/scratch_folder.h"
 #include <map>

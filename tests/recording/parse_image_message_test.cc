@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/recording/image_message.h"
+#include "plumbline/recording/parse_image_message.h"
 
 #include "tests/support/message_writer.h"
 #include <map>

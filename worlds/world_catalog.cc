@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "worlds/world.h"
+#include "worlds/world_catalog.h"
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"

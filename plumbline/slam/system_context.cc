@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+// What a system's maps are made with, as map files and checkpoints keep it.
+#include "plumbline/features/front_end_fingerprint.h"
+#include "plumbline/geometry/calibration_fingerprint.h"
+#include "plumbline/map/byte_format.h"
+#include "plumbline/slam/atlas_context.h"
+#include "plumbline/slam/system.h"
+
+namespace plumbline {
+
+Uuid System::SessionUuid(const MeasuredFrame& first) const {
+  ByteWriter contents;
+  const std::uint64_t rig = FingerprintOf(rectifier().calibration(), camera());
+  const std::string options = ResultOptionsYaml(options_);
+  TransferAll(contents, rig, options, first.stamp_ns, first.indexed->features);
+  return UuidOf(contents.bytes());
+}
+
+AtlasContext System::ContextWithoutMaps() const {
+  AtlasContext context;
+  if (loaded_) {
+    context.sessions = loaded_->sessions;
+    context.maps = loaded_->maps;
+  }
+  context.camera = camera();
+  context.rectified_from_left = rectifier().rectified_left_from_left();
+  context.octave_scale = options_.features.orb.scale_factor;
+  context.calibration = FingerprintOf(rectifier().calibration(), camera());
+  context.front_end = FingerprintOf(options_.features);
+  context.options_yaml = ResultOptionsYaml(options_);
+  context.sessions.push_back(session());
+  return context;
+}
+
+AtlasContext System::Context() const {
+  if (loaded_ && read_only_) return *loaded_;
+  AtlasContext context = ContextWithoutMaps();
+  AddMaps(atlas(), mapper_state(), context);
+  return context;
+}
+
+}  // namespace plumbline
