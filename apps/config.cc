@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/user_options.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
@@ -14,10 +15,12 @@ namespace {
 
 CommandSyntax Syntax() {
   return {"config",
-          "Prints all options of a run with their values, units and ranges. The output is a valid\n"
-          "config file.",
+          "Prints the options of a run that users set, and those that differ from their defaults, "
+          "with\n"
+          "values, units and ranges. The output is a valid config file.",
           {},
-          {{"--config", "FILE", "read options from a YAML file; may be repeated, later files win"},
+          {{"--all", "", "all options, also those of the methods, whose defaults are measured"},
+           {"--config", "FILE", "read options from a YAML file; may be repeated, later files win"},
            {"--set", "KEY=VALUE", "set one option, after all files; may be repeated"}}};
 }
 
@@ -33,7 +36,15 @@ int ConfigCommand(std::span<const std::string> arguments) {
   OptionTable table(options);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& setting : line.Values("--set")) table.Set(setting);
-  std::cout << table.Dump();
+  if (line.Has("--all")) {
+    std::cout << table.Dump();
+    return 0;
+  }
+  SlamOptions unchanged;
+  const OptionTable defaults(unchanged);
+  std::cout << table.Dump([&](const OptionField& field) {
+    return IsUserOption(field.key) || OptionTable::ValueOf(field) != defaults.Value(field.key);
+  });
   return 0;
 }
 

@@ -255,25 +255,38 @@ void OptionTable::Set(std::string_view assignment) {
 }
 
 std::string OptionTable::Dump() const {
+  return Dump([](const OptionField&) { return true; });
+}
+
+std::string OptionTable::Dump(const std::function<bool(const OptionField&)>& wanted) const {
   std::string out;
   std::size_t group = 0;
-  for (std::size_t i = 0; i <= fields_.size(); ++i) {
+  std::vector<const Group*> open;  // groups that contain the present option and are not written yet
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
     for (; group < groups_.size() && groups_[group].first_field == i; ++group) {
-      const std::string& key = groups_[group].key;
-      if (Indent(key).empty() && !out.empty()) out += '\n';
-      out += Indent(key) + LastPart(key) + ":  # " + groups_[group].help + "\n";
+      open.push_back(&groups_[group]);
     }
-    if (i == fields_.size()) break;
     const OptionField& field = fields_[i];
-    out += Indent(field.key) + LastPart(field.key) + ": " + std::visit(ToText{}, field.target) +
-           "  # " + Comment(field) + "\n";
+    std::erase_if(open, [&](const Group* g) { return !field.key.starts_with(g->key + "."); });
+    if (!wanted(field)) continue;
+    for (const Group* g : open) {
+      if (Indent(g->key).empty() && !out.empty()) out += '\n';
+      out += Indent(g->key) + LastPart(g->key) + ":  # " + g->help + "\n";
+    }
+    open.clear();
+    out += Indent(field.key) + LastPart(field.key) + ": " + ValueOf(field) + "  # " +
+           Comment(field) + "\n";
   }
   return out;
 }
 
+std::string OptionTable::ValueOf(const OptionField& field) {
+  return std::visit(ToText{}, field.target);
+}
+
 std::string OptionTable::Value(std::string_view key) const {
   for (const OptionField& field : fields_) {
-    if (field.key == key) return std::visit(ToText{}, field.target);
+    if (field.key == key) return ValueOf(field);
   }
   throw InputError("unknown option " + InQuotes(key));
 }

@@ -64,8 +64,11 @@ class OptionTable {
   // A YAML document of all options with help, range and choices as comments. LoadText of it gives
   // the same values again, to the last bit.
   std::string Dump() const;
+  // The same of the options that are wanted, with the groups they are in.
+  std::string Dump(const std::function<bool(const OptionField&)>& wanted) const;
   // The value of one option as Dump writes it; InputError for an unknown key.
   std::string Value(std::string_view key) const;
+  static std::string ValueOf(const OptionField& field);
   // Dotted keys of all options, in the order of the structs.
   std::vector<std::string> Keys() const;
   const std::vector<OptionField>& fields() const { return fields_; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ namespace {
 
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 struct Outcome {
@@ -115,6 +117,20 @@ TEST(Program, ConfigOutputIsAConfigFile) {
   EXPECT_EQ(RunProgram("config --config '" + file + "'").out, first.out);
   EXPECT_THAT(RunProgram("config --config '" + file + "' --set slam.seed=18").out,
               HasSubstr("seed: 18 "));
+}
+
+TEST(Program, ConfigShowsWhatUsersSetAndWhatWasChanged) {
+  const auto options = [](const std::string& out) {
+    return std::count_if(out.begin(), out.end(), [](char c) { return c == '('; });
+  };
+  const std::string users = RunProgram("config").out, all = RunProgram("config --all").out;
+  EXPECT_THAT(users, HasSubstr("point_count: 1000 "));
+  EXPECT_THAT(users, Not(HasSubstr("huber_point")));
+  EXPECT_THAT(all, HasSubstr("huber_point"));
+  EXPECT_GT(options(all), 2 * options(users));
+  const std::string changed = RunProgram("config --set mapping.ba.huber_point=3").out;
+  EXPECT_THAT(changed, HasSubstr("  ba:  # local bundle adjustment\n    huber_point: 3 "));
+  EXPECT_THAT(changed, Not(HasSubstr("huber_disparity")));
 }
 
 TEST(Program, InfoDescribesARealSequence) {

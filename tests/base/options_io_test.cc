@@ -22,6 +22,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 enum class Shape { kRound, kSquare };
 constexpr auto EnumNames(std::type_identity<Shape>) {
@@ -151,6 +152,18 @@ TEST(OptionTable, DumpExplainsTheOptions) {
   EXPECT_THAT(dump, HasSubstr("\nba:  # bundle adjustment\n"));
   EXPECT_THAT(dump, HasSubstr("  huber_px: 2.45  # Huber threshold [px] (0 to 100)\n"));
   EXPECT_THAT(dump, HasSubstr("  iterations: 10  # iterations per solve (at least 1)\n"));
+}
+
+TEST(OptionTable, DumpsSomeOptionsWithTheirGroups) {
+  OuterOptions options;
+  const std::string dump = OptionTable(options).Dump(
+      [](const OptionField& field) { return field.key == "ba.huber_px" || field.key == "seed"; });
+  EXPECT_THAT(dump, HasSubstr("seed: "));
+  EXPECT_THAT(dump, HasSubstr("\nba:  # bundle adjustment\n  huber_px: 2.45  # "));
+  EXPECT_THAT(dump, Not(HasSubstr("iterations")));
+  EXPECT_THAT(dump, Not(HasSubstr("lines")));
+  OuterOptions copy;
+  OptionTable(copy).LoadText(dump, "dump");  // a valid config
 }
 
 TEST(OptionTable, BadYamlIsNamedByFileLineKeyAndWhatIsAllowed) {
