@@ -3,9 +3,8 @@
 #pragma once
 
 #include "plumbline/map/frame.h"
+#include "plumbline/map/id_table.h"
 #include "plumbline/map/landmarks.h"
-
-#include <map>
 
 namespace plumbline {
 
@@ -14,7 +13,7 @@ namespace plumbline {
 // points the distance and octave of the newest observation, from which the octave at any other
 // distance follows. Cost O(n^2) in the number of observations, at most the newest 12 of which
 // count.
-void RefreshAppearance(const std::map<KeyFrameId, KeyFrame>& keyframes, MapPoint& point);
-void RefreshAppearance(const std::map<KeyFrameId, KeyFrame>& keyframes, MapLine& line);
+void RefreshAppearance(const IdTable<KeyFrameId, KeyFrame>& keyframes, MapPoint& point);
+void RefreshAppearance(const IdTable<KeyFrameId, KeyFrame>& keyframes, MapLine& line);
 
 }  // namespace plumbline

@@ -282,10 +282,10 @@ struct MapChanger {
   void Do(const edit::MergePoints& change) { Merge(change.kept, change.gone); }
   void Do(const edit::MergeLines& change) { Merge(change.kept, change.gone); }
   void Do(const edit::RefreshPoint& change) {
-    if (MapPoint* point = FindLandmark(change.id)) RefreshAppearance(map.keyframes(), *point);
+    if (MapPoint* point = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *point);
   }
   void Do(const edit::RefreshLine& change) {
-    if (MapLine* line = FindLandmark(change.id)) RefreshAppearance(map.keyframes(), *line);
+    if (MapLine* line = FindLandmark(change.id)) RefreshAppearance(map.keyframes_, *line);
   }
   void Do(const edit::ScorePoint& change) { Score(change.id, change.visible, change.found); }
   void Do(const edit::ScoreLine& change) { Score(change.id, change.visible, change.found); }
