@@ -6,6 +6,7 @@
 #include "plumbline/map/covisibility.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 namespace plumbline {
@@ -36,9 +37,25 @@ std::set<KeyFrameId> Window(const Map& map, KeyFrameId centre, std::size_t max_k
   return window;
 }
 
+template <class LandmarkId>
+void AddValid(const std::vector<LandmarkId>& matches, std::vector<LandmarkId>& ids) {
+  std::copy_if(matches.begin(), matches.end(), std::back_inserter(ids), [](LandmarkId id) {
+    return id.valid();
+  });
+}
+
 SnapshotPoint Copy(const MapPoint& p) { return {p, p.id, static_cast<int>(p.observations.size())}; }
 
 SnapshotLine Copy(const MapLine& l) { return {l, l.id, static_cast<int>(l.observations.size())}; }
+
+// Copies each of the landmarks once, by id.
+template <class LandmarkId, class Element>
+void CopyAll(const Map& map, std::vector<LandmarkId>& ids, std::vector<Element>& copies) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  copies.reserve(ids.size());
+  for (const LandmarkId id : ids) copies.push_back(Copy(*map.Find(id)));
+}
 
 }  // namespace
 
@@ -58,20 +75,16 @@ std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
   snapshot->reference = std::make_shared<const KeyFrame>(*reference);
   snapshot->places.emplace(centre, map.PlaceOf(centre));
   for (const KeyFrameId id : earlier) snapshot->places.emplace(id, map.PlaceOf(id));
-  std::set<PointId> points;
-  std::set<LineId> lines;
+  std::vector<PointId> points;
+  std::vector<LineId> lines;
   for (const KeyFrameId id : Window(map, centre, static_cast<std::size_t>(max_keyframes))) {
     const Frame& frame = map.Find(id)->frame;
     snapshot->cam_from_world.emplace(id, frame.cam_from_world);
-    for (const PointId point : frame.points) {
-      if (point.valid()) points.insert(point);
-    }
-    for (const LineId line : frame.lines) {
-      if (line.valid()) lines.insert(line);
-    }
+    AddValid(frame.points, points);
+    AddValid(frame.lines, lines);
   }
-  for (const PointId id : points) snapshot->points.push_back(Copy(*map.Find(id)));
-  for (const LineId id : lines) snapshot->lines.push_back(Copy(*map.Find(id)));
+  CopyAll(map, points, snapshot->points);
+  CopyAll(map, lines, snapshot->lines);
   return snapshot;
 }
 
