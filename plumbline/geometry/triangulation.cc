@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -20,6 +21,7 @@ using Row = Eigen::RowVector3d;
 std::vector<Eigen::Vector3d> CentresOf(const RectifiedCamera& camera,
                                        std::span<const PointView> views) {
   std::vector<Eigen::Vector3d> centres;
+  centres.reserve(2 * views.size());
   for (const PointView& view : views) {
     const Rigid3 world_from_cam = Inverse(view.cam_from_world);
     centres.push_back(world_from_cam.translation);
@@ -81,15 +83,26 @@ struct NormalEquations {
   }
 };
 
+std::vector<Eigen::Matrix3d> RotationsOf(std::span<const PointView> views) {
+  std::vector<Eigen::Matrix3d> rotations;
+  rotations.reserve(views.size());
+  for (const PointView& view : views) {
+    rotations.push_back(view.cam_from_world.rotation.toRotationMatrix());
+  }
+  return rotations;
+}
+
 // nullopt when the point is not in front of every camera.
 std::optional<NormalEquations> Linearize(const RectifiedCamera& camera,
                                          std::span<const PointView> views,
+                                         const std::vector<Eigen::Matrix3d>& rotations,
                                          const Eigen::Vector3d& point) {
   NormalEquations equations;
-  for (const PointView& view : views) {
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const PointView& view = views[i];
     const Eigen::Vector3d p = view.cam_from_world * point;
     if (!(p.z() > 0)) return std::nullopt;
-    const Eigen::Matrix3d R = view.cam_from_world.rotation.toRotationMatrix();
+    const Eigen::Matrix3d& R = rotations[i];
     const double inverse_z = 1 / p.z();
     const Eigen::Vector2d error = camera.Project(p) - view.px;
     const Row J_x = camera.fx * inverse_z * (R.row(0) - p.x() * inverse_z * R.row(2));
@@ -122,12 +135,13 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
   const std::optional<Eigen::Vector3d> start = LinearPoint(camera, views);
   if (!start) return kSmallParallax;  // at infinity
   Eigen::Vector3d point = *start;
-  std::optional<NormalEquations> equations = Linearize(camera, views, point);
+  const std::vector<Eigen::Matrix3d> rotations = RotationsOf(views);
+  std::optional<NormalEquations> equations = Linearize(camera, views, rotations, point);
   if (!equations) return kBehindCamera;
   for (int i = 0; i < options.max_iterations; ++i) {
     const Eigen::Vector3d step = equations->information.ldlt().solve(equations->gradient);
     const Eigen::Vector3d trial = point - step;
-    std::optional<NormalEquations> trial_equations = Linearize(camera, views, trial);
+    std::optional<NormalEquations> trial_equations = Linearize(camera, views, rotations, trial);
     // Also ends where the step is not finite.
     if (!trial_equations || !(trial_equations->chi2 <= equations->chi2)) break;
     point = trial;
