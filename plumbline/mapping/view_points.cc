@@ -63,6 +63,34 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
   return SearchWindow{0.5 * (a + b), 0.5 * (a - b).cwiseAbs() + slack};
 }
 
+// The features of a frame that show no landmark, by image cell.
+class FreePoints {
+ public:
+  FreePoints(const RectifiedCamera& camera, const Frame& frame) {
+    std::vector<Eigen::Vector2d> positions;
+    for (std::size_t i = 0; i < frame.points.size(); ++i) {
+      if (frame.points[i].valid()) continue;
+      positions.push_back(frame.features().points[i].px);
+      features_.push_back(i);
+    }
+    grid_ = PointGrid(positions, camera.width, camera.height);
+  }
+
+  // Indices of features in the frame, in the order of the cells.
+  const std::vector<std::size_t>& InWindow(const SearchWindow& window) {
+    grid_.InWindow(window.centre, window.radius, &places_);
+    found_.clear();
+    for (const int place : places_) found_.push_back(features_[static_cast<std::size_t>(place)]);
+    return found_;
+  }
+
+ private:
+  std::vector<std::size_t> features_;  // by place in the grid
+  PointGrid grid_;
+  std::vector<int> places_;
+  std::vector<std::size_t> found_;
+};
+
 // Features without landmark of one keyframe against those of another.
 class PairSearch {
  public:
@@ -77,7 +105,8 @@ class PairSearch {
         median_depth_(median_depth),
         options_(options),
         b_from_a_(b.cam_from_world * Inverse(a.cam_from_world)),
-        F_ba_(FundamentalMatrix(camera, b_from_a_)) {}
+        F_ba_(FundamentalMatrix(camera, b_from_a_)),
+        free_in_b_(camera, b) {}
 
   // Index of the match in b, for feature i of a.
   std::optional<std::size_t> Find(std::size_t i, const std::vector<bool>& taken_in_b) {
@@ -91,13 +120,11 @@ class PairSearch {
     if (!window) return std::nullopt;
     const Eigen::Vector3d line = F_ba_ * feature.px.homogeneous();
     const double norm2 = line.head<2>().squaredNorm();
-    b_.indexed->point_grid.InWindow(window->centre, window->radius, &near_);
     int best = options_.max_distance + 1;
     int second = 257;
     std::optional<std::size_t> match;
-    for (const int index : near_) {
-      const auto j = static_cast<std::size_t>(index);
-      if (b_.points[j].valid() || taken_in_b[j]) continue;
+    for (const std::size_t j : free_in_b_.InWindow(*window)) {
+      if (taken_in_b[j]) continue;
       const PointFeature& other = b_.features().points[j];
       const double distance = line.dot(other.px.homogeneous());
       if (distance * distance > kEpipolarChi2 * other.sigma_px * other.sigma_px * norm2) continue;
@@ -143,7 +170,7 @@ class PairSearch {
   const LandmarkCreationOptions& options_;
   Rigid3 b_from_a_;
   Eigen::Matrix3d F_ba_;
-  std::vector<int> near_;
+  FreePoints free_in_b_;
 };
 
 // Of the points that a keyframe shows; nullopt where it shows none, or most lie behind it.
