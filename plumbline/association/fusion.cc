@@ -6,8 +6,6 @@
 #include "plumbline/optimization/residuals.h"
 
 #include <cstddef>
-#include <optional>
-#include <vector>
 
 namespace plumbline {
 namespace {
@@ -76,55 +74,81 @@ Merge MergeInto(const Landmark& a, const Landmark& b) {
 
 }  // namespace
 
-MapEdit FuseLandmarks(const Map& map,
-                      const ImagingModel& imaging,
-                      KeyFrameId from,
-                      KeyFrameId to,
-                      const FusionOptions& options) {
-  const Frame& source = map.Find(from)->frame;
-  const Frame& target = map.Find(to)->frame;
-  const ProjectionSearchOptions search = SearchOptions(options);
-  MapEdit edit;
+FusionInto::FusionInto(const Map& map,
+                       const ImagingModel& imaging,
+                       KeyFrameId to,
+                       const FusionOptions& options)
+    : map_(map),
+      imaging_(imaging),
+      to_(to),
+      options_(options),
+      search_(SearchOptions(options)),
+      target_(map.Find(to)->frame),
+      point_chooser_(*target_.indexed, search_),
+      line_chooser_(*target_.indexed, search_),
+      no_point_(target_.points.size(), false),
+      no_line_(target_.lines.size(), false) {}
 
-  const auto points = Missing<MapPoint>(map, source.points, to);
-  std::vector<std::optional<ProjectedPoint>> projected_points;
-  projected_points.reserve(points.size());
-  for (const MapPoint* point : points) {
-    projected_points.push_back(ProjectPoint(imaging, target.cam_from_world, *point, search));
-  }
-  const std::vector<bool> no_point(target.points.size(), false);
-  for (const auto& match :
-       MatchProjectedPoints(*target.indexed, projected_points, no_point, search)) {
+MapEdit FusionInto::Fuse(KeyFrameId from) {
+  const Frame& source = map_.Find(from)->frame;
+  MapEdit edit;
+  FusePoints(source, edit);
+  FuseLines(source, edit);
+  return edit;
+}
+
+void FusionInto::FusePoints(const Frame& source, MapEdit& edit) {
+  const auto points = Missing<MapPoint>(map_, source.points, to_);
+  Choices choices;
+  choices.reserve(points.size());
+  for (const MapPoint* point : points) choices.push_back(Choose(*point));
+  for (const auto& match : OneToOne(choices, target_.points.size())) {
     const MapPoint& point = *points[static_cast<std::size_t>(match.landmark)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    if (!PointAgrees(imaging.camera, target, feature, point, options.max_chi2)) continue;
-    const PointId present = target.points[feature];
+    if (!PointAgrees(imaging_.camera, target_, feature, point, options_.max_chi2)) continue;
+    const PointId present = target_.points[feature];
     if (present.valid()) {
-      edit.push_back(MergeInto<edit::MergePoints>(point, *map.Find(present)));
+      edit.push_back(MergeInto<edit::MergePoints>(point, *map_.Find(present)));
     } else {
-      edit.push_back(edit::AddPointObservation{point.id, to, match.feature});
+      edit.push_back(edit::AddPointObservation{point.id, to_, match.feature});
     }
   }
+}
 
-  const auto lines = Missing<MapLine>(map, source.lines, to);
-  std::vector<std::optional<ProjectedLine>> projected_lines;
-  projected_lines.reserve(lines.size());
-  for (const MapLine* line : lines) {
-    projected_lines.push_back(ProjectLine(imaging, target.cam_from_world, *line, search));
-  }
-  const std::vector<bool> no_line(target.lines.size(), false);
-  for (const auto& match : MatchProjectedLines(*target.indexed, projected_lines, no_line, search)) {
+void FusionInto::FuseLines(const Frame& source, MapEdit& edit) {
+  const auto lines = Missing<MapLine>(map_, source.lines, to_);
+  Choices choices;
+  choices.reserve(lines.size());
+  for (const MapLine* line : lines) choices.push_back(Choose(*line));
+  for (const auto& match : OneToOne(choices, target_.lines.size())) {
     const MapLine& line = *lines[static_cast<std::size_t>(match.landmark)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    if (!LineAgrees(imaging.camera, target, feature, line, options.max_chi2)) continue;
-    const LineId present = target.lines[feature];
+    if (!LineAgrees(imaging_.camera, target_, feature, line, options_.max_chi2)) continue;
+    const LineId present = target_.lines[feature];
     if (present.valid()) {
-      edit.push_back(MergeInto<edit::MergeLines>(line, *map.Find(present)));
+      edit.push_back(MergeInto<edit::MergeLines>(line, *map_.Find(present)));
     } else {
-      edit.push_back(edit::AddLineObservation{line.id, to, match.feature});
+      edit.push_back(edit::AddLineObservation{line.id, to_, match.feature});
     }
   }
-  return edit;
+}
+
+std::optional<FeatureChoice> FusionInto::Choose(const MapPoint& point) {
+  const auto [known, is_new] = chosen_by_point_.try_emplace(point.id);
+  if (is_new) {
+    const auto projected = ProjectPoint(imaging_, target_.cam_from_world, point, search_);
+    if (projected) known->second = point_chooser_.Choose(*projected, no_point_);
+  }
+  return known->second;
+}
+
+std::optional<FeatureChoice> FusionInto::Choose(const MapLine& line) {
+  const auto [known, is_new] = chosen_by_line_.try_emplace(line.id);
+  if (is_new) {
+    const auto projected = ProjectLine(imaging_, target_.cam_from_world, line, search_);
+    if (projected) known->second = line_chooser_.Choose(*projected, no_line_);
+  }
+  return known->second;
 }
 
 }  // namespace plumbline

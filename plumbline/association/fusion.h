@@ -5,6 +5,10 @@
 #include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
 
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
 namespace plumbline {
 
 struct FusionOptions {
@@ -29,13 +33,43 @@ void VisitFields(Visitor&& visit, FusionOptions& o) {
   visit("max_chi2", o.max_chi2, "largest reprojection error, squared sigmas", Range{0.1, 100});
 }
 
-// Looks for the landmarks of keyframe `from` in keyframe `to`: a feature without landmark becomes a
-// new observation; where it has another landmark already, the two are one and are merged (the one
-// with more observations stays). Only where the landmark's reprojection agrees with the feature.
-MapEdit FuseLandmarks(const Map& map,
-                      const ImagingModel& imaging,
-                      KeyFrameId from,
-                      KeyFrameId to,
-                      const FusionOptions& options);
+// Looks for landmarks of other keyframes in keyframe `to`: a feature without landmark becomes a new
+// observation; where it has another landmark already, the two are one and are merged (the one with
+// more observations stays). Only where the landmark's reprojection agrees with the feature.
+//
+// Which feature looks like a landmark is remembered for the next keyframe that shows it, since
+// neighbours show the same: the keyframe may not move meanwhile, nor landmarks move or get other
+// looks; they may be merged. Map and options must outlive it.
+class FusionInto {
+ public:
+  FusionInto(const Map& map,
+             const ImagingModel& imaging,
+             KeyFrameId to,
+             const FusionOptions& options);
+
+  // With the landmarks of keyframe `from` as the map is now. O(landmarks that are not remembered,
+  // each with the features around its place or all lines).
+  MapEdit Fuse(KeyFrameId from);
+
+ private:
+  using Choices = std::vector<std::optional<FeatureChoice>>;
+
+  void FusePoints(const Frame& source, MapEdit& edit);
+  void FuseLines(const Frame& source, MapEdit& edit);
+  std::optional<FeatureChoice> Choose(const MapPoint& point);
+  std::optional<FeatureChoice> Choose(const MapLine& line);
+
+  const Map& map_;
+  ImagingModel imaging_;
+  KeyFrameId to_;
+  const FusionOptions& options_;
+  ProjectionSearchOptions search_;
+  const Frame& target_;
+  PointChooser point_chooser_;
+  LineChooser line_chooser_;
+  const std::vector<bool> no_point_, no_line_;  // that is taken
+  std::unordered_map<PointId, std::optional<FeatureChoice>> chosen_by_point_;
+  std::unordered_map<LineId, std::optional<FeatureChoice>> chosen_by_line_;
+};
 
 }  // namespace plumbline

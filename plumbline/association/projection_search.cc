@@ -35,28 +35,6 @@ void ClipBelow(double p, double d, double min, double& lo, double& hi) {
   }
 }
 
-// Of the wishes (landmark, feature, distance), the most similar for each feature.
-struct Wish {
-  int landmark, feature, distance;
-};
-
-std::vector<LandmarkMatch> OneToOne(const std::vector<Wish>& wishes, std::size_t feature_count) {
-  std::vector<int> owner(feature_count, -1);
-  for (std::size_t i = 0; i < wishes.size(); ++i) {
-    int& current = owner[static_cast<std::size_t>(wishes[i].feature)];
-    if (current < 0 || wishes[i].distance < wishes[static_cast<std::size_t>(current)].distance) {
-      current = static_cast<int>(i);
-    }
-  }
-  std::vector<LandmarkMatch> matches;
-  for (std::size_t i = 0; i < wishes.size(); ++i) {
-    if (owner[static_cast<std::size_t>(wishes[i].feature)] == static_cast<int>(i)) {
-      matches.push_back({wishes[i].landmark, wishes[i].feature});
-    }
-  }
-  return matches;
-}
-
 // The two nearest descriptors met so far.
 struct NearestTwo {
   int best = -1;
@@ -143,36 +121,86 @@ std::optional<ProjectedLine> ProjectLine(const ImagingModel& imaging,
   return ProjectedLine{*segment, line.descriptor};
 }
 
+std::optional<FeatureChoice> PointChooser::Choose(const ProjectedPoint& landmark,
+                                                  const std::vector<bool>& taken) {
+  const Features& features = image_.features;
+  const double radius = options_.point_radius_px * landmark.scale;
+  image_.point_grid.InWindow(landmark.px, {radius, radius}, &near_);
+  NearestTwo nearest;
+  for (const int index : near_) {
+    const auto i = static_cast<std::size_t>(index);
+    const PointFeature& feature = features.points[i];
+    if (taken[i] || std::abs(feature.octave - landmark.octave) > 1) continue;
+    if (!DisparityAgrees(features.point_disparity[i], landmark.disparity, radius)) continue;
+    nearest.Offer(index, HammingDistance(feature.descriptor, landmark.descriptor), feature.octave);
+  }
+  if (nearest.best < 0 || nearest.best_distance > options_.point_max_distance) return std::nullopt;
+  if (nearest.best_octave == nearest.second_octave &&
+      nearest.best_distance > options_.point_ratio * nearest.second_distance) {
+    return std::nullopt;
+  }
+  return FeatureChoice{nearest.best, nearest.best_distance};
+}
+
+LineChooser::LineChooser(const IndexedFeatures& image, const ProjectionSearchOptions& options)
+    : lines_(image.features.lines),
+      options_(options),
+      min_cosine_(math::Cos(Radians(options.line_angle_deg))) {
+  places_.reserve(lines_.size());
+  for (const LineFeature& line : lines_) {
+    places_.push_back({line.segment.Direction(), line.segment.Midpoint()});
+  }
+}
+
+std::optional<FeatureChoice> LineChooser::Choose(const ProjectedLine& landmark,
+                                                 const std::vector<bool>& taken) const {
+  const Segment2& predicted = landmark.segment;
+  const Eigen::Vector2d direction = predicted.Direction();
+  const Eigen::Vector3d infinite = LineThrough(predicted);
+  NearestTwo nearest;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (taken[i] || places_[i].direction.dot(direction) < min_cosine_) continue;
+    if (std::abs(LineDistance(infinite, places_[i].midpoint)) > options_.line_offset_px) continue;
+    if (OverlapRatio(predicted, lines_[i].segment) < 0.3) continue;
+    nearest.Offer(static_cast<int>(i),
+                  HammingDistance(lines_[i].descriptor, landmark.descriptor),
+                  lines_[i].octave);
+  }
+  if (nearest.best < 0 || nearest.best_distance > options_.line_max_distance) return std::nullopt;
+  return FeatureChoice{nearest.best, nearest.best_distance};
+}
+
+std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<FeatureChoice>>& choices,
+                                    std::size_t feature_count) {
+  std::vector<int> owner(feature_count, -1);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (!choices[i]) continue;
+    int& current = owner[static_cast<std::size_t>(choices[i]->feature)];
+    if (current < 0 ||
+        choices[i]->distance < choices[static_cast<std::size_t>(current)]->distance) {
+      current = static_cast<int>(i);
+    }
+  }
+  std::vector<LandmarkMatch> matches;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i] && owner[static_cast<std::size_t>(choices[i]->feature)] == static_cast<int>(i)) {
+      matches.push_back({static_cast<int>(i), choices[i]->feature});
+    }
+  }
+  return matches;
+}
+
 std::vector<LandmarkMatch> MatchProjectedPoints(
     const IndexedFeatures& image,
     const std::vector<std::optional<ProjectedPoint>>& landmarks,
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options) {
-  const Features& features = image.features;
-  std::vector<Wish> wishes;
-  std::vector<int> near;
+  PointChooser chooser(image, options);
+  std::vector<std::optional<FeatureChoice>> choices(landmarks.size());
   for (std::size_t l = 0; l < landmarks.size(); ++l) {
-    if (!landmarks[l]) continue;
-    const ProjectedPoint& landmark = *landmarks[l];
-    const double radius = options.point_radius_px * landmark.scale;
-    image.point_grid.InWindow(landmark.px, {radius, radius}, &near);
-    NearestTwo nearest;
-    for (const int index : near) {
-      const auto i = static_cast<std::size_t>(index);
-      const PointFeature& feature = features.points[i];
-      if (taken[i] || std::abs(feature.octave - landmark.octave) > 1) continue;
-      if (!DisparityAgrees(features.point_disparity[i], landmark.disparity, radius)) continue;
-      nearest.Offer(
-          index, HammingDistance(feature.descriptor, landmark.descriptor), feature.octave);
-    }
-    if (nearest.best < 0 || nearest.best_distance > options.point_max_distance) continue;
-    if (nearest.best_octave == nearest.second_octave &&
-        nearest.best_distance > options.point_ratio * nearest.second_distance) {
-      continue;
-    }
-    wishes.push_back({static_cast<int>(l), nearest.best, nearest.best_distance});
+    if (landmarks[l]) choices[l] = chooser.Choose(*landmarks[l], taken);
   }
-  return OneToOne(wishes, features.points.size());
+  return OneToOne(choices, image.features.points.size());
 }
 
 std::vector<LandmarkMatch> MatchProjectedLines(
@@ -180,28 +208,12 @@ std::vector<LandmarkMatch> MatchProjectedLines(
     const std::vector<std::optional<ProjectedLine>>& landmarks,
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options) {
-  const std::vector<LineFeature>& lines = image.features.lines;
-  const double min_cosine = math::Cos(Radians(options.line_angle_deg));
-  std::vector<Wish> wishes;
+  const LineChooser chooser(image, options);
+  std::vector<std::optional<FeatureChoice>> choices(landmarks.size());
   for (std::size_t l = 0; l < landmarks.size(); ++l) {
-    if (!landmarks[l]) continue;
-    const Segment2& predicted = landmarks[l]->segment;
-    const Eigen::Vector2d direction = predicted.Direction();
-    const Eigen::Vector3d infinite = LineThrough(predicted);
-    NearestTwo nearest;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const Segment2& segment = lines[i].segment;
-      if (taken[i] || segment.Direction().dot(direction) < min_cosine) continue;
-      if (std::abs(LineDistance(infinite, segment.Midpoint())) > options.line_offset_px) continue;
-      if (OverlapRatio(predicted, segment) < 0.3) continue;
-      nearest.Offer(static_cast<int>(i),
-                    HammingDistance(lines[i].descriptor, landmarks[l]->descriptor),
-                    lines[i].octave);
-    }
-    if (nearest.best < 0 || nearest.best_distance > options.line_max_distance) continue;
-    wishes.push_back({static_cast<int>(l), nearest.best, nearest.best_distance});
+    if (landmarks[l]) choices[l] = chooser.Choose(*landmarks[l], taken);
   }
-  return OneToOne(wishes, lines.size());
+  return OneToOne(choices, image.features.lines.size());
 }
 
 }  // namespace plumbline

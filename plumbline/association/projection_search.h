@@ -8,6 +8,7 @@
 #include "plumbline/map/frame.h"
 #include "plumbline/map/landmarks.h"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -72,10 +73,58 @@ std::optional<ProjectedLine> ProjectLine(const ImagingModel& imaging,
 // The part of a 3D segment (camera frame) in front of the camera and inside the image, projected.
 std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segment3& in_camera);
 
+// Of the features near the place of a landmark the one that looks most like it, and how much so
+// (Hamming distance).
+struct FeatureChoice {
+  int feature = 0;
+  int distance = 0;
+};
+
+// Chooses features of one image for points. Keeps what it allocates; the image must outlive it.
+class PointChooser {
+ public:
+  PointChooser(const IndexedFeatures& image, const ProjectionSearchOptions& options)
+      : image_(image), options_(options) {}
+
+  // Among those with taken[i] false; nullopt where none is near and alike enough.
+  std::optional<FeatureChoice> Choose(const ProjectedPoint& landmark,
+                                      const std::vector<bool>& taken);
+
+ private:
+  const IndexedFeatures& image_;
+  ProjectionSearchOptions options_;
+  std::vector<int> near_;
+};
+
+// The same for lines: near and parallel to the prediction, overlapping it, same direction. Looks at
+// all lines of the image, whose directions it computes once.
+class LineChooser {
+ public:
+  LineChooser(const IndexedFeatures& image, const ProjectionSearchOptions& options);
+
+  std::optional<FeatureChoice> Choose(const ProjectedLine& landmark,
+                                      const std::vector<bool>& taken) const;
+
+ private:
+  struct Place {
+    Eigen::Vector2d direction, midpoint;
+  };
+
+  const std::vector<LineFeature>& lines_;
+  ProjectionSearchOptions options_;
+  double min_cosine_;
+  std::vector<Place> places_;  // of the lines
+};
+
 struct LandmarkMatch {
   int landmark = 0;  // index into the projected landmarks
   int feature = 0;
 };
+
+// Of landmarks that chose the same feature the most similar gets it (ties: the lower index). Result
+// ordered by landmark.
+std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<FeatureChoice>>& choices,
+                                    std::size_t feature_count);
 
 // Matches each projected point with the most similar feature near it, one to one: of two landmarks
 // that want a feature the more similar gets it (ties: the lower index). Features with taken[i] are
@@ -86,7 +135,7 @@ std::vector<LandmarkMatch> MatchProjectedPoints(
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options);
 
-// The same for lines: near and parallel to the prediction, overlapping it, same direction.
+// The same for lines.
 std::vector<LandmarkMatch> MatchProjectedLines(
     const IndexedFeatures& image,
     const std::vector<std::optional<ProjectedLine>>& landmarks,

@@ -182,9 +182,11 @@ void LocalMapper::Watch(const MapEdit& edit) {
 }
 
 void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
+  FusionInto into_keyframe(map, imaging_, id, options_.fusion);
   for (const auto& neighbour : ClosestCovisible(map, id, options_.fusion_neighbours)) {
-    map.Apply(FuseLandmarks(map, imaging_, id, neighbour.id, options_.fusion));
-    map.Apply(FuseLandmarks(map, imaging_, neighbour.id, id, options_.fusion));
+    FusionInto into_neighbour(map, imaging_, neighbour.id, options_.fusion);
+    map.Apply(into_neighbour.Fuse(id));
+    map.Apply(into_keyframe.Fuse(neighbour.id));
   }
   map.Apply(RefreshShown(map.Find(id)->frame));
 }

@@ -47,6 +47,11 @@ TrueMap TwoViews(const SyntheticWorld& world, bool doubled) {
   return scene;
 }
 
+MapEdit Fuse(const TrueMap& scene, const SyntheticWorld& world, KeyFrameId from, KeyFrameId to) {
+  const FusionOptions options;
+  return FusionInto(scene.map, world.Imaging(), to, options).Fuse(from);
+}
+
 // Landmarks of the first view that the second shows as well.
 std::pair<int, int> CommonlyVisible(const TrueMap& scene) {
   const auto common = [](const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
@@ -58,11 +63,11 @@ std::pair<int, int> CommonlyVisible(const TrueMap& scene) {
           common(scene.sensed[0].line_truth, scene.sensed[1].line_truth)};
 }
 
-TEST(FuseLandmarks, AddsObservationsWhereThereIsNoLandmark) {
+TEST(FusionInto, AddsObservationsWhereThereIsNoLandmark) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 60);
   TrueMap scene = TwoViews(world, false);
   const auto [points, lines] = CommonlyVisible(scene);
-  const MapEdit edit = FuseLandmarks(scene.map, world.Imaging(), kFirst, kSecond, {});
+  const MapEdit edit = Fuse(scene, world, kFirst, kSecond);
   int new_points = 0;
   int new_lines = 0;
   for (const MapChange& change : edit) {
@@ -83,16 +88,15 @@ TEST(FuseLandmarks, AddsObservationsWhereThereIsNoLandmark) {
   EXPECT_GT(new_lines, lines * 8 / 10);
   scene.map.Apply(edit);
   scene.map.CheckInvariants();
-  EXPECT_TRUE(FuseLandmarks(scene.map, world.Imaging(), kFirst, kSecond, {}).size() <
-              edit.size() / 5);
+  EXPECT_TRUE(Fuse(scene, world, kFirst, kSecond).size() < edit.size() / 5);
 }
 
-TEST(FuseLandmarks, MergesDoubles) {
+TEST(FusionInto, MergesDoubles) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 60);
   TrueMap scene = TwoViews(world, true);
   const std::size_t before = scene.map.points().size();
   const auto [points, lines] = CommonlyVisible(scene);
-  const MapEdit edit = FuseLandmarks(scene.map, world.Imaging(), kFirst, kSecond, {});
+  const MapEdit edit = Fuse(scene, world, kFirst, kSecond);
   int merged_points = 0;
   int merged_lines = 0;
   for (const MapChange& change : edit) {
@@ -111,7 +115,7 @@ TEST(FuseLandmarks, MergesDoubles) {
   EXPECT_EQ(scene.map.points().size(), before - static_cast<std::size_t>(merged_points));
 }
 
-TEST(FuseLandmarks, KeepsTheOneSeenMoreOften) {
+TEST(FusionInto, KeepsTheOneSeenMoreOften) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 0);
   TrueMap scene = TwoViews(world, true);
   // A third keyframe shows the copies (the higher ids) once more.
@@ -125,7 +129,7 @@ TEST(FuseLandmarks, KeepsTheOneSeenMoreOften) {
   }
   scene.map.Apply(more);
   int merges = 0;
-  for (const MapChange& change : FuseLandmarks(scene.map, world.Imaging(), kFirst, kSecond, {})) {
+  for (const MapChange& change : Fuse(scene, world, kFirst, kSecond)) {
     const auto* merge = std::get_if<edit::MergePoints>(&change);
     if (merge == nullptr) continue;
     ++merges;
@@ -134,7 +138,7 @@ TEST(FuseLandmarks, KeepsTheOneSeenMoreOften) {
   EXPECT_GT(merges, 50);
 }
 
-TEST(FuseLandmarks, LeavesOutWhatDoesNotReproject) {
+TEST(FusionInto, LeavesOutWhatDoesNotReproject) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 0);
   TrueMap scene = TwoViews(world, false);
   // All points half as far again: still near their features in a close view, but with disparities
@@ -144,7 +148,36 @@ TEST(FuseLandmarks, LeavesOutWhatDoesNotReproject) {
     away.push_back(edit::MovePoint{id, 1.5 * point.position});
   }
   scene.map.Apply(away);
-  EXPECT_LT(FuseLandmarks(scene.map, world.Imaging(), kFirst, kSecond, {}).size(), 5U);
+  EXPECT_LT(Fuse(scene, world, kFirst, kSecond).size(), 5U);
+}
+
+// What one keyframe's landmarks were found to look like serves for the next that shows them, also
+// where some were merged meanwhile.
+TEST(FusionInto, FindsTheSameForAllThatShowALandmark) {
+  const SyntheticWorld world = MakeSyntheticWorld(300, 60);
+  TrueMap scene = TwoViews(world, true);
+  const KeyFrameId third = AddKeyFrameTo(scene.map, PoseOnPath(3), scene.sensed[0]);
+  MapEdit shown;
+  for (const auto& [id, point] : scene.map.points()) {
+    const auto seen = point.observations.find(kFirst);
+    if (seen != point.observations.end()) {
+      shown.push_back(edit::AddPointObservation{id, third, seen->second});
+    }
+  }
+  scene.map.Apply(shown);
+  Map at_once = scene.map, one_by_one = scene.map;
+  const FusionOptions options;
+  FusionInto second(at_once, world.Imaging(), kSecond, options);
+  for (const KeyFrameId from : {kFirst, third}) {
+    at_once.Apply(second.Fuse(from));
+    one_by_one.Apply(FusionInto(one_by_one, world.Imaging(), kSecond, options).Fuse(from));
+  }
+  ASSERT_LT(at_once.points().size(), scene.map.points().size());
+  ASSERT_EQ(at_once.points().size(), one_by_one.points().size());
+  for (const auto& [id, point] : at_once.points()) {
+    ASSERT_NE(one_by_one.Find(id), nullptr);
+    EXPECT_EQ(point.observations, one_by_one.Find(id)->observations);
+  }
 }
 
 }  // namespace
