@@ -55,16 +55,25 @@ const KeyFrame* WithNumber(const Map& map, std::int64_t number) {
   return found ? &keyframe->second : nullptr;
 }
 
-// New looks for all landmarks that a keyframe shows.
-MapEdit RefreshShown(const Frame& frame) {
-  MapEdit edit;
-  for (const PointId id : frame.points) {
-    if (id.valid()) edit.push_back(edit::RefreshPoint{id});
+template <class LandmarkId>
+std::vector<ShownLandmark<LandmarkId>> ShownBy(const Map& map,
+                                               const std::vector<LandmarkId>& matches) {
+  std::vector<ShownLandmark<LandmarkId>> shown(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i].valid()) shown[i] = {matches[i], map.Find(matches[i])->observations.size()};
   }
-  for (const LineId id : frame.lines) {
-    if (id.valid()) edit.push_back(edit::RefreshLine{id});
+  return shown;
+}
+
+// New looks for the landmarks of one kind but those that are as they were.
+template <class Refresh, class LandmarkId>
+void RefreshChanged(const std::vector<ShownLandmark<LandmarkId>>& before,
+                    const std::vector<ShownLandmark<LandmarkId>>& now,
+                    MapEdit& edit) {
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const bool changed = before.empty() || !(before[i] == now[i]);
+    if (now[i].id.valid() && changed) edit.push_back(Refresh{now[i].id});
   }
-  return edit;
 }
 
 }  // namespace
@@ -79,9 +88,10 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
                                           const TrackingScores& scores) {
   const KeyFrameId id = keyframe.id;
   std::vector<MappingStep> times;
-  Timed("take_in", times, [&] { TakeIn(map, keyframe, scores); });
+  ShownLandmarks refreshed;
+  Timed("take_in", times, [&] { refreshed = TakeIn(map, keyframe, scores); });
   Timed("create", times, [&] { CreateLandmarks(map, id); });
-  Timed("fuse", times, [&] { Fuse(map, id); });
+  Timed("fuse", times, [&] { Fuse(map, id, refreshed); });
   Timed("adjust", times, [&] { Adjust(map, id); });
   if (options_.stereo_calibration) Timed("calibrate", times, [&] { CalibrateStereo(map, id); });
   Timed("clean_up", times, [&] {
@@ -123,7 +133,7 @@ std::vector<MappingStep> LocalMapper::Tie(Map& map, KeyFrameId newest, KeyFrameI
   std::vector<MappingStep> times;
   Timed("tie", times, [&] {
     for (const KeyFrameId id : {older, newest}) {
-      Fuse(map, id);
+      Fuse(map, id, {});
       Adjust(map, id);
     }
   });
@@ -144,7 +154,10 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   return times;
 }
 
-void LocalMapper::TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores) {
+// Returns what the keyframe shows, with looks that are up to date.
+LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
+                                                const KeyFrame& keyframe,
+                                                const TrackingScores& scores) {
   MapEdit edit{edit::AddKeyFrame{keyframe}};
   for (const auto& [id, score] : scores.points) {
     edit.push_back(edit::ScorePoint{id, score.visible, score.found});
@@ -153,8 +166,23 @@ void LocalMapper::TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScore
     edit.push_back(edit::ScoreLine{id, score.visible, score.found});
   }
   map.Apply(edit);
-  map.Apply(RefreshShown(map.Find(keyframe.id)->frame));
+  ShownLandmarks refreshed = Refresh(map, keyframe.id, {});
   map.Apply(RemoveWeakLandmarks(map, keyframe.id, options_.cleanup, young_));
+  return refreshed;
+}
+
+// New looks for all landmarks that the keyframe shows, but for those that have not changed since
+// they had some: the same features show them. (Nothing moves meanwhile.)
+LocalMapper::ShownLandmarks LocalMapper::Refresh(Map& map,
+                                                 KeyFrameId id,
+                                                 const ShownLandmarks& before) {
+  const Frame& frame = map.Find(id)->frame;
+  ShownLandmarks now{ShownBy(map, frame.points), ShownBy(map, frame.lines)};
+  MapEdit edit;
+  RefreshChanged<edit::RefreshPoint>(before.points, now.points, edit);
+  RefreshChanged<edit::RefreshLine>(before.lines, now.lines, edit);
+  map.Apply(edit);
+  return now;
 }
 
 void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
@@ -181,14 +209,14 @@ void LocalMapper::Watch(const MapEdit& edit) {
   }
 }
 
-void LocalMapper::Fuse(Map& map, KeyFrameId id) const {
+void LocalMapper::Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed) const {
   FusionInto into_keyframe(map, imaging_, id, options_.fusion);
   for (const auto& neighbour : ClosestCovisible(map, id, options_.fusion_neighbours)) {
     FusionInto into_neighbour(map, imaging_, neighbour.id, options_.fusion);
     map.Apply(into_neighbour.Fuse(id));
     map.Apply(into_keyframe.Fuse(neighbour.id));
   }
-  map.Apply(RefreshShown(map.Find(id)->frame));
+  Refresh(map, id, refreshed);
 }
 
 void LocalMapper::Adjust(Map& map, KeyFrameId id) {

@@ -30,6 +30,15 @@ struct AdjustedLines {
   std::size_t bytes = 0;
 };
 
+// A landmark that a feature shows, and how many keyframes show it.
+template <class LandmarkId>
+struct ShownLandmark {
+  LandmarkId id = {};
+  std::size_t views = 0;
+
+  friend bool operator==(const ShownLandmark&, const ShownLandmark&) = default;
+};
+
 // Takes keyframes into the map, one after the other: observations, landmarks from depth and from
 // several views, duplicates, local bundle adjustment, calibration of the stereo pair, clean-up.
 // Each step reads the map and returns a MapEdit, applied here.
@@ -78,10 +87,17 @@ class LocalMapper {
   void SetState(const State& state);
 
  private:
-  void TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
+  // Of a keyframe, by feature.
+  struct ShownLandmarks {
+    std::vector<ShownLandmark<PointId>> points;
+    std::vector<ShownLandmark<LineId>> lines;
+  };
+
+  ShownLandmarks TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
+  static ShownLandmarks Refresh(Map& map, KeyFrameId id, const ShownLandmarks& before);
   void CreateLandmarks(Map& map, KeyFrameId id);
   void Watch(const MapEdit& edit);
-  void Fuse(Map& map, KeyFrameId id) const;
+  void Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed) const;
   void Adjust(Map& map, KeyFrameId id);
   void CalibrateStereo(Map& map, KeyFrameId id);
 
