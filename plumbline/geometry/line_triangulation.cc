@@ -26,40 +26,48 @@ struct NormalEquations {
   double worst = 0;  // largest |residual| / sigma
 };
 
-// Adds the two end point distances of a view (eq. 13, 16-18).
-void AddView(const RectifiedCamera& camera,
-             const LineView& view,
-             const OrthonormalLine& line,
-             NormalEquations& equations) {
-  const Eigen::Matrix3d R = view.cam_from_world.rotation.toRotationMatrix();
-  Eigen::Matrix<double, 3, 6> moment_from_line;
-  moment_from_line << R, Skew(view.cam_from_world.translation) * R;
+// What a view has to do with a line, whatever the line: the image line from moment and direction.
+std::vector<Eigen::Matrix<double, 3, 6>> ImageFromLine(const RectifiedCamera& camera,
+                                                       std::span<const LineView> views) {
   Eigen::Matrix3d K;  // ProjectMoment
   for (int i = 0; i < 3; ++i) K.col(i) = camera.ProjectMoment(Eigen::Vector3d::Unit(i));
-  const Eigen::Matrix<double, 3, 6> image_from_line = K * moment_from_line;
-  const Eigen::Vector3d l = image_from_line * line.Homogeneous();
-  const Eigen::Matrix<double, 3, 4> J_l = image_from_line * HomogeneousJacobian(line);
-  const double length = l.head<2>().norm();
-  const std::array<Eigen::Vector2d, 2> ends = {view.segment.start, view.segment.end};
-  for (const Eigen::Vector2d& px : ends) {
-    const double distance = l.dot(px.homogeneous()) / length;
-    Eigen::RowVector3d J_distance = px.homogeneous().transpose() / length;
-    J_distance.head<2>() -= distance / (length * length) * l.head<2>().transpose();
-    const Eigen::RowVector4d J = J_distance * J_l / view.sigma_px;
-    const double residual = distance / view.sigma_px;
-    equations.information += J.transpose() * J;
-    equations.gradient += residual * J.transpose();
-    equations.chi2 += residual * residual;
-    // Written so that NaN is kept.
-    if (!(std::abs(residual) <= equations.worst)) equations.worst = std::abs(residual);
+  std::vector<Eigen::Matrix<double, 3, 6>> out;
+  out.reserve(views.size());
+  for (const LineView& view : views) {
+    const Eigen::Matrix3d R = view.cam_from_world.rotation.toRotationMatrix();
+    Eigen::Matrix<double, 3, 6> moment_from_line;
+    moment_from_line << R, Skew(view.cam_from_world.translation) * R;
+    out.emplace_back(K * moment_from_line);
   }
+  return out;
 }
 
-NormalEquations Linearize(const RectifiedCamera& camera,
-                          std::span<const LineView> views,
+// The two end point distances of each view (eq. 13, 16-18).
+NormalEquations Linearize(std::span<const LineView> views,
+                          const std::vector<Eigen::Matrix<double, 3, 6>>& image_from_line,
                           const OrthonormalLine& line) {
+  const Eigen::Matrix<double, 6, 1> homogeneous = line.Homogeneous();
+  const Eigen::Matrix<double, 6, 4> J_homogeneous = HomogeneousJacobian(line);
   NormalEquations equations;
-  for (const LineView& view : views) AddView(camera, view, line, equations);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const LineView& view = views[i];
+    const Eigen::Vector3d l = image_from_line[i] * homogeneous;
+    const Eigen::Matrix<double, 3, 4> J_l = image_from_line[i] * J_homogeneous;
+    const double length = l.head<2>().norm();
+    const std::array<Eigen::Vector2d, 2> ends = {view.segment.start, view.segment.end};
+    for (const Eigen::Vector2d& px : ends) {
+      const double distance = l.dot(px.homogeneous()) / length;
+      Eigen::RowVector3d J_distance = px.homogeneous().transpose() / length;
+      J_distance.head<2>() -= distance / (length * length) * l.head<2>().transpose();
+      const Eigen::RowVector4d J = J_distance * J_l / view.sigma_px;
+      const double residual = distance / view.sigma_px;
+      equations.information += J.transpose() * J;
+      equations.gradient += residual * J.transpose();
+      equations.chi2 += residual * residual;
+      // Written so that NaN is kept.
+      if (!(std::abs(residual) <= equations.worst)) equations.worst = std::abs(residual);
+    }
+  }
   return equations;
 }
 
@@ -69,13 +77,21 @@ struct PlanePair {
 };
 
 PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
+  // The normals have unit length: where their cosine is larger by more than rounding, the angle is
+  // smaller.
+  constexpr double kRounding = 1e-12;
   PlanePair widest;
   LargestAngle largest;
+  double cosine = 1;  // of the widest
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (std::size_t j = i + 1; j < planes.size(); ++j) {
       const Eigen::Vector3d n1 = planes[i].head<3>();
       const Eigen::Vector3d n2 = planes[j].head<3>();
-      if (largest.Add(n1.cross(n2).norm(), std::abs(n1.dot(n2)))) widest = {i, j, largest.angle()};
+      const double along = std::abs(n1.dot(n2));
+      if (along > cosine + kRounding) continue;
+      if (!largest.Add(n1.cross(n2).norm(), along)) continue;
+      widest = {i, j, largest.angle()};
+      cosine = along;
     }
   }
   return widest;
@@ -115,11 +131,12 @@ OrthonormalLine Refine(const RectifiedCamera& camera,
                        std::span<const LineView> views,
                        OrthonormalLine line,
                        int max_iterations) {
-  NormalEquations equations = Linearize(camera, views, line);
+  const auto image_from_line = ImageFromLine(camera, views);
+  NormalEquations equations = Linearize(views, image_from_line, line);
   for (int i = 0; i < max_iterations; ++i) {
     const Eigen::Vector4d step = equations.information.ldlt().solve(equations.gradient);
     const OrthonormalLine trial = Retract(line, -step);
-    const NormalEquations trial_equations = Linearize(camera, views, trial);
+    const NormalEquations trial_equations = Linearize(views, image_from_line, trial);
     if (!(trial_equations.chi2 < equations.chi2)) break;
     line = trial;
     equations = trial_equations;
@@ -184,7 +201,8 @@ Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
   if (!directed) return kBehindCamera;
 
   const PluckerLine line = Transform(world_from_local, *directed);
-  const NormalEquations equations = Linearize(camera, views, ToOrthonormal(line));
+  const NormalEquations equations =
+      Linearize(views, ImageFromLine(camera, views), ToOrthonormal(line));
   if (!(equations.worst <= options.max_residual_sigma)) return kInconsistentViews;
   const Eigen::LLT<Eigen::Matrix4d> factor(equations.information);
   if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-15)) return kSingular;
