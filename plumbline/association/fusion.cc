@@ -3,6 +3,7 @@
 #include "plumbline/association/fusion.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/association/uncertain_line.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <cstddef>
@@ -36,16 +37,13 @@ bool LineAgrees(const RectifiedCamera& camera,
                 std::size_t feature,
                 const MapLine& line,
                 double max_chi2) {
+  const UncertainLine uncertain(line.line, line.information);
   const auto agrees = [&](LineMeasurement measurement) {
-    AddLandmarkUncertainty(camera,
-                           frame.cam_from_world,
-                           line.line,
-                           line.information,
-                           LineWeighting::kCovariance,
-                           measurement);
-    const auto residual =
-        EvaluateLine(camera, frame.cam_from_world, ToOrthonormal(line.line), measurement);
-    return residual && residual->r.squaredNorm() <= max_chi2;
+    AddLandmarkUncertainty(
+        camera, frame.cam_from_world, uncertain, LineWeighting::kCovariance, measurement);
+    const auto distances =
+        LineDistances(camera, frame.cam_from_world, uncertain.prepared, measurement);
+    return distances && distances->squaredNorm() <= max_chi2;
   };
   const auto right = MeasureRightLine(frame.features(), feature, LineWeighting::kCovariance);
   return agrees(MeasureLeftLine(frame.features(), feature, LineWeighting::kCovariance)) &&

@@ -4,7 +4,6 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/geometry/covariance.h"
-#include "plumbline/optimization/residuals.h"
 
 #include <limits>
 
@@ -16,10 +15,16 @@ Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 const Frame& frame,
                                 std::size_t i,
                                 const PluckerLine& line) {
-  const OrthonormalLine orthonormal = ToOrthonormal(line);
+  return LineInformation(camera, frame, i, PreparedLine(ToOrthonormal(line)));
+}
+
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PreparedLine& line) {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   const auto add = [&](const LineMeasurement& measurement) {
-    const auto residual = EvaluateLine(camera, frame.cam_from_world, orthonormal, measurement);
+    const auto residual = EvaluateLine(camera, frame.cam_from_world, line, measurement);
     if (residual) information += residual->J_line.transpose() * residual->J_line;
   };
   add(MeasureLeftLine(frame.features(), i, LineWeighting::kCovariance));

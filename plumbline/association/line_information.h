@@ -5,6 +5,7 @@
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/map/frame.h"
+#include "plumbline/optimization/prepared_line.h"
 
 #include <cstddef>
 
@@ -19,6 +20,11 @@ Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
                                 const Frame& frame,
                                 std::size_t i,
                                 const PluckerLine& line);
+// The same of a line that is prepared for many features.
+Eigen::Matrix4d LineInformation(const RectifiedCamera& camera,
+                                const Frame& frame,
+                                std::size_t i,
+                                const PreparedLine& line);
 
 // How the place of the line at parameter t (PluckerLine::PointAt) moves across the line with its
 // orthonormal tangent.

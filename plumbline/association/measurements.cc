@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/association/measurements.h"
 
+#include "plumbline/association/uncertain_line.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 
@@ -16,9 +17,9 @@ LineMeasurement Measure(const Segment2& segment, double sigma_px, LineWeighting 
 }
 
 // J Lambda^-1 J^T.
-Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J, const Eigen::Matrix4d& information) {
-  const Eigen::Matrix<double, 4, 2> spread =
-      RegularizedInformation(information).llt().solve(J.transpose());
+Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J,
+                         const Eigen::LLT<Eigen::Matrix4d>& information) {
+  const Eigen::Matrix<double, 4, 2> spread = information.solve(J.transpose());
   return J * spread;
 }
 
@@ -59,11 +60,24 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             LineWeighting weighting,
                             LineMeasurement& measurement) {
   if (weighting == LineWeighting::kNone) return;
+  AddLandmarkUncertainty(
+      camera, cam_from_world, UncertainLine(line, information), weighting, measurement);
+}
+
+UncertainLine::UncertainLine(const PluckerLine& line, const Eigen::Matrix4d& information_of_it)
+    : prepared(ToOrthonormal(line)), information(RegularizedInformation(information_of_it)) {}
+
+void AddLandmarkUncertainty(const RectifiedCamera& camera,
+                            const Rigid3& cam_from_world,
+                            const UncertainLine& line,
+                            LineWeighting weighting,
+                            LineMeasurement& measurement) {
+  if (weighting == LineWeighting::kNone) return;
   LineMeasurement unit = measurement;
   unit.covariance = Eigen::Matrix2d::Identity();
-  const auto residual = EvaluateLine(camera, cam_from_world, ToOrthonormal(line), unit);
+  const auto residual = EvaluateLine(camera, cam_from_world, line.prepared, unit);
   if (!residual) return;
-  measurement.covariance += SpreadOf(residual->J_line, information);
+  measurement.covariance += SpreadOf(residual->J_line, line.information);
   MakeScalar(weighting, measurement.covariance);
 }
 
@@ -82,7 +96,8 @@ void UseProjectedEnds(const RectifiedCamera& camera,
   const auto residual =
       EvaluateProjectedEnds(camera, cam_from_world, ToOrthonormal(line), interval, unit);
   if (residual && information) {
-    measurement.covariance += SpreadOf(residual->J_line, *information);
+    measurement.covariance +=
+        SpreadOf(residual->J_line, RegularizedInformation(*information).llt());
   }
   MakeScalar(weighting, measurement.covariance);
 }

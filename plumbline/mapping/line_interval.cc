@@ -24,6 +24,7 @@ edit::MoveLine RefitInterval(const Map& map,
   PluckerLine target = moved;
   if (target.direction.dot(line.line.direction) < 0) target = {-moved.moment, -moved.direction};
   edit::MoveLine change{line.id, target, 0, 0, Eigen::Matrix4d::Zero()};
+  const PreparedLine prepared(ToOrthonormal(target));
   std::vector<double> starts;
   std::vector<double> ends;
   for (const auto& [id, feature] : line.observations) {
@@ -33,7 +34,7 @@ edit::MoveLine RefitInterval(const Map& map,
     frame.indexed = in_map.indexed;
     frame.cam_from_world = it != poses.end() ? it->second : in_map.cam_from_world;
     const auto i = static_cast<std::size_t>(feature);
-    change.information += LineInformation(imaging.camera, frame, i, target);
+    change.information += LineInformation(imaging.camera, frame, i, prepared);
     const auto interval = TrimToSegment(
         imaging.camera, frame.cam_from_world, target, frame.features().lines[i].segment);
     if (!interval) continue;

@@ -3,11 +3,11 @@
 #include "plumbline/mapping/line_support.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/stretches.h"
-#include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
 #include <array>
@@ -26,18 +26,12 @@ constexpr double kMinOverlap = 0.25;
 // Ends of a measured segment near the projected line, chi2 99 % of two residuals.
 bool Agrees(const RectifiedCamera& camera,
             const Rigid3& cam_from_world,
-            const LineHypothesis& hypothesis,
+            const UncertainLine& line,
             LineMeasurement measurement) {
   measurement.covariance += kPoseSigmaPx * kPoseSigmaPx * Eigen::Matrix2d::Identity();
-  AddLandmarkUncertainty(camera,
-                         cam_from_world,
-                         hypothesis.line,
-                         hypothesis.information,
-                         LineWeighting::kCovariance,
-                         measurement);
-  const auto residual =
-      EvaluateLine(camera, cam_from_world, ToOrthonormal(hypothesis.line), measurement);
-  return residual && residual->r.squaredNorm() <= kChi2TwoDof99;
+  AddLandmarkUncertainty(camera, cam_from_world, line, LineWeighting::kCovariance, measurement);
+  const auto distances = LineDistances(camera, cam_from_world, line.prepared, measurement);
+  return distances && distances->squaredNorm() <= kChi2TwoDof99;
 }
 
 // Where a segment lies along a line; nullopt where it runs against it.
@@ -102,6 +96,7 @@ LineSupportSearch::LineSupportSearch(const Map& map, const ImagingModel& imaging
 std::vector<LineSupport> LineSupportSearch::Find(const LineHypothesis& hypothesis) const {
   constexpr double kMinLengthPx = 5;
   const Segment3 segment = SegmentOf(hypothesis.line, hypothesis.interval);
+  const UncertainLine uncertain(hypothesis.line, hypothesis.information);
   std::vector<LineSupport> supports;
   for (const int index : views_.MayShow({.segment = segment, .min_length_px = kMinLengthPx})) {
     const KeyFrame& keyframe = views_.keyframe(index);
@@ -114,7 +109,8 @@ std::vector<LineSupport> LineSupportSearch::Find(const LineHypothesis& hypothesi
     segments_[static_cast<std::size_t>(index)].ForEachNear(
         Surroundings(imaging_.camera, in_camera), test.direction(), [&](std::size_t i) {
           if (!test.MayShow(lines[i].segment)) return;
-          if (const auto support = Test(hypothesis, keyframe, i)) supports.push_back(*support);
+          const auto support = Test(hypothesis, uncertain, keyframe, i);
+          if (support) supports.push_back(*support);
         });
   }
   return supports;
@@ -128,11 +124,12 @@ void LineSupportSearch::Claim(std::span<const LineSupport> supports) {
 }
 
 std::optional<LineSupport> LineSupportSearch::Test(const LineHypothesis& hypothesis,
+                                                   const UncertainLine& uncertain,
                                                    const KeyFrame& keyframe,
                                                    std::size_t feature) const {
   const Frame& frame = keyframe.frame;
   const auto agrees = [&](const LineMeasurement& measurement) {
-    return Agrees(imaging_.camera, frame.cam_from_world, hypothesis, measurement);
+    return Agrees(imaging_.camera, frame.cam_from_world, uncertain, measurement);
   };
   if (!agrees(MeasureLeftLine(frame.features(), feature, LineWeighting::kCovariance))) {
     return std::nullopt;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/association/projection_search.h"
+#include "plumbline/association/uncertain_line.h"
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/geometry/trimming.h"
@@ -54,7 +55,9 @@ class LineSupportSearch {
   const ViewTree& views() const { return views_; }
 
  private:
+  // `uncertain`: the line of the hypothesis.
   std::optional<LineSupport> Test(const LineHypothesis& hypothesis,
+                                  const UncertainLine& uncertain,
                                   const KeyFrame& keyframe,
                                   std::size_t feature) const;
 

@@ -3,6 +3,7 @@
 #include "plumbline/optimization/residuals.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/optimization/prepared_line.h"
 
 namespace plumbline {
 
@@ -50,29 +51,66 @@ std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,
   return out;
 }
 
+PreparedLine::PreparedLine(const OrthonormalLine& line)
+    : homogeneous(line.Homogeneous()), J_orthonormal(HomogeneousJacobian(line)) {}
+
+namespace {
+
+// A line in the frame of the camera that measured it.
+struct MeasuredLine {
+  Eigen::Matrix3d R;          // of the left camera
+  Eigen::Vector3d direction;  // in the left camera's frame
+  // Of the camera that measured: the right one sees points displaced by e, hence its translation is
+  // t + e.
+  Eigen::Vector3d t;
+  Eigen::Vector3d moment;
+
+  MeasuredLine(const Rigid3& cam_from_world, const Vector6d& h, double shift)
+      : R(cam_from_world.rotation.toRotationMatrix()),
+        direction(R * h.tail<3>()),
+        t(cam_from_world.translation + Eigen::Vector3d(shift, 0, 0)),
+        moment(R * h.head<3>() + t.cross(direction)) {}
+};
+
+}  // namespace
+
 std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
                                          const Rigid3& cam_from_world,
                                          const OrthonormalLine& line_in_world,
                                          const LineMeasurement& measurement) {
+  return EvaluateLine(camera, cam_from_world, PreparedLine(line_in_world), measurement);
+}
+
+std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
+                                         const Rigid3& cam_from_world,
+                                         const PreparedLine& line_in_world,
+                                         const LineMeasurement& measurement) {
   const LineTerm term = MakeLineTerm(camera, measurement);
-  const Vector6d h = line_in_world.Homogeneous();
-  const Eigen::Matrix3d R = cam_from_world.rotation.toRotationMatrix();
-  const Eigen::Vector3d direction = R * h.tail<3>();
-  // The right camera sees points displaced by e, hence its translation is t + e.
-  const Eigen::Vector3d t = cam_from_world.translation + Eigen::Vector3d(term.shift, 0, 0);
-  const Eigen::Vector3d moment = R * h.head<3>() + t.cross(direction);
+  const MeasuredLine line(cam_from_world, line_in_world.homogeneous, term.shift);
   LineLinearization lin;
-  if (!LinearizeLine(camera, term, moment, lin)) return std::nullopt;
+  if (!LinearizeLine(camera, term, line.moment, lin)) return std::nullopt;
   LineResidual out;
   out.r = lin.r;
-  out.J_pose << LinePoseRow(lin.h0, moment, direction, term.shift).transpose(),
-      LinePoseRow(lin.h1, moment, direction, term.shift).transpose();
+  out.J_pose << LinePoseRow(lin.h0, line.moment, line.direction, term.shift).transpose(),
+      LinePoseRow(lin.h1, line.moment, line.direction, term.shift).transpose();
+  const Eigen::Matrix3d& R = line.R;
   Eigen::Matrix<double, 2, 6> J_homogeneous;  // eq. 18: d moment / d (m, d) = [R, [t]x R]
   J_homogeneous << (R.transpose() * lin.h0).transpose(),
-      (R.transpose() * lin.h0.cross(t)).transpose(), (R.transpose() * lin.h1).transpose(),
-      (R.transpose() * lin.h1.cross(t)).transpose();
-  out.J_line = J_homogeneous * HomogeneousJacobian(line_in_world);
+      (R.transpose() * lin.h0.cross(line.t)).transpose(), (R.transpose() * lin.h1).transpose(),
+      (R.transpose() * lin.h1.cross(line.t)).transpose();
+  out.J_line = J_homogeneous * line_in_world.J_orthonormal;
   return out;
+}
+
+std::optional<Eigen::Vector2d> LineDistances(const RectifiedCamera& camera,
+                                             const Rigid3& cam_from_world,
+                                             const PreparedLine& line_in_world,
+                                             const LineMeasurement& measurement) {
+  const LineTerm term = MakeLineTerm(camera, measurement);
+  const MeasuredLine line(cam_from_world, line_in_world.homogeneous, term.shift);
+  LineLinearization lin;
+  if (!LinearizeLine(camera, term, line.moment, lin)) return std::nullopt;
+  return lin.r;
 }
 
 }  // namespace plumbline
