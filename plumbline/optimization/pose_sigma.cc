@@ -5,7 +5,7 @@
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/covariance.h"
 #include "plumbline/geometry/trimming.h"
-#include "plumbline/optimization/residuals.h"
+#include "plumbline/optimization/prepared_line.h"
 
 #include <cstddef>
 #include <limits>
@@ -19,41 +19,69 @@ namespace {
 
 // What the observations of one pose add up to.
 struct Sums {
+  bool wanted = true;
   Matrix6d information = Matrix6d::Zero();
   std::vector<double> depths;
 };
 
 void AddPoints(const BaProblem& problem, const BaResult& state, std::vector<Sums>& sums) {
   for (std::size_t k = 0; k < problem.point_observations.size(); ++k) {
-    if (!state.point_inliers[k]) continue;
     const auto& o = problem.point_observations[k];
-    const auto pose = static_cast<std::size_t>(o.pose);
-    const Eigen::Vector3d& point = state.points[static_cast<std::size_t>(o.point)];
-    const auto residual = EvaluatePoint(problem.camera, state.poses[pose], point, o.measurement);
-    if (!residual) continue;
-    const auto J = residual->J_pose.topRows(residual->rows);
-    sums[pose].information.noalias() += J.transpose() * J;
-    sums[pose].depths.push_back((state.poses[pose] * point).z());
+    Sums& sum = sums[static_cast<std::size_t>(o.pose)];
+    if (!state.point_inliers[k] || !sum.wanted) continue;
+    const Eigen::Vector3d p = state.poses[static_cast<std::size_t>(o.pose)] *
+                              state.points[static_cast<std::size_t>(o.point)];
+    PointLinearization at;
+    if (!LinearizePoint(problem.camera, MakePointTerm(o.measurement), p, at)) continue;
+    const Eigen::Matrix3d J_cam = PointJacobian(at);
+    Eigen::Matrix<double, 3, 6> J;  // without disparity the last row is zero
+    J << -J_cam * Skew(p), J_cam;
+    sum.information.noalias() += J.transpose() * J;
+    sum.depths.push_back(p.z());
   }
 }
 
 void AddLines(const BaProblem& problem, const BaResult& state, std::vector<Sums>& sums) {
+  std::optional<PreparedLine> prepared;  // of the observation before
+  int line = -1;
   for (std::size_t k = 0; k < problem.line_observations.size(); ++k) {
-    if (!state.line_inliers[k]) continue;
     const auto& o = problem.line_observations[k];
-    const auto pose = static_cast<std::size_t>(o.pose);
-    const Rigid3& cam_from_world = state.poses[pose];
-    const OrthonormalLine& line = state.lines[static_cast<std::size_t>(o.line)];
-    const auto residual = EvaluateLine(problem.camera, cam_from_world, line, o.measurement);
+    Sums& sum = sums[static_cast<std::size_t>(o.pose)];
+    if (!state.line_inliers[k] || !sum.wanted) continue;
+    const OrthonormalLine& orthonormal = state.lines[static_cast<std::size_t>(o.line)];
+    if (o.line != line) prepared.emplace(orthonormal);
+    line = o.line;
+    const Rigid3& cam_from_world = state.poses[static_cast<std::size_t>(o.pose)];
+    const auto residual = EvaluateLine(problem.camera, cam_from_world, *prepared, o.measurement);
     if (!residual) continue;
-    sums[pose].information.noalias() += residual->J_pose.transpose() * residual->J_pose;
+    sum.information.noalias() += residual->J_pose.transpose() * residual->J_pose;
     if (o.measurement.in_right_camera) continue;
-    const PluckerLine plucker = ToPlucker(line);
+    const PluckerLine plucker = ToPlucker(orthonormal);
     const auto seen = TrimToSegment(problem.camera, cam_from_world, plucker, o.measurement.segment);
     if (!seen) continue;
     const Segment3 part = SegmentOf(plucker, *seen);
-    sums[pose].depths.push_back((cam_from_world * part.Midpoint()).z());
+    sum.depths.push_back((cam_from_world * part.Midpoint()).z());
   }
+}
+
+std::vector<PoseSigma> SigmasOf(const BaProblem& problem,
+                                const BaResult& state,
+                                std::vector<Sums> sums) {
+  AddPoints(problem, state, sums);
+  AddLines(problem, state, sums);
+  std::vector<PoseSigma> sigmas;
+  sigmas.reserve(sums.size());
+  for (Sums& s : sums) {
+    sigmas.push_back(SigmaOfPose(s.information, UpperMedian(std::span<double>(s.depths))));
+  }
+  return sigmas;
+}
+
+// Those of poses that are fixed are not computed.
+std::vector<PoseSigma> SigmasOfFreePoses(const BaProblem& problem, const BaResult& state) {
+  std::vector<Sums> sums(problem.poses.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i].wanted = !problem.poses[i].fixed;
+  return SigmasOf(problem, state, std::move(sums));
 }
 
 }  // namespace
@@ -75,15 +103,7 @@ PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth) {
 }
 
 std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state) {
-  std::vector<Sums> sums(problem.poses.size());
-  AddPoints(problem, state, sums);
-  AddLines(problem, state, sums);
-  std::vector<PoseSigma> sigmas;
-  sigmas.reserve(sums.size());
-  for (Sums& s : sums) {
-    sigmas.push_back(SigmaOfPose(s.information, UpperMedian(std::span<double>(s.depths))));
-  }
-  return sigmas;
+  return SigmasOf(problem, state, std::vector<Sums>(problem.poses.size()));
 }
 
 namespace {
@@ -139,7 +159,7 @@ Solution SolveHoldingLoosePoses(BaProblem& problem,
                                 LineParametrization lines,
                                 double limit,
                                 const StopCheck& stop) {
-  HoldLoosePoses(SigmasOfPoses(problem, InitialState(problem)), limit, problem);
+  HoldLoosePoses(SigmasOfFreePoses(problem, InitialState(problem)), limit, problem);
   const auto solve = [&] {
     BaResult result = SolveLocalBa(problem, options, lines, stop);
     std::vector<PoseSigma> sigmas;
@@ -155,7 +175,7 @@ Solution SolveHoldingLoosePoses(BaProblem& problem,
 }  // namespace
 
 bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
-  return HoldLoosePoses(SigmasOfPoses(problem, state), limit, problem);
+  return HoldLoosePoses(SigmasOfFreePoses(problem, state), limit, problem);
 }
 
 bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem) {
