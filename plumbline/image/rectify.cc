@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/image/bilinear_map.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
@@ -129,20 +130,20 @@ void CheckSize(const Image<T>& image, const Camera& camera, const std::string& n
 }
 
 struct FloatMaps {
-  cv::Mat x, y;  // raw pixel of each ideal pixel
+  Image<float> x, y;  // raw pixel of each ideal pixel
   GrayImage mask;
 };
 
 FloatMaps ComputeMaps(const RectifiedCamera& ideal, const View& view) {
   constexpr float kNowhere = -10000.0F;
   FloatMaps maps;
-  maps.x.create(ideal.height, ideal.width, CV_32FC1);
-  maps.y.create(ideal.height, ideal.width, CV_32FC1);
+  maps.x = Image<float>(ideal.width, ideal.height);
+  maps.y = Image<float>(ideal.width, ideal.height);
   maps.mask = GrayImage(ideal.width, ideal.height);
   const Eigen::Matrix3d raw_from_rectified = view.rectified_from_raw.conjugate().toRotationMatrix();
   for (int v = 0; v < ideal.height; ++v) {
-    auto* row_x = maps.x.ptr<float>(v);
-    auto* row_y = maps.y.ptr<float>(v);
+    float* row_x = maps.x.row(v);
+    float* row_y = maps.y.row(v);
     for (int u = 0; u < ideal.width; ++u) {
       const Eigen::Vector3d ray =
           raw_from_rectified * ideal.Unproject({static_cast<double>(u), static_cast<double>(v)});
@@ -158,21 +159,15 @@ FloatMaps ComputeMaps(const RectifiedCamera& ideal, const View& view) {
 }  // namespace
 
 struct Rectifier::Maps {
-  cv::Mat linear_px, linear_fraction;
+  BilinearMap linear;
   cv::Mat nearest_px;
 
-  Maps(const FloatMaps& maps, bool with_depth) {
-    cv::convertMaps(maps.x, maps.y, linear_px, linear_fraction, CV_16SC2, false);
+  Maps(const FloatMaps& maps, const Camera& raw, bool with_depth)
+      : linear(maps.x, maps.y, raw.width(), raw.height()) {
     cv::Mat unused;
-    if (with_depth) cv::convertMaps(maps.x, maps.y, nearest_px, unused, CV_16SC2, true);
-  }
-
-  GrayImage Apply(const GrayImage& raw) const {
-    GrayImage ideal(linear_px.cols, linear_px.rows);
-    cv::Mat target = AsMat(ideal);
-    cv::remap(
-        AsMat(raw), target, linear_px, linear_fraction, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-    return ideal;
+    if (with_depth) {
+      cv::convertMaps(AsMat(maps.x), AsMat(maps.y), nearest_px, unused, CV_16SC2, true);
+    }
   }
 
   DepthImage Apply(const DepthImage& raw) const {
@@ -220,11 +215,11 @@ Rectifier::Rectifier(const Calibration& calibration, const RectifierOptions& opt
     const View right_view{stereo ? &*calibration_.right : nullptr, rectified_right_from_right_};
     camera_ = ChooseCamera(left_view, stereo ? &right_view : nullptr);
     FloatMaps maps = ComputeMaps(camera_, left_view);
-    left_maps_ = std::make_unique<Maps>(maps, with_depth);
+    left_maps_ = std::make_unique<Maps>(maps, left, with_depth);
     left_mask_ = std::move(maps.mask);
     if (stereo) {
       maps = ComputeMaps(camera_, right_view);
-      right_maps_ = std::make_unique<Maps>(maps, false);
+      right_maps_ = std::make_unique<Maps>(maps, *calibration_.right, false);
       right_mask_ = std::move(maps.mask);
     }
   }
@@ -235,10 +230,10 @@ RectifiedFrame Rectifier::Apply(SensorFrame frame) const {
   RectifiedFrame result;
   result.stamp_ns = frame.stamp_ns;
   CheckSize(frame.left, calibration_.left, "left");
-  result.left = left_maps_ ? left_maps_->Apply(frame.left) : std::move(frame.left);
+  result.left = left_maps_ ? left_maps_->linear.Apply(frame.left) : std::move(frame.left);
   if (frame.right && calibration_.right) {
     CheckSize(*frame.right, *calibration_.right, "right");
-    result.right = right_maps_ ? right_maps_->Apply(*frame.right) : std::move(*frame.right);
+    result.right = right_maps_ ? right_maps_->linear.Apply(*frame.right) : std::move(*frame.right);
   }
   if (frame.depth && calibration_.depth_factor) {
     CheckSize(*frame.depth, calibration_.left, "depth");
