@@ -4,16 +4,17 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/processor.h"
+#include "plumbline/features/fast_corners.h"
 #include "plumbline/features/orb_descriptor.h"
-#include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <tuple>
-
-#include <opencv2/features2d.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 
 namespace plumbline {
 namespace {
@@ -21,118 +22,139 @@ namespace {
 constexpr int kCentroidRadius = 15;
 constexpr int kPatchRadius = 20;  // the turned sampling pattern (18.4) and a shift stay inside
 
-struct Corner {
-  int x = 0;
-  int y = 0;
-  float response = 0;
-};
-
-// FAST needs 3 pixels around a corner: the window for corners in `area` is larger by that.
-void FastIn(const cv::Mat& image,
-            const cv::Rect& area,
-            int threshold,
-            std::vector<Corner>* corners) {
-  std::vector<cv::KeyPoint> found;
-  const cv::Rect window(area.x - 3, area.y - 3, area.width + 6, area.height + 6);
-  cv::FAST(image(window), found, threshold, true);
-  for (const cv::KeyPoint& k : found) {
-    corners->push_back(
-        {static_cast<int>(k.pt.x) + window.x, static_cast<int>(k.pt.y) + window.y, k.response});
-  }
-}
-
 // Corners of one level, at least kPatchRadius from its border.
-std::vector<Corner> DetectCorners(const GrayImage& image, const OrbOptions& options) {
-  const cv::Rect area(kPatchRadius,
-                      kPatchRadius,
-                      image.width() - 2 * kPatchRadius,
-                      image.height() - 2 * kPatchRadius);
-  std::vector<Corner> corners;
-  if (area.width <= 0 || area.height <= 0) return corners;
-  const cv::Mat mat = AsMat(image);
-  FastIn(mat, area, options.fast_threshold, &corners);
-  const int columns = (area.width + options.cell_px - 1) / options.cell_px;
-  const int rows = (area.height + options.cell_px - 1) / options.cell_px;
+std::vector<FastCorner> DetectCorners(const GrayImage& image, const OrbOptions& options) {
+  const PixelBox area{
+      kPatchRadius, kPatchRadius, image.width() - kPatchRadius, image.height() - kPatchRadius};
+  std::vector<FastCorner> corners;
+  if (area.empty()) return corners;
+  const FastCorners fast(image, area);
+  fast.Collect(area, options.fast_threshold, &corners);
+  const int columns = (area.x1 - area.x0 + options.cell_px - 1) / options.cell_px;
+  const int rows = (area.y1 - area.y0 + options.cell_px - 1) / options.cell_px;
   std::vector<bool> occupied(static_cast<std::size_t>(columns * rows), false);
-  for (const Corner& c : corners) {
-    const int cell = (c.y - area.y) / options.cell_px * columns + (c.x - area.x) / options.cell_px;
+  for (const FastCorner& c : corners) {
+    const int cell =
+        (c.y - area.y0) / options.cell_px * columns + (c.x - area.x0) / options.cell_px;
     occupied[static_cast<std::size_t>(cell)] = true;
   }
   if (options.fast_min_threshold >= options.fast_threshold) return corners;
   for (int cell = 0; cell < columns * rows; ++cell) {
     if (occupied[static_cast<std::size_t>(cell)]) continue;
-    const cv::Rect box(area.x + cell % columns * options.cell_px,
-                       area.y + cell / columns * options.cell_px,
-                       options.cell_px,
-                       options.cell_px);
-    FastIn(mat, box & area, options.fast_min_threshold, &corners);
+    const int x = area.x0 + cell % columns * options.cell_px;
+    const int y = area.y0 + cell / columns * options.cell_px;
+    fast.Collect(
+        {x, y, x + options.cell_px, y + options.cell_px}, options.fast_min_threshold, &corners);
   }
   return corners;
 }
 
+// The order of the corners of an image of this width in one number: first by `first`, which is
+// below 2^24, then the stronger, then row by row.
+constexpr int kStrongest = 255;
+std::uint64_t OrderOf(std::uint64_t first, const FastCorner& c, int width) {
+  const auto weakness = static_cast<std::uint64_t>(kStrongest - static_cast<int>(c.response));
+  const auto pixel = static_cast<std::uint64_t>(c.y) * static_cast<std::uint64_t>(width) +
+                     static_cast<std::uint64_t>(c.x);
+  return first << 40 | weakness << 32 | pixel;
+}
+
+FastCorner CornerOf(std::uint64_t order, int width) {
+  const auto pixel = static_cast<std::uint32_t>(order);
+  const auto row = pixel / static_cast<std::uint32_t>(width);
+  const auto column = pixel % static_cast<std::uint32_t>(width);
+  return {static_cast<int>(column),
+          static_cast<int>(row),
+          static_cast<float>(kStrongest - static_cast<int>(order >> 32 & 0xFFU))};
+}
+
 // Takes the strongest of each cell of a grid, then the second of each, and so on.
-std::vector<Corner> SpreadSelect(std::vector<Corner> corners,
-                                 int width,
-                                 int height,
-                                 std::size_t count) {
+std::vector<FastCorner> SpreadSelect(std::vector<FastCorner> corners,
+                                     int width,
+                                     int height,
+                                     std::size_t count) {
   if (corners.size() <= count || count == 0) {
     if (count == 0) corners.clear();
     return corners;
   }
   const double side = std::sqrt(static_cast<double>(width) * height / static_cast<double>(count));
   const int columns = static_cast<int>(std::ceil(width / side));
-  struct Ranked {
-    int rank;
-    int cell;
-    Corner corner;
-  };
-  std::vector<Ranked> ranked;
-  ranked.reserve(corners.size());
-  for (const Corner& c : corners) {
-    ranked.push_back({0, static_cast<int>(c.y / side) * columns + static_cast<int>(c.x / side), c});
+  std::vector<std::uint64_t> order;
+  order.reserve(corners.size());
+  for (const FastCorner& c : corners) {
+    const int cell = static_cast<int>(c.y / side) * columns + static_cast<int>(c.x / side);
+    order.push_back(OrderOf(static_cast<std::uint64_t>(cell), c, width));
   }
-  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return std::tuple(a.cell, -a.corner.response, a.corner.y, a.corner.x) <
-           std::tuple(b.cell, -b.corner.response, b.corner.y, b.corner.x);
-  });
-  for (std::size_t i = 1; i < ranked.size(); ++i) {
-    if (ranked[i].cell == ranked[i - 1].cell) ranked[i].rank = ranked[i - 1].rank + 1;
+  std::sort(order.begin(), order.end());
+  std::uint64_t cell = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t rank = 0;
+  for (std::uint64_t& entry : order) {
+    rank = entry >> 40 == cell ? rank + 1 : 0;
+    cell = entry >> 40;
+    entry = OrderOf(rank, CornerOf(entry, width), width);
   }
-  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return std::tuple(a.rank, -a.corner.response, a.corner.y, a.corner.x) <
-           std::tuple(b.rank, -b.corner.response, b.corner.y, b.corner.x);
-  });
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
+  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
   corners.clear();
-  for (std::size_t i = 0; i < count; ++i) corners.push_back(ranked[i].corner);
+  for (std::size_t i = 0; i < count; ++i) corners.push_back(CornerOf(order[i], width));
   return corners;
 }
 
-// Half-width of the disc of kCentroidRadius at each row.
-std::array<int, kCentroidRadius + 1> DiscRows() {
-  std::array<int, kCentroidRadius + 1> half{};
-  for (int y = 0; y <= kCentroidRadius; ++y) {
-    half[static_cast<std::size_t>(y)] =
-        static_cast<int>(std::sqrt(static_cast<double>(kCentroidRadius * kCentroidRadius - y * y)));
+// The disc of kCentroidRadius around a corner, row by row: 1 and the distance along the row in it,
+// 0 beside it. Rows are two vectors long.
+constexpr std::size_t kDiscRows = 2 * kCentroidRadius + 1;
+constexpr std::size_t kDiscColumns = kDiscRows + 1;
+struct Disc {
+  std::array<std::array<std::int16_t, kDiscColumns>, kDiscRows> inside{};
+  std::array<std::array<std::int16_t, kDiscColumns>, kDiscRows> dx{};
+};
+
+Disc MakeDisc() {
+  Disc disc;
+  for (int dy = -kCentroidRadius; dy <= kCentroidRadius; ++dy) {
+    const auto half = static_cast<int>(
+        std::sqrt(static_cast<double>(kCentroidRadius * kCentroidRadius - dy * dy)));
+    for (int dx = -half; dx <= half; ++dx) {
+      const auto row = static_cast<std::size_t>(dy + kCentroidRadius);
+      const auto column = static_cast<std::size_t>(dx + kCentroidRadius);
+      disc.inside[row][column] = 1;
+      disc.dx[row][column] = static_cast<std::int16_t>(dx);
+    }
   }
-  return half;
+  return disc;
 }
+
+struct Moments {
+  int x = 0;
+  int y = 0;
+};
+
+struct DiscMoments {
+  // `corner`: the first pixel of the disc's square in an image of this width.
+  [[gnu::always_inline]] static inline Moments Run(const Disc& disc,
+                                                   const std::uint8_t* corner,
+                                                   std::ptrdiff_t width) {
+    Moments moments;
+    for (std::size_t row = 0; row < kDiscRows; ++row, corner += width) {
+      std::array<std::int16_t, kDiscColumns> level;
+      for (std::size_t i = 0; i < kDiscColumns; ++i) level[i] = corner[i];
+      int sum = 0;
+      for (std::size_t i = 0; i < kDiscColumns; ++i) sum += disc.inside[row][i] * level[i];
+      int moment = 0;
+      for (std::size_t i = 0; i < kDiscColumns; ++i) moment += disc.dx[row][i] * level[i];
+      moments.x += moment;
+      moments.y += (static_cast<int>(row) - kCentroidRadius) * sum;
+    }
+    return moments;
+  }
+};
 
 // Direction from the corner to the centroid of the grey levels around it (Rosin 1999), radians.
 double CentroidAngle(const GrayImage& image, int x, int y) {
-  static const std::array<int, kCentroidRadius + 1> kHalf = DiscRows();
-  int moment_x = 0;
-  int moment_y = 0;
-  for (int dy = -kCentroidRadius; dy <= kCentroidRadius; ++dy) {
-    const std::uint8_t* row = image.row(y + dy) + x;
-    const int half = kHalf[static_cast<std::size_t>(std::abs(dy))];
-    int sum = 0;
-    for (int dx = -half; dx <= half; ++dx) {
-      sum += row[dx];
-      moment_x += dx * row[dx];
-    }
-    moment_y += dy * sum;
-  }
-  return math::Atan2(static_cast<double>(moment_y), static_cast<double>(moment_x));
+  static const Disc kDisc = MakeDisc();
+  const Moments moments = RunBest<DiscMoments>(
+      kDisc, image.row(y - kCentroidRadius) + x - kCentroidRadius, image.width());
+  return math::Atan2(static_cast<double>(moments.y), static_cast<double>(moments.x));
 }
 
 // Place of the extreme of a parabola through three values at -1, 0, 1; 0 when it is not between.
@@ -146,46 +168,88 @@ double ParabolaPeak(double before, double at, double after) {
 // by a Gaussian: with a box, pixels that enter and leave at its border move the peak.
 class HarrisAround {
  public:
+  static constexpr std::size_t kLanes = 4;
+  using Responses = std::array<float, kLanes>;  // at -1, 0, 1, 2
+
   HarrisAround(const GrayImage& image, int x, int y) {
-    std::size_t k = 0;
     for (int dy = -kReach; dy <= kReach; ++dy) {
-      const std::uint8_t* above = image.row(y + dy - 1) + x;
-      const std::uint8_t* row = image.row(y + dy) + x;
-      const std::uint8_t* below = image.row(y + dy + 1) + x;
-      for (int dx = -kReach; dx <= kReach; ++dx, ++k) {
-        const auto gx = static_cast<float>(2 * (row[dx + 1] - row[dx - 1]) + above[dx + 1] -
-                                           above[dx - 1] + below[dx + 1] - below[dx - 1]);
-        const auto gy = static_cast<float>(2 * (below[dx] - above[dx]) + below[dx + 1] -
-                                           above[dx + 1] + below[dx - 1] - above[dx - 1]);
-        products_[k] = {gx * gx, gx * gy, gy * gy};
+      const std::uint8_t* above = image.row(y + dy - 1) + x - kReach;
+      const std::uint8_t* row = image.row(y + dy) + x - kReach;
+      const std::uint8_t* below = image.row(y + dy + 1) + x - kReach;
+      float* products = products_.data() + static_cast<std::ptrdiff_t>((dy + kReach) * kStride);
+      for (int k = 0; k < kStride; ++k) {
+        const int left = above[k - 1] + 2 * row[k - 1] + below[k - 1];
+        const int right = above[k + 1] + 2 * row[k + 1] + below[k + 1];
+        const int top = above[k - 1] + 2 * above[k] + above[k + 1];
+        const int bottom = below[k - 1] + 2 * below[k] + below[k + 1];
+        const auto gx = static_cast<float>(right - left);
+        const auto gy = static_cast<float>(bottom - top);
+        products[k] = gx * gx;
+        products[k + kPlane] = gx * gy;
+        products[k + 2 * kPlane] = gy * gy;
       }
     }
   }
 
-  double At(int dx, int dy) const {
+  // On the row dy (at most 2 away), at kLanes places from -1 on.
+  Responses OnRow(int dy) const {
+    Sums xx{};
+    Sums xy{};
+    Sums yy{};
+    auto weight = Gaussian().begin();
+    for (int v = dy - kWindow; v <= dy + kWindow; ++v) {
+      const float* products = products_.data() + (v + kReach) * kStride + kReach - kWindow - 1;
+      for (int u = 0; u <= 2 * kWindow; ++u, ++weight, ++products) {
+        AddWeighted(*weight, products, xx);
+        AddWeighted(*weight, products + kPlane, xy);
+        AddWeighted(*weight, products + 2 * kPlane, yy);
+      }
+    }
+    Responses responses;
+    for (std::size_t k = 0; k < kLanes; ++k) responses[k] = Response(xx[k], xy[k], yy[k]);
+    return responses;
+  }
+
+  // At a single place, at most 2 away.
+  float At(int dx, int dy) const {
     float xx = 0;
     float xy = 0;
     float yy = 0;
-    static const Weights kWeights = MakeWeights();
-    auto weight = kWeights.begin();
+    auto weight = Gaussian().begin();
     for (int v = dy - kWindow; v <= dy + kWindow; ++v) {
-      for (int u = dx - kWindow; u <= dx + kWindow; ++u, ++weight) {
-        const auto& p = products_[static_cast<std::size_t>((v + kReach) * kSide + u + kReach)];
-        xx += *weight * p[0];
-        xy += *weight * p[1];
-        yy += *weight * p[2];
+      const float* products = products_.data() + (v + kReach) * kStride + kReach + dx - kWindow;
+      for (int u = 0; u <= 2 * kWindow; ++u, ++weight, ++products) {
+        xx += *weight * products[0];
+        xy += *weight * products[kPlane];
+        yy += *weight * products[2 * kPlane];
       }
     }
-    constexpr float kTrace = 0.04F;
-    return static_cast<double>(xx * yy - xy * xy - kTrace * (xx + yy) * (xx + yy));
+    return Response(xx, xy, yy);
   }
 
  private:
   static constexpr int kWindow = 2;
   static constexpr int kReach = kWindow + 2;
   static constexpr int kSide = 2 * kReach + 1;
+  static constexpr int kStride = 12;  // whole vectors; the last three columns are not used
+  static constexpr int kPlane = kSide * kStride;
+  using Sums = std::array<float, kLanes>;
   using Weights =
       std::array<float, static_cast<std::size_t>((2 * kWindow + 1) * (2 * kWindow + 1))>;
+
+  static void AddWeighted(float weight, const float* products, Sums& sums) {
+    for (std::size_t k = 0; k < kLanes; ++k) sums[k] += weight * products[k];
+  }
+
+  static float Response(float xx, float xy, float yy) {
+    constexpr float kTrace = 0.04F;
+    return xx * yy - xy * xy - kTrace * (xx + yy) * (xx + yy);
+  }
+
+  static const Weights& Gaussian() {
+    static const Weights kWeights = MakeWeights();
+    return kWeights;
+  }
 
   static Weights MakeWeights() {
     constexpr double kSigma = 1.2;
@@ -199,27 +263,34 @@ class HarrisAround {
     return weights;
   }
 
-  std::array<std::array<float, 3>, static_cast<std::size_t>(kSide* kSide)> products_;
+  // Of the derivatives along x and y: xx, xy, yy, one plane after the other.
+  std::array<float, static_cast<std::size_t>(3 * kPlane)> products_;
 };
 
 // Sub-pixel peak of the Harris response near a FAST corner, offset from the pixel centre. The peak
 // may lie on a neighbouring pixel.
 Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
   const HarrisAround harris(image, x, y);
-  Eigen::Vector2i best(0, 0);
-  double peak = harris.At(0, 0);
+  const std::array near{harris.OnRow(-1), harris.OnRow(0), harris.OnRow(1)};
+  const auto at = [&](int dx, int dy) {
+    const bool known = std::abs(dy) <= 1 && dx >= -1;
+    return static_cast<double>(
+        known ? near[static_cast<std::size_t>(dy + 1)][static_cast<std::size_t>(dx + 1)]
+              : harris.At(dx, dy));
+  };
+  int u = 0;
+  int v = 0;
+  double peak = at(0, 0);
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      const double response = harris.At(dx, dy);
-      if (response <= peak) continue;
-      peak = response;
-      best = {dx, dy};
+      if (at(dx, dy) <= peak) continue;
+      peak = at(dx, dy);
+      u = dx;
+      v = dy;
     }
   }
-  const int u = best.x();
-  const int v = best.y();
-  return {u + ParabolaPeak(harris.At(u - 1, v), peak, harris.At(u + 1, v)),
-          v + ParabolaPeak(harris.At(u, v - 1), peak, harris.At(u, v + 1))};
+  return {u + ParabolaPeak(at(u - 1, v), peak, at(u + 1, v)),
+          v + ParabolaPeak(at(u, v - 1), peak, at(u, v + 1))};
 }
 
 void ExtractLevel(const PyramidLevel& level,
@@ -230,8 +301,8 @@ void ExtractLevel(const PyramidLevel& level,
                   double calibration_sigma_px,
                   std::vector<PointFeature>* result) {
   const double scale = level.scale.maxCoeff();
-  std::vector<Corner> corners = DetectCorners(level.image, options);
-  std::erase_if(corners, [&](const Corner& c) {
+  std::vector<FastCorner> corners = DetectCorners(level.image, options);
+  std::erase_if(corners, [&](const FastCorner& c) {
     // The border of the level was respected already; only invalid pixels are left to check.
     const Eigen::Vector2d full = level.ToFull(Eigen::Vector2d(c.x, c.y));
     return !valid.Contains(full, (kPatchRadius - 1) * scale);
@@ -240,7 +311,7 @@ void ExtractLevel(const PyramidLevel& level,
   std::vector<PointFeature> points;
   std::vector<Eigen::Vector2d> places;  // on the level
   std::vector<OrientedPixel> pixels;
-  for (const Corner& c : corners) {
+  for (const FastCorner& c : corners) {
     Eigen::Vector2d px(c.x, c.y);
     if (options.subpixel) px += CornerOffset(level.image, c.x, c.y);
     // Two corners may have moved to one peak; the first one is the stronger.

@@ -4,46 +4,68 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/processor.h"
 #include "plumbline/features/orb_pattern.h"
-#include "plumbline/image/opencv_bridge.h"
+#include "plumbline/image/gaussian_blur.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-
-#include <opencv2/imgproc.hpp>
 
 namespace plumbline {
 namespace {
 
-// OpenCV smooths a whole image of 8 bits in fixed point, bits as specified; a part of a larger one,
-// which is what cv::ORB passes, in floating point.
-GrayImage Smoothed(const GrayImage& image) {
-  GrayImage result(image.width(), image.height());
-  cv::Mat target = AsMat(result);
-  cv::GaussianBlur(AsMat(image), target, {7, 7}, 2, 2, cv::BORDER_REFLECT_101);
-  return result;
+constexpr std::size_t kPlaces = kOrbPattern.size() / 2;
+
+// The places that are compared, x and y apart, so that vector instructions turn several at once.
+struct PatternAxes {
+  std::array<float, kPlaces> x;
+  std::array<float, kPlaces> y;
+};
+
+constexpr PatternAxes AxesOfPattern() {
+  PatternAxes axes{};
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    axes.x[i] = static_cast<float>(kOrbPattern[2 * i]);
+    axes.y[i] = static_cast<float>(kOrbPattern[2 * i + 1]);
+  }
+  return axes;
 }
 
-// The nearest whole number of a value above -kOrbReach - 1; halves are rounded up.
-int Rounded(float value) { return static_cast<int>(value + (kOrbReach + 1.5F)) - (kOrbReach + 1); }
+constexpr PatternAxes kAxes = AxesOfPattern();
+
+// Where the turned places lie in the memory of an image of this width, from the corner.
+struct TurnPattern {
+  [[gnu::always_inline]] static inline void Run(float cosine,
+                                                float sine,
+                                                float width,
+                                                std::array<std::int32_t, kPlaces>& offsets) {
+    // The nearest whole number of a value above -kOrbReach - 1; halves are rounded up.
+    constexpr float kShift = kOrbReach + 1.5F;
+    constexpr int kWholeShift = kOrbReach + 1;
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+      const float x = kAxes.x[i];
+      const float y = kAxes.y[i];
+      const int row = static_cast<int>(x * sine + y * cosine + kShift) - kWholeShift;
+      const int column = static_cast<int>(x * cosine - y * sine + kShift) - kWholeShift;
+      // Exact as a float, whose products vector instructions of every processor know.
+      offsets[i] = static_cast<int>(static_cast<float>(row) * width) + column;
+    }
+  }
+};
 
 Descriptor Describe(const GrayImage& smooth, const OrientedPixel& corner) {
-  const auto cosine = static_cast<float>(math::Cos(corner.angle));
-  const auto sine = static_cast<float>(math::Sin(corner.angle));
-  const std::ptrdiff_t width = smooth.width();
+  std::array<std::int32_t, kPlaces> offsets;
+  RunBest<TurnPattern>(static_cast<float>(math::Cos(corner.angle)),
+                       static_cast<float>(math::Sin(corner.angle)),
+                       static_cast<float>(smooth.width()),
+                       offsets);
   const std::uint8_t* centre = smooth.row(corner.y) + corner.x;
-  const std::int8_t* place = kOrbPattern.data();
-  const auto next_level = [&] {
-    const float x = *place++;
-    const float y = *place++;
-    return centre[Rounded(x * sine + y * cosine) * width + Rounded(x * cosine - y * sine)];
-  };
+  const std::int32_t* place = offsets.data();
   Descriptor descriptor{};
   for (std::uint64_t& word : descriptor) {
-    for (unsigned bit = 0; bit < 64; ++bit) {
-      const std::uint8_t first = next_level();
-      const std::uint8_t second = next_level();
-      word |= std::uint64_t{first < second} << bit;
+    for (unsigned bit = 0; bit < 64; ++bit, place += 2) {
+      word |= std::uint64_t{centre[place[0]] < centre[place[1]]} << bit;
     }
   }
   return descriptor;
@@ -55,7 +77,7 @@ std::vector<Descriptor> DescribeOrb(const GrayImage& image,
                                     const std::vector<OrientedPixel>& corners) {
   std::vector<Descriptor> descriptors;
   if (corners.empty()) return descriptors;
-  const GrayImage smooth = Smoothed(image);
+  const GrayImage smooth = Blurred(image, kBlurSigma2, ImageBorder::kReflected);
   descriptors.reserve(corners.size());
   for (const OrientedPixel& corner : corners) {
     PLUMBLINE_CHECK(corner.x >= kOrbReach && corner.y >= kOrbReach &&

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/image/image.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// Pixels x0 to x1 - 1 of rows y0 to y1 - 1.
+struct PixelBox {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+struct FastCorner {
+  int x = 0;
+  int y = 0;
+  float response = 0;  // the largest threshold of which the pixel is a corner, grey levels
+};
+
+// FAST corners of one image (Rosten and Drummond 2006), at any threshold: of 16 pixels on a circle
+// around a corner 9 in a row are all brighter than it, or all darker, by more than the threshold.
+// Those of cv::FAST with suppression of what is not a local maximum, at a fraction of the time
+// where several thresholds are asked for: how much contrast each pixel has is found once, for many
+// pixels at once, without asking what the pixels before were.
+class FastCorners {
+ public:
+  static constexpr int kReach = 3;  // of the circle from its centre
+
+  // Looks at the pixels of `area`, which is at least kReach away from the border. Cost: some 0.5 ns
+  // a pixel with AVX2, twice that without.
+  FastCorners(const GrayImage& image, const PixelBox& area);
+
+  // Appends the corners in a part of the area that exceed the threshold and those beside them
+  // there, row by row.
+  void Collect(const PixelBox& part, int threshold, std::vector<FastCorner>* corners) const;
+
+ private:
+  PixelBox area_;
+  // Of each pixel of the area, with a border of one pixel of 0: the least difference in the best
+  // nine pixels.
+  GrayImage contrast_;
+};
+
+}  // namespace plumbline
