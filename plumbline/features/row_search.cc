@@ -3,12 +3,20 @@
 #include "plumbline/features/row_search.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/image/opencv_bridge.h"
+#include "plumbline/base/processor.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 
-#include <opencv2/imgproc.hpp>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#else
+#include <array>
+#endif
 
 namespace plumbline {
 namespace {
@@ -19,26 +27,133 @@ constexpr int kBefore = RowSearch::kReach;  // pixels of a window left of its pl
 constexpr int kHalfHeight = 5;
 constexpr int kNone = 128;  // no slope
 
+struct SlopesOfRow {
+  // Of pixels 1 to width - 2.
+  [[gnu::always_inline]] static inline void Run(const std::uint8_t* above,
+                                                const std::uint8_t* row,
+                                                const std::uint8_t* below,
+                                                int width,
+                                                std::uint8_t* slopes) {
+    ForBlocks<32>(
+        width - 2, [&](int first, auto size) __attribute__((always_inline)) {
+          std::uint8_t block[size];
+          for (int i = 0; i < size; ++i) {
+            const int x = first + i + 1;
+            const auto right =
+                static_cast<std::int16_t>(above[x + 1] + 2 * row[x + 1] + below[x + 1]);
+            const auto left =
+                static_cast<std::int16_t>(above[x - 1] + 2 * row[x - 1] + below[x - 1]);
+            // The half is rounded to the nearest, ties to even.
+            const auto twice = static_cast<std::int16_t>(right - left + 2 * kNone);
+            const auto half = static_cast<std::int16_t>(twice >> 1);
+            const auto odd = static_cast<std::int16_t>(twice & half & 1);
+            const auto rounded = static_cast<std::int16_t>(half + odd);
+            const std::int16_t positive = rounded < 0 ? std::int16_t{0} : rounded;
+            block[i] = static_cast<std::uint8_t>(positive > 255 ? std::int16_t{255} : positive);
+          }
+          std::memcpy(slopes + first + 1, block, size);
+        });
+  }
+};
+
 // Derivative along the row, smoothed over three rows (Sobel), halved, kNone where there is none.
-// Saturates where grey levels two pixels apart differ by more than 64.
+// Saturates where grey levels two pixels apart differ by more than 64. Over the border the image is
+// reflected: there is no slope in its first and last column.
 GrayImage Slopes(const GrayImage& image) {
-  cv::Mat slopes;
-  cv::Sobel(AsMat(image), slopes, CV_16S, 1, 0);
-  GrayImage result(image.width(), image.height());
-  cv::Mat target = AsMat(result);
-  slopes.convertTo(target, CV_8U, 0.5, kNone);
+  const int width = image.width();
+  const int last = image.height() - 1;
+  GrayImage result(width, image.height());
+  for (int y = 0; y <= last; ++y) {
+    const std::uint8_t* above = image.row(y > 0 ? y - 1 : std::min(1, last));
+    const std::uint8_t* below = image.row(y < last ? y + 1 : std::max(0, last - 1));
+    std::uint8_t* slopes = result.row(y);
+    slopes[0] = slopes[width - 1] = kNone;
+    RunBest<SlopesOfRow>(above, image.row(y), below, width, slopes);
+  }
   return result;
 }
 
-int SumOfDifferences(const GrayImage& a, const GrayImage& b, int ax, int bx, int y) {
-  int sum = 0;
-  for (int dy = -kHalfHeight; dy <= kHalfHeight; ++dy) {
-    const std::uint8_t* row_a = a.row(y + dy) + ax - kBefore;
-    const std::uint8_t* row_b = b.row(y + dy) + bx - kBefore;
-    for (int i = 0; i < kWindowWidth; ++i) sum += std::abs(row_a[i] - row_b[i]);
+// The pixels of a window in vectors of sixteen bytes.
+class Window {
+ public:
+  // `first`: its first pixel in an image of this width.
+  [[gnu::always_inline]] inline Window(const std::uint8_t* first, std::ptrdiff_t width) {
+    for (int row = 0; row < kWindowHeight; ++row) rows_[row] = Load(first + row * width);
   }
-  return sum;
-}
+
+  // Sum of absolute differences from another window over every second row from kFirst on.
+  template <int kFirst>
+  [[gnu::always_inline]] inline int SumOfDifferences(const std::uint8_t* first,
+                                                     std::ptrdiff_t width) const {
+    Sums sums{};
+#pragma GCC unroll 6
+    for (int row = kFirst; row < kWindowHeight; row += 2) {
+      Add(rows_[row], Load(first + row * width), sums);
+    }
+    return Total(sums);
+  }
+
+ private:
+  static constexpr int kWindowHeight = 2 * kHalfHeight + 1;
+
+#if defined(__SSE2__)
+  using Row = __m128i;
+  using Sums = __m128i;
+  [[gnu::always_inline]] static inline Row Load(const std::uint8_t* bytes) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes));
+  }
+  [[gnu::always_inline]] static inline void Add(Row a, Row b, Sums& sums) {
+    sums = _mm_add_epi32(sums, _mm_sad_epu8(a, b));
+  }
+  [[gnu::always_inline]] static inline int Total(Sums sums) {
+    return _mm_cvtsi128_si32(sums) + _mm_cvtsi128_si32(_mm_srli_si128(sums, 8));
+  }
+#else
+  using Row = std::array<std::uint8_t, kWindowWidth>;
+  using Sums = int;
+  static Row Load(const std::uint8_t* bytes) {
+    Row row;
+    std::copy_n(bytes, row.size(), row.begin());
+    return row;
+  }
+  static void Add(const Row& a, const Row& b, Sums& sums) {
+    for (std::size_t i = 0; i < a.size(); ++i) sums += std::abs(a[i] - b[i]);
+  }
+  static int Total(Sums sums) { return sums; }
+#endif
+
+  Row rows_[kWindowHeight];
+};
+
+// Sums of differences between a window and `count` others, each a pixel further to the right in
+// another image of the same width; windows are given by their first pixels. Exact where they are
+// least and up to 1 / ratio times as large; of what is further off only the part over every second
+// row, which is more than that already.
+struct SumDifferences {
+  [[gnu::always_inline]] static inline void Run(const std::uint8_t* one,
+                                                const std::uint8_t* others,
+                                                std::ptrdiff_t width,
+                                                double ratio,
+                                                int count,
+                                                int* sums) {
+    const Window window(one, width);
+    int least = std::numeric_limits<int>::max();
+    int likely = 0;
+    for (int k = 0; k < count; ++k) {
+      const int sum = window.SumOfDifferences<1>(others + k, width);
+      sums[k] = sum;
+      if (sum >= least) continue;
+      least = sum;
+      likely = k;
+    }
+    // The least of the sums over all rows is no larger than this one.
+    const int bound = least + window.SumOfDifferences<0>(others + likely, width);
+    const int limit = static_cast<int>(bound / ratio) + 1;
+    for (int k = 0; k < count; ++k) {
+      if (sums[k] <= limit) sums[k] += window.SumOfDifferences<0>(others + k, width);
+    }
+  }
+};
 
 // The sum of differences from a window without any slope.
 int SumOfSlopes(const GrayImage& slopes, const Eigen::Vector2i& at) {
@@ -82,9 +197,12 @@ std::optional<int> RowSearch::Best(const GrayImage& from,
   const int last = std::min(columns.last, to.width() - (kWindowWidth - kBefore));
   if (first > last) return std::nullopt;
   sums_.resize(static_cast<std::size_t>(last - first + 1));
-  for (int x = first; x <= last; ++x) {
-    sums_[static_cast<std::size_t>(x - first)] = SumOfDifferences(from, to, at.x(), x, at.y());
-  }
+  RunBest<SumDifferences>(from.row(at.y() - kHalfHeight) + at.x() - kBefore,
+                          to.row(at.y() - kHalfHeight) + first - kBefore,
+                          to.width(),
+                          ratio,
+                          last - first + 1,
+                          sums_.data());
   const auto least = std::min_element(sums_.begin(), sums_.end());
   const auto best = static_cast<int>(least - sums_.begin());
   int second = SumOfSlopes(from, at);

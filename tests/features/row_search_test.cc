@@ -2,12 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/row_search.h"
 
+#include "plumbline/image/opencv_bridge.h"
+
 #include "tests/features/render.h"
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 namespace plumbline {
 namespace {
@@ -83,6 +89,68 @@ TEST(RowSearch, StaysInsideTheImages) {
       EXPECT_LE(*found, kWidth - 8);
     }
   }
+}
+
+// Horizontal slopes as the search compares them, by OpenCV.
+GrayImage SlopesOf(const GrayImage& image) {
+  cv::Mat slopes;
+  cv::Sobel(AsMat(image), slopes, CV_16S, 1, 0);
+  GrayImage result(image.width(), image.height());
+  cv::Mat target = AsMat(result);
+  slopes.convertTo(target, CV_8U, 0.5, 128);
+  return result;
+}
+
+// By the sums over all rows at all places.
+std::optional<int> BestOfAll(
+    const GrayImage& from, const Eigen::Vector2i& at, const GrayImage& to, int first, int last) {
+  const auto level = [](const GrayImage& image, int x, int y) { return int{image.at(x, y)}; };
+  const auto sum_at = [&](auto&& other) {
+    int sum = 0;
+    for (int dy = -5; dy <= 5; ++dy) {
+      for (int dx = -8; dx < 8; ++dx) {
+        sum += std::abs(level(from, at.x() + dx, at.y() + dy) - other(dx, at.y() + dy));
+      }
+    }
+    return sum;
+  };
+  std::vector<int> sums;
+  first = std::max(first, 8);
+  for (int x = first; x <= std::min(last, kWidth - 8); ++x) {
+    sums.push_back(sum_at([&](int dx, int y) { return level(to, x + dx, y); }));
+  }
+  const auto best = static_cast<int>(std::min_element(sums.begin(), sums.end()) - sums.begin());
+  int second = sum_at([](int, int) { return 128; });
+  for (int k = 0; k < static_cast<int>(sums.size()); ++k) {
+    if (std::abs(k - best) > 2) second = std::min(second, sums[static_cast<std::size_t>(k)]);
+  }
+  if (sums[static_cast<std::size_t>(best)] >= kRatio * second) return std::nullopt;
+  return first + best;
+}
+
+TEST(RowSearch, FindsWhatTheSumsOverAllRowsAtAllPlacesTell) {
+  const SquareTexture texture(400, kWidth, kHeight);
+  const GrayImage left = Shifted(texture, 0);
+  const GrayImage right = Render(kWidth, kHeight, [&](const Eigen::Vector2d& p) {
+    return texture(p + Eigen::Vector2d(10 + 0.1 * p.y(), 0)) + 40 * std::sin(p.x() * p.y());
+  });
+  RowSearch search(left, right);
+  const GrayImage slopes_left = SlopesOf(left);
+  const GrayImage slopes_right = SlopesOf(right);
+  int found = 0;
+  int missed = 0;
+  ForPixels([&](const Eigen::Vector2i& at) {
+    std::optional<int> expected = BestOfAll(slopes_left, at, slopes_right, at.x() - 40, at.x() + 1);
+    if (expected) {
+      const auto back =
+          BestOfAll(slopes_right, {*expected, at.y()}, slopes_left, *expected - 1, *expected + 40);
+      if (!back || std::abs(*back - at.x()) > 1) expected.reset();
+    }
+    EXPECT_EQ(search.Find(at, 40, kRatio), expected) << at.transpose();
+    ++(expected ? found : missed);
+  });
+  EXPECT_GT(found, 50);
+  EXPECT_GT(missed, 50);
 }
 
 TEST(RowSearch, FindsNothingInImagesSmallerThanTheWindow) {
