@@ -3,9 +3,12 @@
 #include "plumbline/features/lbd.h"
 
 #include "plumbline/base/elementary.h"
+#include "plumbline/base/processor.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 
 namespace plumbline {
 namespace {
@@ -56,72 +59,110 @@ std::array<BandWeights, kLbdBands> MakeWeights() {
 using RowSums = std::array<float, 4>;
 using RegionSums = std::array<RowSums, kRows>;
 
+// Where a row of samples begins and what is from one to the next, in fixed point.
+struct RowOfSamples {
+  std::int64_t x, y, step_x, step_y;
+  std::size_t size;
+};
+
 // The samples of one row.
 struct RowSamples {
   std::array<std::int16_t, kMaxColumns> dx;
   std::array<std::int16_t, kMaxColumns> dy;
-  std::size_t size = 0;
 };
 
-// Takes samples at `size` places from `first` on; outside the image its border goes on. False when
-// all are outside.
-bool TakeSamples(const GradientImage& gradient,
-                 const Eigen::Vector2d& first,
-                 const Eigen::Vector2d& step,
-                 RowSamples* row) {
-  const Eigen::Vector2d last = first + static_cast<double>(row->size - 1) * step;
-  const Eigen::Array2d limit(gradient.width() - 0.75, gradient.height() - 0.75);
-  const auto inside = [&](const Eigen::Vector2d& px) {
-    return (px.array() > -0.25).all() && (px.array() < limit).all();
-  };
-  auto x = static_cast<std::int64_t>((first.x() + 0.5) * kOne);
-  auto y = static_cast<std::int64_t>((first.y() + 0.5) * kOne);
-  const auto step_x = static_cast<std::int64_t>(step.x() * kOne);
-  const auto step_y = static_cast<std::int64_t>(step.y() * kOne);
-  const std::int16_t* dx = gradient.dx.data();
-  const std::int16_t* dy = gradient.dy.data();
-  const std::int64_t width = gradient.width();
-  if (inside(first) && inside(last)) {
-    for (std::size_t n = 0; n < row->size; ++n, x += step_x, y += step_y) {
-      const std::int64_t i = (y >> 16) * width + (x >> 16);
-      row->dx[n] = dx[i];
-      row->dy[n] = dy[i];
+// A row all of which is inside an image whose sides have less than 2^15 pixels. The places are
+// computed several at once, which looking them up is not.
+struct TakeInside {
+  [[gnu::always_inline]] static inline void Run(const GradientImage& gradient,
+                                                const RowOfSamples& row,
+                                                RowSamples* samples) {
+    const auto x = static_cast<std::int32_t>(row.x);
+    const auto y = static_cast<std::int32_t>(row.y);
+    const auto step_x = static_cast<std::int32_t>(row.step_x);
+    const auto step_y = static_cast<std::int32_t>(row.step_y);
+    const std::int32_t width = gradient.width();
+    std::array<std::int32_t, kMaxColumns> places;
+    const auto size = static_cast<std::int32_t>(row.size);
+    for (std::int32_t n = 0; n < size; ++n) {
+      places[static_cast<std::size_t>(n)] =
+          ((y + n * step_y) >> 16) * width + ((x + n * step_x) >> 16);
     }
-    return true;
+    const std::int16_t* dx = gradient.dx.data();
+    const std::int16_t* dy = gradient.dy.data();
+    for (std::size_t n = 0; n < row.size; ++n) {
+      samples->dx[n] = dx[places[n]];
+      samples->dy[n] = dy[places[n]];
+    }
   }
+};
+
+// Outside the image its border goes on. False when all of the row is outside.
+bool TakeAcrossBorder(const GradientImage& gradient, RowOfSamples row, RowSamples* samples) {
   bool any = false;
+  const std::int64_t width = gradient.width();
   const std::int64_t height = gradient.height();
-  for (std::size_t n = 0; n < row->size; ++n, x += step_x, y += step_y) {
-    const std::int64_t near_x = std::clamp<std::int64_t>(x >> 16, 0, width - 1);
-    const std::int64_t near_y = std::clamp<std::int64_t>(y >> 16, 0, height - 1);
-    any = any || (near_x == x >> 16 && near_y == y >> 16);
-    row->dx[n] = dx[near_y * width + near_x];
-    row->dy[n] = dy[near_y * width + near_x];
+  for (std::size_t n = 0; n < row.size; ++n, row.x += row.step_x, row.y += row.step_y) {
+    const std::int64_t near_x = std::clamp<std::int64_t>(row.x >> 16, 0, width - 1);
+    const std::int64_t near_y = std::clamp<std::int64_t>(row.y >> 16, 0, height - 1);
+    any = any || (near_x == row.x >> 16 && near_y == row.y >> 16);
+    samples->dx[n] = gradient.dx.data()[near_y * width + near_x];
+    samples->dy[n] = gradient.dy.data()[near_y * width + near_x];
   }
   return any;
 }
 
-// In whole numbers, so that the compiler may add in any order and use vector instructions.
-RowSums SumSamples(const RowSamples& row, std::int16_t direction_x, std::int16_t direction_y) {
-  int across_sum = 0;
-  int across_size = 0;
-  int along_sum = 0;
-  int along_size = 0;
-  for (std::size_t i = 0; i < row.size; ++i) {
-    const int across = row.dy[i] * direction_x - row.dx[i] * direction_y;
-    const int along = row.dx[i] * direction_x + row.dy[i] * direction_y;
-    across_sum += across;
-    across_size += std::abs(across);
-    along_sum += along;
-    along_size += std::abs(along);
+// Takes samples at `size` places from `first` on. False when all are outside the image.
+bool TakeSamples(const GradientImage& gradient,
+                 const Eigen::Vector2d& first,
+                 const Eigen::Vector2d& step,
+                 std::size_t size,
+                 RowSamples* samples) {
+  constexpr int kLargestSide = 1 << 15;
+  const Eigen::Vector2d last = first + static_cast<double>(size - 1) * step;
+  const Eigen::Array2d limit(gradient.width() - 0.75, gradient.height() - 0.75);
+  const auto inside = [&](const Eigen::Vector2d& px) {
+    return (px.array() > -0.25).all() && (px.array() < limit).all();
+  };
+  const RowOfSamples row{static_cast<std::int64_t>((first.x() + 0.5) * kOne),
+                         static_cast<std::int64_t>((first.y() + 0.5) * kOne),
+                         static_cast<std::int64_t>(step.x() * kOne),
+                         static_cast<std::int64_t>(step.y() * kOne),
+                         size};
+  if (!inside(first) || !inside(last) ||
+      std::max(gradient.width(), gradient.height()) >= kLargestSide) {
+    return TakeAcrossBorder(gradient, row, samples);
   }
-  // Sum of the positive and of the negative parts from the sum and the sum of magnitudes.
-  const float scale = 0.5F / static_cast<float>(kUnit * static_cast<int>(row.size));
-  return {scale * static_cast<float>(across_size + across_sum),
-          scale * static_cast<float>(across_size - across_sum),
-          scale * static_cast<float>(along_size + along_sum),
-          scale * static_cast<float>(along_size - along_sum)};
+  RunBest<TakeInside>(gradient, row, samples);
+  return true;
 }
+
+// In whole numbers, so that the compiler may add in any order and use vector instructions.
+struct SumSamples {
+  [[gnu::always_inline]] static inline RowSums Run(const RowSamples& samples,
+                                                   std::size_t size,
+                                                   std::int16_t direction_x,
+                                                   std::int16_t direction_y) {
+    int across_sum = 0;
+    int across_size = 0;
+    int along_sum = 0;
+    int along_size = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const int across = samples.dy[i] * direction_x - samples.dx[i] * direction_y;
+      const int along = samples.dx[i] * direction_x + samples.dy[i] * direction_y;
+      across_sum += across;
+      across_size += std::abs(across);
+      along_sum += along;
+      along_size += std::abs(along);
+    }
+    // Sum of the positive and of the negative parts from the sum and the sum of magnitudes.
+    const float scale = 0.5F / static_cast<float>(kUnit * static_cast<int>(size));
+    return {scale * static_cast<float>(across_size + across_sum),
+            scale * static_cast<float>(across_size - across_sum),
+            scale * static_cast<float>(along_size + along_sum),
+            scale * static_cast<float>(along_size - along_sum)};
+  }
+};
 
 // False when the whole region is outside the image.
 bool SumRows(const GradientImage& gradient, const Segment2& segment, RegionSums* sums) {
@@ -130,7 +171,7 @@ bool SumRows(const GradientImage& gradient, const Segment2& segment, RegionSums*
   const Eigen::Vector2d direction = segment.Direction();
   const Eigen::Vector2d normal(-direction.y(), direction.x());
   const int columns = std::clamp(static_cast<int>(std::ceil(length)), 1, kMaxColumns);
-  samples.size = static_cast<std::size_t>(columns);
+  const auto size = static_cast<std::size_t>(columns);
   const Eigen::Vector2d step = direction * (length / columns);
   const auto direction_x = static_cast<std::int16_t>(std::lround(kUnit * direction.x()));
   const auto direction_y = static_cast<std::int16_t>(std::lround(kUnit * direction.y()));
@@ -139,8 +180,9 @@ bool SumRows(const GradientImage& gradient, const Segment2& segment, RegionSums*
     // The samples of one row lie between those of the next.
     const double shift = row % 2 == 0 ? 0.25 : 0.75;
     const Eigen::Vector2d first = segment.start + shift * step + RowOffset(row) * normal;
-    any = TakeSamples(gradient, first, step, &samples) || any;
-    (*sums)[static_cast<std::size_t>(row)] = SumSamples(samples, direction_x, direction_y);
+    any = TakeSamples(gradient, first, step, size, &samples) || any;
+    (*sums)[static_cast<std::size_t>(row)] =
+        RunBest<SumSamples>(samples, size, direction_x, direction_y);
   }
   return any;
 }

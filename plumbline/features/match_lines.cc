@@ -134,6 +134,23 @@ class DistanceTable {
   std::vector<int> best_row_;  // of each column; the first of equals
 };
 
+// What matching left and right lines asks of each of them time and again.
+struct StereoLine {
+  Segment2 segment;
+  Eigen::Vector2d direction;
+  double row_sine;  // of its angle with the rows
+
+  explicit StereoLine(const Segment2& s)
+      : segment(s), direction(s.Direction()), row_sine(std::abs(direction.y())) {}
+};
+
+std::vector<StereoLine> StereoLines(const std::vector<LineFeature>& lines) {
+  std::vector<StereoLine> result;
+  result.reserve(lines.size());
+  for (const LineFeature& line : lines) result.emplace_back(line.segment);
+  return result;
+}
+
 double FlatSine(double flat_angle_deg) { return math::Sin(flat_angle_deg * kDegree); }
 
 double RowSine(const Segment2& segment) { return std::abs(segment.Direction().y()); }
@@ -202,6 +219,7 @@ std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const LineMatchOptions& options) {
   const double min_cosine = MinCosine(options);
   std::vector<Place> places;
+  places.reserve(b.size());
   for (const LineFeature& line : b) places.emplace_back(line.segment);
   DistanceTable table(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -222,15 +240,17 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
   const double max_disparity = camera.DisparityFromDepth(options.min_depth_m);
   const double min_cosine = math::Cos(options.max_angle_deg * kDegree);
   const double flat = FlatSine(options.flat_angle_deg);
+  const std::vector<StereoLine> left_lines = StereoLines(left);
+  const std::vector<StereoLine> right_lines = StereoLines(right);
   DistanceTable table(left.size(), right.size());
   for (std::size_t i = 0; i < left.size(); ++i) {
-    const Segment2& l = left[i].segment;
+    const StereoLine& l = left_lines[i];
     for (std::size_t j = 0; j < right.size(); ++j) {
-      const Segment2& r = right[j].segment;
-      if (l.Direction().dot(r.Direction()) < min_cosine) continue;
-      const bool compatible = std::min(RowSine(l), RowSine(r)) < flat
-                                  ? FlatCompatible(l, r, max_disparity, options)
-                                  : SteepCompatible(l, r, max_disparity, options);
+      const StereoLine& r = right_lines[j];
+      if (l.direction.dot(r.direction) < min_cosine) continue;
+      const bool compatible = std::min(l.row_sine, r.row_sine) < flat
+                                  ? FlatCompatible(l.segment, r.segment, max_disparity, options)
+                                  : SteepCompatible(l.segment, r.segment, max_disparity, options);
       if (compatible) table.Set(i, j, HammingDistance(left[i].descriptor, right[j].descriptor));
     }
   }
