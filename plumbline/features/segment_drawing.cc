@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/segment_drawing.h"
 
+#include "plumbline/base/processor.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <numbers>
 #include <optional>
 
@@ -52,13 +55,15 @@ struct Anchor {
 
 // Least squares of minor = offset + slope * major over the points so far, major from the anchor.
 struct LineSums {
-  double n = 0, m = 0, v = 0, mm = 0, mv = 0, vv = 0;
+  int n = 0, m = 0;
+  std::int64_t mm = 0;
+  double v = 0, mv = 0, vv = 0;
 
-  void Add(double major, double minor) {
+  void Add(int major, double minor) {
     n += 1;
     m += major;
+    mm += std::int64_t{major} * major;
     v += minor;
-    mm += major * major;
     mv += major * minor;
     vv += minor * minor;
   }
@@ -67,23 +72,25 @@ struct LineSums {
 struct Fit {
   float offset = 0;
   float slope = 0;
-  float reach = 0;    // kMaxResidual along the minor axis
-  int turn = 0;       // slope times kUnit
-  double points = 0;  // that were fitted
+  float reach = 0;  // kMaxResidual along the minor axis
+  int turn = 0;     // slope times kUnit
+  int points = 0;   // that were fitted
   double scatter = 0;
 };
 
 Fit FitSums(const LineSums& s) {
-  const double spread = s.mm - s.m * s.m / s.n;
-  const double slope = (s.mv - s.m * s.v / s.n) / spread;
-  const double offset = (s.v - slope * s.m) / s.n;
-  const double squares = s.vv - s.v * s.v / s.n - slope * slope * spread;
+  const double n = s.n;
+  const double m = s.m;
+  const double spread = static_cast<double>(s.mm) - m * m / n;
+  const double slope = (s.mv - m * s.v / n) / spread;
+  const double offset = (s.v - slope * m) / n;
+  const double squares = s.vv - s.v * s.v / n - slope * slope * spread;
   return {static_cast<float>(offset),
           static_cast<float>(slope),
           kMaxResidual * static_cast<float>(std::sqrt(1 + slope * slope)),
           static_cast<int>(slope * kUnit),
           s.n,
-          std::sqrt(std::max(0.0, squares / s.n) / (1 + slope * slope))};
+          std::sqrt(std::max(0.0, squares / n) / (1 + slope * slope))};
 }
 
 // Whether the edge seems to go on straight from here, at least on one side: whether the gradient
@@ -110,7 +117,7 @@ bool Promising(const AxisView& view, int major, int minor) {
 class Walk {
  public:
   Walk(const AxisView& view, const Image<std::uint8_t>& marks, int min_slope)
-      : view_(view), marks_(marks), min_rise_(min_slope * kUnit) {}
+      : view_(view), marks_(marks.data()), min_rise_(min_slope * kUnit) {}
 
   // False when there is no straight edge. `path`: index of each edge pixel.
   bool Follow(int major, int minor, std::vector<std::ptrdiff_t>* path) {
@@ -166,28 +173,38 @@ class Walk {
   std::optional<float> EdgeNear(int major, float guess) const {
     const int center = Nearest(guess);
     if (center < kBorder || center >= view_.minor_size - kBorder) return std::nullopt;
-    const std::ptrdiff_t first = view_.Index(major, center - 2);
+    const std::ptrdiff_t middle = view_.Index(major, center);
+    const std::ptrdiff_t step = view_.minor_step;
     const int turn = fit_.turn;
-    std::array<int, 5> rise;  // derivative across the line times kUnit, positive at the edge
-    for (std::size_t k = 0; k < 5; ++k) {
-      const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(k) * view_.minor_step;
-      rise[k] = sign_ * (view_.across[i] * kUnit - turn * view_.along[i]);
+    // Derivative across the line times kUnit, positive at the edge.
+    const auto rise = [&](std::ptrdiff_t i) {
+      return sign_ * (view_.across[i] * kUnit - turn * view_.along[i]);
+    };
+    // The largest of three, and what is beside it.
+    int peak = rise(middle);
+    int before = rise(middle - step);
+    int after = rise(middle + step);
+    int shift = 0;
+    if (before > peak && before >= after) {
+      after = peak;
+      peak = before;
+      before = rise(middle - 2 * step);
+      shift = -1;
+    } else if (after > peak) {
+      before = peak;
+      peak = after;
+      after = rise(middle + 2 * step);
+      shift = 1;
     }
-    std::size_t best = 2;
-    if (rise[1] > rise[best]) best = 1;
-    if (rise[3] > rise[best]) best = 3;
-    const int peak = rise[best];
-    const int before = rise[best - 1];
-    const int after = rise[best + 1];
     if (peak < min_rise_ || peak < before || peak < after) return std::nullopt;
-    const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(best) * view_.minor_step;
+    const std::ptrdiff_t i = middle + shift * step;
     const int turned = view_.along[i] * kUnit + turn * view_.across[i];
     if (std::abs(turned) * kMaxTurn[1] > peak * kMaxTurn[0]) return std::nullopt;
-    if (marks_.data()[i] == kDrawn) return std::nullopt;
+    if (marks_[i] == kDrawn) return std::nullopt;
     const int bend = 2 * peak - before - after;
     const float offset =
         bend > 0 ? 0.5F * static_cast<float>(after - before) / static_cast<float>(bend) : 0.0F;
-    const float place = static_cast<float>(center - anchor_minor_ - 2 + static_cast<int>(best));
+    const float place = static_cast<float>(center - anchor_minor_ + shift);
     if (std::abs(place + offset - guess) > fit_.reach) return std::nullopt;
     return place + offset;
   }
@@ -209,14 +226,14 @@ class Walk {
     const int direction = side == 1 ? 1 : -1;
     int& last = last_major_[static_cast<std::size_t>(side)];
     int debt = 0;
-    State before_gap;
+    BeforeGap before_gap;
     State before_bend{sums_, fit_, path->size(), last};
     for (int major = last + direction; major >= kBorder && major < view_.major_size - kBorder;
          major += direction) {
       const std::optional<float> edge = EdgeNear(major, Guess(major));
       if (!edge) {
-        if (debt == 0) before_gap = {sums_, fit_, path->size(), last};
-        if (++debt > std::min(static_cast<int>(sums_.n) / kPointsPerMiss, kMaxGap)) break;
+        if (debt == 0) before_gap = {sums_, path->size(), last};
+        if (++debt > std::min(sums_.n / kPointsPerMiss, kMaxGap)) break;
         continue;
       }
       last_minor_ = *edge;
@@ -232,7 +249,10 @@ class Walk {
       }
       before_bend = {sums_, fit_, path->size(), last};
     }
-    if (debt > 0) Restore(before_gap, &last, path);
+    if (debt == 0) return;
+    sums_ = before_gap.sums;
+    path->resize(before_gap.path);
+    last = before_gap.last;
   }
 
   float Guess(int major) const {
@@ -240,6 +260,13 @@ class Walk {
                ? last_minor_ + fit_.slope * static_cast<float>(major - last_seen_)
                : fit_.offset + fit_.slope * static_cast<float>(major - anchor_major_);
   }
+
+  // Within a gap the fit stays.
+  struct BeforeGap {
+    LineSums sums;
+    std::size_t path = 0;
+    int last = 0;
+  };
 
   struct State {
     LineSums sums;
@@ -258,8 +285,8 @@ class Walk {
   static constexpr int kMaxGap = 8;         // px
   static constexpr int kPointsPerMiss = 4;  // needed on the line for each pixel of a gap
 
-  const AxisView& view_;
-  const Image<std::uint8_t>& marks_;
+  const AxisView view_;  // a copy, which nothing that is written can be a part of
+  const std::uint8_t* marks_;
   int min_rise_;
   int sign_ = 1;
   int anchor_major_ = 0;
@@ -271,47 +298,55 @@ class Walk {
   int last_seen_ = 0;
 };
 
-// 1 where the derivative `across`, over a row of pixels, is at least `min_strength`, not below that
+int Size(std::int16_t v) { return std::abs(static_cast<int>(v)); }
+
+// 1 where the derivative `across`, over a row of pixels, is at least min_strength, not below that
 // along the edge, and larger than beside it; `before` and `after` are the neighbours across.
-// Written so that it becomes vector code.
-void MarkMaxima(const std::int16_t* across,
-                const std::int16_t* along,
-                std::ptrdiff_t step,
-                int min_strength,
-                std::vector<std::uint8_t>* maxima) {
-  const std::int16_t* before = across - step;
-  const std::int16_t* after = across + step;
-  const auto least = static_cast<std::int16_t>(min_strength);
-  const auto size = [](std::int16_t v) { return static_cast<std::int16_t>(v < 0 ? -v : v); };
-  std::uint8_t* out = maxima->data();
-  const std::size_t count = maxima->size();
-  for (std::size_t x = 0; x < count; ++x) {
-    const std::int16_t value = size(across[x]);
-    out[x] = static_cast<std::uint8_t>((value >= least) & (value >= size(along[x])) &
-                                       (value >= size(before[x])) & (value > size(after[x])));
+// Becomes vector code.
+struct MarkMaxima {
+  [[gnu::always_inline]] static inline void Run(const std::int16_t* across,
+                                                const std::int16_t* along,
+                                                int min_strength,
+                                                int count,
+                                                std::uint8_t* maxima) {
+    const auto least = static_cast<std::int16_t>(min_strength);
+    ForBlocks<32>(
+        count, [&](int first, auto size) __attribute__((always_inline)) {
+          std::uint8_t block[size];
+          const auto abs = [](std::int16_t v) { return static_cast<std::int16_t>(v < 0 ? -v : v); };
+          for (int i = 0; i < size; ++i) {
+            const int x = first + i;
+            const std::int16_t value = abs(across[x]);
+            block[i] = static_cast<std::uint8_t>((value >= least) & (value >= abs(along[x])) &
+                                                 (value >= abs(across[x - 1])) &
+                                                 (value > abs(across[x + 1])));
+          }
+          std::memcpy(maxima + first, block, size);
+        });
   }
-}
+};
 
 // Local maxima of the gradient on every `step`-th row (steep edges) and column (flat edges).
 std::vector<Anchor> FindAnchors(const GradientImage& gradient, int min_strength, int step) {
   std::vector<Anchor> anchors;
   const int width = gradient.width();
-  std::vector<std::uint8_t> maxima(static_cast<std::size_t>(width - 2 * kBorder));
-  const auto collect = [&](int y, int every, const std::int16_t* across, bool steep) {
-    const int count = static_cast<int>(maxima.size());
-    for (int x = 0; x < count; x += every) {
-      if (maxima[static_cast<std::size_t>(x)] == 0) continue;
-      anchors.push_back({x + kBorder, y, steep, std::abs(across[x])});
-    }
-  };
+  const int count = width - 2 * kBorder;
+  std::vector<std::uint8_t> maxima(static_cast<std::size_t>(count));
   for (int y = kBorder; y < gradient.height() - kBorder; ++y) {
     const std::int16_t* dx = gradient.dx.row(y) + kBorder;
     const std::int16_t* dy = gradient.dy.row(y) + kBorder;
-    MarkMaxima(dy, dx, width, min_strength, &maxima);
-    collect(y, step, dy, false);
+    for (int x = 0; x < count; x += step) {
+      const int strength = Size(dy[x]);
+      if (strength < min_strength || strength < Size(dx[x])) continue;
+      if (strength < Size(dy[x - width]) || strength <= Size(dy[x + width])) continue;
+      anchors.push_back({x + kBorder, y, false, strength});
+    }
     if (y % step != 0) continue;
-    MarkMaxima(dx, dy, 1, min_strength, &maxima);
-    collect(y, 1, dx, true);
+    RunBest<MarkMaxima>(dx, dy, min_strength, count, maxima.data());
+    for (int x = 0; x < count; ++x) {
+      if (maxima[static_cast<std::size_t>(x)] == 0) continue;
+      anchors.push_back({x + kBorder, y, true, Size(dx[x])});
+    }
   }
   return anchors;
 }
