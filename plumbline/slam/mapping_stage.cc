@@ -117,6 +117,7 @@ void MappingStage::Resume(Atlas atlas, const Checkpoint& checkpoint) {
   centres_ = checkpoint.centres;
   times_ = checkpoint.times;
   places_.SetState(checkpoint.places);
+  events_ = {places_.loops(), places_.joins(), {}};
   places_.Follow(atlas_);
   adjustment_.Resume(checkpoint.adjustment);
 }
@@ -309,6 +310,11 @@ MapEvents MappingStage::events() const {
   return {places_.loops(), places_.joins(), {}};
 }
 
+MapEvents MappingStage::EventsSoFar() const {
+  const std::lock_guard lock(mutex_);
+  return events_;
+}
+
 LocalMapper::State MappingStage::mapper_state() const {
   CheckComplete();
   return mapper_.state();
@@ -369,6 +375,7 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   if (done.snapshot == nullptr) done.snapshot = versions_.back().snapshot;
   versions_.push_back({task.number, std::move(done.snapshot)});
   times_.insert(times_.end(), done.times.begin(), done.times.end());
+  events_ = {places_.loops(), places_.joins(), {}};
   if (done.relocalization) outcomes_.push_back({task.number, *std::move(done.relocalization)});
 }
 

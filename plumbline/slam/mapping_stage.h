@@ -159,6 +159,9 @@ class MappingStage {
 
   // Loops that were closed and maps that were joined, like atlas().
   MapEvents events() const;
+  // The same as far as the steps of mapping that have ended tell, at any time and in any thread:
+  // which steps these are depends on the machine's speed, their order does not.
+  MapEvents EventsSoFar() const;
 
   // What mapping remembers, like atlas().
   LocalMapper::State mapper_state() const;
@@ -261,6 +264,7 @@ class MappingStage {
   std::deque<Version> versions_{{}};
   std::vector<MappingStep> times_;
   std::deque<Outcome> outcomes_;  // not taken yet
+  MapEvents events_;              // EventsSoFar
   std::exception_ptr failure_;
   bool stop_ = false;
   std::jthread worker_;  // none inline and step by step; last, so that it ends first

@@ -356,6 +356,12 @@ MapEvents System::events() const {
   return events;
 }
 
+MapEvents System::EventsSoFar() const {
+  MapEvents events = mapping_.EventsSoFar();
+  events.relocalizations = relocalizations_;
+  return events;
+}
+
 const std::vector<MappedLine>& System::LineMap(MapId map, const StopCheck& stop) const {
   const auto made = line_maps_.find(map);
   if (made != line_maps_.end()) return made->second;

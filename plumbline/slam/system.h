@@ -144,6 +144,8 @@ class System {
 
   // What was recognized, joined and found again, in order; like atlas().
   MapEvents events() const;
+  // What of it is known by now (MappingStage::EventsSoFar), in the thread that tracks.
+  MapEvents EventsSoFar() const;
 
   // Poses of the camera as delivered, after Finish; frames in order of time. `map` is one of
   // maps(); of causal poses also one that was joined with another since.

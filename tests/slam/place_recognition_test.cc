@@ -99,6 +99,7 @@ TEST(PlaceRecognition, ClosesALoop) {
   const MapEvents events = round.stage().events();
   ASSERT_FALSE(events.loops.empty());
   EXPECT_TRUE(events.joins.empty());
+  EXPECT_EQ(round.stage().EventsSoFar().loops.size(), events.loops.size());
   const Recognition& loop = events.loops.front();
   EXPECT_GT(round.FrameOf(loop.keyframe) - round.FrameOf(loop.older), 250);
   EXPECT_GT(loop.points + loop.lines, 25);
@@ -124,6 +125,7 @@ TEST(PlaceRecognition, JoinsTheMapThatShowsTheSamePlace) {
   round.Go(kBlind);
   const MapEvents events = round.stage().events();
   ASSERT_EQ(events.joins.size(), 1U);
+  EXPECT_EQ(round.stage().EventsSoFar().joins.size(), 1U);
   const MapJoin& join = events.joins.front();
   EXPECT_EQ(join.kept, MapId{0});
   EXPECT_EQ(join.gone, MapId{1});
