@@ -135,6 +135,39 @@ py::dict Cut(const RectifiedCamera& camera,
   return dict;
 }
 
+// (N, 2), each row from 0 to 1 and not descending; None: whole lines.
+std::vector<LineCut> ReadCuts(const py::object& value, std::size_t count) {
+  std::vector<LineCut> cuts(count);
+  if (value.is_none()) return cuts;
+  const Doubles ratios = ReadDoubles(value, "ratios", {static_cast<py::ssize_t>(count), 2});
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* row = ratios.data(static_cast<py::ssize_t>(i));
+    cuts[i] = {row[0], row[1]};
+    if (0 <= row[0] && row[0] <= row[1] && row[1] <= 1) continue;
+    throw InputError(fmt::format(
+        "ratios: expected 0 <= first <= second <= 1, found {} and {} at [{}]", row[0], row[1], i));
+  }
+  return cuts;
+}
+
+struct LinesSeen {
+  py::handle segments, covariances, measured, sigma_px;
+};
+
+Doubles InformationOfCuts(const RectifiedCamera& camera,
+                          const LinesSeen& lines,
+                          const py::object& ratios,
+                          const py::object& other_information,
+                          const std::string& information) {
+  CuttingProblem problem =
+      ReadProblem(camera, lines.segments, lines.covariances, lines.measured, lines.sigma_px);
+  ReadInformation(other_information, problem);
+  const std::vector<LineCut> cuts = ReadCuts(ratios, problem.lines.size());
+  const auto kind = ParseChoice<CuttingInformation>("information", information);
+  const InformationSums sums = SumInformation(problem, cuts, kind);
+  return ToArray(PoseInformation(sums, problem.other_information, kind));
+}
+
 Doubles CovarianceOfStereo(const RectifiedCamera& camera,
                            py::handle points,
                            double sigma_px,
@@ -187,6 +220,36 @@ information: "independent", "printed" or "correlated".
 "ratios" (N, 2): the piece from (1 - a) start + a end at the first to that at the second ratio;
 "used" (N,): False where a line is left out; "log_det_whole", "log_det_cut": logarithm of the
 determinant of the pose's information before and after. New arrays.)");
+  module.def(
+      "pose_information",
+      [](const RectifiedCamera& camera,
+         py::handle segments,
+         py::handle covariances,
+         py::handle measured,
+         const py::object& ratios,
+         py::handle sigma_px,
+         const py::object& other_information,
+         const std::string& information) {
+        return InformationOfCuts(camera,
+                                 {segments, covariances, measured, sigma_px},
+                                 ratios,
+                                 other_information,
+                                 information);
+      },
+      py::arg("camera"),
+      py::arg("segments"),
+      py::arg("covariances"),
+      py::arg("measured"),
+      py::arg("ratios") = py::none(),
+      py::arg("sigma_px") = 1.0,
+      py::arg("other_information") = py::none(),
+      py::arg("information") = "independent",
+      R"(pose_information(camera, segments, covariances, measured, ratios=None, sigma_px=1.0,
+                 other_information=None, information="independent") -> numpy.ndarray
+
+What pieces of lines tell about the pose: (6, 6) for the left perturbation [rotation, translation],
+the matrix whose log det cut_lines raises. ratios (N, 2): the piece of each line, 0 <= first <=
+second <= 1 (None: whole lines); the rest as for cut_lines. A new array.)");
   module.def("covariance_from_disparity",
              &CovarianceOfStereo,
              py::arg("camera"),

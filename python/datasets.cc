@@ -9,11 +9,13 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "frames.h"
+#include "iteration.h"
 #include "trajectories.h"
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -25,8 +27,10 @@ namespace {
 std::shared_ptr<Dataset> Open(const std::filesystem::path& path,
                               const std::optional<std::string>& sensor,
                               const std::optional<std::string>& camera,
-                              const std::optional<std::string>& format) {
+                              const std::optional<std::string>& format,
+                              const std::vector<std::string>& topics) {
   DatasetOptions options;
+  options.topics = topics;
   if (sensor) options.sensor = ParseChoice<SensorKind>("sensor", *sensor);
   if (format) options.format = ParseChoice<DatasetFormat>("format", *format);
   options.camera = camera;
@@ -95,6 +99,7 @@ void BindDatasets(py::module_& module) {
   py::class_<Dataset, std::shared_ptr<Dataset>>(module, "Dataset", R"(A recorded sequence: frames in
 the order of time, read when they are asked for. len(), indices and iteration.)")
       .def("__len__", &Dataset::size)
+      .def("__iter__", &IterateByIndex)
       .def("__getitem__",
            &Read,
            py::arg("index"),
@@ -127,12 +132,14 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
              py::arg("sensor") = py::none(),
              py::arg("camera") = py::none(),
              py::arg("format") = py::none(),
-             R"(open(path, sensor=None, camera=None, format=None) -> Dataset
+             py::arg("topics") = py::tuple(),
+             R"(open(path, sensor=None, camera=None, format=None, topics=()) -> Dataset
 
-Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images or a video.
-sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers). camera: a camera file or
-the name of a built-in camera. format: "euroc", "tum", "kitti", "images" or "video" (None: found
-out). Raises InputError with the program's message.)");
+Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a ROS 1 bag, an
+MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
+camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
+"video", "bag" or "mcap" (None: found out). topics: of a bag or MCAP file, those of the images, the
+left camera first (empty: found out). Raises InputError with the program's message.)");
 }
 
 }  // namespace plumbline::python

@@ -3,10 +3,14 @@
 #include "map_arrays.h"
 
 #include "plumbline/map/map.h"
+#include "plumbline/optimization/residuals.h"
+#include "plumbline/tracking/line_cutting.h"
 
 #include <cstddef>
 #include <limits>
 #include <vector>
+
+#include <Eigen/Cholesky>
 
 namespace plumbline::python {
 namespace {
@@ -37,6 +41,25 @@ Integers IdsOf(const Entries& entries) {
 template <class Row>
 py::array RowsToArray(const std::vector<Row>& rows) {
   return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// What all observations of a point tell of its place in the world, the poses taken as known.
+Eigen::Matrix3d InformationOf(const PyMap& map, const MapPoint& point) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (const auto& [keyframe, feature] : point.observations) {
+    const Frame& frame = map.map->Find(keyframe)->frame;
+    const auto index = static_cast<std::size_t>(feature);
+    const PointFeature& seen = frame.features().points[index];
+    const auto residual =
+        EvaluatePoint(map.saved->context.camera,
+                      frame.cam_from_world,
+                      point.position,
+                      {seen.px, seen.sigma_px, frame.features().point_disparity[index]});
+    if (residual) information += residual->J_point.transpose() * residual->J_point;
+  }
+  return information;
 }
 
 }  // namespace
@@ -76,6 +99,40 @@ Doubles LineInformation(const PyMap& map) {
   return array;
 }
 
+Doubles PointCovariances(const PyMap& map) {
+  Doubles array(
+      {static_cast<py::ssize_t>(map.map->points().size()), py::ssize_t{3}, py::ssize_t{3}});
+  double* out = array.mutable_data();
+  for (const auto& [id, point] : map.map->points()) {
+    const Eigen::LLT<Eigen::Matrix3d> information(InformationOf(map, point));
+    Eigen::Map<Eigen::Matrix3d> covariance(out);  // symmetric
+    out += 9;
+    constexpr double kSmallest = 1e-12;  // reciprocal condition number
+    if (information.info() == Eigen::Success && information.rcond() > kSmallest) {
+      covariance = information.solve(Eigen::Matrix3d::Identity());
+    } else {
+      covariance.setConstant(kNone);
+    }
+  }
+  return array;
+}
+
+Doubles LineEndCovariances(const PyMap& map) {
+  Doubles array({static_cast<py::ssize_t>(map.map->lines().size()),
+                 py::ssize_t{2},
+                 py::ssize_t{3},
+                 py::ssize_t{3}});
+  double* out = array.mutable_data();
+  for (const auto& [id, line] : map.map->lines()) {
+    const EndCovariances ends = CovariancesOfEnds(Rigid3(), line, {line.start, line.end});
+    for (const Eigen::Matrix3d& end : {ends.start, ends.end}) {
+      Eigen::Map<Eigen::Matrix3d>{out} = end;
+      out += 9;
+    }
+  }
+  return array;
+}
+
 Integers KeyFrameStamps(const PyMap& map) {
   std::vector<std::int64_t> stamps;
   for (const auto& [id, keyframe] : map.map->keyframes()) stamps.push_back(keyframe.frame.stamp_ns);
@@ -91,7 +148,6 @@ Doubles KeyFramePoses(const PyMap& map) {
 }
 
 py::array PointTracks(const PyMap& map) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<PointSighting> rows;
   for (const auto& [id, point] : map.map->points()) {
     for (const auto& [keyframe, feature] : point.observations) {

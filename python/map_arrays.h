@@ -14,6 +14,9 @@ Integers LineIds(const PyMap& map);
 Doubles Lines(const PyMap& map);
 Doubles LineEnds(const PyMap& map);
 Doubles LineInformation(const PyMap& map);
+// With the poses taken as known; NaN where the observations do not determine the point.
+Doubles PointCovariances(const PyMap& map);
+Doubles LineEndCovariances(const PyMap& map);
 Integers KeyFrameIds(const PyMap& map);
 Integers KeyFrameStamps(const PyMap& map);
 Doubles KeyFramePoses(const PyMap& map);

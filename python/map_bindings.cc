@@ -8,6 +8,7 @@
 
 #include "bindings.h"
 #include "interruptible.h"
+#include "iteration.h"
 #include "map_arrays.h"
 #include "map_export.h"
 #include "trajectories.h"
@@ -96,6 +97,15 @@ seen, in the world. A read-only copy.)")
       .def_property_readonly("line_information", Frozen(LineInformation), R"((N, 4, 4) information
 (inverse covariance) of each line in the tangent of its orthonormal form, with the poses fixed.
 A read-only copy.)")
+      .def_property_readonly(
+          "point_covariances", Frozen(PointCovariances), R"((N, 3, 3) of the points, from all their
+observations with the poses taken as known; NaN where they do not determine the point. Computed
+when asked for. A read-only copy.)")
+      .def_property_readonly(
+          "line_end_covariances", Frozen(LineEndCovariances), R"((N, 2, 3, 3) of line_ends, from
+line_information: across the line what is known of it; along the line, where nothing is measured,
+the sum of the variances across it. Of use to cut_lines, turned into the camera. Computed when
+asked for. A read-only copy.)")
       .def_property_readonly("keyframe_ids", Frozen(KeyFrameIds), "(N,) int64; a read-only copy.")
       .def_property_readonly(
           "keyframe_stamps_ns", Frozen(KeyFrameStamps), "(N,) int64; a read-only copy.")
@@ -148,6 +158,7 @@ void BindMaps(py::module_& module) {
 moment; nothing of it changes. len(), indices and iteration give Map.)")
       .def("__len__", [](const PyAtlas& atlas) { return atlas.saved->atlas.maps().size(); })
       .def("__getitem__", &MapAt, py::arg("index"))
+      .def("__iter__", &IterateByIndex)
       .def_property_readonly(
           "active", ActiveMap, "The Map to go on with; None where there is none.")
       .def("save", &SaveMaps, py::arg("path"), "save(path)\n\nWrites a map file (map.plb).")

@@ -6,6 +6,8 @@
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/atlas_context.h"
 
+#include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -77,6 +79,18 @@ std::vector<FrameRecord> RunningSystem::TakeRecords() {
   return std::exchange(records_, {});
 }
 
+MapEvents RunningSystem::TakeEvents() {
+  const std::lock_guard lock(records_mutex_);
+  const auto rest = [](const auto& all, std::size_t& taken) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(taken);
+    taken = all.size();
+    return std::remove_cvref_t<decltype(all)>(first, all.end());
+  };
+  return {rest(events_.loops, loops_taken_),
+          rest(events_.joins, joins_taken_),
+          rest(events_.relocalizations, relocalizations_taken_)};
+}
+
 std::vector<std::string> RunningSystem::Continue(SavedAtlas saved, bool read_only) {
   const auto lock = Enter("continue_in");
   CheckRunning("continue_in");
@@ -103,6 +117,7 @@ void RunningSystem::Finish(const StopCheck& stop) {
   CheckRunning("finish");
   finished_ = true;
   pipeline_.Finish(stop);
+  NoteEvents(system_.events());
 }
 
 SavedAtlas RunningSystem::CopyMaps() {
@@ -163,9 +178,15 @@ void RunningSystem::CheckStamp(std::int64_t stamp_ns) {
   last_stamp_ns_ = stamp_ns;
 }
 
+void RunningSystem::NoteEvents(MapEvents events) {
+  const std::lock_guard lock(records_mutex_);
+  events_ = std::move(events);
+}
+
 // In the thread that tracks.
 void RunningSystem::Observe(const FrameRecord& record, const FrameView& view) {
   views_.Offer(static_cast<std::size_t>(record.id.value), view);
+  NoteEvents(system_.EventsSoFar());
   const std::lock_guard lock(records_mutex_);
   if (!first_pose_seconds_ && record.status == FrameStatus::kTracked) {
     first_pose_seconds_ = SecondsSinceProcessStart();

@@ -46,6 +46,9 @@ class RunningSystem {
   // The maps when mapping has done what was handed over so far, at any time after the first frame.
   SavedAtlas CopyMaps();
   MapEvents Events();
+  // What happened to maps at large since the last call, as far as it is known by now: in order, but
+  // when a loop becomes known depends on the machine's speed. After the end: all that is left.
+  MapEvents TakeEvents();
   // Calls `use` with the system, which must be finished.
   template <class Use>
   auto WithFinished(const char* what, const Use& use) {
@@ -64,6 +67,7 @@ class RunningSystem {
   void CheckFrame(const SensorFrame& frame) const;
   void CheckStamp(std::int64_t stamp_ns);
   void Observe(const FrameRecord& record, const FrameView& view);
+  void NoteEvents(MapEvents events);
 
   Calibration calibration_;
   SlamOptions options_;
@@ -77,6 +81,9 @@ class RunningSystem {
   std::mutex records_mutex_;
   std::vector<FrameRecord> records_;  // not taken yet
   std::optional<FrameRecord> newest_;
+  MapEvents events_;  // so far
+  // How many of them were taken.
+  std::size_t loops_taken_ = 0, joins_taken_ = 0, relocalizations_taken_ = 0;
   Pipeline pipeline_;  // last: its thread calls Observe
 };
 

@@ -12,6 +12,7 @@
 #include "bindings.h"
 #include "frames.h"
 #include "interruptible.h"
+#include "iteration.h"
 #include "options.h"
 #include "trajectories.h"
 #include <algorithm>
@@ -113,6 +114,7 @@ and lines. len(), indices and iteration give Frame.)")
 A world of worlds(). options: those of `plumbline synth`, such as frames=10, scale=0.5, seed=2.
 Raises InputError with the program's message.)")
       .def("__len__", &SyntheticSequence::size)
+      .def("__iter__", &IterateByIndex)
       .def("__getitem__", &RenderFrame, py::arg("index"), "The frame, rendered now, with depth.")
       .def_property_readonly("calibration", &SyntheticSequence::calibration)
       .def_property_readonly("world", &SyntheticSequence::world)

@@ -14,9 +14,12 @@
 #include "running_system.h"
 #include "sensor_kind.h"
 #include "trajectories.h"
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -132,6 +135,22 @@ py::dict PlaceDict(const Recognition& place) {
   return dict;
 }
 
+py::dict JoinDict(const MapJoin& join) {
+  py::dict dict = PlaceDict(join.place);
+  dict["kept"] = join.kept.value;
+  dict["gone"] = join.gone.value;
+  return dict;
+}
+
+py::dict RelocalizationDict(const Relocalization& found) {
+  py::dict dict;
+  dict["frame"] = found.frame.value;
+  dict["keyframe"] = found.keyframe.value;
+  dict["points"] = found.points;
+  dict["lines"] = found.lines;
+  return dict;
+}
+
 py::dict EventsOf(RunningSystem& system) {
   MapEvents events;
   {
@@ -140,25 +159,35 @@ py::dict EventsOf(RunningSystem& system) {
   }
   py::list loops, joins, relocalizations;
   for (const Recognition& loop : events.loops) loops.append(PlaceDict(loop));
-  for (const MapJoin& join : events.joins) {
-    py::dict dict = PlaceDict(join.place);
-    dict["kept"] = join.kept.value;
-    dict["gone"] = join.gone.value;
-    joins.append(dict);
-  }
+  for (const MapJoin& join : events.joins) joins.append(JoinDict(join));
   for (const Relocalization& found : events.relocalizations) {
-    py::dict dict;
-    dict["frame"] = found.frame.value;
-    dict["keyframe"] = found.keyframe.value;
-    dict["points"] = found.points;
-    dict["lines"] = found.lines;
-    relocalizations.append(dict);
+    relocalizations.append(RelocalizationDict(found));
   }
   py::dict dict;
   dict["loops"] = loops;
   dict["joins"] = joins;
   dict["relocalizations"] = relocalizations;
   return dict;
+}
+
+// Of the events since the last call, each with its "kind", by the frame they belong to.
+py::list NewEventsOf(RunningSystem& system) {
+  const MapEvents events = system.TakeEvents();
+  std::vector<std::pair<FrameId, py::dict>> sorted;
+  const auto add = [&](const char* kind, FrameId frame, py::dict dict) {
+    dict["kind"] = kind;
+    sorted.emplace_back(frame, std::move(dict));
+  };
+  for (const Recognition& loop : events.loops) add("loop", loop.frame, PlaceDict(loop));
+  for (const MapJoin& join : events.joins) add("join", join.place.frame, JoinDict(join));
+  for (const Relocalization& found : events.relocalizations) {
+    add("relocalization", found.frame, RelocalizationDict(found));
+  }
+  std::stable_sort(
+      sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  py::list list;
+  for (const auto& [frame, dict] : sorted) list.append(dict);
+  return list;
 }
 
 // The files of `plumbline run --out`, but for what a program alone can tell (exit by a signal).
@@ -313,8 +342,17 @@ A copy of the maps as they are when mapping has done what was handed over so far
 the first frame. Changes no result but of live runs.)")
       .def("events", &EventsOf, R"(events() -> dict
 
-What changed maps at large so far, in order: "loops" that were closed, maps that were joined
-("joins"), "relocalizations" of a lost camera; lists of dictionaries. At any time.)")
+What changed maps at large so far, when mapping has done what was handed over; at any time. Three
+lists of dictionaries, in order: "loops" that were closed, maps that were joined ("joins"),
+"relocalizations" of a lost camera. All have "frame" (index), "keyframe" (id), "points" and "lines"
+(numbers that agree); loops and joins "older" (the keyframe that shows the same), "log10_chance" (of
+so much agreement between two places), "moved" (m), "turned_deg", "scale" (how the map around the
+keyframe was corrected); joins "kept" and "gone" (ids of maps).)")
+      .def("new_events", &NewEventsOf, R"(new_events() -> list of dict
+
+Of the events since the last call those that are known by now, without waiting: those of events(),
+each with its "kind": "loop", "join" or "relocalization". None is missing after finish(); how soon
+one is told depends on the machine's speed.)")
       .def("trajectory",
            &TrajectoryIn<&System::FinalTrajectory>,
            map,

@@ -3,15 +3,22 @@
 # not run by root, does nothing when all are there.
 #
 #   tools/install_packages.sh                        to build and run (apt_packages.txt)
+#   tools/install_packages.sh --python               the package for Python as well (apt_packages_python.txt)
 #   tools/install_packages.sh --tests [PACKAGE]...   to test as well (apt_packages_test.txt), and others
 set -euo pipefail
 cd "$(dirname "$0")"
 
 lists=(apt_packages.txt)
-if [[ ${1:-} == --tests ]]; then
-  lists+=(apt_packages_test.txt)
-  shift
-fi
+case ${1:-} in
+  --python)
+    lists+=(apt_packages_python.txt)
+    shift
+    ;;
+  --tests)
+    lists+=(apt_packages_python.txt apt_packages_test.txt)
+    shift
+    ;;
+esac
 if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
   echo "install_packages.sh: apt is not here; install what tools/apt_packages*.txt list yourself" >&2
   exit 1

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import numbers
+from collections.abc import Collection
 
 from ._plumbline import Calibration, InputError
 
@@ -14,8 +15,10 @@ def _number(name: str, value: object) -> str:
     return repr(value.item() if hasattr(value, "item") else value)
 
 
-def pinhole(width, height, fx, fy, cx, cy, *, distortion="none", coefficients=(), rectified=False,
-            baseline=None, depth_factor=None, rate_hz=None) -> Calibration:
+def pinhole(width: int, height: int, fx: float, fy: float, cx: float, cy: float, *,
+            distortion: str = "none", coefficients: Collection[float] = (),
+            rectified: bool = False, baseline: float | None = None,
+            depth_factor: float | None = None, rate_hz: float | None = None) -> Calibration:
     """The calibration of one camera, of a rectified pair or of an RGB-D camera.
 
     width, height, focal lengths and principal point in pixels; distortion "none", "radtan" (k1 k2

@@ -5,10 +5,18 @@ from __future__ import annotations
 
 import functools
 import operator
+import os
 import time
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from . import _plumbline
-from ._plumbline import Atlas, Dataset, InputError, System, Trajectory
+from ._plumbline import Atlas, Dataset, Frame, FrameResult, InputError, Map, System, Trajectory
+
+if TYPE_CHECKING:
+    from ._plumbline import _TrajectoryErrors  # known to the types alone
+
+Path = str | os.PathLike[str]
 
 
 class Run:
@@ -18,7 +26,8 @@ class Run:
     order. out: the folder with the files of the run, or None.
     """
 
-    def __init__(self, system: System, dataset: Dataset, results: list, out: str | None):
+    def __init__(self, system: System, dataset: Dataset, results: list[FrameResult],
+                 out: str | None) -> None:
         self.system = system
         self.dataset = dataset
         self.results = results
@@ -35,13 +44,13 @@ class Run:
         return self.system.maps()
 
     @functools.cached_property
-    def map(self):
+    def map(self) -> Map | None:
         """The Map in which most frames have a pose; None when none has."""
         main = self.system.main_map
         return next((one for one in self.maps if one.id == main), None)
 
     @functools.cached_property
-    def errors(self) -> dict | None:
+    def errors(self) -> _TrajectoryErrors | None:
         """compare_trajectories() with the ground truth of the data, with one camera after Sim(3)
         alignment; None where there is no ground truth or no pose to compare."""
         truth = self.dataset.ground_truth
@@ -61,7 +70,7 @@ class Run:
 
 
 def _count(name: str, value: object, least: int) -> int:
-    if isinstance(value, bool) or not hasattr(value, "__index__"):
+    if isinstance(value, bool) or not isinstance(value, SupportsIndex):
         raise InputError(f"{name}: expected a whole number, found {type(value).__name__}")
     number = operator.index(value)
     if number < least:
@@ -69,7 +78,7 @@ def _count(name: str, value: object, least: int) -> int:
     return number
 
 
-def _choose_frames(dataset: Dataset, start, stop, stride) -> list[int]:
+def _choose_frames(dataset: Dataset, start: int, stop: int | None, stride: int) -> list[int]:
     first = _count("start", start, 0)
     end = len(dataset) if stop is None else min(len(dataset), _count("stop", stop, 1))
     if first >= end:
@@ -83,55 +92,78 @@ def _wait_until(due: float) -> None:
         time.sleep(left)
 
 
-def _feed(system: System, dataset: Dataset, frames: list[int], on_frame) -> list:
-    """Feeds the frames and returns what came of those that are tracked by now."""
-    results = []
+class _Teller:
+    """Hands on what came of the frames, and what happened to the maps, as it becomes known."""
 
-    def take():
-        for result in system.results():
-            results.append(result)
-            if on_frame is not None:
-                on_frame(result)
+    def __init__(self, system: System, on_frame: Callable[[FrameResult], object] | None,
+                 on_event: Callable[[dict[str, Any]], object] | None) -> None:
+        self.results: list[FrameResult] = []
+        self._system = system
+        self._on_frame = on_frame
+        self._on_event = on_event
 
+    def tell(self) -> None:
+        for result in self._system.results():
+            self.results.append(result)
+            if self._on_frame is not None:
+                self._on_frame(result)
+        if self._on_event is not None:
+            for event in self._system.new_events():
+                self._on_event(event)
+
+
+def _feed(system: System, dataset: Dataset, frames: list[int], teller: _Teller) -> None:
     live = system.options["slam"]["mode"] == "live"
     stamps = dataset.stamps_ns
     begin = time.monotonic()
     for index in frames:
+        frame: Frame | None = None
         try:
             frame = dataset[index]
         except InputError:
-            frame = None  # the record of the frame says that it was skipped
+            pass  # the record of the frame says that it was skipped
         if live:
             _wait_until(begin + 1e-9 * int(stamps[index] - stamps[frames[0]]))
         if frame is None:
             system.skip(int(stamps[index]), "image_unreadable")
         else:
             system.feed(frame)
-        take()
-    return results
+        teller.tell()
 
 
-def run(path, *, sensor=None, camera=None, format=None, start=0, stop=None, stride=1, map=None,
-        localize=False, out=None, on_frame=None, **options) -> Run:
+def _check_callable(name: str, value: object) -> None:
+    if value is not None and not callable(value):
+        raise InputError(f"{name}: expected a function, found {type(value).__name__}")
+
+
+def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None = None,
+        format: str | None = None, topics: Sequence[str] = (), start: int = 0,
+        stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
+        localize: bool = False, out: Path | None = None,
+        on_frame: Callable[[FrameResult], object] | None = None,
+        on_event: Callable[[dict[str, Any]], object] | None = None, **options: Any) -> Run:
     """Tracks the camera through a recorded sequence and maps what it sees, as `plumbline run`; the
     trajectory has the same bytes.
 
-    path, sensor, camera, format: as for open(), or path is a Dataset. start, stop, stride: which
-    frames. map: a file or an Atlas to go on in; localize: only find the camera in it. out: a folder
-    for the files of the run. on_frame: called with the FrameResult of each frame, in order, in this
-    thread. options: groups as dictionaries, features={"line_count": 100}, or dotted keys.
+    path, sensor, camera, format, topics: as for open(), or path is a Dataset. start, stop, stride:
+    which frames. map: a file or an Atlas to go on in; localize: only find the camera in it. out: a
+    folder for the files of the run. on_frame: called with the FrameResult of each frame, in order;
+    on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
+    known (System.new_events); both in this thread. options: groups as dictionaries,
+    features={"line_count": 100}, or dotted keys.
 
     The GIL is released while it computes. Ctrl-C raises KeyboardInterrupt between two frames; with
     `out` the frames so far are finished and written first. Raises InputError.
     """
     if isinstance(path, Dataset):
-        if (sensor, camera, format) != (None, None, None):
-            raise InputError("sensor, camera, format: expected none beside a Dataset, found some")
+        if (sensor, camera, format, tuple(topics)) != (None, None, None, ()):
+            raise InputError(
+                "sensor, camera, format, topics: expected none beside a Dataset, found some")
         dataset = path
     else:
-        dataset = _plumbline.open(path, sensor=sensor, camera=camera, format=format)
-    if on_frame is not None and not callable(on_frame):
-        raise InputError(f"on_frame: expected a function, found {type(on_frame).__name__}")
+        dataset = _plumbline.open(path, sensor=sensor, camera=camera, format=format, topics=topics)
+    _check_callable("on_frame", on_frame)
+    _check_callable("on_event", on_event)
     if localize and map is None:
         raise InputError("localize: expected map as well")
     frames = _choose_frames(dataset, start, stop, stride)
@@ -140,7 +172,7 @@ def run(path, *, sensor=None, camera=None, format=None, start=0, stop=None, stri
     atlas = map if map is None or isinstance(map, Atlas) else _plumbline.load_map(map)
     folder = None
     if out is not None:
-        folder = _plumbline._RunFolder(out, dataset, None if atlas is map else map)
+        folder = _plumbline._RunFolder(out, dataset, None if isinstance(map, Atlas) else map)
         system._keep_views(frames)
     if atlas is not None:
         system.continue_in(atlas, read_only=bool(localize))
@@ -151,15 +183,13 @@ def run(path, *, sensor=None, camera=None, format=None, start=0, stop=None, stri
             return None
         return _plumbline._write_run(system, folder, dataset, len(frames), [])
 
+    teller = _Teller(system, on_frame, on_event)
     try:
-        results = _feed(system, dataset, frames, on_frame)
+        _feed(system, dataset, frames, teller)
     except KeyboardInterrupt:
         if folder is not None:
             finish()
         raise
     written = finish()
-    for result in system.results():
-        results.append(result)
-        if on_frame is not None:
-            on_frame(result)
-    return Run(system, dataset, results, written)
+    teller.tell()
+    return Run(system, dataset, teller.results, written)

@@ -3,12 +3,14 @@
 """Wrong arguments: an exception that says what was expected and what was found, and no crash."""
 import functools
 import shutil
+import sys
 
 import numpy as np
 import pytest
 
 import plumbline
 from building_test import cutting_problem, rank1_arguments, tracks
+from stubs_test import arguments_of, functions
 
 CAMERA = plumbline.RectifiedCamera(450, 450, 376, 240, 752, 480, baseline=0.11)
 SINGLE = plumbline.RectifiedCamera(450, 450, 376, 240, 752, 480)
@@ -279,6 +281,12 @@ CASES = {
     "method of a number": (lambda: cut(method=1), "method: expected a text, found int"),
     "share of more than all": (lambda: cut(drop_share=2), "drop_share: expected 0 to 1, found 2"),
     "unknown option of cutting": (lambda: cut(share=2), "cut_lines: expected the options"),
+    "ratios that descend": (lambda: plumbline.pose_information(*CUT, ratios=[[0.6, 0.5]] * 3),
+                            r"ratios: expected 0 <= first <= second <= 1, found 0.6 and 0.5 at \[0\]"),
+    "ratios of others": (lambda: plumbline.pose_information(*CUT, ratios=[[0, 1]]),
+                         r"ratios: expected numbers of shape \(3, 2\)"),
+    "unknown information": (lambda: plumbline.pose_information(*CUT, information="all"),
+                            "information: expected independent, printed or correlated, found all"),
     "points behind the camera": (lambda: plumbline.covariance_from_disparity(
         CAMERA, [[0, 0, -1]], 1, 1), "before the camera"),
     "depth without a baseline": (lambda: plumbline.covariance_from_disparity(
@@ -365,32 +373,109 @@ def test_a_refused_frame_does_no_harm():
     assert made.finished
 
 
-def test_runs_refuse_what_they_cannot_do(dataset, finished, tmp_path):
-    for arguments, message in (
-            (dict(start=12), "start 12: the sequence has 12 frames, and stop is None"),
-            (dict(start=-1), "start: expected a whole number of at least 0, found -1"),
-            (dict(stop=1.5), "stop: expected a whole number, found float"),
-            (dict(stride=0), "stride: expected a whole number of at least 1, found 0"),
-            (dict(localize=True), "localize: expected map as well"),
-            (dict(on_frame=3), "on_frame: expected a function, found int"),
-            (dict(sensor="mono"), "sensor, camera, format: expected none beside a Dataset"),
-            (dict(map=tmp_path / "none.plb"), "none.plb"),
-            (dict(out=dataset.path), "")):
-        with pytest.raises(plumbline.InputError, match=message):
-            plumbline.run(dataset, **arguments)
-    with pytest.raises(IndexError, match="frame: expected -12 to 11, found 12"):
-        dataset[12]
-    with pytest.raises(IndexError):
-        plumbline.Synth("room", frames=1, scale=0.1)[1]
-    other = plumbline.System(MONO)
-    with pytest.raises(plumbline.InputError):
-        other.continue_in(finished.maps)
-    twice = plumbline.System(dataset.calibration)
-    twice.process(dataset[0])
-    with pytest.raises(plumbline.InputError, match="expected a system before its first frame"):
-        twice.continue_in(finished.maps)
-    with pytest.raises(plumbline.InputError, match="expected none beside a Frame"):
-        twice.process(dataset[1], 3)
+def continued(atlas, system_before):
+    system_before.continue_in(atlas)
+
+
+def started(dataset):
+    made = plumbline.System(dataset.calibration)
+    made.process(dataset[0])
+    return made
+
+
+# The same of what needs a sequence, a run on it (finished) and a folder.
+RUNS = {
+    "start behind the end": (lambda d, f, t: plumbline.run(d, start=12),
+                             "start 12: the sequence has 12 frames, and stop is None"),
+    "start before the start": (lambda d, f, t: plumbline.run(d, start=-1),
+                               "start: expected a whole number of at least 0, found -1"),
+    "stop between frames": (lambda d, f, t: plumbline.run(d, stop=1.5),
+                            "stop: expected a whole number, found float"),
+    "stride of nothing": (lambda d, f, t: plumbline.run(d, stride=0),
+                          "stride: expected a whole number of at least 1, found 0"),
+    "localizing nowhere": (lambda d, f, t: plumbline.run(d, localize=True),
+                           "localize: expected map as well"),
+    "frames told to a number": (lambda d, f, t: plumbline.run(d, on_frame=3),
+                                "on_frame: expected a function, found int"),
+    "events told to a text": (lambda d, f, t: plumbline.run(d, on_event="print"),
+                              "on_event: expected a function, found str"),
+    "sensor of a Dataset": (lambda d, f, t: plumbline.run(d, sensor="mono"),
+                            "sensor, camera, format, topics: expected none beside a Dataset"),
+    "topics of a folder": (lambda d, f, t: plumbline.open(d.path, topics=["/cam0"]),
+                           "expected a bag or an MCAP file to choose topics of"),
+    "map that is not there": (lambda d, f, t: plumbline.run(d, map=t / "none.plb"), "none.plb"),
+    "results into the data": (lambda d, f, t: plumbline.run(d, out=d.path), "."),
+    "frame behind the last": (lambda d, f, t: d[12], "frame: expected -12 to 11, found 12"),
+    "rendered frame behind the last": (
+        lambda d, f, t: plumbline.Synth("room", frames=1, scale=0.1)[1], "expected -1 to 0"),
+    "map behind the last": (lambda d, f, t: f.maps[3], "map: expected -1 to 0, found 3"),
+    "map of another camera": (lambda d, f, t: continued(f.maps, plumbline.System(MONO)), "."),
+    "map after the first frame": (lambda d, f, t: continued(f.maps, started(d)),
+                                  "expected a system before its first frame"),
+    "stamp of a Frame": (lambda d, f, t: started(d).process(d[1], 3),
+                         "stamp_ns: expected none beside a Frame, which has its own, found int"),
+    "keyframes of no map": (lambda d, f, t: f.system.keyframe_trajectory(9),
+                            "map: expected the id of a map, found 9"),
+    "first poses of no map": (lambda d, f, t: f.system.causal_trajectory(9),
+                              "map: expected the id of a map, found 9"),
+    "unknown form of a map": (lambda d, f, t: f.map.export(t / "a", "xml"),
+                              "format: expected ply, obj, dxf, tum or colmap, found xml"),
+    "map into no folder": (lambda d, f, t: f.maps.save(t / "none" / "map.plb"), "map.plb"),
+    "trajectory into no folder": (lambda d, f, t: f.trajectory.save(t / "none" / "a.txt"), "a.txt"),
+    "trajectory that is none": (lambda d, f, t: plumbline.Trajectory.load(d.path), "."),
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_runs_and_maps_refuse_what_they_cannot_do(name, dataset, finished, tmp_path):
+    call, message = RUNS[name]
+    with pytest.raises((plumbline.InputError, IndexError), match=message):
+        call(dataset, finished, tmp_path)
+
+
+def refused_by(call, *arguments) -> set[str]:
+    """Names of the functions of the package that raised when `call` was called."""
+    names, classes = set(), set()
+
+    def watch(frame, event, argument):
+        if event == "c_exception":
+            names.add(argument.__name__)
+
+    sys.setprofile(watch)
+    try:
+        call(*arguments)
+    except Exception as error:
+        sys.setprofile(None)
+        if isinstance(error, IndexError):  # brackets are no call that a profile sees
+            names.add("__getitem__")
+        trace = error.__traceback__
+        while trace is not None:  # functions written in Python
+            if trace.tb_frame.f_globals["__name__"].startswith("plumbline"):
+                names.add(trace.tb_frame.f_code.co_name)
+            # Constructors leave no other trace.
+            classes |= {name for name in trace.tb_frame.f_code.co_names
+                        if isinstance(getattr(plumbline, name, None), type)}
+            trace = trace.tb_next
+    finally:
+        sys.setprofile(None)
+    return names or {f"{name}.__init__" for name in classes}
+
+
+def test_every_public_function_is_in_the_tables(dataset, finished, tmp_path):
+    refusing = set()
+    for call, _ in CASES.values():
+        refusing |= refused_by(call)
+    for call in TYPES.values():
+        refusing |= refused_by(call)
+    for call, _ in RUNS.values():
+        refusing |= refused_by(call, dataset, finished, tmp_path)
+    takes_arguments = {
+        name if name.endswith("__init__") else name.rpartition(".")[2]
+        for name, member, node in functions()
+        if not name.startswith("_") and "._" not in name.replace("__", "") and arguments_of(node)}
+    takes_arguments |= {"run", "pinhole"}
+    assert len(takes_arguments) > 30 and len(CASES) + len(RUNS) > 60
+    assert takes_arguments - refusing == set()
 
 
 def test_an_image_that_is_gone_is_skipped(sequence, tmp_path):

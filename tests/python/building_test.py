@@ -150,6 +150,18 @@ def test_cutting_gains_information():
     assert lost.max() > 0.1
 
 
+def test_information_of_pieces_is_what_cutting_raises():
+    problem = cutting_problem(np.random.default_rng(7))
+    cut = plumbline.cut_lines(*problem)
+    for ratios, expected in ((None, cut["log_det_whole"]), (cut["ratios"], cut["log_det_cut"])):
+        information = plumbline.pose_information(*problem, ratios)
+        np.testing.assert_allclose(information, information.T, rtol=1e-12)
+        assert np.linalg.slogdet(information)[1] == pytest.approx(expected, abs=1e-9)
+    more = plumbline.pose_information(*problem, other_information=np.eye(6)) - \
+        plumbline.pose_information(*problem)
+    np.testing.assert_allclose(more, np.eye(6), atol=1e-6)
+
+
 def test_trajectories_are_compared(tmp_path):
     rng = np.random.default_rng(5)
     stamps = np.arange(50) * 100_000_000

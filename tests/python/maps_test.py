@@ -55,11 +55,44 @@ def test_tracks_of_lines_are_where_lines_project(finished):
     assert np.median(np.abs(distance)) < 0.5
 
 
+def test_covariances_are_what_the_observations_tell(finished):
+    m = finished.map
+    covariances = m.point_covariances
+    assert covariances.shape == (len(m.points), 3, 3)
+    known = np.isfinite(covariances[:, 0, 0])
+    assert known.mean() > 0.9
+    assert (np.linalg.eigvalsh(covariances[known]) > 0).all()
+    # Of a point that one keyframe shows: the covariance of a stereo measurement.
+    tracks = m.point_tracks
+    ids, counts = np.unique(tracks["point"], return_counts=True)
+    once = tracks[np.isin(tracks["point"], ids[counts == 1]) & ~np.isnan(tracks["disparity"])]
+    assert len(once) > 10
+    for row in once[:10]:
+        place = np.searchsorted(m.point_ids, row["point"])
+        pose = m.keyframe_poses[np.searchsorted(m.keyframe_ids, row["keyframe"])]
+        in_camera = pose[:3, :3].T @ (m.points[place] - pose[:3, 3])
+        expected = plumbline.covariance_from_disparity(
+            m.camera, [in_camera], row["sigma_px"], row["disparity_sigma"])[0]
+        np.testing.assert_allclose(pose[:3, :3].T @ covariances[place] @ pose[:3, :3], expected,
+                                   rtol=1e-6, atol=1e-12)
+
+
+def test_covariances_of_ends_lie_across_lines(finished):
+    m = finished.map
+    ends, lines = m.line_end_covariances, m.lines
+    assert ends.shape == (len(lines), 2, 3, 3)
+    np.testing.assert_allclose(ends, np.swapaxes(ends, 2, 3), rtol=1e-6, atol=1e-15)
+    along = np.einsum("ni,neij,nj->ne", lines[:, 3:], ends, lines[:, 3:])
+    across = np.einsum("neii->ne", ends) - along
+    np.testing.assert_allclose(along, across, rtol=1e-6)  # as documented
+    assert 0 < np.sqrt(np.median(across)) < 0.1
+
+
 def test_arrays_of_maps_are_read_only_copies(finished):
     m = finished.map
     for name in ("points", "lines", "line_ends", "line_information", "point_ids", "line_ids",
                  "keyframe_ids", "keyframe_stamps_ns", "keyframe_poses", "point_tracks",
-                 "line_tracks"):
+                 "line_tracks", "point_covariances", "line_end_covariances"):
         array = getattr(m, name)
         with pytest.raises(ValueError, match="read-only"):
             array[...] = array[0]

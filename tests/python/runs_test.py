@@ -90,9 +90,15 @@ def test_a_snapshot_changes_no_result(dataset, finished):
 
 def test_the_camera_is_found_in_a_map(finished, dataset, tmp_path):
     finished.maps.save(tmp_path / "map.plb")
-    run = plumbline.run(dataset, start=3, map=tmp_path / "map.plb", localize=True)
+    events = []
+    run = plumbline.run(dataset, start=3, map=tmp_path / "map.plb", localize=True,
+                        on_event=events.append)
     assert sum(result.status == "tracked" for result in run.results) >= 7
-    assert len(run.system.events()["relocalizations"]) >= 1
+    told = run.system.events()["relocalizations"]
+    assert len(told) >= 1
+    assert events == [one | {"kind": "relocalization"} for one in told]
+    assert run.system.new_events() == []
+    assert events[0]["points"] + events[0]["lines"] > 20 and events[0]["frame"] >= 0
     np.testing.assert_array_equal(run.map.points, finished.map.points)
     centre = run.trajectory.positions[-1]
     assert np.linalg.norm(centre - finished.trajectory.positions[-1]) < 0.01
