@@ -4,6 +4,7 @@
 #include "plumbline/base/nearest_name.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/process_settings.h"
+#include "plumbline/version.h"
 
 #include "apps/commands.h"
 #include "apps/shortage.h"

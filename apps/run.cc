@@ -13,6 +13,7 @@
 #include "plumbline/live/open_live_source.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/system.h"
+#include "plumbline/version.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"

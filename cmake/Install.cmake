@@ -23,6 +23,8 @@ install(EXPORT plumbline_targets NAMESPACE plumbline:: DESTINATION ${package_dir
 # library along are for our own .cc files.
 install(DIRECTORY plumbline DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
         PATTERN log.h EXCLUDE PATTERN opencv_bridge.h EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/generated/plumbline/version.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumbline)
 
 configure_package_config_file(cmake/plumbline-config.cmake.in plumbline-config.cmake
                               INSTALL_DESTINATION ${package_dir})

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/version.h"
+
 #include "bindings.h"
 
 PYBIND11_MODULE(_plumbline, module) {

@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/atlas_context.h"
+#include "plumbline/version.h"
 
 #include <cstddef>
 #include <type_traits>

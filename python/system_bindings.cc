@@ -3,6 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/report/run_files.h"
+#include "plumbline/version.h"
 
 #include "apps/run_results.h"
 #include "arrays.h"

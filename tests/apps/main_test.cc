@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/version.h"
+
 #include "tests/io/scratch_folder.h"
 #include "tests/support/data_folder.h"
 #include <algorithm>
@@ -43,7 +45,7 @@ TEST(Program, HelpListsTheCommands) {
     EXPECT_EQ(outcome.err, "");
   }
   EXPECT_EQ(RunProgram("").code, 2);
-  EXPECT_THAT(RunProgram("--version").out, StartsWith("plumbline 0."));
+  EXPECT_EQ(RunProgram("--version").out, "plumbline " PLUMBLINE_VERSION "\n");
 }
 
 // The commands of this build: those of the worlds and of the laboratory may be left out.
