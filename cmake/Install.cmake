@@ -3,6 +3,7 @@
 # plumbline::plumbline is all of them.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+include(PublicHeaders)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plumbline)
 
@@ -15,14 +16,17 @@ endforeach()
 set(targets ${PLUMBLINE_MODULES})
 list(TRANSFORM targets PREPEND plumbline_)
 install(TARGETS plumbline_flags plumbline_all ${targets} EXPORT plumbline_targets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS plumbline RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(EXPORT plumbline_targets NAMESPACE plumbline:: DESTINATION ${package_dir})
 
-# Headers need Eigen alone (tests: package.PublicHeadersNeedEigenAlone); those that bring a heavier
-# library along are for our own .cc files.
-install(DIRECTORY plumbline DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h"
-        PATTERN log.h EXCLUDE PATTERN opencv_bridge.h EXCLUDE)
+# Headers need Eigen alone (tests: package.PublicHeadersNeedEigenAlone).
+plumbline_public_headers(public_headers)
+foreach(header IN LISTS public_headers)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/plumbline/version.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plumbline)
 

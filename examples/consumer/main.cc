@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tracks a sequence and prints where the camera was: consumer PATH
-#include <plumbline/io/dataset.h>
+#include <iostream>
+
+#include <plumbline/io/open_dataset.h>
 #include <plumbline/io/process_settings.h>
 #include <plumbline/slam/system.h>
-#include <plumbline/io/open_dataset.h>
-
-#include <iostream>
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/features/line_detection.h"
+#include "plumbline/features/raw_segments.h"
+#include "plumbline/features/types.h"
+#include "plumbline/image/image.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// The straight lines of a whole image with their descriptors: DetectLines and DescribeLines on the
+// gradient that both need. This is what a run measures in an image that needs no rectification.
+//
+//   image     pixels as the camera gave them; lines are straight only where the lens is
+//   count     the most lines that are returned, the best by length and contrast
+//   returns   lines in pixels of `image`, directed with the bright side on the left; none for an
+//             empty image
+//   cost      about 5 ms for 752x480 with the default detector
+std::vector<LineFeature> FindLines(const GrayImage& image,
+                                   int count = 200,
+                                   LineDetector detector = LineDetector::kDrawing,
+                                   const LineDetectionOptions& options = {});
+
+}  // namespace plumbline
