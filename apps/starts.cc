@@ -8,9 +8,9 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
-#include "plumbline/version.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/version.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
