@@ -5,7 +5,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/options_io.h"
-#include "plumbline/report/base64.h"
+#include "plumbline/base/base64.h"
 #include "plumbline/report/run_scene.h"
 #include "plumbline/report/timing.h"
 

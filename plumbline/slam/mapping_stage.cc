@@ -7,6 +7,7 @@
 #include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/slam/keyframes_ahead.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace plumbline {
@@ -258,7 +259,9 @@ std::shared_ptr<const MapSnapshot> MappingStage::EarlierSnapshot() {
 
 std::size_t MappingStage::Waiting() const {
   const std::lock_guard lock(mutex_);
-  return tasks_.size();
+  return static_cast<std::size_t>(std::count_if(tasks_.begin(), tasks_.end(), [](const Task& task) {
+    return !std::holds_alternative<Visit>(task.work);
+  }));
 }
 
 void MappingStage::Lighten(Shed shed) {
@@ -446,7 +449,7 @@ MappingStage::Done MappingStage::Do(const Sighting& sighting, std::int64_t) {
 }
 
 MappingStage::Done MappingStage::Do(const Visit& visit, std::int64_t) {
-  visit.look(atlas_, mapper_.state());
+  visit.look(atlas_, mapper_, places_);
   return {};
 }
 

@@ -57,7 +57,7 @@ struct Sighting {
 
 // Somebody who wants to see the maps as they are between two keyframes, in the thread that maps.
 struct Visit {
-  std::function<void(const Atlas&, const LocalMapper::State&)> look;
+  std::function<void(const Atlas&, const LocalMapper&, const PlaceRecognition&)> look;
 };
 
 // The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
@@ -133,7 +133,7 @@ class MappingStage {
   // from call to call an older one, then again from the first. Null where there is none.
   std::shared_ptr<const MapSnapshot> EarlierSnapshot();
 
-  // Keyframes that mapping has not begun with.
+  // Tasks that mapping has not begun with, but for visits, which are nothing to it.
   std::size_t Waiting() const;
 
   // What is shed of the keyframes that mapping begins with from now on; nothing before the first

@@ -300,13 +300,23 @@ void System::LoseFramesNotMapped() {
 }
 
 void System::CopyMaps(std::function<void(SavedAtlas)> take) {
-  mapping_.Submit(newest_.id.value,
-                  Visit{[context = ContextWithoutMaps(), take = std::move(take)](
-                            const Atlas& atlas, const LocalMapper::State& mapper) {
-                    SavedAtlas copy{atlas, context};
-                    AddMaps(atlas, mapper, copy.context);
-                    take(std::move(copy));
-                  }});
+  mapping_.Submit(
+      newest_.id.value,
+      Visit{[context = ContextWithoutMaps(), take = std::move(take)](
+                const Atlas& atlas, const LocalMapper& mapper, const PlaceRecognition&) {
+        SavedAtlas copy{atlas, context};
+        AddMaps(atlas, mapper.state(), copy.context);
+        take(std::move(copy));
+      }});
+}
+
+void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look) {
+  mapping_.Submit(
+      newest_.id.value,
+      Visit{[look = std::move(look)](
+                const Atlas& atlas, const LocalMapper&, const PlaceRecognition& places) {
+        look(atlas, {places.loops(), places.joins(), {}});
+      }});
 }
 
 void System::Finish(const StopCheck& stop) {

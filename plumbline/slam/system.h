@@ -96,6 +96,10 @@ class System {
   // what SaveAtlas needs beside them, in the thread that maps. Changes no result. To be called in
   // the thread that tracks, after the first frame.
   void CopyMaps(std::function<void(SavedAtlas)> take);
+  // Shows the maps as they are then, and the loops and joins so far, in the thread that maps, when
+  // mapping has done what was submitted before. Changes no result. To be called in the thread that
+  // tracks.
+  void LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look);
   // All that is needed to go on with the next frame as if the run had not stopped: the maps, what
   // tracking and mapping remember, the records of the frames, what is due and when. Completes the
   // mapping of the frames so far, which changes no result but of live runs. To be called in the
@@ -142,6 +146,8 @@ class System {
   // The last processed frame.
   const FrameView& view() const { return view_; }
 
+  // Lost frames that were found again so far. To be called in the thread that tracks.
+  const std::vector<Relocalization>& relocalizations() const { return relocalizations_; }
   // What was recognized, joined and found again, in order; like atlas().
   MapEvents events() const;
   // What of it is known by now (MappingStage::EventsSoFar), in the thread that tracks.

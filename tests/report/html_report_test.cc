@@ -3,7 +3,7 @@
 #include "plumbline/report/html_report.h"
 
 #include "plumbline/base/options_io.h"
-#include "plumbline/report/base64.h"
+#include "plumbline/base/base64.h"
 #include "plumbline/slam/atlas_context.h"
 
 #include "tests/io/scratch_folder.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/report/base64.h"
+#include "plumbline/base/base64.h"
 
 #include <cstddef>
 #include <cstdint>
