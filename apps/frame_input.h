@@ -43,6 +43,8 @@ class FrameInput {
   // The next frame when it is there, or due. nullopt: there are no more, or `go_on`, which is asked
   // often, said no.
   virtual std::optional<InputFrame> Next(const GoOn& go_on) = 0;
+  // What comes next is due that much later: nobody asked for a while.
+  virtual void Delay(std::chrono::steady_clock::duration /*pause*/) {}
 };
 
 // Some of the frames of a recording, by index. Live runs get them when they are due, as far apart
@@ -56,6 +58,7 @@ class RecordedInput : public FrameInput {
                 RunMode mode,
                 Say say);
   std::optional<InputFrame> Next(const GoOn& go_on) override;
+  void Delay(std::chrono::steady_clock::duration pause) override { start_ += pause; }
 
  private:
   bool WaitFor(std::int64_t since_first_ns, const GoOn& go_on);

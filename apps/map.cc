@@ -29,6 +29,7 @@ constexpr std::array kCommands = {
     MapCommandRow{"info", MapInfoCommand, "what is in a map file"},
     MapCommandRow{"export", MapExportCommand, "a map in the form of another program"},
     MapCommandRow{"merge", MapMergeCommand, "two maps of the same camera as one"},
+    MapCommandRow{"view", MapViewCommand, "a map in the browser"},
 };
 
 void PrintHelp(std::ostream& out) {

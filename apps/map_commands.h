@@ -13,6 +13,7 @@ namespace plumbline {
 int MapInfoCommand(std::span<const std::string> arguments);
 int MapExportCommand(std::span<const std::string> arguments);
 int MapMergeCommand(std::span<const std::string> arguments);
+int MapViewCommand(std::span<const std::string> arguments);
 
 // Throws InputError where `output` is the file `input`, by whatever name: reading it is no leave to
 // write over it.

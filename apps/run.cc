@@ -14,12 +14,14 @@
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/version.h"
+#include "plumbline/view/viewer.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/run_frames.h"
 #include "apps/run_results.h"
 #include "apps/stop_signal.h"
+#include "apps/view_options.h"
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -47,7 +49,7 @@ constexpr int kLongestPause = 1'000'000;  // seconds
 constexpr int kWidestBlur = 1001;         // pixels; nothing is left to see by then
 
 CommandSyntax Syntax() {
-  return {
+  CommandSyntax syntax = {
       "run",
       "Tracks the camera through a recorded sequence, or while it runs, and maps what it sees.\n"
       "PATH: a data set; camera:N or camera:N,M; rtsp://...; gst:PIPELINE; - (standard input)",
@@ -75,6 +77,9 @@ CommandSyntax Syntax() {
        {"--resume", "FILE", "go on with the next frame of the run that wrote this --checkpoint"},
        {"--out", "DIR", "folder for the results (default: plumbline_run)"},
        {"--quiet", "", "print nothing but errors"}}};
+  syntax.options.push_back({"--record", "FILE.mcap", "write what viewers are sent into a file"});
+  for (CommandOption& option : ViewOptions()) syntax.options.push_back(std::move(option));
+  return syntax;
 }
 
 // The frames to process, by index in the data set.
@@ -104,6 +109,7 @@ struct RunSetup {
   std::optional<std::filesystem::path> checkpoint;  // to be written
   std::optional<std::filesystem::path> resume;      // to go on from
   std::optional<SavedRun> saved;                    // what is there
+  ViewerOptions view;                               // where the run is to be shown
 };
 
 // Which frames the run is of and what is done to them, as the arguments that say so; not where it
@@ -161,6 +167,9 @@ RunSetup ReadSetup(const CommandLine& line) {
   setup.folder = line.Value("--out").value_or("plumbline_run");
   setup.blur = line.Count("--blur", 0, {1, kWidestBlur});
   setup.quiet = line.Has("--quiet");
+  setup.view.access = ReadViewOptions(line, setup.quiet);
+  if (const auto record = line.Value("--record")) setup.view.record = *record;
+  setup.view.record_all = setup.options.slam.mode != RunMode::kLive;
   if (const auto map = line.Value("--map")) setup.map = *map;
   setup.localize = line.Has("--localize");
   if (setup.localize && !setup.map) throw InputError("--localize: expected --map FILE as well");
@@ -289,6 +298,35 @@ void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
   }
 }
 
+// The recording takes the place of the file when it is complete.
+void CheckRecordingApart(const CommandLine& line, const RunSetup& setup, const Dataset& dataset) {
+  if (!setup.view.record) return;
+  for (const RunInput& input : InputsOf(line, dataset)) {
+    std::error_code error;
+    if (!std::filesystem::equivalent(*setup.view.record, input.path, error)) continue;
+    throw InputError("--record " + setup.view.record->string() +
+                     ": expected another file than one that is read");
+  }
+}
+
+// Before anything is written: that there is somewhere to listen.
+void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, RunFrames& input) {
+  if (!setup.view.access && !setup.view.record) return;
+  CheckRecordingApart(line, setup, *input.dataset);
+  ViewedRun run;
+  run.name = input.dataset->info().name.empty() ? WithoutPassword(line.Positional(0))
+                                                : input.dataset->info().name;
+  run.camera = system.camera();
+  run.can_pause = input.live == nullptr;
+  if (run.can_pause) run.frames_expected = input.frames.size();
+  const std::size_t sessions = system.loaded() ? system.loaded()->sessions.size() : 0;
+  input.viewer = std::make_shared<Viewer>(
+      setup.view, std::move(run), SessionId{static_cast<std::int64_t>(sessions)});
+  if (setup.view.access && !setup.quiet) {
+    std::cerr << "plumbline: view at " << input.viewer->url() << '\n';
+  }
+}
+
 // The options first: where they cannot be written, nothing can.
 void WriteOptions(const RunSetup& setup, RunFolder& folder) {
   folder.Write({"options.yaml", [&](const std::filesystem::path& path) {
@@ -363,6 +401,7 @@ int RunCommand(std::span<const std::string> arguments) {
   system.DescribeSession(PLUMBLINE_VERSION, input.dataset->info().name);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
   ResumeFrom(setup, system, input);
+  OpenViewer(line, setup, system, input);
   RunFolder folder(setup.folder);
   CheckFolderOfCheckpoint(setup);
   WriteOptions(setup, folder);

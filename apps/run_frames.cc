@@ -7,6 +7,7 @@
 #include "plumbline/io/checkpoint_io.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/pipeline.h"
+#include "plumbline/view/viewer.h"
 
 #include "apps/map_saver.h"
 #include "apps/progress.h"
@@ -28,6 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kOverlays = 6;
+constexpr auto kPauseStep = std::chrono::milliseconds(10);
 
 // Every image of the frame through the box filter of --blur (0: as it is). Depth stays.
 SensorFrame Blurred(SensorFrame frame, int size) {
@@ -79,6 +81,7 @@ class FrameFeed {
     SayStopped();
     Keeping([&] { pipeline_.Finish(StepStop()); });
     NameShortage();
+    FinishViewing();
     return result_;
   }
 
@@ -96,6 +99,10 @@ class FrameFeed {
     SaveMapIfDue();
     views_.Offer(position, view);
     progress_.Show(record);
+    if (!input_.viewer) return;
+    input_.viewer->Show(record, view, system_.relocalizations());
+    ShowMaps(record.keyframe);
+    Report(input_.viewer->TakeFailure());
   }
 
   // In the thread that tracks, which only asks for a copy of the maps.
@@ -106,6 +113,34 @@ class FrameFeed {
     saved_ = now;
     system_.CopyMaps([saver = saver_](SavedAtlas copy) { saver->Take(std::move(copy)); });
     Report(saver_->TakeFailure());
+  }
+
+  // In the thread that tracks, which only asks for a look at the maps.
+  void ShowMaps(bool new_keyframe) {
+    if (!input_.viewer->WantsMaps(new_keyframe)) return;
+    system_.LookAtMaps([viewer = input_.viewer](const Atlas& atlas, const MapEvents& events) {
+      viewer->LookAtMaps(atlas, events);
+    });
+  }
+
+  void FinishViewing() {
+    if (!input_.viewer) return;
+    input_.viewer->Finish(system_.atlas(), system_.events());
+    Report(input_.viewer->TakeFailure());
+  }
+
+  // In the thread that feeds: as long as somebody who looks has paused the run. What is asked about
+  // the maps meanwhile is answered.
+  void WaitWhilePaused() {
+    if (!input_.viewer || !input_.viewer->HoldsBack()) return;
+    const auto start = Clock::now();
+    pipeline_.Drain();
+    do {
+      std::this_thread::sleep_for(kPauseStep);
+      ShowMaps(false);
+      if (system_.options().slam.mode == RunMode::kInline) system_.MapOnce();
+    } while (input_.viewer->HoldsBack() && GoOn());
+    frames_->Delay(Clock::now() - start);
   }
 
   // Before the maps are adjusted at the end, which a run that goes on is not to notice.
@@ -127,7 +162,10 @@ class FrameFeed {
 
   void Feed() {
     const auto go_on = [this] { return GoOn(); };
-    while (auto next = frames_->Next(go_on)) {
+    while (true) {
+      WaitWhilePaused();
+      auto next = frames_->Next(go_on);
+      if (!next) return;
       if (next->frame) {
         pipeline_.Feed(Blurred(*std::move(next->frame), input_.blur));
       } else {

@@ -21,6 +21,8 @@
 
 namespace plumbline {
 
+class Viewer;
+
 // What a run is fed with.
 struct RunFrames {
   std::shared_ptr<const Dataset> dataset;  // of a live source: what is known of it, no frames
@@ -32,6 +34,7 @@ struct RunFrames {
   std::size_t first = 0;  // position of the first frame that is new: those before are done
   std::optional<std::filesystem::path> checkpoint;  // written when all frames are tracked
   std::string description;                          // for the checkpoint, SavedRun::input
+  std::shared_ptr<Viewer> viewer;                   // that shows the run; may be null
 
   // Of the frame at a position of the run.
   std::size_t IndexOf(std::size_t position) const {

@@ -32,10 +32,12 @@ LAYERS = {
     "slam": ["base", "geometry", "image", "features", "optimization", "cutting", "map",
              "association", "initialization", "tracking", "mapping", "place", "loop"],
     "recording": ["base"],
+    "foxglove": ["base", "geometry"],
     "io": ["base", "geometry", "image", "features", "map", "recording"],
     "live": ["base", "geometry", "image", "io"],
     "eval": ["base", "geometry"],
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
+    "view": ["base", "geometry", "image", "features", "map", "slam", "recording", "foxglove"],
     "worlds": ["base", "geometry", "image", "io"],
     "ceres_reference": ["base", "geometry", "optimization"],
     "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
@@ -53,6 +55,7 @@ LABORATORY = {"ceres_reference", "starts", "cutting_testbed", "experiments"}
 THIRD_PARTY = {
     "CLI/": None,
     "benchmark/": None,
+    "boost/": r"view/web_server\.cc",
     "ceres/": r"lab/ceres_reference/ceres_\w+\.(h|cc)",
     "coin/": r"lab/cutting_testbed/ipopt_\w+\.cc",
     "embree3/": r"worlds/\w+\.cc",
@@ -60,14 +63,14 @@ THIRD_PARTY = {
     "gmock/": None,
     "gtest/": None,
     "nlopt": r"lab/cutting_testbed/nlopt_\w+\.cc",
-    "nlohmann/": r"(io|eval|report|lab/experiments)/\w+\.cc",
+    "nlohmann/": r"(io|eval|report|foxglove|view|lab/experiments)/\w+\.cc",
     "opencv2/": r"image/opencv_bridge\.h|"
-                r"(image|features|initialization|io|live|report)/\w+\.cc",
+                r"(image|features|initialization|io|live|report|view)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
     "yaml-cpp/": r"(base|io)/\w+\.cc",
     "bzlib.h": r"recording/compression\.cc",
     "lz4": r"recording/compression\.cc",
-    "zstd.h": r"(io/section_file|recording/compression)\.cc",
+    "zstd.h": r"(io/section_file|recording/(compression|mcap_file_writer))\.cc",
 }
 # Headers of the library that bring a heavy third-party header along: for .cc files only.
 HEAVY_HEADERS = {

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
+#include "plumbline/io/map_io.h"
+#include "plumbline/view/viewer.h"
+
+#include "apps/command_line.h"
+#include "apps/map_commands.h"
+#include "apps/stop_signal.h"
+#include "apps/view_options.h"
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+constexpr int kMostMaps = 1'000'000'000;
+constexpr auto kStep = std::chrono::milliseconds(20);
+constexpr const char* kDefaultAddress = "8080";
+
+CommandSyntax Syntax() {
+  CommandSyntax syntax = {
+      "map view",
+      "Shows a map file in browsers, and in Foxglove, until Ctrl-C.",
+      {"FILE"},
+      {{"--map", "N", "the map of this number (default: the one that grew last)"}}};
+  for (CommandOption& option : ViewOptions()) syntax.options.push_back(std::move(option));
+  return syntax;
+}
+
+// plumbline.Frame of a keyframe of the map that is shown; null where there is none.
+SharedBytes PictureOf(const Atlas& atlas, ShownId id) {
+  const KeyFrame* keyframe = atlas.active().Find(KeyFrameId{id});
+  if (keyframe == nullptr) return nullptr;
+  return std::make_shared<const std::string>(FrameMessage(ViewedFrameOf(*keyframe)).Take());
+}
+
+void ChooseMap(const CommandLine& line, Atlas& atlas) {
+  if (atlas.empty()) throw InputError(line.Positional(0) + ": expected a map, found none");
+  if (!line.Has("--map")) {
+    atlas.Activate(atlas.active_id());
+    return;
+  }
+  const MapId id{line.Count("--map", 0, {0, kMostMaps})};
+  if (atlas.Find(id) == nullptr) {
+    throw InputError("--map " + *line.Value("--map") +
+                     ": expected a map of the file; see map info");
+  }
+  atlas.Activate(id);
+}
+
+}  // namespace
+
+int MapViewCommand(std::span<const std::string> arguments) {
+  const CommandLine line(Syntax(), arguments);
+  if (line.help()) {
+    std::cout << HelpText(Syntax());
+    return 0;
+  }
+  const std::string& path = line.Positional(0);
+  ViewerOptions options;
+  options.access = ReadViewOptions(line, false);
+  if (!options.access) options.access = ParseWebAddress("--view", kDefaultAddress);
+  SavedAtlas saved = LoadAtlas(path);
+  ChooseMap(line, saved.atlas);
+  ViewedRun run;
+  run.name = std::filesystem::path(path).filename().string();
+  run.camera = saved.context.camera;
+  Viewer viewer(options, std::move(run), std::nullopt, [&](ShownId id) {
+    return PictureOf(saved.atlas, id);
+  });
+  std::cerr << "plumbline: view at " << viewer.url() << " (Ctrl-C ends it)\n";
+  CatchStopSignals();
+  while (!StopRequested()) {
+    if (viewer.WantsMaps(false)) viewer.LookAtMaps(saved.atlas, {});
+    if (const auto failure = viewer.TakeFailure()) throw InputError(*failure);
+    std::this_thread::sleep_for(kStep);
+  }
+  return 0;
+}
+
+}  // namespace plumbline

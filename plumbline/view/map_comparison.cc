@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/view/map_comparison.h"
+
+#include "plumbline/map/covisibility.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace plumbline {
+namespace {
+
+constexpr float kSmallestMove = 1.0F / 2000;  // of the distance from the newest keyframe
+
+ShownPoint PointOf(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+using Session = std::optional<SessionId>;
+
+ShownPoint ShownOf(const MapPoint& point, const Session&) { return PointOf(point.position); }
+
+ShownLine ShownOf(const MapLine& line, const Session&) {
+  const Segment3 interval = line.Interval();
+  const ShownPoint a = PointOf(interval.start), b = PointOf(interval.end);
+  return {a[0], a[1], a[2], b[0], b[1], b[2]};
+}
+
+ShownKeyFrame ShownOf(const KeyFrame& keyframe, const Session& session) {
+  const bool is_ours = !session || keyframe.session == *session;
+  const Rigid3 world_from_cam = Inverse(keyframe.frame.cam_from_world);
+  const ShownPoint p = PointOf(world_from_cam.translation);
+  const Eigen::Vector4f q = world_from_cam.rotation.coeffs().cast<float>();
+  return {
+      is_ours ? static_cast<std::uint32_t>(keyframe.frame.id.value) : ShownKeyFrame::kOfAnotherRun,
+      {p[0], p[1], p[2], q[0], q[1], q[2], q[3]}};
+}
+
+// Whether somebody who looks from near the eye would see the difference.
+template <std::size_t kSize>
+bool HasMoved(const std::array<float, kSize>& before,
+              const std::array<float, kSize>& now,
+              const ShownPoint& eye) {
+  for (std::size_t at = 0; at < kSize; at += 3) {
+    float moved = 0, distance = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float d = now[at + axis] - before[at + axis];
+      const float e = now[at + axis] - eye[axis];
+      moved += d * d;
+      distance += e * e;
+    }
+    if (moved > kSmallestMove * kSmallestMove * distance) return true;
+  }
+  return false;
+}
+
+bool HasMoved(const ShownKeyFrame& before, const ShownKeyFrame& now, const ShownPoint&) {
+  return before != now;
+}
+
+// Both are in the order of ids. Makes `shown` what is to be shown now.
+template <class Entries, class T>
+ShownChanges<T> CompareAll(const Entries& entries,
+                           const Session& session,
+                           const ShownPoint& eye,
+                           std::vector<std::pair<ShownId, T>>& shown) {
+  ShownChanges<T> changes;
+  std::vector<std::pair<ShownId, T>> next;
+  next.reserve(entries.size());
+  auto before = shown.begin();
+  for (const auto& [id, entry] : entries) {
+    const auto name = static_cast<ShownId>(id.value);
+    for (; before != shown.end() && before->first < name; ++before) {
+      changes.gone.push_back(before->first);
+    }
+    T now = ShownOf(entry, session);
+    const bool known = before != shown.end() && before->first == name;
+    if (known && !HasMoved(before->second, now, eye)) {
+      now = before->second;
+    } else {
+      changes.set.emplace_back(name, now);
+    }
+    if (known) ++before;
+    next.emplace_back(name, now);
+  }
+  for (; before != shown.end(); ++before) changes.gone.push_back(before->first);
+  shown = std::move(next);
+  return changes;
+}
+
+}  // namespace
+
+MapChanges MapComparison::Compare(const Atlas& atlas) {
+  MapChanges changes;
+  if (atlas.empty() || !atlas.active_id().valid()) return changes;
+  const Map& map = atlas.active();
+  changes.map = map.id();
+  if (map_ != map.id()) {
+    *this = MapComparison(session_);
+    map_ = map.id();
+    changes.everything = true;
+  }
+  ShownPoint eye{};
+  if (!map.keyframes().empty()) {
+    const Rigid3& pose = map.keyframes().rbegin()->second.frame.cam_from_world;
+    eye = PointOf(Inverse(pose).translation);
+  }
+  changes.points = CompareAll(map.points(), session_, eye, points_);
+  changes.lines = CompareAll(map.lines(), session_, eye, lines_);
+  const auto newest = keyframes_.empty() ? -1 : std::int64_t{keyframes_.back().first};
+  changes.keyframes = CompareAll(map.keyframes(), session_, eye, keyframes_);
+  for (auto it = map.keyframes().upper_bound(KeyFrameId{newest}); it != map.keyframes().end();
+       ++it) {
+    without_neighbours_.push_back(it->first);
+  }
+  AddEdges(map, changes);
+  return changes;
+}
+
+void MapComparison::AddEdges(const Map& map, MapChanges& changes) {
+  for (std::size_t n = 0; n < kNeighboursAtOnce && !without_neighbours_.empty(); ++n) {
+    const KeyFrameId id = without_neighbours_.back();
+    without_neighbours_.pop_back();
+    if (map.Find(id) == nullptr) continue;
+    int told = 0;
+    for (const CovisibleKeyFrame& other : Covisible(map, id)) {
+      if (other.id > id) continue;
+      changes.edges.emplace_back(static_cast<ShownId>(id.value),
+                                 static_cast<ShownId>(other.id.value));
+      if (++told == kNeighbours) break;
+    }
+  }
+}
+
+}  // namespace plumbline

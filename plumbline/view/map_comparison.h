@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/atlas.h"
+#include "plumbline/view/map_changes.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// Tells from look to look what has changed in the active map of an atlas. Landmarks that moved by
+// less than a 2000th of their distance from the newest keyframe, half a pixel of most cameras, stay
+// where they were shown until such moves add up. Remembers what it told: 16 bytes a point, 28 a
+// line.
+class MapComparison {
+ public:
+  // Keyframes whose neighbours are looked for in one look; those of others come with the next ones.
+  static constexpr std::size_t kNeighboursAtOnce = 16;
+  // Neighbours told of a keyframe: those that show most of what it shows and are older.
+  static constexpr int kNeighbours = 4;
+
+  // session: of the run that is shown; keyframes of others are kOfAnotherRun. nullopt: a saved map,
+  // where each keyframe has the number that it had in its run.
+  explicit MapComparison(std::optional<SessionId> session) : session_(session) {}
+
+  // One pass over the map: some 30 ns a landmark.
+  MapChanges Compare(const Atlas& atlas);
+  // Whether there are keyframes left whose neighbours were not looked for.
+  bool HasMore() const { return !without_neighbours_.empty(); }
+
+ private:
+  template <class T>
+  using Shown = std::vector<std::pair<ShownId, T>>;  // by id
+
+  void AddEdges(const Map& map, MapChanges& changes);
+
+  std::optional<SessionId> session_;
+  std::optional<MapId> map_;
+  Shown<ShownPoint> points_;
+  Shown<ShownLine> lines_;
+  Shown<ShownKeyFrame> keyframes_;
+  std::vector<KeyFrameId> without_neighbours_;  // ascending
+};
+
+}  // namespace plumbline
