@@ -29,9 +29,10 @@ def plot(run: plumbline.Run, path: pathlib.Path) -> None:
         above.plot(points[:, 0], points[:, 2], ".", color="0.75", ms=1.5, label="points")
         for segment in lines:
             above.plot(segment[:, 0], segment[:, 2], "-", color="tab:orange", lw=0.8)
-        # The room, not its farthest points.
-        low, high = np.percentile(points[:, [0, 2]], [3, 97], axis=0)
-        above.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+        # The room and the way, not the farthest points.
+        corners = np.vstack([np.percentile(points, [3, 97], axis=0), run.trajectory.positions])
+        low, high = corners.min(axis=0) - 0.2, corners.max(axis=0) + 0.2
+        above.set(xlim=(low[0], high[0]), ylim=(low[2], high[2]))
     if truth is not None and errors is not None:
         to_map = np.linalg.inv(errors["reference_from_estimate"])
         places = truth.positions @ to_map[:3, :3].T + to_map[:3, 3]
