@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/report_data.h"
 
+#include "plumbline/base/base64.h"
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/options_io.h"
-#include "plumbline/base/base64.h"
 #include "plumbline/report/run_scene.h"
 #include "plumbline/report/timing.h"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/html_report.h"
 
-#include "plumbline/base/options_io.h"
 #include "plumbline/base/base64.h"
+#include "plumbline/base/options_io.h"
 #include "plumbline/slam/atlas_context.h"
 
 #include "tests/io/scratch_folder.h"
