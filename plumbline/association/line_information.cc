@@ -4,6 +4,7 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/geometry/covariance.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <limits>
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/association/measurements.h"
 
-#include "plumbline/association/uncertain_line.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 
@@ -48,11 +47,6 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
   return measurement;
 }
 
-Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information) {
-  constexpr double kUnknownLineSigma = 0.5;  // radians
-  return information + Eigen::Matrix4d::Identity() / (kUnknownLineSigma * kUnknownLineSigma);
-}
-
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const PluckerLine& line,
@@ -63,9 +57,6 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
   AddLandmarkUncertainty(
       camera, cam_from_world, UncertainLine(line, information), weighting, measurement);
 }
-
-UncertainLine::UncertainLine(const PluckerLine& line, const Eigen::Matrix4d& information_of_it)
-    : prepared(ToOrthonormal(line)), information(RegularizedInformation(information_of_it)) {}
 
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/association/measurements.h"
+#include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/options.h"
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/plucker.h"
@@ -71,10 +73,6 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
                                                 std::size_t i,
                                                 LineWeighting weighting);
 
-// The information with its open directions held: a standard deviation of 0.5 rad for the tangent,
-// which lines without information then have.
-Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
-
 // Adds to the covariance of a measurement what the uncertainty of the 3D line makes of it:
 // Sigma + J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
 // derivative of the two residuals by it at the given pose. For scalar weighting the mean of the two
@@ -84,6 +82,13 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const PluckerLine& line,
                             const Eigen::Matrix4d& information,
+                            LineWeighting weighting,
+                            LineMeasurement& measurement);
+
+// The same with a line that was prepared for many measurements.
+void AddLandmarkUncertainty(const RectifiedCamera& camera,
+                            const Rigid3& cam_from_world,
+                            const UncertainLine& line,
                             LineWeighting weighting,
                             LineMeasurement& measurement);
 

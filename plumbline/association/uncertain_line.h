@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
+#include "plumbline/geometry/plucker.h"
 #include "plumbline/optimization/prepared_line.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 namespace plumbline {
+
+// The information with its open directions held: a standard deviation of 0.5 rad for the tangent,
+// which lines without information then have.
+Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
 
 // A line in the world and its uncertainty, prepared for many measurements.
 struct UncertainLine {
@@ -16,12 +21,5 @@ struct UncertainLine {
   PreparedLine prepared;
   Eigen::LLT<Eigen::Matrix4d> information;  // regularized
 };
-
-// AddLandmarkUncertainty of measurements.h, the same numbers.
-void AddLandmarkUncertainty(const RectifiedCamera& camera,
-                            const Rigid3& cam_from_world,
-                            const UncertainLine& line,
-                            LineWeighting weighting,
-                            LineMeasurement& measurement);
 
 }  // namespace plumbline

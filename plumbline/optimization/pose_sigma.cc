@@ -6,6 +6,7 @@
 #include "plumbline/geometry/covariance.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/prepared_line.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <cstddef>
 #include <limits>

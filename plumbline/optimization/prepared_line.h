@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/optimization/residuals.h"
-
-#include <optional>
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/se3.h"
 
 #include <Eigen/Core>
 
@@ -17,17 +16,5 @@ struct PreparedLine {
   Vector6d homogeneous;                       // moment, direction
   Eigen::Matrix<double, 6, 4> J_orthonormal;  // of these by the orthonormal update
 };
-
-// The same as of the orthonormal line.
-std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
-                                         const Rigid3& cam_from_world,
-                                         const PreparedLine& line_in_world,
-                                         const LineMeasurement& measurement);
-
-// The residual alone: LineResidual::r.
-std::optional<Eigen::Vector2d> LineDistances(const RectifiedCamera& camera,
-                                             const Rigid3& cam_from_world,
-                                             const PreparedLine& line_in_world,
-                                             const LineMeasurement& measurement);
 
 }  // namespace plumbline

@@ -3,7 +3,6 @@
 #include "plumbline/optimization/residuals.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/optimization/prepared_line.h"
 
 namespace plumbline {
 
@@ -50,9 +49,6 @@ std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,
   out.J_point = J_cam * cam_from_world.rotation.toRotationMatrix();
   return out;
 }
-
-PreparedLine::PreparedLine(const OrthonormalLine& line)
-    : homogeneous(line.Homogeneous()), J_orthonormal(HomogeneousJacobian(line)) {}
 
 namespace {
 

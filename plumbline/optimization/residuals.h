@@ -5,7 +5,9 @@
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/prepared_line.h"
 #include "plumbline/optimization/problem.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <cmath>
 #include <optional>
@@ -47,6 +49,18 @@ std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
                                          const Rigid3& cam_from_world,
                                          const OrthonormalLine& line_in_world,
                                          const LineMeasurement& measurement);
+
+// The same as of the orthonormal line.
+std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
+                                         const Rigid3& cam_from_world,
+                                         const PreparedLine& line_in_world,
+                                         const LineMeasurement& measurement);
+
+// The residual alone: LineResidual::r.
+std::optional<Eigen::Vector2d> LineDistances(const RectifiedCamera& camera,
+                                             const Rigid3& cam_from_world,
+                                             const PreparedLine& line_in_world,
+                                             const LineMeasurement& measurement);
 
 // The parts below are what the solvers use in their inner loops: measurements prepared once, and
 // derivatives with respect to the landmark in the camera frame, from which the others follow.
