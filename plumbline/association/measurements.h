@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
 #include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/options.h"
 #include "plumbline/features/types.h"

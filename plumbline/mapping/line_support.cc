@@ -8,6 +8,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/stretches.h"
+#include "plumbline/optimization/residuals.h"
 
 #include <algorithm>
 #include <array>

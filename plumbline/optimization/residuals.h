@@ -7,7 +7,6 @@
 #include "plumbline/geometry/se3.h"
 #include "plumbline/optimization/prepared_line.h"
 #include "plumbline/optimization/problem.h"
-#include "plumbline/optimization/residuals.h"
 
 #include <cmath>
 #include <optional>
