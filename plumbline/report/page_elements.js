@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-'use strict';
+"use strict";
 
 // Elements of pages, numbers as text, colours.
 
@@ -9,10 +9,10 @@ function make(tag, attributes, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes || {})) {
     if (value === null || value === undefined || value === false) continue;
-    if (name.startsWith('on'))
+    if (name.startsWith("on"))
       element.addEventListener(name.slice(2), value);
     else
-      element.setAttribute(name, value === true ? '' : value);
+      element.setAttribute(name, value === true ? "" : value);
   }
   for (const child of children.flat()) {
     if (child !== null && child !== undefined) element.append(child);
@@ -22,7 +22,7 @@ function make(tag, attributes, ...children) {
 
 // The colour of a custom property of the style sheet, light or dark as shown now.
 function color(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
+  return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 }
 
 // The same as a value for style sheets, which follows a change between light and dark.
@@ -30,24 +30,24 @@ const paint = (name) => `var(--${name})`;
 
 // A number with `count` significant digits, without exponent.
 function digits(value, count = 3) {
-  if (value === null || value === undefined || !isFinite(value)) return '–';
-  if (value === 0) return '0';
+  if (value === null || value === undefined || !isFinite(value)) return "–";
+  if (value === 0) return "0";
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
   const text = value.toFixed(Math.max(0, Math.min(8, count - 1 - magnitude)));
-  return text.replace('-', '−');
+  return text.replace("-", "−");
 }
 
 function whole(value) {
-  return value.toLocaleString('en-US');
+  return value.toLocaleString("en-US");
 }
 
 // A length or speed in metres as it is read best.
 function lengthUnit(largest) {
-  return largest < 0.1 ? {factor: 1000, name: 'mm'} : {factor: 1, name: 'm'};
+  return largest < 0.1 ? {factor: 1000, name: "mm"} : {factor: 1, name: "m"};
 }
 function metres(value, count = 3) {
   const unit = lengthUnit(Math.abs(value));
-  return digits(value * unit.factor, count) + ' ' + unit.name;
+  return digits(value * unit.factor, count) + " " + unit.name;
 }
 
 // A value that tells its listeners when it changes.
@@ -75,14 +75,11 @@ function tickStep(span, count) {
 // A legend of [{color, text, kind}], kind one of the classes of .key, colour by paint().
 function makeLegend(entries) {
   return make(
-      'ul',
-      {class: 'legend'},
+      "ul", {class: "legend"},
       entries.map(
           (entry) => make(
-              'li',
-              {},
-              make('span', {
-                class: 'key ' + (entry.kind || ''),
+              "li", {}, make("span", {
+                class: "key " + (entry.kind || ""),
                 style: `background-color:${entry.color};border-color:${entry.color}`
               }),
               entry.text)));
@@ -92,30 +89,29 @@ function makeLegend(entries) {
 function makeChoice(label, entries, value, onChange) {
   const buttons = entries.map(
       (entry) => make(
-          'button',
-          {
-            type: 'button',
-            'aria-pressed': String(entry.value === value),
+          "button", {
+            type: "button",
+            "aria-pressed": String(entry.value === value),
             onclick: () => {
               buttons.forEach((button, i) => {
-                button.setAttribute('aria-pressed', String(entries[i] === entry));
+                button.setAttribute("aria-pressed", String(entries[i] === entry));
               });
               onChange(entry.value);
             }
           },
           entry.text));
-  return make('div', {class: 'choice', role: 'group', 'aria-label': label}, buttons);
+  return make("div", {class: "choice", role: "group", "aria-label": label}, buttons);
 }
 
 // Buttons each of which is pressed or not, at first pressed: [{text, value}].
 function makeToggles(label, entries, onChange) {
   const buttons = entries.map(({text, value}) => {
     const press = (event) => {
-      const pressed = event.target.getAttribute('aria-pressed') !== 'true';
-      event.target.setAttribute('aria-pressed', String(pressed));
+      const pressed = event.target.getAttribute("aria-pressed") !== "true";
+      event.target.setAttribute("aria-pressed", String(pressed));
       onChange(value, pressed);
     };
-    return make('button', {type: 'button', 'aria-pressed': 'true', onclick: press}, text);
+    return make("button", {type: "button", "aria-pressed": "true", onclick: press}, text);
   });
-  return make('div', {class: 'choice', role: 'group', 'aria-label': label}, buttons);
+  return make("div", {class: "choice", role: "group", "aria-label": label}, buttons);
 }

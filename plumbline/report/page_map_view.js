@@ -86,22 +86,8 @@ function multiply(a, b) {
 function perspective(fieldOfView, aspect, near, far) {
   const f = 1 / Math.tan(fieldOfView / 2);
   return new Float32Array([
-    f / aspect,
-    0,
-    0,
-    0,
-    0,
-    f,
-    0,
-    0,
-    0,
-    0,
-    (far + near) / (near - far),
-    -1,
-    0,
-    0,
-    2 * far * near / (near - far),
-    0
+    f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0,
+    2 * far * near / (near - far), 0
   ]);
 }
 
@@ -110,22 +96,8 @@ function lookAt(eye, target, up) {
   const right = unit(cross(up, back));
   const above = cross(back, right);
   return new Float32Array([
-    right[0],
-    above[0],
-    back[0],
-    0,
-    right[1],
-    above[1],
-    back[1],
-    0,
-    right[2],
-    above[2],
-    back[2],
-    0,
-    -dot(right, eye),
-    -dot(above, eye),
-    -dot(back, eye),
-    1
+    right[0], above[0], back[0], 0, right[1], above[1], back[1], 0, right[2], above[2], back[2], 0,
+    -dot(right, eye), -dot(above, eye), -dot(back, eye), 1
   ]);
 }
 
@@ -134,8 +106,8 @@ function segmentVertices(segments) {
   const vertices = new Float32Array(segments.length * 42);
   let at = 0;
   for (const [a, b] of segments) {
-    for (const [from, to, side] of
-             [[a, b, 1], [a, b, -1], [b, a, 1], [a, b, -1], [b, a, -1], [b, a, 1]]) {
+    for (const [from, to, side] of [
+             [a, b, 1], [a, b, -1], [b, a, 1], [a, b, -1], [b, a, -1], [b, a, 1]]) {
       // Seen from the other end, the sides change places.
       vertices.set(from, at);
       vertices.set(to, at + 3);
@@ -162,9 +134,9 @@ function colorNumbers(name) {
 class MapView {
   // Throws an Error where there is no WebGL.
   constructor(host, label) {
-    this.canvas = make('canvas', {tabindex: 0, role: 'img', 'aria-label': label});
-    this.gl = this.canvas.getContext('webgl', {antialias: true, alpha: false});
-    if (!this.gl) throw new Error('no WebGL');
+    this.canvas = make("canvas", {tabindex: 0, role: "img", "aria-label": label});
+    this.gl = this.canvas.getContext("webgl", {antialias: true, alpha: false});
+    if (!this.gl) throw new Error("no WebGL");
     host.append(this.canvas);
     this.prepare();
     this.visible = {
@@ -180,11 +152,11 @@ class MapView {
     this.byHeight = true;
     this.marker = null;
     new ResizeObserver(() => this.request()).observe(this.canvas);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.request());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.request());
     this.listen();
     // The browser may take the context away and give it back, emptied.
-    this.canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
-    this.canvas.addEventListener('webglcontextrestored', () => {
+    this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    this.canvas.addEventListener("webglcontextrestored", () => {
       this.prepare();
       this.upload();
     });
@@ -200,8 +172,7 @@ class MapView {
     const gl = this.gl;
     const program = gl.createProgram();
     for (const [kind, source] of [
-             [gl.VERTEX_SHADER, vertexSource],
-             [gl.FRAGMENT_SHADER, fragmentSource]]) {
+             [gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
@@ -263,12 +234,12 @@ class MapView {
     }
     for (const buffer of Object.values(this.buffers)) gl.deleteBuffer(buffer.id);
     this.buffers = {};
-    this.fill('points', scene.points, 3);
-    for (const name of ['lines', 'trajectory', 'gaps', 'loops', 'reference']) {
+    this.fill("points", scene.points, 3);
+    for (const name of ["lines", "trajectory", "gaps", "loops", "reference"]) {
       this.fill(name, segmentVertices(scene[name]), 7);
     }
-    this.fill('keyframes', segmentVertices(scene.keyframes.flatMap((k) => this.frustum(k))), 7);
-    this.fill('grid', segmentVertices(this.gridLines()), 7);
+    this.fill("keyframes", segmentVertices(scene.keyframes.flatMap((k) => this.frustum(k))), 7);
+    this.fill("grid", segmentVertices(this.gridLines()), 7);
     this.request();
   }
 
@@ -376,7 +347,7 @@ class MapView {
   }
 
   request() {
-    if (this.requested || !this.scene) return;
+    if (this.requested || !this.target) return;
     this.requested = true;
     requestAnimationFrame(() => {
       this.requested = false;
@@ -407,40 +378,39 @@ class MapView {
       this.canvas.height = height;
     }
     gl.viewport(0, 0, width, height);
-    gl.clearColor(...colorNumbers('surface'), 1);
+    gl.clearColor(...colorNumbers("surface"), 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     const matrix = this.clipFromWorld(width / height);
-    if (this.visible.grid) this.drawLines('grid', matrix, 'rule', 1 * ratio);
+    if (this.visible.grid) this.drawLines("grid", matrix, "rule", 1 * ratio);
     if (this.visible.points) {
-      const ramp = ['ramp-low', 'ramp-mid', 'ramp-high'], plain = Array(3).fill('plain-point');
-      this.drawPoints('points', matrix, 2.4 * ratio, this.byHeight ? ramp : plain);
-      this.drawPoints('seen', matrix, 5 * ratio, Array(3).fill('matched-point'));
+      const ramp = ["ramp-low", "ramp-mid", "ramp-high"], plain = Array(3).fill("plain-point");
+      this.drawPoints("points", matrix, 2.4 * ratio, this.byHeight ? ramp : plain);
+      this.drawPoints("seen", matrix, 5 * ratio, Array(3).fill("matched-point"));
     }
-    if (this.visible.lines) this.drawLines('lines', matrix, 'lines', 1.6 * ratio);
-    if (this.visible.edges) this.drawLines('edges', matrix, 'edge', 0.8 * ratio);
-    if (this.visible.reference) this.drawLines('reference', matrix, 'reference', 4 * ratio);
+    if (this.visible.lines) this.drawLines("lines", matrix, "lines", 1.6 * ratio);
+    if (this.visible.edges) this.drawLines("edges", matrix, "edge", 0.8 * ratio);
+    if (this.visible.reference) this.drawLines("reference", matrix, "reference", 4 * ratio);
     if (this.visible.trajectory) {
-      this.drawLines('trajectory', matrix, 'estimate', 2.5 * ratio);
-      this.drawLines('gaps', matrix, 'lost', 2.5 * ratio);
+      this.drawLines("trajectory", matrix, "estimate", 2.5 * ratio);
+      this.drawLines("gaps", matrix, "lost", 2.5 * ratio);
     }
-    if (this.visible.loops) this.drawLines('loops', matrix, 'loop', 2.5 * ratio);
-    if (this.visible.keyframes) this.drawLines('keyframes', matrix, 'estimate', 1.1 * ratio);
-    this.drawLines('camera', matrix, 'ink', 2.5 * ratio);
-    this.drawLines('rays', matrix, 'accent', 1.4 * ratio);
+    if (this.visible.loops) this.drawLines("loops", matrix, "loop", 2.5 * ratio);
+    if (this.visible.keyframes) this.drawLines("keyframes", matrix, "estimate", 1.1 * ratio);
+    this.drawLines("camera", matrix, "ink", 2.5 * ratio);
+    this.drawLines("rays", matrix, "accent", 1.4 * ratio);
     if (this.marker) {
       gl.disable(gl.DEPTH_TEST);
       const r = 0.5 * this.frustumDepth;
       this.fill(
-          'marker',
-          segmentVertices([0, 1, 2].map((axis) => {
+          "marker", segmentVertices([0, 1, 2].map((axis) => {
             const arm = [0, 0, 0];
             arm[axis] = r;
             return [subtract(this.marker, arm), add(this.marker, arm)];
           })),
           7);
-      this.drawLines('marker', matrix, 'ink', 3 * ratio);
+      this.drawLines("marker", matrix, "ink", 3 * ratio);
       gl.deleteBuffer(this.buffers.marker.id);
       delete this.buffers.marker;
     }
@@ -453,14 +423,14 @@ class MapView {
     const uniform = (name) => gl.getUniformLocation(program, name);
     gl.useProgram(program);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer.id);
-    const place = gl.getAttribLocation(program, 'place');
+    const place = gl.getAttribLocation(program, "place");
     gl.enableVertexAttribArray(place);
     gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 12, 0);
-    gl.uniformMatrix4fv(uniform('clip_from_world'), false, matrix);
-    gl.uniform3fv(uniform('up'), this.scene.up);
-    gl.uniform2fv(uniform('heights'), this.heights);
-    gl.uniform1f(uniform('size'), size);
-    ['low', 'middle', 'high'].forEach(
+    gl.uniformMatrix4fv(uniform("clip_from_world"), false, matrix);
+    gl.uniform3fv(uniform("up"), this.scene.up);
+    gl.uniform2fv(uniform("heights"), this.heights);
+    gl.uniform1f(uniform("size"), size);
+    ["low", "middle", "high"].forEach(
         (name, i) => gl.uniform3fv(uniform(name), colorNumbers(names[i])));
     gl.drawArrays(gl.POINTS, 0, buffer.count);
     gl.disableVertexAttribArray(place);
@@ -473,17 +443,17 @@ class MapView {
     gl.useProgram(program);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer.id);
     const attributes =
-        [['place', 3, 0], ['other', 3, 12], ['side', 1, 24]].map(([key, count, offset]) => {
+        [["place", 3, 0], ["other", 3, 12], ["side", 1, 24]].map(([key, count, offset]) => {
           const index = gl.getAttribLocation(program, key);
           gl.enableVertexAttribArray(index);
           gl.vertexAttribPointer(index, count, gl.FLOAT, false, 28, offset);
           return index;
         });
-    gl.uniformMatrix4fv(uniform('clip_from_world'), false, matrix);
-    gl.uniform2f(uniform('viewport'), this.canvas.width, this.canvas.height);
-    gl.uniform1f(uniform('width'), width);
-    gl.uniform1f(uniform('near'), this.near);
-    gl.uniform4f(uniform('color'), ...colorNumbers(colorName), 1);
+    gl.uniformMatrix4fv(uniform("clip_from_world"), false, matrix);
+    gl.uniform2f(uniform("viewport"), this.canvas.width, this.canvas.height);
+    gl.uniform1f(uniform("width"), width);
+    gl.uniform1f(uniform("near"), this.near);
+    gl.uniform4f(uniform("color"), ...colorNumbers(colorName), 1);
     gl.drawArrays(gl.TRIANGLES, 0, buffer.count);
     for (const index of attributes) gl.disableVertexAttribArray(index);
   }
@@ -517,18 +487,18 @@ class MapView {
     const pointers = new Map();
     const canvas = this.canvas;
     let pressed = null;  // where, while nothing has moved
-    canvas.addEventListener('pointerdown', (event) => {
+    canvas.addEventListener("pointerdown", (event) => {
       pressed = pointers.size === 0 && event.button === 0 ? [event.clientX, event.clientY] : null;
       pointers.set(event.pointerId, [event.clientX, event.clientY]);
       canvas.setPointerCapture(event.pointerId);
     });
-    for (const name of ['pointerup', 'pointercancel']) {
+    for (const name of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
     }
-    canvas.addEventListener('pointerup', (event) => {
+    canvas.addEventListener("pointerup", (event) => {
       if (pressed && this.onPick) this.onPick(event.offsetX, event.offsetY);
     });
-    canvas.addEventListener('pointermove', (event) => {
+    canvas.addEventListener("pointermove", (event) => {
       const before = pointers.get(event.pointerId);
       if (!before) return;
       const now = [event.clientX, event.clientY];
@@ -547,14 +517,14 @@ class MapView {
       }
       pointers.set(event.pointerId, now);
     });
-    canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     // The wheel scrolls the page until the view has been clicked.
-    canvas.addEventListener('wheel', (event) => {
+    canvas.addEventListener("wheel", (event) => {
       if (document.activeElement !== canvas && !event.ctrlKey) return;
       event.preventDefault();
       this.zoom(Math.exp(0.0012 * event.deltaY * (event.deltaMode === 1 ? 30 : 1)));
     }, {passive: false});
-    canvas.addEventListener('keydown', (event) => this.onKey(event));
+    canvas.addEventListener("keydown", (event) => this.onKey(event));
   }
 
   onKey(event) {
@@ -565,11 +535,11 @@ class MapView {
         this.move(-40 * dx, -40 * dy);
       else
         this.turn(-0.1 * dx, -0.1 * dy);
-    } else if (event.key === '+' || event.key === '=') {
+    } else if (event.key === "+" || event.key === "=") {
       this.zoom(0.85);
-    } else if (event.key === '-') {
+    } else if (event.key === "-") {
       this.zoom(1 / 0.85);
-    } else if (event.key === 'Home' || event.key === '0') {
+    } else if (event.key === "Home" || event.key === "0") {
       this.reset();
     } else {
       return;

@@ -11,7 +11,7 @@ function ticks(low, high, count) {
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const list = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
-    const label = (i * step).toFixed(decimals).replace(/^-(0(\.0*)?)$/, '$1').replace('-', '−');
+    const label = (i * step).toFixed(decimals).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "−");
     list.push({value: i * step, label});
   }
   return list;
@@ -46,32 +46,32 @@ class Plot {
   constructor(host, spec) {
     this.spec = spec;
     this.cursor = spec.cursor || new Shared(null);
-    this.box = make('div', {class: 'plot'});
-    this.canvas = make('canvas', {tabindex: 0, role: 'img', 'aria-label': spec.label});
-    this.over = make('canvas', {class: 'over', 'aria-hidden': 'true'});
-    this.tip = make('div', {class: 'tip', role: 'status', hidden: true});
+    this.box = make("div", {class: "plot"});
+    this.canvas = make("canvas", {tabindex: 0, role: "img", "aria-label": spec.label});
+    this.over = make("canvas", {class: "over", "aria-hidden": "true"});
+    this.tip = make("div", {class: "tip", role: "status", hidden: true});
     this.box.append(this.canvas, this.over, this.tip);
     host.append(this.box);
     // In the next frame: drawing sets the height, which must not happen while sizes are observed.
     new ResizeObserver(() => requestAnimationFrame(() => this.draw())).observe(this.box);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     this.cursor.listen((index, source) => this.drawCursor(source === this));
     if (spec.time) timeStretch.listen(() => this.draw());
     this.listenToPointer();
-    this.canvas.addEventListener('keydown', (event) => this.onKey(event));
-    this.canvas.addEventListener('blur', () => this.cursor.set(null, this));
+    this.canvas.addEventListener("keydown", (event) => this.onKey(event));
+    this.canvas.addEventListener("blur", () => this.cursor.set(null, this));
   }
 
   fit() {
     const width = this.box.clientWidth;
     const {height: wanted} = this.spec;
-    const height = typeof wanted === 'function' ? wanted(width) : wanted;
-    this.box.style.height = height + 'px';
+    const height = typeof wanted === "function" ? wanted(width) : wanted;
+    this.box.style.height = height + "px";
     const ratio = window.devicePixelRatio || 1;
     for (const canvas of [this.canvas, this.over]) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
-      canvas.getContext('2d').setTransform(ratio, 0, 0, ratio, 0, 0);
+      canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
     }
     this.left = width < 500 ? 46 : 58;
     this.right = width - 14;
@@ -111,7 +111,7 @@ class Plot {
     if (this.box.clientWidth === 0) return;
     this.fit();
     this.setRange();
-    const c = this.context = this.canvas.getContext('2d');
+    const c = this.context = this.canvas.getContext("2d");
     c.clearRect(0, 0, this.width, this.height);
     this.drawAxes(c);
     c.save();
@@ -120,7 +120,7 @@ class Plot {
     c.clip();
     this.spec.draw(this);
     c.restore();
-    c.strokeStyle = color('rule');
+    c.strokeStyle = color("rule");
     c.lineWidth = 1;
     c.strokeRect(
         this.left + 0.5, this.top + 0.5, this.right - this.left - 1, this.bottom - this.top - 1);
@@ -128,28 +128,28 @@ class Plot {
   }
 
   drawAxes(c) {
-    const text = (label) => typeof label === 'function' ? label() : label;
-    c.font = '12px ' + getComputedStyle(document.body).fontFamily;
+    const text = (label) => typeof label === "function" ? label() : label;
+    c.font = "12px " + getComputedStyle(document.body).fontFamily;
     c.lineWidth = 1;
-    c.strokeStyle = color('grid');
-    c.fillStyle = color('ink-soft');
-    c.textBaseline = 'middle';
-    c.textAlign = 'right';
+    c.strokeStyle = color("grid");
+    c.fillStyle = color("ink-soft");
+    c.textBaseline = "middle";
+    c.textAlign = "right";
     for (const tick of ticks(this.y0, this.y1, (this.bottom - this.top) / 42)) {
       const y = Math.round(this.Y(tick.value)) + 0.5;
       this.stroke(c, [[this.left, y], [this.right, y]]);
       c.fillText(tick.label, this.left - 6, y);
     }
-    c.textBaseline = 'top';
-    c.textAlign = 'center';
+    c.textBaseline = "top";
+    c.textAlign = "center";
     for (const tick of ticks(this.x0, this.x1, (this.right - this.left) / 75)) {
       const x = Math.round(this.X(tick.value)) + 0.5;
       this.stroke(c, [[x, this.top], [x, this.bottom]]);
       c.fillText(tick.label, x, this.bottom + 6);
     }
     c.fillText(text(this.spec.xLabel), (this.left + this.right) / 2, this.bottom + 22);
-    c.textAlign = 'left';
-    c.textBaseline = 'alphabetic';
+    c.textAlign = "left";
+    c.textBaseline = "alphabetic";
     c.fillText(text(this.spec.yLabel), 4, this.top - 10);
   }
 
@@ -160,7 +160,7 @@ class Plot {
   }
 
   drawCursor(withTip) {
-    const c = this.over.getContext('2d');
+    const c = this.over.getContext("2d");
     c.clearRect(0, 0, this.width, this.height);
     this.tip.hidden = true;
     const index = this.cursor.value;
@@ -170,16 +170,16 @@ class Plot {
     const x = this.X(place[0]);
     const y = place[1] === null ? null : this.Y(place[1]);
     if (x < this.left - 1 || x > this.right + 1) return;
-    c.strokeStyle = color('ink-soft');
+    c.strokeStyle = color("ink-soft");
     c.lineWidth = 1;
     const column = Math.round(x) + 0.5;
     if (!this.spec.equal) this.stroke(c, [[column, this.top], [column, this.bottom]]);
     if (y !== null) {
       c.beginPath();
       c.arc(x, y, 5, 0, 7);
-      c.fillStyle = color('surface');
+      c.fillStyle = color("surface");
       c.fill();
-      c.strokeStyle = color('ink');
+      c.strokeStyle = color("ink");
       c.lineWidth = 2;
       c.stroke();
     }
@@ -189,22 +189,20 @@ class Plot {
   showTip(index, x, y) {
     this.tip.replaceChildren(...this.spec.read(index).map(
         (row) => row.head ?
-            make('div', {class: 'head'}, row.head) :
+            make("div", {class: "head"}, row.head) :
             make(
-                'div',
-                {class: 'row'},
-                row.color ? make('span', {class: 'key', style: 'background:' + row.color}) : null,
-                make('span', {class: 'what'}, row.what),
-                make('span', {class: 'much'}, row.much))));
+                "div", {class: "row"},
+                row.color ? make("span", {class: "key", style: "background:" + row.color}) : null,
+                make("span", {class: "what"}, row.what), make("span", {class: "much"}, row.much))));
     this.tip.hidden = false;
     const width = this.tip.offsetWidth, height = this.tip.offsetHeight;
     const left = x + 14 + width > this.width ? x - 14 - width : x + 14;
-    this.tip.style.left = Math.max(0, Math.min(left, this.width - width)) + 'px';
-    this.tip.style.top = Math.max(0, Math.min(y - height / 2, this.height - height)) + 'px';
+    this.tip.style.left = Math.max(0, Math.min(left, this.width - width)) + "px";
+    this.tip.style.top = Math.max(0, Math.min(y - height / 2, this.height - height)) + "px";
   }
 
   drawDrag(c) {
-    c.fillStyle = color('accent');
+    c.fillStyle = color("accent");
     c.globalAlpha = 0.2;
     c.fillRect(this.drag.from, this.top, this.drag.to - this.drag.from, this.bottom - this.top);
     c.globalAlpha = 1;
@@ -215,19 +213,19 @@ class Plot {
       const box = this.canvas.getBoundingClientRect();
       return [event.clientX - box.left, event.clientY - box.top];
     };
-    this.canvas.addEventListener('pointermove', (event) => {
+    this.canvas.addEventListener("pointermove", (event) => {
       const [x, y] = at(event);
       if (this.drag) this.drag.to = Math.max(this.left, Math.min(this.right, x));
       if (this.spec.count > 0) this.cursor.set(this.spec.pick(x, y, this), this);
     });
-    this.canvas.addEventListener('pointerleave', () => this.cursor.set(null, this));
-    this.canvas.addEventListener('pointerdown', (event) => {
-      if (!this.spec.time || event.pointerType !== 'mouse' || event.button !== 0) return;
+    this.canvas.addEventListener("pointerleave", () => this.cursor.set(null, this));
+    this.canvas.addEventListener("pointerdown", (event) => {
+      if (!this.spec.time || event.pointerType !== "mouse" || event.button !== 0) return;
       const [x] = at(event);
       this.drag = {from: x, to: x};
       this.canvas.setPointerCapture(event.pointerId);
     });
-    this.canvas.addEventListener('pointerup', () => {
+    this.canvas.addEventListener("pointerup", () => {
       const drag = this.drag;
       this.drag = null;
       if (!drag) return;
@@ -237,17 +235,17 @@ class Plot {
       else
         this.drawCursor(true);
     });
-    this.canvas.addEventListener('pointercancel', () => {
+    this.canvas.addEventListener("pointercancel", () => {
       this.drag = null;
     });
-    if (this.spec.time) this.canvas.addEventListener('dblclick', () => timeStretch.set(null));
+    if (this.spec.time) this.canvas.addEventListener("dblclick", () => timeStretch.set(null));
   }
 
   onKey(event) {
     const last = this.spec.count - 1;
     const now = this.cursor.value;
     const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10, Home: -1e9, End: 1e9};
-    if (event.key === 'Escape') {
+    if (event.key === "Escape") {
       this.cursor.set(null, this);
       if (this.spec.time) timeStretch.set(null);
     } else if (event.key in steps && last >= 0) {
@@ -263,7 +261,7 @@ function drawLine(plot, points, style) {
   const c = plot.context;
   c.strokeStyle = style.color;
   c.lineWidth = style.width || 1.6;
-  c.lineJoin = 'round';
+  c.lineJoin = "round";
   c.setLineDash(style.dash || []);
   c.beginPath();
   let open = false, alone = null;

@@ -18,20 +18,20 @@ class Connection {
   }
 
   connect() {
-    const url = location.href.replace(/^http/, 'ws').replace(/#.*$/, '');
-    const socket = this.socket = new WebSocket(url, ['foxglove.sdk.v1', 'foxglove.websocket.v1']);
-    socket.binaryType = 'arraybuffer';
+    const url = location.href.replace(/^http/, "ws").replace(/#.*$/, "");
+    const socket = this.socket = new WebSocket(url, ["foxglove.sdk.v1", "foxglove.websocket.v1"]);
+    socket.binaryType = "arraybuffer";
     this.channels = new Map();  // id -> topic
     this.services = new Map();  // name -> id
-    socket.addEventListener('message', (event) => {
-      if (typeof event.data === 'string')
+    socket.addEventListener("message", (event) => {
+      if (typeof event.data === "string")
         this.takeText(JSON.parse(event.data));
       else
         this.takeBinary(new Uint8Array(event.data));
     });
-    socket.addEventListener('close', () => {
+    socket.addEventListener("close", () => {
       this.listener.closed();
-      for (const {reject} of this.calls.values()) reject(new Error('the connection is closed'));
+      for (const {reject} of this.calls.values()) reject(new Error("the connection is closed"));
       this.calls.clear();
       setTimeout(() => this.connect(), this.pause);
       this.pause = Math.min(2000, 2 * this.pause);
@@ -39,18 +39,18 @@ class Connection {
   }
 
   takeText(message) {
-    if (message.op === 'serverInfo') {
+    if (message.op === "serverInfo") {
       this.pause = 250;
       this.listener.opened(message.sessionId);
-    } else if (message.op === 'advertise') {
+    } else if (message.op === "advertise") {
       const wanted = message.channels.filter((channel) => this.topics.includes(channel.topic));
       for (const {id, topic} of wanted) this.channels.set(id, topic);
       const subscriptions = wanted.map(({id}) => ({id, channelId: id}));
-      this.socket.send(JSON.stringify({op: 'subscribe', subscriptions}));
-    } else if (message.op === 'advertiseServices') {
+      this.socket.send(JSON.stringify({op: "subscribe", subscriptions}));
+    } else if (message.op === "advertiseServices") {
       for (const {id, name} of message.services) this.services.set(name, id);
-    } else if (message.op === 'serviceCallFailure') {
-      this.settle(message.callId, 'reject', new Error(message.message));
+    } else if (message.op === "serviceCallFailure") {
+      this.settle(message.callId, "reject", new Error(message.message));
     }
   }
 
@@ -60,7 +60,7 @@ class Connection {
       this.listener.message(this.channels.get(view.getUint32(1, true)), bytes.subarray(13));
     } else if (bytes[0] === 3) {
       const text = bytes.subarray(13 + view.getUint32(9, true));
-      this.settle(view.getUint32(5, true), 'resolve', JSON.parse(new TextDecoder().decode(text)));
+      this.settle(view.getUint32(5, true), "resolve", JSON.parse(new TextDecoder().decode(text)));
     }
   }
 
@@ -74,9 +74,9 @@ class Connection {
   call(name, request) {
     const service = this.services.get(name);
     if (service === undefined || this.socket.readyState !== WebSocket.OPEN) {
-      return Promise.reject(new Error('not offered: ' + name));
+      return Promise.reject(new Error("not offered: " + name));
     }
-    const text = new TextEncoder().encode('json' + JSON.stringify(request));
+    const text = new TextEncoder().encode("json" + JSON.stringify(request));
     const bytes = new Uint8Array(13 + text.length);
     const view = new DataView(bytes.buffer);
     const id = this.nextCall++;

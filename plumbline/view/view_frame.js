@@ -11,12 +11,12 @@ class FrameView {
   constructor(host, map, onPick) {
     this.map = map;
     this.host = host;
-    this.canvas = make('canvas', {role: 'img', 'aria-label': 'Camera image with features'});
-    this.empty = make('div', {class: 'empty'}, 'no image yet');
+    this.canvas = make("canvas", {role: "img", "aria-label": "Camera image with features"});
+    this.empty = make("div", {class: "empty"}, "no image yet");
     host.append(this.canvas, this.empty);
     this.visible = {points: true, lines: true, matches: true, others: true};
     new ResizeObserver(() => this.draw()).observe(host);
-    this.canvas.addEventListener('click', (event) => {
+    this.canvas.addEventListener("click", (event) => {
       const landmark = this.nearest(event.offsetX, event.offsetY);
       if (landmark && onPick) onPick(landmark);
     });
@@ -50,9 +50,9 @@ class FrameView {
       canvas.width = width;
       canvas.height = height;
     }
-    const c = canvas.getContext('2d');
+    const c = canvas.getContext("2d");
     c.setTransform(1, 0, 0, 1, 0, 0);
-    c.fillStyle = '#000';
+    c.fillStyle = "#000";
     c.fillRect(0, 0, width, height);
     if (this.bitmap) c.drawImage(this.bitmap, 0, 0, width, height);
     // Pixel centres are at whole numbers.
@@ -69,7 +69,7 @@ class FrameView {
     for (const matched of [false, true]) {
       if (!matched && !this.visible.others) continue;
       const radius = (matched ? 2.1 : 1.3) * this.pixel;
-      c.fillStyle = color(matched ? 'matched-point' : 'other-point');
+      c.fillStyle = color(matched ? "matched-point" : "other-point");
       c.beginPath();
       pointIds.forEach((id, i) => {
         if ((id !== -1) !== matched) return;
@@ -79,7 +79,7 @@ class FrameView {
       c.fill();
     }
     if (!this.visible.matches) return;
-    this.stroke(c, '#ff4fd8', 1.2, () => {
+    this.stroke(c, "#ff4fd8", 1.2, () => {
       pointIds.forEach((id, i) => {
         const at = this.project(id >= 0 ? this.map.pointAt(id) : null);
         this.connect(c, pointPx.subarray(2 * i, 2 * i + 2), at);
@@ -91,7 +91,7 @@ class FrameView {
     const {linePx, lineIds} = this.frame;
     for (const matched of [false, true]) {
       if (!matched && !this.visible.others) continue;
-      this.stroke(c, color(matched ? 'matched-line' : 'other-line'), matched ? 1.9 : 1.1, () => {
+      this.stroke(c, color(matched ? "matched-line" : "other-line"), matched ? 1.9 : 1.1, () => {
         lineIds.forEach((id, i) => {
           if ((id !== -1) !== matched) return;
           c.moveTo(linePx[4 * i], linePx[4 * i + 1]);
@@ -100,7 +100,7 @@ class FrameView {
       });
     }
     if (!this.visible.matches) return;
-    this.stroke(c, '#ffd84f', 0.9, () => {
+    this.stroke(c, "#ffd84f", 0.9, () => {
       lineIds.forEach((id) => {
         const ends = id >= 0 ? this.map.lineEnds.get(id) : null;
         if (!ends) return;
@@ -128,7 +128,7 @@ class FrameView {
 
   drawMark(c) {
     const px = this.marked;
-    this.stroke(c, '#ff4fd8', 2.5, () => {
+    this.stroke(c, "#ff4fd8", 2.5, () => {
       if (px.length === 4) {
         c.moveTo(px[0], px[1]);
         c.lineTo(px[2], px[3]);
@@ -180,5 +180,5 @@ class FrameView {
 // The bitmap of an image file, null where there is none.
 async function bitmapOf(bytes) {
   if (!bytes || bytes.length === 0) return null;
-  return createImageBitmap(new Blob([bytes], {type: 'image/jpeg'}));
+  return createImageBitmap(new Blob([bytes], {type: "image/jpeg"}));
 }

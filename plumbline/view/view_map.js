@@ -148,7 +148,7 @@ class LiveMap {
     });
     if (first || !view.touched) view.reset();
     view.touched = view.touched && !first;
-    view.place('grid', ...this.segments(view.gridLines()));
+    view.place("grid", ...this.segments(view.gridLines()));
     this.uploadKeyframes();
   }
 
@@ -166,12 +166,12 @@ class LiveMap {
     const {view} = this;
     if (!view.frustumDepth) return;
     const path = this.path();
-    view.place('keyframes', ...this.segments(path.flatMap((k) => view.frustum(k))));
+    view.place("keyframes", ...this.segments(path.flatMap((k) => view.frustum(k))));
     const steps = [];
     for (let i = 1; i < path.length; ++i) steps.push([path[i - 1].place, path[i].place]);
-    view.place('trajectory', ...this.segments(steps));
-    view.place('edges', ...this.segments(this.between(this.edges.values())));
-    view.place('loops', ...this.segments(this.between(this.loops)));
+    view.place("trajectory", ...this.segments(steps));
+    view.place("edges", ...this.segments(this.between(this.edges.values())));
+    view.place("loops", ...this.segments(this.between(this.loops)));
   }
 
   // Pairs of keyframes that are both there, as segments.
@@ -185,8 +185,8 @@ class LiveMap {
   }
 
   upload(withKeyframes) {
-    this.points.upload(this.view, 'points', 3);
-    this.lines.upload(this.view, 'lines', 7);
+    this.points.upload(this.view, "points", 3);
+    this.lines.upload(this.view, "lines", 7);
     if (withKeyframes) this.uploadKeyframes();
   }
 
@@ -197,7 +197,7 @@ class LiveMap {
       slots.to = slots.count * slots.size;
     }
     this.view.buffers = {};
-    if (this.measured > 0) this.view.place('grid', ...this.segments(this.view.gridLines()));
+    if (this.measured > 0) this.view.place("grid", ...this.segments(this.view.gridLines()));
     this.upload(true);
   }
 
@@ -215,10 +215,10 @@ class LiveMap {
       const place = id >= 0 ? this.pointAt(id) : null;
       if (place) seen.push(...place);
     }
-    view.place('seen', new Float32Array(seen), 3, seen.length);
+    view.place("seen", new Float32Array(seen), 3, seen.length);
     if (!frame.pose) return;
     const camera = placeOf(frame.pose);
-    view.place('camera', ...this.segments(view.frustum(camera, 2 * view.frustumDepth)));
+    view.place("camera", ...this.segments(view.frustum(camera, 2 * view.frustumDepth)));
     if (this.following) view.target = camera.place;
   }
 
@@ -261,7 +261,7 @@ class LiveMap {
       const keyframe = this.keyframes.get(id);
       if (place && keyframe) rays.push([place, keyframe.place]);
     }
-    this.view.place('rays', ...this.segments(rays));
+    this.view.place("rays", ...this.segments(rays));
     this.view.mark(place);
   }
 }

@@ -5,14 +5,14 @@
 // figures and the lists.
 
 const element = (id) => document.getElementById(id);
-const plural = (count, word) => `${whole(count)} ${word}${count === 1 ? '' : 's'}`;
+const plural = (count, word) => `${whole(count)} ${word}${count === 1 ? "" : "s"}`;
 
 const view = new MapView(
-    element('map').querySelector('.space'),
-    'Map in three dimensions. Arrow keys turn, with Shift they move, plus and minus zoom, Home ' +
-        'resets.');
+    element("map").querySelector(".space"),
+    "Map in three dimensions. Arrow keys turn, with Shift they move, plus and minus zoom, Home " +
+        "resets.");
 const map = new LiveMap(view);
-const camera = new FrameView(element('camera').querySelector('.view'), map, choose);
+const camera = new FrameView(element("camera").querySelector(".view"), map, choose);
 
 // What tests and the curious may look at.
 const shown = {
@@ -29,43 +29,42 @@ let image = null;  // the last one that came, as a promise of a bitmap
 let chosen = null;
 
 function setState(text, kind) {
-  element('state').textContent = text;
-  element('state').className = 'pill ' + (kind || '');
+  element("state").textContent = text;
+  element("state").className = "pill " + (kind || "");
 }
 
 function showState() {
   const {run, frame} = shown;
-  if (!connection.open) return setState('not connected', '');
-  if (run && run.finished) return setState('finished', 'finished');
-  if (run && run.paused) return setState('paused', 'initializing');
-  if (!frame) return setState('waiting', '');
-  const reason = frame.reason ? `: ${frame.reason.replaceAll('_', ' ')}` : '';
+  if (!connection.open) return setState("not connected", "");
+  if (run && run.finished) return setState("finished", "finished");
+  if (run && run.paused && frame) return setState("paused", "initializing");
+  if (!frame) return map.map === null ? setState("waiting") : setState("saved map", "finished");
+  const reason = frame.reason ? `: ${frame.reason.replaceAll("_", " ")}` : "";
   setState(frame.status + reason, frame.status);
 }
 
 function figure(name, value, bad) {
-  return make('span', {class: bad ? 'bad' : ''}, make('b', {}, value), ' ' + name);
+  return make("span", {class: bad ? "bad" : ""}, make("b", {}, value), " " + name);
 }
 
 function showFigures() {
   const run = shown.run || {}, frame = shown.frame;
-  const of = run.framesExpected ? ` of ${whole(run.framesExpected)}` : '';
+  const of = run.framesExpected ? ` of ${whole(run.framesExpected)}` : "";
   const figures = [
-    figure('frames', whole(run.frames || 0) + of),
-    figure('frames/s', digits(run.framesPerSecond || 0)),
-    figure('dropped', whole(run.dropped || 0), run.dropped > 0),
-    figure('lost', whole(run.lost || 0), run.lost > 0),
-    figure('keyframes', whole(map.keyframes.size)),
-    figure('points', whole(map.points.count)),
-    figure('lines', whole(map.lines.count))
+    figure("frames", whole(run.frames || 0) + of),
+    figure("frames/s", digits(run.framesPerSecond || 0)),
+    figure("dropped", whole(run.dropped || 0), run.dropped > 0),
+    figure("lost", whole(run.lost || 0), run.lost > 0),
+    figure("keyframes", whole(map.keyframes.size)), figure("points", whole(map.points.count)),
+    figure("lines", whole(map.lines.count))
   ];
-  if (frame && frame.status === 'tracked') {
+  if (frame && frame.status === "tracked") {
     const {inlierPoints = 0, inlierLines = 0} = frame;
-    figures.push(figure('', `${plural(inlierPoints, 'point')}, ${plural(inlierLines, 'line')}`));
-    figures[figures.length - 1].append('matched');
+    figures.push(figure("", `${plural(inlierPoints, "point")}, ${plural(inlierLines, "line")}`));
+    figures[figures.length - 1].append("matched");
   }
-  if (frame && frame.shed) figures.push(figure('left out: ' + frame.shed, 'behind,', true));
-  element('figures').replaceChildren(...figures);
+  if (frame && frame.shed) figures.push(figure("left out: " + frame.shed, "behind,", true));
+  element("figures").replaceChildren(...figures);
 }
 
 // --- times ---
@@ -74,32 +73,27 @@ const totals = [];  // ms of the last frames
 const TOTALS = 240;
 
 function showTimes(frame) {
-  const stages = frame.stages.filter((s) => s.name !== 'total' && !s.name.startsWith('map_'));
-  const total = frame.stages.find((s) => s.name === 'total');
+  const stages = frame.stages.filter((s) => s.name !== "total" && !s.name.startsWith("map_"));
+  const total = frame.stages.find((s) => s.name === "total");
   if (!total) return;
   totals.push(total.milliseconds || 0);
   if (totals.length > TOTALS) totals.shift();
-  const paintOf = (i) => paint(i < 7 ? 'stage-' + (i + 1) : 'stage-rest');
+  const paintOf = (i) => paint(i < 7 ? "stage-" + (i + 1) : "stage-rest");
   const sum = stages.reduce((all, s) => all + (s.milliseconds || 0), 0) || 1;
   const bar = make(
-      'div',
-      {class: 'stack'},
-      stages.map((s, i) => make('i', {
+      "div", {class: "stack"},
+      stages.map((s, i) => make("i", {
                    style: `width:${100 * (s.milliseconds || 0) / sum}%;background:${paintOf(i)}`
                  })));
   const list = make(
-      'ul',
-      {class: 'stages'},
+      "ul", {class: "stages"},
       stages.map(
           (s, i) => make(
-              'li',
-              {},
-              make('span', {class: 'key', style: `background:${paintOf(i)}`}),
-              s.name.replaceAll('_', ' '),
-              make('b', {}, digits(s.milliseconds || 0, 2) + ' ms'))),
-      make('li', {}, 'total', make('b', {}, digits(total.milliseconds || 0) + ' ms')));
-  const chart = make('canvas', {role: 'img', 'aria-label': 'Time of the last frames'});
-  element('timing').querySelector('.body').replaceChildren(bar, list, chart);
+              "li", {}, make("span", {class: "key", style: `background:${paintOf(i)}`}),
+              s.name.replaceAll("_", " "), make("b", {}, digits(s.milliseconds || 0, 2) + " ms"))),
+      make("li", {}, "total", make("b", {}, digits(total.milliseconds || 0) + " ms")));
+  const chart = make("canvas", {role: "img", "aria-label": "Time of the last frames"});
+  element("timing").querySelector(".body").replaceChildren(bar, list, chart);
   drawTotals(chart);
 }
 
@@ -107,17 +101,17 @@ function drawTotals(chart) {
   const ratio = window.devicePixelRatio || 1;
   const width = chart.width = Math.round(chart.clientWidth * ratio);
   const height = chart.height = Math.round(chart.clientHeight * ratio);
-  const c = chart.getContext('2d');
+  const c = chart.getContext("2d");
   const top = Math.max(10, ...totals) * 1.1;
-  c.fillStyle = color('ink-soft');
+  c.fillStyle = color("ink-soft");
   c.font = `${11 * ratio}px system-ui, sans-serif`;
   c.fillText(`${digits(top, 2)} ms`, 0, 10 * ratio);
-  c.strokeStyle = color('rule');
+  c.strokeStyle = color("rule");
   c.beginPath();
   c.moveTo(0, height - 0.5);
   c.lineTo(width, height - 0.5);
   c.stroke();
-  c.strokeStyle = color('accent');
+  c.strokeStyle = color("accent");
   c.lineWidth = 1.4 * ratio;
   c.beginPath();
   totals.forEach((ms, i) => {
@@ -129,33 +123,28 @@ function drawTotals(chart) {
 // --- places seen again ---
 
 function eventText(event) {
-  const by = `${plural(event.points || 0, 'point')}, ${plural(event.lines || 0, 'line')}`;
-  if (event.kind === 'relocalization') {
+  const by = `${plural(event.points || 0, "point")}, ${plural(event.lines || 0, "line")}`;
+  if (event.kind === "relocalization") {
     return [
-      `frame ${event.frame || 0} found again by `,
-      keyframeLink(event.keyframe || 0),
-      ` (${by})`
+      `frame ${event.frame || 0} found again by `, keyframeLink(event.keyframe || 0), ` (${by})`
     ];
   }
-  const moved = event.moved ? `, moved by ${metres(event.moved)}` : '';
+  const moved = event.moved ? `, moved by ${metres(event.moved)}` : "";
   return [
-    event.kind === 'join' ? 'maps joined: ' : 'loop: ',
-    keyframeLink(event.keyframe || 0),
-    ' shows ',
-    keyframeLink(event.older || 0),
-    ` (${by}${moved})`
+    event.kind === "join" ? "maps joined: " : "loop: ", keyframeLink(event.keyframe || 0),
+    " shows ", keyframeLink(event.older || 0), ` (${by}${moved})`
   ];
 }
 
 function keyframeLink(id) {
-  return make('button', {type: 'button', onclick: () => openKeyframe(id)}, `keyframe ${id}`);
+  return make("button", {type: "button", onclick: () => openKeyframe(id)}, `keyframe ${id}`);
 }
 
 function takeEvents(events) {
   for (const event of events) {
     shown.events.push(event);
-    element('events').querySelector('ol').prepend(make('li', {}, eventText(event)));
-    if (event.kind !== 'relocalization') map.loops.push([event.older || 0, event.keyframe || 0]);
+    element("events").querySelector("ol").prepend(make("li", {}, eventText(event)));
+    if (event.kind !== "relocalization") map.loops.push([event.older || 0, event.keyframe || 0]);
   }
   if (events.length) map.uploadKeyframes();
 }
@@ -164,16 +153,16 @@ function takeEvents(events) {
 
 async function fetchKeyframe(id) {
   const response = await fetch(`keyframe/${id}${location.search}`);
-  if (!response.ok) throw new Error('its image is not kept');
+  if (!response.ok) throw new Error("its image is not kept");
   return readMessage(new Uint8Array(await response.arrayBuffer()), FRAME);
 }
 
 async function openKeyframe(id, px) {
-  const dialog = element('keyframe');
-  const host = make('div', {class: 'view'});
-  const title = make('b', {}, `Keyframe ${id}`);
-  const close = make('button', {type: 'button', onclick: () => dialog.close()}, 'Close');
-  const bar = make('div', {class: 'bar'}, title, make('span', {class: 'spring'}), close);
+  const dialog = element("keyframe");
+  const host = make("div", {class: "view"});
+  const title = make("b", {}, `Keyframe ${id}`);
+  const close = make("button", {type: "button", onclick: () => dialog.close()}, "Close");
+  const bar = make("div", {class: "bar"}, title, make("span", {class: "spring"}), close);
   dialog.replaceChildren(host, bar);
   if (!dialog.open) dialog.showModal();
   const keyframe = map.keyframes.get(id);
@@ -198,7 +187,7 @@ async function openKeyframe(id, px) {
 async function drawThumbnail(canvas, id, px) {
   const frame = await fetchKeyframe(id);
   const bitmap = await bitmapOf(frame.image);
-  const c = canvas.getContext('2d');
+  const c = canvas.getContext("2d");
   const [x, y] = px.length === 4 ? [(px[0] + px[2]) / 2, (px[1] + px[3]) / 2] : px;
   const width = 180, height = 120;
   c.fillRect(0, 0, canvas.width, canvas.height);
@@ -207,7 +196,7 @@ async function drawThumbnail(canvas, id, px) {
   if (bitmap) c.drawImage(bitmap, 0, 0);
   if (bitmap) bitmap.close();
   c.translate(0.5, 0.5);
-  c.strokeStyle = '#ff4fd8';
+  c.strokeStyle = "#ff4fd8";
   c.lineWidth = 1.5;
   c.beginPath();
   if (px.length === 4) {
@@ -226,34 +215,31 @@ async function choose(landmark) {
   const isLine = landmark.line !== undefined;
   const ends = isLine ? map.lineEnds.get(landmark.line) : null;
   const place = isLine ? ends && times(add(ends[0], ends[1]), 0.5) : map.pointAt(landmark.point);
-  const answer = await connection.call('/plumbline/landmark', landmark);
+  const answer = await connection.call("/plumbline/landmark", landmark);
   if (chosen !== landmark) return;
   const all = answer.seen_by;
   map.showSight(place, all.map(({keyframe}) => keyframe));
   const step = Math.max(1, Math.ceil(all.length / THUMBNAILS));
   const some = all.filter((_, i) => i % step === 0);
   const name = isLine ? `Line ${landmark.line}` : `Point ${landmark.point}`;
-  const sight = element('sight');
+  const sight = element("sight");
   sight.hidden = false;
-  sight.querySelector('.bar').replaceChildren(
-      make('b', {}, name),
-      make('span', {}, `seen by ${plural(all.length, 'keyframe')}`),
-      make('span', {class: 'spring'}),
-      make('button', {type: 'button', onclick: forget}, 'Close'));
-  sight.querySelector('.strip').replaceChildren(...some.map(({keyframe, frame, px}) => {
-    const canvas = make('canvas', {width: 300, height: 200});
+  sight.querySelector(".bar").replaceChildren(
+      make("b", {}, name), make("span", {}, `seen by ${plural(all.length, "keyframe")}`),
+      make("span", {class: "spring"}), make("button", {type: "button", onclick: forget}, "Close"));
+  sight.querySelector(".strip").replaceChildren(...some.map(({keyframe, frame, px}) => {
+    const canvas = make("canvas", {width: 300, height: 200});
     drawThumbnail(canvas, keyframe, px).catch(() => {});
     return make(
-        'button',
-        {type: 'button', title: `keyframe ${keyframe}`, onclick: () => openKeyframe(keyframe, px)},
-        canvas,
-        make('span', {}, `frame ${frame}`));
+        "button",
+        {type: "button", title: `keyframe ${keyframe}`, onclick: () => openKeyframe(keyframe, px)},
+        canvas, make("span", {}, `frame ${frame}`));
   }));
 }
 
 function forget() {
   chosen = null;
-  element('sight').hidden = true;
+  element("sight").hidden = true;
   map.showSight(null, []);
 }
 
@@ -267,91 +253,79 @@ view.onPick = (x, y) => {
 // --- controls ---
 
 function togglesOf(layers, visible, redraw) {
-  return makeToggles('Layers', layers, (name, pressed) => {
+  return makeToggles("Layers", layers, (name, pressed) => {
     visible[name] = pressed;
     redraw();
   });
 }
 
 const followButton = make(
-    'button',
-    {type: 'button', 'aria-pressed': 'true', onclick: () => setFollowing(!map.following)},
-    'Follow');
+    "button", {type: "button", "aria-pressed": "true", onclick: () => setFollowing(!map.following)},
+    "Follow");
 function setFollowing(following) {
   map.following = following;
-  followButton.setAttribute('aria-pressed', String(following));
+  followButton.setAttribute("aria-pressed", String(following));
   if (following && shown.frame) map.showFrame(shown.frame);
 }
 view.onMove = () => setFollowing(false);
-for (const name of ['pointerdown', 'wheel', 'keydown']) {
+for (const name of ["pointerdown", "wheel", "keydown"]) {
   view.canvas.addEventListener(name, () => {
     view.touched = true;
   }, {passive: true});
 }
 
 const pauseButton = make(
-    'button',
-    {
-      type: 'button',
+    "button", {
+      type: "button",
       hidden: true,
-      onclick: () => connection.call('/plumbline/pause', {paused: !(shown.run && shown.run.paused)})
+      onclick: () => connection.call("/plumbline/pause", {paused: !(shown.run && shown.run.paused)})
     },
-    'Pause');
+    "Pause");
 const stepButton = make(
-    'button',
-    {type: 'button', hidden: true, onclick: () => connection.call('/plumbline/step', {})},
-    'Step');
+    "button", {type: "button", hidden: true, onclick: () => connection.call("/plumbline/step", {})},
+    "Step");
 
 // Image and map side by side, as a file.
 function screenshot() {
   view.render();  // the browser has forgotten what was drawn before
   const left = camera.canvas, right = view.canvas;
   const height = Math.max(left.height, right.height);
-  const sheet = make('canvas', {width: left.width + right.width, height});
-  const c = sheet.getContext('2d');
-  c.fillStyle = color('page');
+  const sheet = make("canvas", {width: left.width + right.width, height});
+  const c = sheet.getContext("2d");
+  c.fillStyle = color("page");
   c.fillRect(0, 0, sheet.width, height);
   if (left.width) c.drawImage(left, 0, 0);
   c.drawImage(right, left.width, 0);
   const number = shown.frame ? shown.frame.number || 0 : 0;
-  const link = make('a', {
-    href: sheet.toDataURL('image/png'),
-    download: `plumbline_${String(number).padStart(6, '0')}.png`
+  const link = make("a", {
+    href: sheet.toDataURL("image/png"),
+    download: `plumbline_${String(number).padStart(6, "0")}.png`
   });
   link.click();
 }
 
-element('controls')
+element("controls")
     .append(
-        pauseButton,
-        stepButton,
-        make('button', {type: 'button', onclick: screenshot}, 'Screenshot'));
-element('map').querySelector('.bar').append(
+        pauseButton, stepButton,
+        make("button", {type: "button", onclick: screenshot}, "Screenshot"));
+element("map").querySelector(".bar").append(
     togglesOf(
         [
-          {text: 'Points', value: 'points'},
-          {text: 'Lines', value: 'lines'},
-          {text: 'Keyframes', value: 'keyframes'},
-          {text: 'Covisibility', value: 'edges'},
-          {text: 'Trajectory', value: 'trajectory'},
-          {text: 'Loops', value: 'loops'},
-          {text: 'Grid', value: 'grid'}
+          {text: "Points", value: "points"}, {text: "Lines", value: "lines"},
+          {text: "Keyframes", value: "keyframes"}, {text: "Covisibility", value: "edges"},
+          {text: "Trajectory", value: "trajectory"}, {text: "Loops", value: "loops"},
+          {text: "Grid", value: "grid"}
         ],
-        view.visible,
-        () => view.request()),
-    make('span', {class: 'spring'}),
-    followButton,
-    make('button', {type: 'button', onclick: () => view.lookFrom(1.55)}, 'From above'),
-    make('button', {type: 'button', onclick: () => view.reset()}, 'Reset view'));
-element('camera').querySelector('.bar').append(togglesOf(
+        view.visible, () => view.request()),
+    make("span", {class: "spring"}), followButton,
+    make("button", {type: "button", onclick: () => view.lookFrom(1.55)}, "From above"),
+    make("button", {type: "button", onclick: () => view.reset()}, "Reset view"));
+element("camera").querySelector(".bar").append(togglesOf(
     [
-      {text: 'Points', value: 'points'},
-      {text: 'Lines', value: 'lines'},
-      {text: 'Landmarks', value: 'matches'},
-      {text: 'Unmatched', value: 'others'}
+      {text: "Points", value: "points"}, {text: "Lines", value: "lines"},
+      {text: "Landmarks", value: "matches"}, {text: "Unmatched", value: "others"}
     ],
-    camera.visible,
-    () => camera.draw()));
+    camera.visible, () => camera.draw()));
 
 // --- the connection ---
 
@@ -359,11 +333,11 @@ function takeRun(run) {
   const first = !shown.run;
   shown.run = run;
   pauseButton.hidden = stepButton.hidden = !run.canPause || Boolean(run.finished);
-  pauseButton.textContent = run.paused ? 'Resume' : 'Pause';
+  pauseButton.textContent = run.paused ? "Resume" : "Pause";
   stepButton.disabled = !run.paused;
   if (!first) return;
-  element('name').textContent = run.name || '';
-  document.title = `${run.name || 'run'} - Plumbline`;
+  element("name").textContent = run.name || "";
+  document.title = `${run.name || "run"} - Plumbline`;
   camera.setCamera(run.camera);
   map.setCamera(run.camera);
 }
@@ -396,11 +370,11 @@ function forgetRun() {
   map.clear();
   map.uploadKeyframes();
   totals.length = 0;
-  element('events').querySelector('ol').replaceChildren();
+  element("events").querySelector("ol").replaceChildren();
   forget();
 }
 
-const connection = new Connection(['/camera/image', '/plumbline/updates'], {
+const connection = new Connection(["/camera/image", "/plumbline/updates"], {
   opened(session) {
     connection.open = true;
     // Also where it is the same run: everything comes anew.
@@ -413,9 +387,9 @@ const connection = new Connection(['/camera/image', '/plumbline/updates'], {
     showState();
   },
   message(topic, bytes) {
-    if (topic === '/camera/image') {
+    if (topic === "/camera/image") {
       image = bitmapOf(readMessage(bytes, COMPRESSED_IMAGE).data);
-    } else if (topic === '/plumbline/updates') {
+    } else if (topic === "/plumbline/updates") {
       takeUpdate(readMessage(bytes, UPDATE));
     }
   }

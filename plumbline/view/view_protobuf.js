@@ -7,106 +7,102 @@
 // result, but for lists, which are empty.
 
 const VECTOR = {
-  1: ['x', 'double'],
-  2: ['y', 'double'],
-  3: ['z', 'double'],
-  4: ['w', 'double']
+  1: ["x", "double"],
+  2: ["y", "double"],
+  3: ["z", "double"],
+  4: ["w", "double"]
 };
 const POSE = {
-  1: ['position', VECTOR],
-  2: ['orientation', VECTOR]
+  1: ["position", VECTOR],
+  2: ["orientation", VECTOR]
 };
 const STAMP = {
-  1: ['seconds', 'number'],
-  2: ['nanos', 'number']
+  1: ["seconds", "number"],
+  2: ["nanos", "number"]
 };
 const COMPRESSED_IMAGE = {
-  1: ['timestamp', STAMP],
-  2: ['data', 'bytes'],
-  3: ['format', 'text']
+  1: ["timestamp", STAMP],
+  2: ["data", "bytes"],
+  3: ["format", "text"]
 };
 const FRAME = {
-  1: ['number', 'number'],
-  2: ['status', 'text'],
-  3: ['reason', 'text'],
-  4: ['map', 'number'],
-  5: ['pose', POSE],
-  6: ['keyframe', 'number'],
-  7: ['inlierPoints', 'number'],
-  8: ['inlierLines', 'number'],
-  9: ['stages', [{1: ['name', 'text'], 2: ['milliseconds', 'double']}]],
-  10: ['shed', 'text'],
-  11: ['pointPx', 'float[]'],
-  12: ['pointIds', 'int32[]'],
-  13: ['linePx', 'float[]'],
-  14: ['lineIds', 'int32[]'],
-  15: ['image', 'bytes']
+  1: ["number", "number"],
+  2: ["status", "text"],
+  3: ["reason", "text"],
+  4: ["map", "number"],
+  5: ["pose", POSE],
+  6: ["keyframe", "number"],
+  7: ["inlierPoints", "number"],
+  8: ["inlierLines", "number"],
+  9: ["stages", [{1: ["name", "text"], 2: ["milliseconds", "double"]}]],
+  10: ["shed", "text"],
+  11: ["pointPx", "float[]"],
+  12: ["pointIds", "int32[]"],
+  13: ["linePx", "float[]"],
+  14: ["lineIds", "int32[]"],
+  15: ["image", "bytes"]
 };
 const UPDATE = {
-  1: ['timestamp', STAMP],
+  1: ["timestamp", STAMP],
   2: [
-    'run',
-    {
-      1: ['name', 'text'],
-      2: ['frames', 'number'],
-      3: ['framesExpected', 'number'],
-      4: ['dropped', 'number'],
-      5: ['lost', 'number'],
-      6: ['framesPerSecond', 'double'],
-      7: ['paused', 'number'],
-      8: ['canPause', 'number'],
-      9: ['finished', 'number'],
+    "run", {
+      1: ["name", "text"],
+      2: ["frames", "number"],
+      3: ["framesExpected", "number"],
+      4: ["dropped", "number"],
+      5: ["lost", "number"],
+      6: ["framesPerSecond", "double"],
+      7: ["paused", "number"],
+      8: ["canPause", "number"],
+      9: ["finished", "number"],
       10: [
-        'camera',
-        {
-          1: ['width', 'number'],
-          2: ['height', 'number'],
-          3: ['fx', 'double'],
-          4: ['fy', 'double'],
-          5: ['cx', 'double'],
-          6: ['cy', 'double']
+        "camera", {
+          1: ["width", "number"],
+          2: ["height", "number"],
+          3: ["fx", "double"],
+          4: ["fy", "double"],
+          5: ["cx", "double"],
+          6: ["cy", "double"]
         }
       ]
     }
   ],
-  3: ['frame', FRAME],
+  3: ["frame", FRAME],
   4: [
-    'map',
-    {
-      1: ['map', 'number'],
-      2: ['from', 'number'],
-      3: ['to', 'number'],
-      4: ['pointIds', 'uint32[]'],
-      5: ['pointPositions', 'float[]'],
-      6: ['gonePoints', 'uint32[]'],
-      7: ['lineIds', 'uint32[]'],
-      8: ['lineEnds', 'float[]'],
-      9: ['goneLines', 'uint32[]'],
-      10: ['keyframeIds', 'uint32[]'],
-      11: ['keyframeFrames', 'uint32[]'],
-      12: ['keyframePoses', 'float[]'],
-      13: ['goneKeyframes', 'uint32[]'],
-      14: ['edges', 'uint32[]']
+    "map", {
+      1: ["map", "number"],
+      2: ["from", "number"],
+      3: ["to", "number"],
+      4: ["pointIds", "uint32[]"],
+      5: ["pointPositions", "float[]"],
+      6: ["gonePoints", "uint32[]"],
+      7: ["lineIds", "uint32[]"],
+      8: ["lineEnds", "float[]"],
+      9: ["goneLines", "uint32[]"],
+      10: ["keyframeIds", "uint32[]"],
+      11: ["keyframeFrames", "uint32[]"],
+      12: ["keyframePoses", "float[]"],
+      13: ["goneKeyframes", "uint32[]"],
+      14: ["edges", "uint32[]"]
     }
   ],
   5: [
-    'events',
-    [{
-      1: ['kind', 'text'],
-      2: ['frame', 'number'],
-      3: ['keyframe', 'number'],
-      4: ['older', 'number'],
-      5: ['points', 'number'],
-      6: ['lines', 'number'],
-      7: ['moved', 'double']
+    "events", [{
+      1: ["kind", "text"],
+      2: ["frame", "number"],
+      3: ["keyframe", "number"],
+      4: ["older", "number"],
+      5: ["points", "number"],
+      6: ["lines", "number"],
+      7: ["moved", "double"]
     }]
   ]
 };
 
 const LISTS = {
-  'float[]': Float32Array,
-  'uint32[]': Uint32Array,
-  'int32[]': Int32Array
+  "float[]": Float32Array,
+  "uint32[]": Uint32Array,
+  "int32[]": Int32Array
 };
 
 function emptyMessage(table) {
@@ -146,7 +142,7 @@ function readMessage(bytes, table) {
       at += 4;
     } else {
       const length = varint();
-      if (at + length > bytes.length) throw new RangeError('a message ends early');
+      if (at + length > bytes.length) throw new RangeError("a message ends early");
       if (name) takeBytes(message, name, type, bytes.subarray(at, at + length));
       at += length;
     }
@@ -155,9 +151,9 @@ function readMessage(bytes, table) {
 }
 
 function takeBytes(message, name, type, bytes) {
-  if (type === 'text') {
+  if (type === "text") {
     message[name] = new TextDecoder().decode(bytes);
-  } else if (type === 'bytes') {
+  } else if (type === "bytes") {
     message[name] = bytes;
   } else if (LISTS[type]) {
     // Copied, since lists of numbers must begin at a multiple of four bytes.
