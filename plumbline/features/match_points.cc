@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/match_points.h"
 
+#include "plumbline/base/processor.h"
 #include "plumbline/features/grid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <numbers>
-#include <numeric>
+#include <tuple>
 
 namespace plumbline {
 namespace {
@@ -25,12 +29,62 @@ bool SimilarShape(const PointFeature& a, const PointFeature& b, const PointMatch
   return std::abs(difference) <= options.max_angle_deg * std::numbers::pi / 180;
 }
 
-// The best of `candidates` (indices into `set`) for each of `queries`.
+// Descriptors word by word: the first words of all, then the second ones, and so on.
+class DescriptorWords {
+ public:
+  explicit DescriptorWords(const std::vector<PointFeature>& set)
+      : count_(set.size()), words_(kWords * set.size()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t k = 0; k < kWords; ++k) words_[k * count_ + i] = set[i].descriptor[k];
+    }
+  }
+
+  std::size_t size() const { return count_; }
+  const std::uint64_t* words(std::size_t k) const { return words_.data() + k * count_; }
+
+ private:
+  static constexpr std::size_t kWords = std::tuple_size_v<Descriptor>;
+  std::size_t count_;
+  std::vector<std::uint64_t> words_;
+};
+
+// Hamming distances of one descriptor from many, several at once: bits are counted by adding
+// neighbouring fields, as CountBits does.
+struct DistancesFrom {
+  [[gnu::always_inline]] static inline void Run(const Descriptor& query,
+                                                const DescriptorWords& set,
+                                                std::uint32_t* distances) {
+    constexpr std::uint64_t kEverySecond = 0x5555555555555555, kPairs = 0x3333333333333333,
+                            kNibbles = 0x0f0f0f0f0f0f0f0f, kBytes = 0x00ff00ff00ff00ff;
+    const std::uint64_t* const words[] = {set.words(0), set.words(1), set.words(2), set.words(3)};
+    const Descriptor own = query;
+    ForBlocks<8>(
+        static_cast<int>(set.size()), [&](int first, auto size) __attribute__((always_inline)) {
+          std::uint32_t block[size];
+          for (int i = 0; i < size; ++i) {
+            std::uint64_t sums = 0;  // of each byte
+            for (std::size_t k = 0; k < 4; ++k) {
+              std::uint64_t word = words[k][first + i] ^ own[k];
+              word -= word >> 1U & kEverySecond;
+              word = (word & kPairs) + (word >> 2U & kPairs);
+              sums += (word + (word >> 4U)) & kNibbles;
+            }
+            sums = (sums & kBytes) + (sums >> 8U & kBytes);
+            sums += sums >> 32U;
+            sums += sums >> 16U;
+            block[i] = static_cast<std::uint32_t>(sums & 0xffffU);
+          }
+          std::memcpy(distances + first, block, sizeof block);
+        });
+  }
+};
+
+// The best of all points of a set, or of those near it, for each query.
 class CandidateSearch {
  public:
   CandidateSearch(const std::vector<PointFeature>& set, double radius)
-      : set_(set), all_(set.size()) {
-    std::iota(all_.begin(), all_.end(), 0);
+      : set_(set), words_(radius > 0 ? std::vector<PointFeature>() : set) {
+    distances_.resize(words_.size());
     if (radius <= 0 || set.empty()) return;
     std::vector<Eigen::Vector2d> positions;
     positions.reserve(set.size());
@@ -45,16 +99,8 @@ class CandidateSearch {
   }
 
   Best Find(const PointFeature& query, const PointMatchOptions& options) {
-    const std::vector<int>* candidates = &all_;
-    if (options.radius_px > 0) {
-      grid_.InWindow(query.px, Eigen::Vector2d::Constant(options.radius_px), &near_);
-      candidates = &near_;
-    }
     Best best;
-    for (const int i : *candidates) {
-      const PointFeature& other = set_[static_cast<std::size_t>(i)];
-      if (!SimilarShape(query, other, options)) continue;
-      const int distance = HammingDistance(query.descriptor, other.descriptor);
+    const auto offer = [&](int i, int distance) {
       if (distance < best.distance) {
         best.second = best.distance;
         best.distance = distance;
@@ -62,13 +108,29 @@ class CandidateSearch {
       } else {
         best.second = std::min(best.second, distance);
       }
+    };
+    if (options.radius_px > 0) {
+      grid_.InWindow(query.px, Eigen::Vector2d::Constant(options.radius_px), &near_);
+      for (const int i : near_) {
+        const PointFeature& other = set_[static_cast<std::size_t>(i)];
+        if (!SimilarShape(query, other, options)) continue;
+        offer(i, HammingDistance(query.descriptor, other.descriptor));
+      }
+      return best;
+    }
+    RunBest<DistancesFrom>(query.descriptor, words_, distances_.data());
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      const auto distance = static_cast<int>(distances_[i]);
+      if (distance >= best.second || !SimilarShape(query, set_[i], options)) continue;
+      offer(static_cast<int>(i), distance);
     }
     return best;
   }
 
  private:
   const std::vector<PointFeature>& set_;
-  std::vector<int> all_;
+  DescriptorWords words_;  // where all are candidates
+  std::vector<std::uint32_t> distances_;
   std::vector<int> near_;
   PointGrid grid_;
 };

@@ -41,6 +41,27 @@ TEST(MatchPoints, PairsNoisyCopiesInAnotherOrder) {
   }
 }
 
+TEST(MatchPoints, FindsTheNearestOfAllAsPairByPair) {
+  const auto a = RandomPoints(57);
+  auto b = RandomPoints(61);
+  for (std::size_t i = 0; i < b.size(); ++i) FlipBits(static_cast<int>(3 * i % 50), &b[i]);
+  const auto matches = MatchPoints(a, b, {.max_distance = 256, .ratio = 1, .mutual = false});
+  for (const PointMatch& match : matches) {
+    const auto& query = a[static_cast<std::size_t>(match.a)].descriptor;
+    int best = 257;
+    int index = -1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const int distance = HammingDistance(query, b[j].descriptor);
+      if (distance >= best) continue;
+      best = distance;
+      index = static_cast<int>(j);
+    }
+    EXPECT_EQ(match.distance, best);
+    EXPECT_EQ(match.b, index);
+  }
+  EXPECT_GT(matches.size(), 40U);
+}
+
 TEST(MatchPoints, RefusesDistantAmbiguousAndFarAwayCandidates) {
   const auto a = RandomPoints(1);
   PointMatchOptions options;
