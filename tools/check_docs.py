@@ -61,8 +61,8 @@ def link_problems(root, documents):
 
 
 def index_problems(root):
-    for folder in (root / "docs", root / "docs/adr", root / "docs/methods"):
-        index = folder / "README.md"
+    for index in sorted((root / "docs").rglob("README.md")):
+        folder = index.parent
         listed = set(LINK.findall(index.read_text()))
         for page in sorted(folder.glob("*.md")):
             if page != index and page.name not in listed:
