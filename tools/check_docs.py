@@ -3,6 +3,7 @@
 
 - Links between documents resolve, anchors included.
 - Every decision record is listed in docs/adr/README.md, every page in the README.md of its folder.
+- A page of docs/methods has at most MOST_WORDS words.
 - Comments in the code cite only documents that exist, and equations that a document explains.
 - Commands shown in documents exist: scripts, subcommands of plumbline, and their flags.
 - Tests named in documents exist.
@@ -19,6 +20,7 @@ TEST_NAME = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
 FLAG = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
 BUILT_BY_CMAKE = "build/release/plumbline"
 BENCHMARKS = "build/release/bench/"
+MOST_WORDS = 1500
 
 
 def lines_of(path):
@@ -69,6 +71,13 @@ def index_problems(root):
                 yield f"{index.relative_to(root)}: {page.name} is not listed"
             if folder.name == "adr" and page != index and not re.match(r"\d{4}-", page.name):
                 yield f"{page.relative_to(root)}: the name must start with its number"
+
+
+def length_problems(root):
+    for page in sorted((root / "docs/methods").glob("*.md")):
+        words = len(page.read_text().split())
+        if words > MOST_WORDS:
+            yield f"{page.relative_to(root)}: {words} words; a page of methods has at most {MOST_WORDS}"
 
 
 def equation_numbers(text):
@@ -158,6 +167,7 @@ def problems(root):
                      for path in (root / folder).rglob("*") if path.suffix in (".h", ".cc"))
     yield from link_problems(root, documents)
     yield from index_problems(root)
+    yield from length_problems(root)
     yield from citation_problems(root, sources)
     yield from command_problems(root, documents)
     yield from test_name_problems(root, documents)
