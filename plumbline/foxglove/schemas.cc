@@ -160,7 +160,7 @@ std::vector<MessageRow> WorldMessages() {
 }
 
 // What the page needs beside the image; docs/viewer.md explains every field.
-std::vector<MessageRow> UpdateMessages() {
+std::vector<MessageRow> RunMessages() {
   return {
       {"Stage", {{"name", 1, kString}, {"milliseconds", 2, kDouble}}},
       {"Frame",
@@ -205,6 +205,12 @@ std::vector<MessageRow> UpdateMessages() {
         {"points", 5, kUint32},
         {"lines", 6, kUint32},
         {"moved", 7, kDouble}}},
+  };
+}
+
+// The rest of it: what changed in the map, and the message that all of them come in.
+std::vector<MessageRow> MapMessages() {
+  return {
       {"MapDelta",
        {{"map", 1, kUint32},
         {"from", 2, kUint64},
@@ -230,6 +236,8 @@ std::vector<MessageRow> UpdateMessages() {
 }
 
 std::vector<FileRow> Files() {
+  std::vector<MessageRow> update = RunMessages();
+  for (MessageRow& message : MapMessages()) update.push_back(std::move(message));
   std::vector<MessageRow> foxglove = GeometryMessages();
   for (const auto& part : {CameraMessages(), WorldMessages()}) {
     foxglove.insert(foxglove.end(), part.begin(), part.end());
@@ -240,7 +248,7 @@ std::vector<FileRow> Files() {
           {"plumbline/update.proto",
            "plumbline",
            {timestamp, "foxglove/messages.proto"},
-           UpdateMessages()}};
+           std::move(update)}};
 }
 
 ProtobufWriter Describe(const FieldRow& row) {
