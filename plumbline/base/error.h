@@ -44,12 +44,16 @@ class [[nodiscard]] Expected {
  public:
   Expected(T value) : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT
   Expected(E error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT
+  // Whether there is a value.
   explicit operator bool() const { return state_.index() == 0; }
+  // The value; BugError where there is none.
   const T& operator*() const& {
     PLUMBLINE_CHECK(state_.index() == 0, "value of a failed Expected");
     return std::get<0>(state_);
   }
+  // A member of the value; BugError where there is none.
   const T* operator->() const { return &**this; }
+  // Why there is no value; BugError where there is one.
   const E& error() const {
     PLUMBLINE_CHECK(state_.index() == 1, "error of a successful Expected");
     return std::get<1>(state_);

@@ -17,6 +17,7 @@
 // What good line cutting starts from and gives (cut_lines.h), and the options of it.
 namespace plumbline {
 
+// How the cuts of all lines are looked for.
 enum class CuttingMethod {
   kNone,          // full length
   kGreedy,        // Algorithm 1: one line after the other, once
@@ -24,6 +25,7 @@ enum class CuttingMethod {
   kJoint,         // all ratios at once, gradient ascent from full length
   kDrop,          // leave out the most uncertain lines, keep the others whole
 };
+// How the information of the pose, which cutting maximizes, counts the two cut points of a line.
 enum class CuttingInformation {
   kIndependent,  // J^T W J, the two cut points taken as independent, as the paper does
   kPrinted,      // second paper, eq 5 to the letter
@@ -43,6 +45,7 @@ constexpr auto EnumNames(std::type_identity<CuttingInformation>) {
                     std::pair{CuttingInformation::kCorrelated, "correlated"}};
 }
 
+// Settings of CutLines and, for the budget, of ChooseFeatures.
 struct CuttingOptions {
   CuttingMethod method = CuttingMethod::kNone;
   CuttingInformation information = CuttingInformation::kIndependent;
@@ -78,11 +81,13 @@ struct CuttableLine {
   double sigma_px = 1;               // of the measured line across itself; greater than 0
 };
 
+// All that CutLines has to know of one frame: its camera, its lines, and what else fixes the pose.
 struct CuttingProblem {
   RectifiedCamera camera;
   std::vector<CuttableLine> lines;
-  // Of everything else that fixes the pose, above all points: J^T W J in whitened residuals for the
-  // left perturbation exp([rotation, translation]) cam_from_world. Constant in the cutting (eq. 7).
+  // The information of everything else that fixes the pose, above all points: J^T W J in whitened
+  // residuals for the left perturbation exp([rotation, translation]) cam_from_world. It does not
+  // change with the cuts (eq. 7).
   Matrix6d other_information = Matrix6d::Zero();
 };
 
@@ -92,6 +97,7 @@ struct LineCut {
   double first = 0, second = 1;
   bool used = true;  // false: left out (drop)
 
+  // Equal bit by bit.
   bool operator==(const LineCut&) const = default;
 };
 
@@ -99,10 +105,11 @@ struct LineCut {
 // of few lines stay regular, others do not notice.
 inline constexpr double kPriorInformation = 1e-6;
 
+// The point that divides a segment at a ratio: 0 is its start, 1 its end.
 inline Eigen::Vector3d PointAt(const Segment3& segment, double ratio) {
   return (1 - ratio) * segment.start + ratio * segment.end;
 }
-// The piece that is left.
+// The piece of a segment that a cut leaves.
 inline Segment3 CutSegment(const Segment3& segment, const LineCut& cut) {
   return {PointAt(segment, cut.first), PointAt(segment, cut.second)};
 }

@@ -45,6 +45,7 @@ struct RelativeWindow {
   int frames = 0;                            // > 0: rows of the estimate instead
 };
 
+// How CompareTrajectories aligns, associates and windows.
 struct TrajectoryErrorOptions {
   TrajectoryAlignment alignment = TrajectoryAlignment::kSe3;
   TrajectoryAssociation association = TrajectoryAssociation::kInterpolate;
@@ -53,13 +54,14 @@ struct TrajectoryErrorOptions {
   RelativeWindow window = {};
 };
 
-// Of a set of non-negative errors. The median of an even number is the mean of the middle two.
+// What a set of non-negative errors comes to. The median of an even number of them is the mean of
+// the middle two.
 struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = 0, mean = 0, median = 0, max = 0;
 };
 
-// nullopt for no errors.
+// The statistics of some errors; nullopt where there are none. O(n).
 std::optional<ErrorStatistics> StatisticsOf(std::vector<double> errors);
 
 // A pose of the estimate beside the reference at that time.
@@ -79,6 +81,7 @@ struct RelativeError {
   double rotation = 0;           // radians per second
 };
 
+// All that CompareTrajectories finds out.
 struct TrajectoryError {
   std::size_t estimated = 0;                   // poses of the estimate
   Similarity3 reference_from_estimate;         // the alignment

@@ -10,12 +10,14 @@
 
 namespace plumbline {
 
+// A line of one set and the line of the other set that is taken for the same one.
 struct LineMatch {
-  int a = -1;  // index into the first set
-  int b = -1;  // index into the second set
-  int distance = 256;
+  int a = -1;          // index into the first set
+  int b = -1;          // index into the second set
+  int distance = 256;  // bits in which the two descriptors differ
 };
 
+// What two lines must have in common to be matched.
 struct LineMatchOptions {
   int max_distance = 80;      // Hamming, of 256 bits
   double ratio = 0.9;         // best / second best must be below; 1: no test
@@ -23,7 +25,7 @@ struct LineMatchOptions {
   double max_angle_deg = 20;  // difference of the directions (lines are directed: up to 180)
   double max_offset_px = 80;  // distance of the midpoint of one from the line of the other
   double max_shift_px = 120;  // distance of the midpoints minus half of both lengths; 0: no test
-  double min_length_ratio = 0.3;
+  double min_length_ratio = 0.3;  // length of the shorter one / length of the longer one
 };
 
 // Whether a and b may be the same line by their places in two images of near viewpoints.
@@ -35,8 +37,10 @@ std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const std::vector<LineFeature>& b,
                                   const LineMatchOptions& options);
 
+// What the two lines of a rectified pair must have in common to be matched.
 struct StereoLineOptions {
-  // Of every disparity, from the pair's calibration, relative to the width of the image.
+  // Deviation that the calibration of the pair adds to every disparity, relative to the width of
+  // the image.
   double calibration_sigma = 8e-4;
   int max_distance = 80;
   double ratio = 0.9;
@@ -58,6 +62,7 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
                                                        const std::vector<LineFeature>& right,
                                                        const StereoLineOptions& options);
 
+// The disparities of the two end points of a left line.
 struct LineEndDisparity {
   Disparity start, end;
 };

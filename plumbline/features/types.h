@@ -18,6 +18,7 @@ namespace plumbline {
 // A 256-bit binary descriptor: ORB for points, LBD for lines.
 using Descriptor = std::array<std::uint64_t, 4>;
 
+// The number of bits in which two descriptors differ, 0 to 256.
 inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
   return CountBits(Descriptor{a[0] ^ b[0], a[1] ^ b[1], a[2] ^ b[2], a[3] ^ b[3]});
 }

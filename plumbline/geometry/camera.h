@@ -24,6 +24,7 @@ struct CameraIntrinsics {
   DistortionModel model = DistortionModel::kNone;
   std::array<double, 5> distortion{};
 
+  // Equal number by number.
   friend bool operator==(const CameraIntrinsics&, const CameraIntrinsics&) = default;
 };
 
@@ -33,6 +34,7 @@ struct CameraIntrinsics {
 // that two rays share a pixel. Both directions of the mapping end where it stops being monotonic.
 class Camera {
  public:
+  // Derivative of a pixel by the point that it shows.
   using ProjectionJacobian = Eigen::Matrix<double, 2, 3>;
 
   // A placeholder: f = 1, one pixel, no distortion.
@@ -51,20 +53,27 @@ class Camera {
   // steps in two dimensions. nullopt when there is none within the invertible domain.
   std::optional<Eigen::Vector3d> Unproject(const Eigen::Vector2d& px) const;
 
-  // The same between coordinates on the plane z = 1 before (ideal) and after (distorted) the lens.
+  // Where the lens moves a point of the plane z = 1. nullopt beyond the invertible domain.
+  // `jacobian`, where given, becomes d(distorted)/d(ideal).
   std::optional<Eigen::Vector2d> Distort(const Eigen::Vector2d& ideal,
                                          Eigen::Matrix2d* jacobian = nullptr) const;
+  // The point of the plane z = 1 that the lens moves to `distorted`; nullopt as of Unproject.
   std::optional<Eigen::Vector2d> Undistort(const Eigen::Vector2d& distorted) const;
 
+  // The numbers that the camera was made of.
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
+  // Columns of the image.
   int width() const { return intrinsics_.width; }
+  // Rows of the image.
   int height() const { return intrinsics_.height; }
   // True when every coefficient is zero or the model is kNone. (All-zero kEquidistant does bend.)
   bool IsIdeal() const;
+  // Whether a pixel lies between the centres of the outermost pixels, these included.
   bool Contains(const Eigen::Vector2d& px) const {
     return px.x() >= 0 && px.y() >= 0 && px.x() <= width() - 1 && px.y() <= height() - 1;
   }
 
+  // Equal number by number.
   friend bool operator==(const Camera& a, const Camera& b) {
     return a.intrinsics_ == b.intrinsics_;
   }

@@ -41,6 +41,7 @@ inline Rigid3 RightCamera(const RectifiedCamera& camera, const Rigid3& left_from
 std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera,
                                                    const LineView& view);
 
+// What TriangulateLine asks of the views.
 struct LineTriangulationOptions {
   double min_plane_angle = 0.02;
   double max_residual_sigma = 3;
@@ -64,6 +65,7 @@ void VisitFields(Visitor&& visit, LineTriangulationOptions& o) {
         Range{0, 100});
 }
 
+// Why TriangulateLine gives no line.
 enum class LineTriangulationFailure {
   kTooFewViews,
   kEmptySegment,       // of zero length
@@ -73,6 +75,7 @@ enum class LineTriangulationFailure {
   kSingular,           // through the centre of the camera or the world's origin
 };
 
+// A line made of views, and how well they agree on it.
 struct TriangulatedLine {
   LineEstimate estimate;  // in the world, directed as the first view's segment
   double chi2 = 0;        // sum of squared end point distances over their variances
@@ -88,7 +91,7 @@ struct TriangulatedLine {
 // from the reprojected line (eq. 13), whose normal matrix gives the covariance. The paper's test
 // m.d < 0.01 is met by any two planes; the reprojection into every view stands in its place.
 //
-// O(n^2) for the angle, else O(n).
+// Cost: O(n^2) for the angle, else O(n).
 Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
     const RectifiedCamera& camera,
     std::span<const LineView> views,

@@ -23,7 +23,9 @@ struct PluckerLine {
   Eigen::Vector3d Foot() const { return direction.cross(moment); }
   // Parameter of the point of the line nearest to `point`: Foot() + parameter * direction.
   double ParameterOf(const Eigen::Vector3d& point) const { return direction.dot(point); }
+  // The point `parameter` metres from the foot, along the direction.
   Eigen::Vector3d PointAt(double parameter) const { return Foot() + parameter * direction; }
+  // Distance of a point from the infinite line, metres.
   double DistanceTo(const Eigen::Vector3d& point) const {
     return (point.cross(direction) - moment).norm();
   }
@@ -50,8 +52,10 @@ struct OrthonormalLine {
   Eigen::Matrix<double, 6, 1> Homogeneous() const;
 };
 
-// A line through the origin (m = 0) gets an arbitrary but repeatable u1 normal to d.
+// The orthonormal form of a line. A line through the origin (m = 0) gets an arbitrary but
+// repeatable u1 normal to d.
 OrthonormalLine ToOrthonormal(const PluckerLine& line);
+// The line that an orthonormal form stands for, with a direction of length 1.
 PluckerLine ToPlucker(const OrthonormalLine& line);
 
 // U <- U Exp(delta.head<3>()), w turned by delta(3) (section 3.1).
@@ -70,7 +74,7 @@ OrthonormalLine RetractStraight(const OrthonormalLine& line, const Eigen::Vector
 // d(m, d)/d(delta) at delta = 0 of the homogeneous 6-vector (eq. 19 with w21 in place of w12).
 Eigen::Matrix<double, 6, 4> HomogeneousJacobian(const OrthonormalLine& line);
 
-// The same for RetractLeft(): [ -[w1 u1]x , -w2 u1 ; -[w2 u2]x , w1 u2 ].
+// d(m, d)/d(delta) at delta = 0 for RetractLeft(): [ -[w1 u1]x , -w2 u1 ; -[w2 u2]x , w1 u2 ].
 Eigen::Matrix<double, 6, 4> LeftHomogeneousJacobian(const OrthonormalLine& line);
 
 }  // namespace plumbline

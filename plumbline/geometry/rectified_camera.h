@@ -32,8 +32,11 @@ struct RectifiedCamera {
   Eigen::Vector3d Unproject(const Eigen::Vector2d& px) const {
     return {(px.x() - cx) / fx, (px.y() - cy) / fy, 1.0};
   }
+  // Disparity in pixels of a point at depth z > 0.
   double DisparityFromDepth(double z) const { return fx * baseline / z; }
+  // Depth of a point with a disparity in pixels, greater than 0.
   double DepthFromDisparity(double disparity) const { return fx * baseline / disparity; }
+  // Whether a pixel is at least `border` pixels inside the centres of the outermost pixels.
   bool Contains(const Eigen::Vector2d& px, double border = 0) const {
     return px.x() >= border && px.y() >= border && px.x() <= width - 1 - border &&
            px.y() <= height - 1 - border;

@@ -7,7 +7,9 @@
 
 namespace plumbline {
 
+// A tangent of SE(3), [rotation(3), translation(3)].
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+// A covariance, information or Jacobian of tangents of SE(3).
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // [v]x, the matrix with [v]x w = v x w.
@@ -25,6 +27,7 @@ Eigen::Vector3d LogSo3(const Eigen::Quaterniond& q);
 
 // Left Jacobian of SO(3): Exp(w + dw) = Exp(LeftJacobianSo3(w) dw) Exp(w) to first order.
 Eigen::Matrix3d LeftJacobianSo3(const Eigen::Vector3d& w);
+// The inverse of LeftJacobianSo3(w).
 Eigen::Matrix3d InverseLeftJacobianSo3(const Eigen::Vector3d& w);
 
 // A rigid motion b_from_a: p_b = rotation * p_a + translation. The seven numbers are contiguous in
@@ -35,16 +38,20 @@ struct Rigid3 {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 
+  // A point of frame a, in frame b.
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
     return rotation * point + translation;
   }
+  // b_from_x of b_from_a and a_from_x.
   Rigid3 operator*(const Rigid3& a_from_x) const {
     return {(rotation * a_from_x.rotation).normalized(),
             rotation * a_from_x.translation + translation};
   }
+  // The motion as a matrix of homogeneous coordinates.
   Eigen::Matrix4d Matrix() const;
 };
 
+// a_from_b of b_from_a.
 inline Rigid3 Inverse(const Rigid3& b_from_a) {
   const Eigen::Quaterniond inverse = b_from_a.rotation.conjugate();
   return {inverse, -(inverse * b_from_a.translation)};
@@ -52,6 +59,7 @@ inline Rigid3 Inverse(const Rigid3& b_from_a) {
 
 // Exponential map of se(3); tangent = [rotation(3), translation(3)].
 Rigid3 ExpSe3(const Vector6d& tangent);
+// Inverse of ExpSe3, with a rotation part of at most pi.
 Vector6d LogSe3(const Rigid3& motion);
 
 // exp(tangent) * motion, the update of all pose optimization here.
@@ -59,8 +67,9 @@ inline Rigid3 RetractLeft(const Rigid3& motion, const Vector6d& tangent) {
   return ExpSe3(tangent) * motion;
 }
 
-// Left Jacobian of SE(3) for tangent = [rotation, translation], and its inverse.
+// Left Jacobian of SE(3) for tangent = [rotation, translation].
 Matrix6d LeftJacobianSe3(const Vector6d& tangent);
+// The inverse of LeftJacobianSe3(tangent).
 Matrix6d InverseLeftJacobianSe3(const Vector6d& tangent);
 
 // Adjoint: T exp(x) T^-1 = exp(Adjoint(T) x).

@@ -11,17 +11,24 @@ namespace plumbline {
 // A straight piece of a line with two end points. Segment2: pixels; Segment3: metres.
 template <int kDim>
 struct Segment {
+  // A point of the space that the segment is in.
   using Vector = Eigen::Matrix<double, kDim, 1>;
   Vector start = Vector::Zero();
   Vector end = Vector::Zero();
 
+  // Distance of the two ends.
   double Length() const { return (end - start).norm(); }
+  // Unit vector from start to end; not a number where they are equal.
   Vector Direction() const { return (end - start).normalized(); }
+  // The point half way between the ends.
   Vector Midpoint() const { return 0.5 * (start + end); }
+  // The segment from end to start.
   Segment Reversed() const { return {end, start}; }
 };
 
+// A segment in an image, pixels.
 using Segment2 = Segment<2>;
+// A segment in space, metres.
 using Segment3 = Segment<3>;
 
 // The infinite image line through a segment, l = (a, b, c) with a^2 + b^2 = 1, so that
@@ -51,6 +58,7 @@ double Distance(const Segment3& segment, const Eigen::Vector3d& point);
 struct Stretch {
   double from = 0, to = 0;
 
+  // Metres.
   double Length() const { return to - from; }
 };
 

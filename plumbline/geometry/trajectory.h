@@ -10,6 +10,7 @@
 
 namespace plumbline {
 
+// Where a camera was at one time.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   Rigid3 world_from_camera;
@@ -31,8 +32,8 @@ std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
                                         std::int64_t stamp_ns,
                                         std::int64_t max_difference_ns);
 
-// The same poses with time running backwards: a pose at t comes at mirror_ns - t. Twice is the
-// trajectory itself.
+// The trajectory with time running backwards: a pose at t comes at mirror_ns - t. Done twice, it
+// gives the trajectory itself.
 Trajectory TimeReversed(Trajectory trajectory, std::int64_t mirror_ns);
 
 // Sum of the distances between successive positions, metres.

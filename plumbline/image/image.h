@@ -16,19 +16,29 @@ template <class T>
 class Image {
  public:
   Image() = default;
+  // An image of this size with every pixel equal to `fill`.
   Image(int width, int height, T fill = T{})
       : width_(width),
         height_(height),
         pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}
 
+  // Columns.
   int width() const { return width_; }
+  // Rows.
   int height() const { return height_; }
+  // Whether there are no pixels.
   bool empty() const { return pixels_.empty(); }
+  // The pixels, width() * height() of them.
   T* data() { return pixels_.data(); }
+  // The pixels, width() * height() of them.
   const T* data() const { return pixels_.data(); }
+  // The pixels of row y, which is not checked.
   T* row(int y) { return pixels_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
+  // The pixels of row y, which is not checked.
   const T* row(int y) const { return pixels_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
+  // The pixel in column x of row y, which are not checked.
   T& at(int x, int y) { return row(y)[x]; }
+  // The pixel in column x of row y, which are not checked.
   const T& at(int x, int y) const { return row(y)[x]; }
 
  private:
@@ -37,6 +47,7 @@ class Image {
   std::vector<T> pixels_;
 };
 
+// Grey levels, 0 black to 255 white.
 using GrayImage = Image<std::uint8_t>;
 using DepthImage = Image<float>;  // metres along z; 0 where there is no measurement
 

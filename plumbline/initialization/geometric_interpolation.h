@@ -36,6 +36,7 @@ struct InterpolatedPoint {
 // between the lines, on which the paper decides (5 degrees), does not tell it.
 class GeometricInterpolation {
  public:
+  // For all features of these frames. Forms the essential matrices and their covariances once.
   explicit GeometricInterpolation(const InterpolationPoses& poses);
 
   //   reference, current  ideal image coordinates and the standard deviation of each
@@ -63,7 +64,7 @@ class GeometricInterpolation {
 
   Epipolar from_reference_;
   Epipolar from_current_;
-  // Of the left perturbations of between_from_reference and between_from_current.
+  // Covariances of the left perturbations of between_from_reference and between_from_current.
   Matrix6d reference_covariance_;
   Matrix6d current_covariance_;
   Matrix6d cross_covariance_;

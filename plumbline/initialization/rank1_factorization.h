@@ -21,6 +21,7 @@ struct Rank1View {
   std::vector<double> sigmas;
 };
 
+// Settings of FactorizeRank1.
 struct Rank1Options {
   int iterations = 5;  // of reweighting; 0: one plain factorization, as the paper
   // Rays nearer to the line of the centres than this say nothing of the length of the motion.
@@ -28,7 +29,8 @@ struct Rank1Options {
   double loss_width = 2.385;        // of the Cauchy loss, in standard deviations
 };
 
-// By row: what all points have in one coordinate of one frame lies side by side.
+// A matrix stored by rows, so that one coordinate of one frame has its numbers of all points side
+// by side.
 using Rank1Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Cameras and points that are rank one together.
@@ -74,13 +76,13 @@ class Rank1Matrix {
   Rank1Rows weights_;
 };
 
-// The leading pair of a dense matrix, centres (3m) times inverse distances (n), |centres| = 1, by
-// power iteration on the small Gram matrix. Sign: the majority of the inverse distances is
-// positive. O(9 m^2 n).
+// The leading pair of a dense matrix: centres (3m) times inverse distances (n), |centres| = 1. The
+// sign is that for which most inverse distances are positive.
 struct RankOne {
   Eigen::VectorXd centres;
   Eigen::VectorXd inverse_distances;
 };
+// Finds the leading pair by power iteration on the small Gram matrix. Cost: O(9 m^2 n).
 RankOne LeadingPair(const Rank1Rows& entries);
 
 // Solves for all centres and inverse distances at once (eq. 5).

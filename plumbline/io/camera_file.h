@@ -41,9 +41,10 @@ struct CameraFile {
   Calibration calibration;
   std::string source;
 };
+// Reads the file at a path; see CameraFile for errors.
 CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair = true);
 
-// The same for a path or, where there is no such file, the name of a built-in camera.
+// Reads the file at a path or, where there is none, the built-in camera of that name.
 CameraFile FindCamera(const std::string& path_or_name, bool use_pair = true);
 
 // The camera file that lies in a folder of images: camera.yaml or camchain.yaml, of any format.

@@ -21,6 +21,7 @@
 
 namespace plumbline {
 
+// What a frame consists of: one image, a stereo pair, or an image with depth.
 enum class SensorKind { kMono, kStereo, kRgbd };
 constexpr auto EnumNames(std::type_identity<SensorKind>) {
   return std::array{std::pair{SensorKind::kMono, "mono"},
@@ -28,7 +29,8 @@ constexpr auto EnumNames(std::type_identity<SensorKind>) {
                     std::pair{SensorKind::kRgbd, "rgbd"}};
 }
 
-// kStream is what a live source has in its place, and no format that anybody can ask for.
+// How a sequence is stored. kStream is what a live source has in its place, and no format that
+// anybody can ask for.
 enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo, kBag, kMcap, kStream };
 constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
   return std::array{std::pair{DatasetFormat::kEuroc, "euroc"},
@@ -74,15 +76,21 @@ struct DatasetInfo {
 // A recorded sequence: frames in time order, read on demand.
 class Dataset {
  public:
+  // Readers of formats derive from this class and say what they found out.
   explicit Dataset(DatasetInfo info) : info_(std::move(info)) {}
   Dataset(const Dataset&) = delete;
   Dataset& operator=(const Dataset&) = delete;
   virtual ~Dataset() = default;
 
+  // All that is known without reading images.
   const DatasetInfo& info() const { return info_; }
+  // The calibration of the cameras in use.
   const Calibration& calibration() const { return info_.calibration; }
+  // What the frames consist of.
   SensorKind sensor() const { return info_.sensor; }
+  // The number of frames.
   std::size_t size() const { return info_.stamps_ns.size(); }
+  // The time stamp of frame i < size(), nanoseconds.
   std::int64_t stamp_ns(std::size_t i) const { return info_.stamps_ns.at(i); }
 
   // Decodes frame i < size(). Fails, for this frame only, when an image is missing, cannot be
@@ -93,6 +101,7 @@ class Dataset {
   DatasetInfo info_;
 };
 
+// What to open a data set as, where it does not say so itself.
 struct DatasetOptions {
   std::optional<SensorKind> sensor = std::nullopt;     // nullopt: the richest the data offers
   std::optional<DatasetFormat> format = std::nullopt;  // nullopt: found out from the folder

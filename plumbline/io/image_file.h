@@ -37,10 +37,11 @@ Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& p
                                                   double factor,
                                                   std::optional<ImageSize> wanted = std::nullopt);
 
-// The same from the bytes of a file; `name` is for failures.
+// Decodes the bytes of a file as ReadGrayImage decodes the file; `name` is for failures.
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
                                                   std::optional<ImageSize> wanted = std::nullopt);
+// Decodes the bytes of a file as ReadDepthImage decodes the file; `name` is for failures.
 Expected<DepthImage, ImageFailure> DecodeDepthImage(const std::filesystem::path& name,
                                                     std::span<const std::uint8_t> bytes,
                                                     double factor,

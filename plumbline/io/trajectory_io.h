@@ -11,12 +11,14 @@
 
 namespace plumbline {
 
+// How the rows of a trajectory file are written.
 enum class TrajectoryFormat {
   kTum,    // `seconds tx ty tz qx qy qz qw`, blanks between, # comments
   kEuroc,  // CSV `nanoseconds,px,py,pz,qw,qx,qy,qz,...`; more columns are ignored
   kKitti,  // 12 numbers a row, a 3x4 matrix; times in a separate file
 };
 
+// A trajectory and how it was written.
 struct LoadedTrajectory {
   TrajectoryFormat format = TrajectoryFormat::kTum;
   Trajectory poses;  // of whatever frame the file is about, in time order
@@ -33,11 +35,13 @@ LoadedTrajectory ReadTrajectory(const std::filesystem::path& path);
 Trajectory ReadKittiPoses(const std::filesystem::path& path,
                           const std::vector<std::int64_t>& stamps_ns);
 
-// The times of a KITTI times.txt, seconds, one a row. Errors as above.
+// The times of a KITTI times.txt, seconds, one a row. Errors as of ReadTrajectory.
 std::vector<std::int64_t> ReadKittiTimes(const std::filesystem::path& path);
 
-// TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. No header.
+// A trajectory in TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. No header.
 std::string FormatTum(const Trajectory& trajectory);
+// Writes FormatTum(trajectory) to a file, whole or not at all. Throws InputError "cannot write
+// ...".
 void WriteTum(const std::filesystem::path& path, const Trajectory& trajectory);
 
 // Time stamp as seconds with 9 decimals, exact: 1305031102175304000 -> "1305031102.175304000".

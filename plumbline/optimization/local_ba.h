@@ -15,12 +15,13 @@
 
 namespace plumbline {
 
+// Settings of SolveLocalBa.
 struct LocalBaOptions {
   int rounds = 2;                    // of solve, then reject observations by chi2
   int max_iterations = 10;           // per round, accepted and rejected steps
   double function_tolerance = 1e-4;  // a round ends when the cost falls by less than this part
-  // The same for the rounds before the last, which are there to tell outliers. Where one of these
-  // changes none, the last is next. 0: all rounds are alike, and none is left out.
+  // function_tolerance of the rounds before the last, which are there to tell outliers. Where one
+  // of these changes none, the last is next. 0: all rounds are alike, and none is left out.
   double rejection_tolerance = 0;
   bool robust = true;             // Huber loss; false: squares in every round
   bool robust_last_round = true;  // false: squares in the last of several rounds
@@ -59,6 +60,7 @@ void VisitFields(Visitor&& visit, LocalBaOptions& o) {
         Range{1e-12, 1e6});
 }
 
+// Why the last round ended.
 enum class BaTermination {
   kConverged,      // the cost no longer falls
   kMaxIterations,  // the budget of the last round is used up
@@ -77,6 +79,7 @@ constexpr auto EnumNames(std::type_identity<BaTermination>) {
                     std::pair{BaTermination::kStopped, "stopped"}};
 }
 
+// What SolveLocalBa found, in the order of the problem.
 struct BaResult {
   std::vector<Rigid3> poses;  // cam_from_world; fixed ones are copied bit by bit
   std::vector<Eigen::Vector3d> points;

@@ -10,6 +10,7 @@
 
 namespace plumbline {
 
+// Settings of SolvePose.
 struct PoseOnlyOptions {
   int rounds = 4;                     // of solve, then classify inliers anew among all matches
   int robust_rounds = 2;              // the first of them use the Huber loss, the others squares
@@ -41,6 +42,7 @@ void VisitFields(Visitor&& visit, PoseOnlyOptions& o) {
   visit("gate_scale", o.gate_scale, "factor on the 95 % chi2 limits of inliers", Range{0.1, 100});
 }
 
+// What SolvePose found, in the order of the problem.
 struct PoseOnlyResult {
   Rigid3 cam_from_world;
   // J^T W J of the inliers and the prior at the solution, for the left perturbation [rotation,

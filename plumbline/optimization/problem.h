@@ -36,23 +36,26 @@ struct LineMeasurement {
 
 // Bundle adjustment as plain data: nothing here knows the map.
 struct BaProblem {
+  // The pose of a camera at the start.
   struct Pose {
     Rigid3 cam_from_world;
     bool fixed = false;
     bool follows = true;  // soon after the pose before it in time (HoldTornPoses)
   };
+  // A camera that shows a point; indices into `poses` and `points`.
   struct PointObservation {
     int pose = 0;
     int point = 0;
     PointMeasurement measurement;
   };
+  // A camera that shows a line; indices into `poses` and `lines`.
   struct LineObservation {
     int pose = 0;
     int line = 0;
     LineMeasurement measurement;
   };
-  // A line that is parallel to an axis, with either sense. Residual: the two components of the
-  // line's unit direction across the axis, over sigma.
+  // A line that is parallel to an axis, with either sense; indices into `axes` and `lines`.
+  // Residual: the two components of the line's unit direction across the axis, over sigma.
   struct ParallelLine {
     int axis = 0;
     int line = 0;
@@ -79,12 +82,15 @@ struct PosePrior {
 
 // Camera pose from landmarks that stay fixed.
 struct PoseProblem {
+  // A point of the map and where the frame shows it.
   struct PointMatch {
     Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
     PointMeasurement measurement;
-    // Of the point in the world, beside that of the measurement; zero where the place is known.
+    // Covariance of the point in the world, beside that of the measurement; zero where the place is
+    // known.
     Eigen::Matrix3d point_covariance = Eigen::Matrix3d::Zero();
   };
+  // A line of the map and where the frame shows it.
   struct LineMatch {
     PluckerLine line_in_world;
     LineMeasurement measurement;

@@ -27,6 +27,7 @@ constexpr auto EnumNames(std::type_identity<FrameStatus>) {
                     std::pair{FrameStatus::kSkipped, "skipped"}};
 }
 
+// All that is kept of one frame.
 struct FrameRecord {
   FrameId id;
   std::int64_t stamp_ns = 0;

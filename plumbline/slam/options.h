@@ -18,6 +18,7 @@
 
 namespace plumbline {
 
+// How the stages run: one after the other; in threads with the same results; or never waiting.
 enum class RunMode { kInline, kLockstep, kLive };
 constexpr auto EnumNames(std::type_identity<RunMode>) {
   return std::array{std::pair{RunMode::kInline, "inline"},
@@ -25,6 +26,7 @@ constexpr auto EnumNames(std::type_identity<RunMode>) {
                     std::pair{RunMode::kLive, "live"}};
 }
 
+// How the stages run, and what is random.
 struct ExecutionOptions {
   RunMode mode = RunMode::kLockstep;
   int seed = 0;

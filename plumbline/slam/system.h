@@ -67,6 +67,7 @@ class System {
   std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
   // What was loaded beside the maps; null where nothing was.
   const AtlasContext* loaded() const { return loaded_ ? &*loaded_ : nullptr; }
+  // Whether the maps stay as they were loaded.
   bool read_only() const { return read_only_; }
 
   // For measurements: what is compared with each keyframe, and what becomes of it. Before the first
@@ -83,6 +84,7 @@ class System {
                         Shed shed = Shed::kNothing) const {
     return front_end_.Measure(std::move(frame), std::move(clock), shed);
   }
+  // What came of a frame that was measured before; otherwise as Process.
   const FrameRecord& Track(MeasuredFrame frame);
   // A frame that could not be read, or was left out.
   const FrameRecord& Skip(std::int64_t stamp_ns,
@@ -125,12 +127,15 @@ class System {
   void Finish(const StopCheck& stop = {});
   static constexpr const char* kNotMapped = "not_mapped";
 
+  // The records of all frames so far.
   const FrameLog& frames() const { return frames_; }
   // Complete after Finish, and not to be asked for before but inline (BugError).
   const Atlas& atlas() const { return mapping_.atlas(); }
   // What the maps were made with, for SaveAtlas; like atlas().
   AtlasContext Context() const;
+  // The maps of the atlas by id; complete when atlas() is.
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
+  // The lines that took part in the adjustment at the end; complete when atlas() is.
   const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
   // What mapping remembers; like atlas().
   LocalMapper::State mapper_state() const { return mapping_.mapper_state(); }
@@ -139,9 +144,13 @@ class System {
   Session session() const;
   // What map files say of the session: version of the program, name of the data.
   void DescribeSession(const std::string& program, const std::string& data);
+  // The options that the system was made with.
   const SlamOptions& options() const { return options_; }
+  // Who does the work of a live run.
   const Execution& execution() const { return execution_; }
+  // The camera that all stages behind rectification see.
   const RectifiedCamera& camera() const { return rectifier().camera(); }
+  // What makes rectified images of those delivered.
   const Rectifier& rectifier() const { return front_end_.rectifier(); }
   // The last processed frame.
   const FrameView& view() const { return view_; }
@@ -156,7 +165,9 @@ class System {
   // Poses of the camera as delivered, after Finish; frames in order of time. `map` is one of
   // maps(); of causal poses also one that was joined with another since.
   Trajectory FinalTrajectory(MapId map) const;
+  // The poses of the keyframes alone, as of FinalTrajectory.
   Trajectory KeyFrameTrajectory(MapId map) const;
+  // Each pose as it was first reported.
   Trajectory CausalTrajectory(MapId map) const;
   // The lines of a map fit to be given out, in its world, after Finish (MakeLineMap); made when
   // first asked for, those found before `stop`.
