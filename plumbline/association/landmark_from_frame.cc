@@ -22,7 +22,7 @@ bool DepthIsKnown(const Disparity& disparity, double max_relative_sigma) {
 // Flatter lines have no depth that could be trusted alone.
 constexpr double kFlatAngleDeg = StereoLineOptions{}.flat_angle_deg;
 
-// Of the ends of a line that the right image shows, too.
+// The disparities of the ends of a line that the right image shows, too.
 std::optional<LineEndDisparity> MeasuredEnds(const Frame& frame,
                                              std::size_t i,
                                              double flat_angle_deg) {

@@ -91,8 +91,8 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             LineWeighting weighting,
                             LineMeasurement& measurement);
 
-// The same where the residuals are the distances of the projected ends (in the world, on the line)
-// from the measured line: first the covariance that the measured line gives them
+// Makes a measurement serve residuals that are the distances of the projected ends (in the world,
+// on the line) from the measured line: first the covariance that the measured line gives them
 // (ProjectedEndsCovariance), then, with information, what the uncertainty of the 3D line adds. For
 // scalar weighting the mean of the two variances; for none nothing changes.
 void UseProjectedEnds(const RectifiedCamera& camera,

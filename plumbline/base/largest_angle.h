@@ -14,7 +14,7 @@ class LargestAngle {
  public:
   // Whether atan2(across, along) is larger than all before, and than 0. across >= 0.
   bool Add(double across, double along) {
-    // Of two that are as good as equal, the rounded angles decide.
+    // Where two are as good as equal, the rounded angles decide.
     constexpr double kClearly = 1e-12;
     const double ahead = across * along_, behind = along * across_;
     if (ahead - behind < -kClearly * (std::abs(ahead) + std::abs(behind))) return false;

@@ -20,7 +20,7 @@ bool LogEnabled(LogLevel level);
 // Writes one line. Thread-safe.
 void LogText(LogLevel level, std::string_view text);
 
-// The same with fmt formatting, done only when the level is enabled:
+// Logs with fmt formatting, done only when the level is enabled:
 //   Log(LogLevel::kDebug, "keyframe {}: {} points", id, count);
 template <class... Args>
 void Log(LogLevel level, fmt::format_string<Args...> format, Args&&... args) {

@@ -56,7 +56,7 @@ class OptionTable {
 
   // Reads a YAML file of nested groups (`ba: {huber_px: 2}`); dotted keys are accepted as well.
   void LoadFile(const std::filesystem::path& path);
-  // The same from text; `source` stands for the file name in messages.
+  // Loads options from text; `source` stands for the file name in messages.
   void LoadText(const std::string& text, const std::string& source);
   // One setting "key=value".
   void Set(std::string_view assignment);

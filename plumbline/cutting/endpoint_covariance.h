@@ -20,7 +20,7 @@ Eigen::Matrix3d CovarianceFromInverseDepth(const RectifiedCamera& camera,
                                            double sigma_px,
                                            double sigma_inverse_depth);
 
-// The same for a point from a stereo pair or a depth image: the disparity fx * baseline / z is
+// Covariance of a point from a stereo pair or a depth image: the disparity fx * baseline / z is
 // known to sigma_disparity_px, so its inverse depth to sigma_disparity_px / (fx * baseline). The
 // camera's baseline must be positive.
 Eigen::Matrix3d CovarianceFromDisparity(const RectifiedCamera& camera,

@@ -161,7 +161,7 @@ std::optional<DisparityFit> FitTrack(const RectifiedCamera& camera,
   return FitDisparity(points, needed);
 }
 
-// Of the tracks on the line and beside it, the one on the nearest surface.
+// The track, among those on the line and beside it, that is on the nearest surface.
 std::optional<DisparityFit> NearestTrack(const RectifiedCamera& camera,
                                          const DepthImage& depth,
                                          const Segment2& segment,

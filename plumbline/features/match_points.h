@@ -40,8 +40,9 @@ struct StereoPointOptions {
   int window_px = 5;           // half width of the correlation window, finest level
   double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
   double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
-  // Of every disparity, from the pair's calibration, relative to the width of the image: errors of
-  // angles and of the lens are the same part of an image of any size (8e-4: 1 px of 1250).
+  // Deviation that the pair's calibration adds to every disparity, relative to the width of the
+  // image: errors of angles and of the lens are the same part of an image of any size (8e-4: 1 px
+  // of 1250).
   double calibration_sigma = 8e-4;
 };
 

@@ -17,7 +17,7 @@ inline Eigen::Matrix3d EssentialMatrix(const Rigid3& b_from_a) {
   return Skew(b_from_a.translation) * b_from_a.rotation.toRotationMatrix();
 }
 
-// The same for pixels (x, y, 1) of two rectified images.
+// The matrix F with x_b . F x_a = 0 for pixels (x, y, 1) of two rectified images.
 Eigen::Matrix3d FundamentalMatrix(const RectifiedCamera& camera, const Rigid3& b_from_a);
 
 // Squared Sampson distance of a match, px^2: the squared distance to the nearest pair of pixels

@@ -42,7 +42,7 @@ class FrameWindow {
   // image, those first that the newest frame shows, then those that most frames show.
   WindowTracks TracksOf(const std::vector<int>& frames, int max_points) const;
 
-  // The same as features of views, the reference being view 0: points and lines seen at least
+  // The tracks as features of views, the reference being view 0: points and lines seen at least
   // twice.
   std::vector<FeatureTrack> PointTracks(const std::vector<int>& frames) const;
   std::vector<FeatureTrack> LineTracks(const std::vector<int>& frames) const;

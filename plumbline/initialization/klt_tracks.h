@@ -48,7 +48,7 @@ class KltTracks {
   std::vector<std::optional<Eigen::Vector2d>> places_;
 };
 
-// Of a feature from the place it is taken for.
+// How far a feature may lie from the place of the point that it is taken for.
 inline constexpr double kAttachRadiusPx = 1.5;
 
 // The feature nearest to each place, no further than `radius_px` and each feature at most once (the

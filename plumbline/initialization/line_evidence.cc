@@ -20,11 +20,11 @@
 namespace plumbline {
 namespace {
 
-// Of the best explanation's direction, to either side.
+// How far the best explanation's direction is moved to either side, to find other minima.
 constexpr double kProbe = 2 * kSameDirection;
 
-// Of the lines of a solution, in the standard deviation that they are said to have: by the median
-// of their squared errors over their degrees of freedom.
+// The noise of the lines of a solution, in units of the standard deviation that they are said to
+// have. It is told by the median of their squared errors over their degrees of freedom.
 double LineNoiseOf(const std::vector<LineFit>& fits) {
   constexpr double kMedianOfChi2 = 0.839;  // of four degrees of freedom, over four
   std::vector<double> chi2;
@@ -65,7 +65,7 @@ std::vector<WindowSolution> Probes(const WindowTracks& tracks,
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(
       across.transpose() * covariance->poses.bottomRightCorner<3, 3>() * across);
   const Eigen::Vector3d weakest = across * spread.eigenvectors().col(1);
-  // Of all poses, with a unit step that way.
+  // How all poses move with a unit step along what is known least.
   const Eigen::VectorXd step = covariance->poses.rightCols<3>() * weakest / spread.eigenvalues()(1);
   std::vector<WindowSolution> probes;
   for (const double side : {-1.0, 1.0}) {

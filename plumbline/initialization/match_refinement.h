@@ -16,8 +16,8 @@ namespace plumbline {
 struct MatchRefinementOptions {
   int radius = 5;  // of the patch, in pixels of the feature's octave
   int max_iterations = 15;
-  // Of each of the two steps from where it begins: shifts alone begin at the guess, the affine map
-  // where these end. Pixels of the octave.
+  // How far each of the two steps may go from where it begins, in pixels of the octave: shifts
+  // alone begin at the guess, the affine map where these end.
   double max_shift_px = 1.5;
   double min_correlation = 0.8;  // of the patches, normalized, in the end
   // Smaller over larger eigenvalue of the patch's structure tensor; below, it is an edge and the
@@ -40,8 +40,9 @@ struct MatchRefinementOptions {
 //
 //   guesses  by feature of the reference, where the image should show it; nullopt: not looked for
 //   linear   derivative of the motion from reference to image pixels
-//   warps    by feature, what the map of its patch is that of the image times: where the search
-//            begins, such as that of the frame before, and what was found
+//   warps    by feature, a factor: the affine map of its patch is `linear` times this. It goes in
+//   as
+//            the start of the search, for instance that of the frame before, and comes out as found
 //   returns  by feature, the pixel in `image`; nullopt where the patch is an edge, leaves an image,
 //            ends too far from the guess or does not look the same there
 //   cost     some ten microseconds a feature

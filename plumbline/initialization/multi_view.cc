@@ -27,7 +27,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 // A hypothesis this much worse than the best before adjustment is not worth one.
 constexpr double kHopeless = 2;
-// Of a fit, of what the distances from the epipolar lines have: what these do not show is not less.
+// Least noise of a fit, in units of the noise that the distances from the epipolar lines have: what
+// these do not show is not less.
 constexpr double kLeastNoise = 0.4;
 
 std::vector<RayMatch> MatchesOfNewest(const WindowTracks& tracks) {
@@ -94,8 +95,8 @@ void AdjustAll(const WindowTracks& tracks, std::vector<Explanation>& explanation
   SortByCost(explanations);
 }
 
-// Of the matches, in the standard deviation that they are said to have: by the median distance from
-// the epipolar lines, which has one degree of freedom.
+// Noise of the matches, in units of the standard deviation that they are said to have: by the
+// median distance from the epipolar lines, which has one degree of freedom.
 double NoiseOf(const std::vector<RayMatch>& matches, const RelativePoseHypothesis& hypothesis) {
   constexpr double kMedianOfChi2 = 0.4549;
   std::vector<double> chi2;
@@ -107,7 +108,8 @@ double NoiseOf(const std::vector<RayMatch>& matches, const RelativePoseHypothesi
   return std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
 }
 
-// Of the depths of all points of the tracks; those without count as unknown.
+// Median of the deviations of the depths of all points of the tracks; those without one count as
+// unknown.
 double MedianDepthSigma(const WindowCovariance& covariance) {
   std::vector<double> sigmas = covariance.relative_depth_sigmas;
   for (double& sigma : sigmas) {

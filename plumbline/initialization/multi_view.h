@@ -18,16 +18,26 @@ namespace plumbline {
 struct WindowDecisionOptions {
   WindowFactorizationOptions factorization;
   RelativePoseOptions relative_pose;
-  int min_matches = 24;            // of the newest frame with the reference: points and lines ...
-  int min_points = 12;             // ... and of them points
-  double min_parallax_deg = 1.2;   // of the median point of the newest frame
-  double min_inlier_share = 0.85;  // of all matches of all views
-  double min_margin = 0.5;         // of chi2 to the next best explanation, of its own
-  double max_rotation_deg = 0.06;  // standard deviations promised for the newest pose ...
-  double max_direction_deg = 0.7;  // ... of the line of the centres ...
-  double max_depth = 0.06;         // ... and, relative, for the depth of the median point
-  double min_noise = 0.25;         // of what measurements are said to have, at least
-  int many_points = 200;           // with so many, lines are not asked
+  // Fewest matches of points and lines between the newest frame and the reference.
+  int min_matches = 24;
+  // Fewest points among these matches.
+  int min_points = 12;
+  // Least parallax of the median point of the newest frame.
+  double min_parallax_deg = 1.2;
+  // Least share of the matches of all views that fit.
+  double min_inlier_share = 0.85;
+  // By this part of its own chi2 the best explanation must be better than the next best.
+  double min_margin = 0.5;
+  // Largest standard deviations that the covariance may promise: of the rotation of the newest
+  // pose, of the direction of the line between the centres, and of the depth of the median point,
+  // relative.
+  double max_rotation_deg = 0.06;
+  double max_direction_deg = 0.7;
+  double max_depth = 0.06;
+  // Least noise that is assumed of measurements, relative to what they are said to have.
+  double min_noise = 0.25;
+  // With so many points lines are not asked.
+  int many_points = 200;
 };
 
 struct WindowDecision {

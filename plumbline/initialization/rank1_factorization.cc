@@ -17,7 +17,8 @@ namespace {
 
 // From the median of the length of a residual with two independent normal parts to their deviation.
 constexpr double kMedianToSigma = 1 / 1.1774;
-// Of what the noise was said to be: where the residuals are smaller still, none is an outlier.
+// Least spread of the residuals, in units of the noise that is assumed: where they are smaller
+// still, none is an outlier.
 constexpr double kMinSpread = 0.1;
 
 using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
@@ -166,8 +167,8 @@ void FixSign(RankOne& pair) {
   pair.inverse_distances = -pair.inverse_distances;
 }
 
-// Of the unweighted solution of the matrix with its columns scaled by what they are worth (which
-// leaves it rank one), so that rays near the epipole do not drown the others.
+// Centres of the unweighted solution of the matrix with its columns scaled by what they are worth
+// (which leaves it rank one), so that rays near the epipole do not drown the others.
 Eigen::VectorXd StartingCentres(const Rank1Matrix& matrix) {
   const Eigen::RowVectorXd worth = matrix.weights().colwise().mean().cwiseSqrt();
   return LeadingPair(matrix.entries() * worth.asDiagonal()).centres;

@@ -56,7 +56,7 @@ struct DepthRange {
   double furthest = 0;
 };
 
-// Of the points in the first view: where lines may be.
+// The depths of the points in the first view, between which lines may be.
 DepthRange LineDepths(const InitialMap& map) {
   DepthRange range{1e300, 0};
   for (const InitialPoint& point : map.points) {

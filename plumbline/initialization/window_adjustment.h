@@ -15,8 +15,8 @@ struct WindowFit {
   double cost = 0;
   int measurements = 0;  // that are summed, two coordinates each
   int inliers = 0;       // of them within max_chi2
-  // Of a measurement, in the standard deviation assumed: the root mean square of the errors, each
-  // limited as in `cost`, over the degrees of freedom that the parameters leave.
+  // Noise of a measurement in units of the standard deviation assumed: the root mean square of the
+  // errors, each limited as in `cost`, over the degrees of freedom that the parameters leave.
   double noise = 0;
 };
 

@@ -231,8 +231,8 @@ std::optional<Eigen::MatrixXd> InvertWithScaleHeld(Eigen::MatrixXd information,
          unit.cwiseInverse().asDiagonal();
 }
 
-// Of the depths, after a common factor was taken off: the mean of their logarithms, weighted so
-// that points too far away to have a depth do not set it.
+// Relative deviations of the depths, after a common factor was taken off: the mean of their
+// logarithms, weighted so that points too far away to have a depth do not set it.
 std::vector<double> RelativeDepthSigmas(std::size_t points,
                                         Depths depths,
                                         const Eigen::MatrixXd& poses) {
@@ -250,7 +250,7 @@ std::vector<double> RelativeDepthSigmas(std::size_t points,
   return sigmas;
 }
 
-// Of the poses; `depths`, where given, gets those of all points.
+// Covariance of the poses; `depths`, where given, gets the deviations of the depths of all points.
 std::optional<Eigen::MatrixXd> PoseCovariance(const WindowTracks& tracks,
                                               const WindowSolution& solution,
                                               double noise,

@@ -13,8 +13,8 @@ namespace plumbline {
 
 // How well a window of frames fixes its cameras and points, to first order.
 struct WindowCovariance {
-  // Of the left perturbations [rotation, translation] of all views, 6 by 6 for each; the scale of
-  // the whole is held.
+  // Covariance of the left perturbations [rotation, translation] of all views, 6 by 6 for each; the
+  // scale of the whole is held.
   Eigen::MatrixXd poses;
   // By point, of its depth in the reference over that depth once the scale of all points has been
   // brought to the true one; negative where the point is not known.

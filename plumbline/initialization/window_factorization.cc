@@ -19,7 +19,7 @@ namespace {
 // A point whose inverse distance is not above this part of the median is as good as infinitely far:
 // it is put there, where it still holds the rotations.
 constexpr double kFarthest = 0.02;
-// Of measurements that enter the covariance, in variances: 99.99 % of two degrees of freedom.
+// Largest chi2 of measurements that enter the covariance: 99.99 % of two degrees of freedom.
 constexpr double kMaxChi2 = 18.4;
 
 Rank1View ViewOf(const TrackedPoints& seen, const Rigid3& pose) {

@@ -39,8 +39,8 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
 // name: then also a power failure leaves the old one or the new one. Costs some milliseconds.
 enum class Durability { kProcess, kPower };
 
-// The same for files that other code writes by name: construct, let it write temporary_path(),
-// then Commit(). Without Commit the temporary file is removed.
+// An atomic write of files that other code writes by name: construct, let it write
+// temporary_path(), then Commit(). Without Commit the temporary file is removed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

@@ -46,7 +46,7 @@ class SectionReader {
   SectionReader(const std::filesystem::path& path, std::size_t preamble_bytes);
 
   const std::string& preamble() const { return preamble_; }
-  // Of what comes after the sections read so far.
+  // Bytes that come after the sections read so far.
   std::uint64_t remaining() const { return remaining_; }
   const std::string& source() const { return source_; }
 

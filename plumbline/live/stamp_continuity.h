@@ -18,7 +18,7 @@ class StampContinuity {
     std::optional<std::int64_t> jumped_back_ns;
   };
 
-  // Of the next frame.
+  // The stamp that the next frame gets, for the one that its source gave.
   Stamp Next(std::int64_t source_ns);
 
  private:

@@ -13,8 +13,8 @@ namespace plumbline {
 
 struct AlignmentResult {
   Similarity3 candidate_from_query;
-  // Of the left perturbation [rotation, translation, log scale]; without free scale the last row
-  // and column are zero. Multiplied by the mean squared residual where that is above 1.
+  // Covariance of the left perturbation [rotation, translation, log scale]; without free scale the
+  // last row and column are zero. Multiplied by the mean squared residual where that is above 1.
   Matrix7d covariance = Matrix7d::Zero();
   std::vector<bool> points, lines, sightings;  // that agree
   double variance_factor = 1;                  // mean squared whitened residual of what agrees

@@ -71,7 +71,7 @@ class LoopCloser {
   void Know(const LoopEdge& edge) { loops_.push_back(edge); }
 
   const std::vector<LoopEdge>& loops() const { return loops_; }
-  // Of the last call of Try, by candidate that was looked at.
+  // What came of the last call of Try, by candidate that was looked at.
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
 
   // Takes back a loop that proved wrong: it has no part in later corrections. What it ties in the

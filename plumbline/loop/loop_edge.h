@@ -55,8 +55,8 @@ struct LoopEdge {
   // lengths around its keyframe had then (KeyFrame::unit): no motion of a map changes it but one
   // that scales. Scale 1 where depth is measured.
   Similarity3 candidate_from_query;
-  // Of the left perturbation [rotation, translation, log scale] of candidate_from_query. Where
-  // depth is measured the last row and column are zero.
+  // Covariance of the left perturbation [rotation, translation, log scale] of candidate_from_query.
+  // Where depth is measured the last row and column are zero.
   Matrix7d covariance = Matrix7d::Zero();
   double query_unit = 1, candidate_unit = 1;  // KeyFrame::unit of then
   // Landmarks that are one: of the query's map and of the candidate's. Each appears once.

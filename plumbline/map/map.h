@@ -63,7 +63,7 @@ class Map {
   PointId NextPointId() const { return next_point_; }
   LineId NextLineId() const { return next_line_; }
 
-  // Of the disparities of all keyframes.
+  // The correction that the disparities of all keyframes have.
   const StereoCorrection& stereo_correction() const { return stereo_correction_; }
 
   // What is to be written down beside keyframes and landmarks; a MapBuilder makes the map of it.

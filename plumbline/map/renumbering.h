@@ -33,7 +33,7 @@ struct IdOffsets {
 // The offsets that bring ids behind all that a map has used; sessions stay.
 IdOffsets Behind(const Map& map);
 
-// The same map with other ids, also of what was removed or merged. Nothing else changes. Throws
+// The map with other ids, also of what was removed or merged. Nothing else changes. Throws
 // InputError where ids become greater than a map can have. O(observations).
 Map Renumbered(const Map& map, const IdOffsets& offsets);
 

@@ -21,10 +21,10 @@ MapEdit RemoveWeakLandmarks(const Map& map,
 // an octave coarser. The first keyframe, `centre` and the newest before it stay.
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
 
-// The same where a place is seen again: less of a keyframe's landmarks need be shown by others
-// (CleanupOptions::revisited_share), but of each by one that is of another visit, more than 20
-// keyframes before or after. The camera comes again and again and makes keyframes each time, and a
-// landmark is found again in some of them only: by the first rule alone there would be ever more.
+// Removes keyframes where a place is seen again: less of a keyframe's landmarks need be shown by
+// others (CleanupOptions::revisited_share), but of each by one that is of another visit, more than
+// 20 keyframes before or after. The camera comes again and again and makes keyframes each time, and
+// a landmark is found again in some of them only: by the first rule alone there would be ever more.
 // What too few keyframes show after that goes, too. Looks at the 30 closest keyframes.
 MapEdit RemoveRevisitedKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
 

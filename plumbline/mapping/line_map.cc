@@ -18,7 +18,7 @@
 namespace plumbline {
 namespace {
 
-// Of the supporting keyframes that have a point of the line in their image, how many must show it:
+// The share of the supporting keyframes with a point of the line in their image that must show it:
 // where fewer do, the line was prolonged over something that happens to lie in line with it.
 constexpr double kMinShownShare = 0.4;
 
@@ -134,8 +134,8 @@ Sightings FindSightings(const RectifiedCamera& camera,
   return found;
 }
 
-// Of the keyframes that have a part of a line in their image, from no further than the furthest
-// that shows it, the share that shows it: those beyond are likely to stand behind a wall.
+// The share of keyframes that show a part of a line, among those that have it in their image from
+// no further than the furthest that shows it: those beyond are likely to stand behind a wall.
 double FoundRatio(const ViewTree& views,
                   const RectifiedCamera& camera,
                   const Segment3& segment,

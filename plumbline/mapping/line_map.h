@@ -48,7 +48,7 @@ std::vector<MappedLine> MakeLineMap(const Map& map,
                                     const LineMapOptions& options,
                                     const StopCheck& stop = {});
 
-// The same with what the lines were made of.
+// FindWellSeenLines with what the lines were made of.
 std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
                                             const ImagingModel& imaging,
                                             const LineMapOptions& options,

@@ -198,7 +198,7 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   });
 }
 
-// The landmarks that an edit added are young from now on.
+// Counts the landmarks that an edit adds among the young ones, which have to prove themselves.
 void LocalMapper::Watch(const MapEdit& edit) {
   for (const MapChange& change : edit) {
     if (const auto* point = std::get_if<edit::AddPoint>(&change)) {

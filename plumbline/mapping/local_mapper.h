@@ -72,7 +72,7 @@ class LocalMapper {
   // of the camera.
   void StartNewMap(Map& map);
 
-  // Of all maps so far.
+  // The lines that took part in the adjustment of all maps so far.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
 
   // What is remembered from keyframe to keyframe. A mapper of the same options that is given the

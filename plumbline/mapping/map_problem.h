@@ -43,7 +43,7 @@ class MapProblemBuilder {
 
   void AddPose(KeyFrameId id, bool fixed);
 
-  // Of a landmark, ordered by keyframe. Valid until the next call.
+  // The views of a landmark, ordered by keyframe. Valid until the next call.
   const std::vector<View>& ViewsOf(const Observations& observations);
 
   // With its views, where there are two.

@@ -23,7 +23,7 @@ constexpr double kWellKnown = 1 * kRadians;
 constexpr double kNear = 2 * kRadians;
 constexpr std::size_t kMinLines = 5;
 constexpr std::size_t kMinViews = 3;
-// Of a larger map as many as a small one has tell its directions to a hundredth of a degree.
+// So many keyframes of a larger map tell its directions to a hundredth of a degree.
 constexpr std::size_t kMostKeyFrames = 200;
 constexpr std::size_t kMostLines = 1500;
 constexpr double kMaxChance = 0.005;

@@ -41,8 +41,8 @@ std::optional<LineDirection> DirectionOf(const PluckerLine& line,
 // covariance and ParallelSigma(), of those that agree with it by chi2 at 95 %. O(lines squared).
 std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& lines);
 
-// The same for the lines of a map that at least three keyframes show; in the world. The map
-// outlives the window of bundle adjustment: what it has seen before holds the heading. All such
+// The common directions of the lines of a map that at least three keyframes show; in the world. The
+// map outlives the window of bundle adjustment: what it has seen before holds the heading. All such
 // lines of a map of up to 200 keyframes and 1500 lines; of a larger one those that 200 keyframes
 // show, evenly spread over it, and 1500 of these. Cost: that of CommonDirections of so many.
 std::vector<CommonDirection> CommonDirections(const Map& map);

@@ -18,7 +18,7 @@ namespace plumbline {
 // grid, and for each range of directions, one bit a segment.
 class SegmentIndex {
  public:
-  // Of an image of width x height pixels with `count` segments, to be added.
+  // An empty index of an image of width x height pixels, to which `count` segments will be added.
   SegmentIndex(int width, int height, std::size_t count);
 
   void Add(std::size_t index, const Segment2& segment);

@@ -14,11 +14,11 @@
 namespace plumbline {
 namespace {
 
-// Of each coefficient, relative to the width of the image: a rig's angles and lenses are off by so
-// much whatever the number of pixels.
+// Prior deviation of each coefficient, relative to the width of the image: a rig's angles and
+// lenses are off by so much whatever the number of pixels.
 constexpr double kPriorSigma = 4e-4;
-// Of a single displacement, beside the error of its prediction: noise of the disparity, and what a
-// landmark's looks do to all its disparities alike.
+// Deviation of a single displacement, beside the error of its prediction: noise of the disparity,
+// and what a landmark's looks do to all its disparities alike.
 constexpr double kNoisePx = 0.5;
 constexpr double kHuber = 1.345;               // sigma
 constexpr double kMaxPredictionSigmaPx = 0.3;  // worse predictions tell nothing

@@ -173,7 +173,8 @@ class PairSearch {
   FreePoints free_in_b_;
 };
 
-// Of the points that a keyframe shows; nullopt where it shows none, or most lie behind it.
+// The median depth of the points that a keyframe shows; nullopt where it shows none, or most lie
+// behind it.
 std::optional<double> MedianDepth(const Map& map, const Frame& frame) {
   std::vector<double> depths;
   for (const PointId id : frame.points) {

@@ -26,7 +26,7 @@ struct PointEndsView {
   }
 };
 
-// The same with the four parameters of a line, the ends at fixed parameters along it.
+// A view of the ends of a line of four parameters, the ends at fixed parameters along it.
 struct LineEndsView {
   static constexpr int kDof = 4;
   Segment3 ends;

@@ -29,8 +29,8 @@ struct BaPoint {
   static constexpr int kDof = 3;
   using State = Eigen::Vector3d;
   using Term = PointTerm;
-  // Of a state, computed once for all its observations: what residuals need, and what their
-  // derivatives need as well.
+  // What is computed once for a state and serves all its observations: what residuals need, and
+  // what their derivatives need as well.
   using Place = Eigen::Vector3d;
   using View = Eigen::Vector3d;
 
@@ -116,9 +116,9 @@ struct BaLine : BaLineTerms<4> {
   static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
 };
 
-// The same four parameters turned about the axes of the frame (PPL-SLAM). Undamped steps are those
-// of BaLine to first order; the damping looks at other diagonal entries, and the step is taken
-// along the arc.
+// A line by four parameters that turn it about the axes of the frame (PPL-SLAM). Undamped steps are
+// those of BaLine to first order; the damping looks at other diagonal entries, and the step is
+// taken along the arc.
 struct BaLineLeft : BaLineTerms<4> {
   using State = OrthonormalLine;
 

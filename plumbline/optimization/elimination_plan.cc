@@ -27,7 +27,8 @@ double Multiplications(double pivots, double below) {
   return full(pivots + below) - full(below);
 }
 
-// The same with what is spent on moving the front's entries about, in multiplications.
+// Multiplications of a front, and what is spent on moving its entries about, counted as
+// multiplications.
 double Work(double pivots, double below) {
   constexpr double kMovingOneBlock = 2;
   const double rows = pivots + below;

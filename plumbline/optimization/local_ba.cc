@@ -20,7 +20,8 @@ constexpr double kMaxLambda = 1e10;
 // Below this damping a step is nearly that of Gauss-Newton, so that a small gain means convergence.
 constexpr double kSmallLambda = 1;
 
-// The poses, then for each axis the fixed pose of a frame whose z it is.
+// Makes the poses of the problem, and behind them one fixed pose for each axis: a frame that has
+// the axis as its z.
 std::vector<BaPose> MakePoses(const BaProblem& problem) {
   std::vector<BaPose> poses(problem.poses.size() + problem.axes.size());
   int free_index = 0;

@@ -38,7 +38,7 @@ class BlockCholesky {
   void Solve(Eigen::VectorXd& x) const;
 
  private:
-  // Of the dense matrix of a front the columns of its pivots; of those columns become L's.
+  // The columns of the pivots in the dense matrix of a front, which become those of L.
   struct Panel {
     Eigen::MatrixXd columns;
     std::vector<int> children;

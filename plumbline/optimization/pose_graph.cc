@@ -32,7 +32,7 @@ Matrix7d InverseLeftJacobian(const Vector7d& x) {
   return Matrix7d::Identity() - ad / 2 + squared / 12 - squared * squared / 720;
 }
 
-// Of the system: one for all poses that are tied to nothing, far below what any edge says.
+// Damping of the system, for poses that are tied to nothing. It is far below what any edge says.
 constexpr double kDamping = 1e-9;
 
 // One Gauss-Newton problem over the free poses; kSize degrees of freedom for each.
@@ -97,7 +97,8 @@ class System {
     return pattern;
   }
 
-  // Of the block that couples the poses of an edge; the lesser is -1 where one of them is fixed.
+  // Row and column of the block that couples the poses of an edge; the lesser is -1 where one of
+  // them is fixed.
   std::pair<int, int> Place(const PoseGraphEdge& edge) const {
     const int a = row_of_[Index(edge.to)];
     const int b = row_of_[Index(edge.from)];

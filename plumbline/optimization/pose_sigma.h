@@ -19,19 +19,19 @@ struct PoseSigma {
   double translation = 0;  // relative to the depth of the scene
   double scene_depth = 0;  // median of the landmarks; 0: there are none
 
-  // Both at most `limit`: the number counts of inliers cannot give. A hundred parallel lines leave
-  // the pose open, six in three directions fix it.
+  // Whether both deviations are at most `limit`. Counts of inliers do not tell it. A hundred
+  // parallel lines leave the pose open, six in three directions fix it.
   bool AtMost(double limit) const { return rotation <= limit && translation <= limit; }
 };
 
-// From the information of a left perturbation [rotation, translation] of cam_from_world, the
-// translation in the unit of scene_depth: the median depth of the landmarks, greater than 0 (with
-// any other depth the result is infinite). Having no unit, one limit serves a room, a road and a
-// map from one camera.
+// How well a pose is known, from the information of a left perturbation [rotation, translation] of
+// cam_from_world, the translation in the unit of scene_depth: the median depth of the landmarks,
+// greater than 0 (with any other depth the result is infinite). Having no unit, one limit serves a
+// room, a road and a map from one camera.
 PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth);
 
-// Of each pose of a problem from its observations, with all landmarks where they are; of `state`
-// only poses, points, lines and inliers are used.
+// How well each pose of a problem is known from its observations, with all landmarks where they
+// are; of `state` only poses, points, lines and inliers are used.
 std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state);
 
 // Marks the free poses as fixed that the observations in use do not fix to `limit`: whatever lets
@@ -60,10 +60,10 @@ BaResult SolveWithLoosePosesHeld(BaProblem& problem,
                                  double limit,
                                  const StopCheck& stop = {});
 
-// The same until no two poses that follow each other are torn apart (HoldTornPoses), up to four
-// times, the last time with all poses held. nullopt where the numbers are not finite, and when
-// stopped: a solution halfway is none. `normalize`, if any, is applied to each solution before it
-// is looked at. Cost: most often that of one SolveLocalBa, at most eight.
+// SolveWithLoosePosesHeld, again until no two poses that follow each other are torn apart
+// (HoldTornPoses), up to four times, the last time with all poses held. nullopt where the numbers
+// are not finite, and when stopped: a solution halfway is none. `normalize`, if any, is applied to
+// each solution before it is looked at. Cost: most often that of one SolveLocalBa, at most eight.
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,
                                         LineParametrization lines,

@@ -27,7 +27,7 @@ struct PoseLine {
   std::size_t group = 0;  // dense index
 };
 
-// Of the same match, for residuals of projected ends.
+// What a match needs beside PoseLine for residuals of projected ends.
 struct PoseLineEnds {
   Segment3 ends;  // in the world
   ProjectedEndsTerm term;
@@ -83,7 +83,7 @@ inline void AddPoint(const PointLinearization& a,
   eq.g.tail<3>() += q;
 }
 
-// The same of a point whose G is any matrix.
+// Adds a point whose G is any matrix.
 inline void AddPoint(const Eigen::Vector3d& r,
                      const Eigen::Matrix3d& G,
                      const Eigen::Vector3d& p,

@@ -21,7 +21,7 @@ namespace plumbline {
 
 // A line measurement ready for use.
 struct ProjectedEndsTerm {
-  // Of a point X of the measuring camera: distance = line . X / X.z, in pixels. Zero for a
+  // Gives the distance line . X / X.z of a point X of the measuring camera, in pixels. Zero for a
   // measurement without direction, which has no residual.
   Eigen::Vector3d line = Eigen::Vector3d::Zero();
   double w00 = 1, w10 = 0, w11 = 1;  // as in LineTerm

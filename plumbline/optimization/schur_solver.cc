@@ -7,7 +7,7 @@
 namespace plumbline {
 namespace {
 
-// Of these a dense factorization takes no longer.
+// Up to so many poses a dense factorization takes no longer than a sparse one.
 constexpr int kDensePoses = 200;
 
 }  // namespace

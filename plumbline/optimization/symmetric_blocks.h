@@ -18,7 +18,7 @@ class SymmetricBlocks {
   SymmetricBlocks(int rows, bool whole);
 
   bool whole() const { return whole_; }
-  // Of all that are kept, the diagonal included.
+  // The number of blocks that are kept, the diagonal included.
   std::size_t count() const { return blocks_.size(); }
   // The blocks that are kept stay so.
   void SetZero() { std::fill(blocks_.begin(), blocks_.end(), Matrix6d::Zero()); }

@@ -28,8 +28,8 @@ struct PlaceCandidate {
 // Keyframes by what they show: finds those that show the place of an image, without a vocabulary
 // and with nothing to load.
 //
-// Of each keyframe the strongest points and lines are kept as half of the bits of their descriptors
-// (Signature), and sorted into kTrees trees for each kind, which ask different bits
+// The index keeps the strongest points and lines of each keyframe as half of the bits of their
+// descriptors (Signature), and sorted into kTrees trees for each kind, which ask different bits
 // (SignatureTree): neighbours that differ in one of the bits that a tree asks meet in another one.
 // A feature of the image votes for the keyframes that have one in the leaf it falls into, in any
 // tree, with at most kPointReach or kLineReach bits that differ: for each keyframe once, by how
@@ -70,7 +70,7 @@ class PlaceIndex {
                                     std::size_t most,
                                     const std::function<bool(KeyFrameId)>& allowed) const;
 
-  // The same for what a keyframe of the index shows, as it is kept there. BugError where it is not.
+  // Asks for what a keyframe of the index shows, as it is kept there. BugError where it is not.
   std::vector<PlaceCandidate> Query(KeyFrameId id,
                                     std::size_t most,
                                     const std::function<bool(KeyFrameId)>& allowed) const;

@@ -16,7 +16,8 @@ namespace plumbline {
 using Signature = std::array<std::uint32_t, 4>;
 inline constexpr int kSignatureBits = 128;
 
-// Of a point's descriptor (ORB) and of a line's (LBD). Cost: a tenth of a microsecond.
+// The signature of a point's descriptor (ORB), and that of a line's (LBD). Cost: a tenth of a
+// microsecond.
 Signature PointSignature(const Descriptor& descriptor);
 Signature LineSignature(const Descriptor& descriptor);
 

@@ -39,7 +39,7 @@ class SignatureTree {
   // are more than kTooCommon: what looks the same everywhere tells nothing. Valid until the next
   // change.
   std::span<const FeatureName> Alike(const Signature& signature) const;
-  // The same of many signatures, in less time: all of them go down the tree side by side, so that
+  // Alike of many signatures, in less time: all of them go down the tree side by side, so that
   // the processor waits for the nodes of several at once.
   std::vector<std::span<const FeatureName>> Alike(std::span<const Signature> signatures) const;
 

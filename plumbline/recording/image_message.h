@@ -24,7 +24,7 @@ struct ImageMessage {
   std::int64_t stamp_ns = 0;  // of the sensor; 0 where it was not set
   bool compressed = false;    // `data` is an image file
   std::string encoding;       // "mono8", "bgr8"; of a compressed one its format: "jpeg"
-  // Of images that are not compressed: pixels, and bytes from row to row.
+  // Size of images that are not compressed, in pixels, and bytes from row to row.
   std::uint32_t width = 0, height = 0, step = 0;
   bool big_endian = false;
   std::span<const std::uint8_t> data;  // of the message that was parsed

@@ -294,7 +294,7 @@ Json Scene(const System& system, const Dataset& dataset) {
           {"main", scene.main ? Json(*scene.main) : Json(nullptr)},
           {"maps", std::move(maps)},
           {"events", Events(scene)},
-          // Of the image plane at unit depth: left, top, right, bottom.
+          // Where the image plane at unit depth ends: left, top, right, bottom.
           {"frustum",
            {-camera.cx / camera.fx,
             -camera.cy / camera.fy,

@@ -71,7 +71,7 @@ void RunJournal::WriteFiles(RunFolder& folder) {
   for (auto map = maps_.begin(); map != maps_.end(); ++map) {
     if (map != main) write(TrajectoryNames(map->first).keyframes, map->second.keyframes);
   }
-  // Of a map that has become the main one since.
+  // The file of a map that has become the main one since is not wanted any more.
   std::error_code ignored;
   for (const std::string& name : written_) {
     if (!names.contains(name)) std::filesystem::remove(folder.part() / name, ignored);

@@ -34,7 +34,7 @@ class RunJournal {
 
   // Writes all there is. Returns why that failed, once; later calls try again and return nothing.
   std::optional<std::string> Write(RunFolder& folder);
-  // The same when the last time is long enough ago that writing takes little of the time: 1 to 8 s.
+  // Writes when the last time is long enough ago that writing takes little of the time: 1 to 8 s.
   std::optional<std::string> WriteIfDue(RunFolder& folder, Clock::time_point now = Clock::now());
 
  private:

@@ -22,7 +22,8 @@ struct SampleImage {
   std::vector<Segment2> matched_lines, other_lines;
 };
 
-// Of a frame that has just been processed. Cost: encoding the image, some milliseconds.
+// Makes the sample of a frame that has just been processed. Cost: encoding the image, some
+// milliseconds.
 SampleImage MakeSampleImage(const FrameView& view, const std::string& file);
 
 }  // namespace plumbline

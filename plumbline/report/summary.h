@@ -40,7 +40,7 @@ RunCounts CountRun(const System& system);
 
 // Memory of a line landmark in bytes, mean; nullopt where there is none.
 struct LineMemory {
-  // Of the main map: place, information, looks and its list of observations.
+  // Bytes of a line in the main map: place, information, looks and its list of observations.
   std::optional<double> map;
   // In local bundle adjustment, over all windows of the run: parameters, observations and
   // equations.

@@ -11,7 +11,8 @@
 namespace plumbline {
 namespace {
 
-// Of the calling thread, among those of this program. A system that refuses leaves it as it is.
+// Lets the other threads of this program go before the calling one. Where the system refuses,
+// nothing changes.
 void LowerPriority() {
   constexpr int kLowest = 19;
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);

@@ -18,7 +18,7 @@ namespace plumbline {
 // Words that come again and again, each by a small number.
 class WordTable {
  public:
-  // Of a word that is new, the next one.
+  // The number of a word; a word that is new gets the next one.
   std::size_t NumberOf(const std::string& word);
   bool Contains(const std::string& word) const;
   std::size_t size() const { return words_.size(); }

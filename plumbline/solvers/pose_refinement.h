@@ -33,8 +33,8 @@ struct PoseRefinementOptions {
 
 struct RefinedPose {
   Rigid3 b_from_a;  // |translation| = 1
-  // Of (w, d) as above, from the inliers (chi2 at 95 %); that of w is zero with a known rotation.
-  // Infinite on the diagonal where the matches do not determine the pose.
+  // Covariance of (w, d) as above, from the inliers (chi2 at 95 %); that of w is zero with a known
+  // rotation. Infinite on the diagonal where the matches do not determine the pose.
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
   double cost = 0;  // sum of the loss
   int iterations = 0;
@@ -51,7 +51,7 @@ RefinedPose RefinePose(std::span<const RayMatch> matches,
                        const Rigid3& start,
                        const PoseRefinementOptions& options = {});
 
-// The same from a start that may lie in the basin of another minimum: where matches are wrong, a
+// Refines from a start that may lie in the basin of another minimum: where matches are wrong, a
 // loss that forgets them has several. From subsets of the inliers (they jump between the basins, as
 // the inner samples of LO-RANSAC do) to the one of least truncated cost. About 300 us.
 RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, Rng& rng);

@@ -24,7 +24,8 @@ constexpr double kSameRotation = 0.3 * kDegree;
 constexpr double kSameDirection = 3 * kDegree;
 // A hypothesis with fewer inliers, or points in front, than this part of the best one's is none.
 constexpr double kRivalPart = 0.7;
-// Of cost: what RANSAC hands on beside its best model. The refinement brings rivals together.
+// Models of up to this many times the least cost are handed on by RANSAC beside its best one. The
+// refinement brings rivals together.
 constexpr double kRivalCost = 1.25;
 // A plane with fewer than half of the inliers is not what decides: samples for half of them.
 constexpr int kMaxHomographies = 110;
@@ -164,7 +165,7 @@ void AddHomographies(std::span<const RayMatch> matches,
   if (best.empty() || problem.InlierRatio(best.front().model) < kPlanePart) return;
   for (const PlanarMotion& motion : MotionsFromHomography(best.front().model)) {
     const double length = motion.b_from_a.translation.norm();
-    // Of each pair with the opposite normal, the one whose plane is in front.
+    // Motions come in pairs with opposite normals; only the one whose plane is in front counts.
     if (!(length > 0) || motion.normal.dot(problem.MeanRay()) < 0) continue;
     list.Add(RelativePoseModel::kHomography,
              {motion.b_from_a.rotation, motion.b_from_a.translation / length});

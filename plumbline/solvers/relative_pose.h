@@ -27,8 +27,9 @@ struct RelativePoseHypothesis {
   int inliers = 0;
   int in_front = 0;  // inliers that triangulate in front of both cameras
   double cost = 0;   // sum over matches of min(chi2, gate)
-  // Of (w, d): rotation <- Exp(w) rotation, translation <- translation + BasisAcross(translation) d
-  // (pose_refinement.h). Infinite on the diagonal where the matches do not fix the pose.
+  // Covariance of (w, d): rotation <- Exp(w) rotation, translation <- translation +
+  // BasisAcross(translation) d (pose_refinement.h). Infinite on the diagonal where the matches do
+  // not fix the pose.
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
 };
 

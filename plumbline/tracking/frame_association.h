@@ -17,7 +17,8 @@ namespace plumbline {
 struct CandidatePoint {
   PointId id;
   PointModel model;
-  // Of the position, in the world; zero where it counts as known. (A line's is in its model.)
+  // Covariance of the position, in the world; zero where it counts as known. (A line's is in its
+  // model.)
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 struct CandidateLine {

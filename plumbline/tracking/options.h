@@ -22,17 +22,24 @@ constexpr auto EnumNames(std::type_identity<TrackingReference>) {
 
 struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
-  int min_inliers = 4;               // points + lines a pose near the predicted one needs ...
-  int min_unpredicted_inliers = 10;  // ... and one without prediction
-  int sure_inliers = 30;             // points + lines; with fewer ...
-  double min_inlier_ratio = 0.4;     // ... this part of the matched points must be inliers
-  double max_pose_sigma = 0.02;      // and to which they must fix it (PoseSigma)
-  double enough_pose_sigma = 0.002;  // from which on no more uncertain landmarks are tried
-  int enough_inliers = 60;           // and, points + lines, with which
-  double guess_pose_sigma = 0.01;    // up to which lines at the depth of the scene are not tried
-  int established_views = 3;         // keyframes that show a landmark which others cannot outvote
-  double motion_sigma = 5;           // change of the velocity [rad/s^2], [scene depths/s^2]
-  int min_initial = 60;              // points with depth + lines with depth that can start a map
+  // Fewest points and lines that a pose needs: one near the predicted pose, and one without
+  // prediction.
+  int min_inliers = 4;
+  int min_unpredicted_inliers = 10;
+  // A pose with fewer points and lines than these needs this part of the matched points.
+  int sure_inliers = 30;
+  double min_inlier_ratio = 0.4;
+  // A pose is accepted when its deviations (PoseSigma) are at most this.
+  double max_pose_sigma = 0.02;
+  // No landmarks of uncertain depth are searched for a pose that is known so well by so many.
+  double enough_pose_sigma = 0.002;
+  int enough_inliers = 60;
+  // No lines at a guessed depth are searched for a pose that is known so well.
+  double guess_pose_sigma = 0.01;
+  // Landmarks that so many keyframes show are not outvoted by others.
+  int established_views = 3;
+  double motion_sigma = 5;  // change of the velocity [rad/s^2], [scene depths/s^2]
+  int min_initial = 60;     // points with depth + lines with depth that can start a map
   double max_relative_depth_sigma = 0.05;       // of points made from one frame
   double max_relative_line_depth_sigma = 0.15;  // of the ends of lines, whose weights allow for it
   double worst_relative_depth_sigma = 0.3;      // the same when the first search finds too little

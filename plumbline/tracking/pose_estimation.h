@@ -13,7 +13,7 @@ namespace plumbline {
 
 struct PoseEstimate {
   Rigid3 cam_from_world;
-  // Of the inliers and the prior, left perturbation [rotation, translation].
+  // Information of the inliers and the prior about the left perturbation [rotation, translation].
   Matrix6d information = Matrix6d::Zero();
   double scene_depth = 0;  // median of the inliers
   PoseSigma sigma;         // of the two; infinite where they do not fix the pose

@@ -41,7 +41,7 @@ auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSn
   return match < 0 ? nullptr : InSnapshot(candidates[static_cast<std::size_t>(match)].id, snapshot);
 }
 
-// Of the matches alone.
+// Counts the matches; inliers are not known yet.
 FrameCounts CountsOf(const FrameMatches& matches) {
   return {.matched_points = matches.Points(), .matched_lines = matches.Lines()};
 }
