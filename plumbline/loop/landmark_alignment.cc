@@ -4,6 +4,7 @@
 
 #include "plumbline/association/line_information.h"
 #include "plumbline/association/measurements.h"
+#include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/loop/alignment_sample.h"

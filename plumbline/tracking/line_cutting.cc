@@ -4,6 +4,7 @@
 
 #include "plumbline/association/line_information.h"
 #include "plumbline/association/measurements.h"
+#include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/cutting/choose_features.h"
 #include "plumbline/cutting/cut_residuals.h"
