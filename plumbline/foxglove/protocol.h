@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// The messages of Foxglove's WebSocket protocol (github.com/foxglove/ws-protocol, docs/spec.md)
+// The messages of Foxglove's WebSocket protocol (github.com/foxglove/ws-protocol)
 // that a server of channels and services sends and gets. Nothing is published by clients.
 
 // Subprotocols that are understood, the best first; they agree in all that is used here.

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The Plumbline authors
+# SPDX-License-Identifier: Apache-2.0
+"""Looks at a run in a real browser (headless Chromium): image, map, pose, pause, a landmark, a keyframe, a
+slow connection, a run that begins anew.
+
+  page_test.py PROGRAM SEQUENCE FOLDER
+
+leaves screenshots in FOLDER. Exit status: 0 passed, 1 failed, 77 where there is no browser.
+"""
+import pathlib
+import shutil
+import socket
+import subprocess
+import sys
+import time
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+except ImportError:
+    sys.exit(77)
+
+PATIENCE = 120  # seconds until something is to be seen
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def start(program, sequence, port, out):
+    return subprocess.Popen([program, "run", sequence, "--view", str(port), "--out", str(out)],
+                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def open_browser():
+    options = webdriver.ChromeOptions()
+    for flag in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle",
+                 "--use-angle=swiftshader", "--window-size=1440,900", "--disable-dev-shm-usage"):
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+
+
+def wait(what, condition):
+    until = time.monotonic() + PATIENCE
+    while time.monotonic() < until:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.1)
+    sys.exit(f"page_test: waited in vain until {what}")
+
+
+# How many pixels of the camera's canvas have a colour: the image is grey, features are not.
+COLOURED = """
+const canvas = document.querySelector("#camera canvas");
+const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+let coloured = 0;
+for (let i = 0; i < data.length; i += 4) {
+  const low = Math.min(data[i], data[i + 1], data[i + 2]);
+  if (Math.max(data[i], data[i + 1], data[i + 2]) - low > 60) ++coloured;
+}
+return coloured;
+"""
+STATE = """
+const s = window.plumbline;
+return {updates: s.updates, session: s.session, frame: s.frame && (s.frame.number || 0),
+        pose: s.frame && s.frame.pose && s.frame.pose.position, points: s.map.points.count,
+        lines: s.map.lines.count, keyframes: s.map.keyframes.size, paused: Boolean(s.run && s.run.paused),
+        state: document.getElementById("state").textContent};
+"""
+
+
+def check_growth(browser, shot):
+    state = lambda: browser.execute_script(STATE)
+    wait("there is an image", lambda: state()["frame"] is not None)
+    coloured = wait("features are drawn", lambda: browser.execute_script(COLOURED))
+    assert coloured > 500, coloured
+    first = wait("there is a map", lambda: state()["keyframes"] > 2 and state())
+    shot("begin")
+    later = wait("the map grows", lambda: state()["keyframes"] > first["keyframes"] + 3 and state())
+    assert later["points"] > first["points"], (first, later)
+    assert later["lines"] > 0 and later["pose"] != first["pose"], (first, later)
+    assert later["state"].startswith("tracked"), later
+
+
+def check_pause(browser, shot):
+    state = lambda: browser.execute_script(STATE)
+    press = lambda text: browser.execute_script(
+        "[...document.querySelectorAll('button')].find((b) => b.textContent === arguments[0]).click()",
+        text)
+    press("Pause")
+    wait("the run is paused", lambda: state()["paused"])
+    time.sleep(1)  # what is on its way
+    before = state()["frame"]
+    press("Step")
+    wait("one more frame", lambda: state()["frame"] == before + 1)
+    time.sleep(0.5)
+    assert state()["frame"] == before + 1
+    # A point that the frame shows, clicked in the image.
+    browser.execute_script("""
+      const {frame} = window.plumbline, i = frame.pointIds.findIndex((id) => id >= 0);
+      choose({point: frame.pointIds[i]});""")
+    wait("somebody sees the point",
+         lambda: browser.execute_script("return document.querySelectorAll('#sight .strip canvas').length"))
+    shot("landmark")
+    browser.execute_script("openKeyframe([...window.plumbline.map.keyframes.keys()][1])")
+    wait("the keyframe has a picture", lambda: browser.execute_script(
+        "return document.querySelector('#keyframe .empty') && document.querySelector('#keyframe .empty').hidden"))
+    shot("keyframe")
+    browser.execute_script("document.getElementById('keyframe').close(); forget()")
+    press("Resume")
+    wait("the run goes on", lambda: state()["frame"] > before + 3)
+
+
+def check_slow_connection(browser):
+    # Bytes a second: less than the images need.
+    browser.set_network_conditions(offline=False, latency=200, upload_throughput=100_000,
+                                   download_throughput=100_000)
+    before = browser.execute_script(STATE)["updates"]
+    wait("updates come over a slow connection",
+         lambda: browser.execute_script(STATE)["updates"] > before + 3)
+    browser.delete_network_conditions()
+
+
+def main(program, sequence, folder):
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    if not shutil.which("chromedriver"):
+        return 77
+    port = free_port()
+    run = start(program, sequence, port, folder / "out")
+    browser = open_browser()
+    shot = lambda name: browser.save_screenshot(str(folder / f"page_{name}.png"))
+    try:
+        wait("the run listens", lambda: not socket.socket().connect_ex(("127.0.0.1", port)))
+        browser.get(f"http://127.0.0.1:{port}/")
+        check_growth(browser, shot)
+        check_pause(browser, shot)
+        check_slow_connection(browser)
+        session = browser.execute_script(STATE)["session"]
+        run.kill()
+        run.wait()
+        wait("the page notices", lambda: browser.execute_script(STATE)["state"] == "not connected")
+        run = start(program, sequence, port, folder / "out")
+        wait("the page shows the next run",
+             lambda: browser.execute_script(STATE)["session"] not in (None, session)
+             and browser.execute_script(STATE)["keyframes"] > 2)
+        shot("again")
+        errors = [entry for entry in browser.get_log("browser")
+                  if entry["level"] == "SEVERE" and "WebSocket" not in entry["message"]]
+        assert not errors, errors
+    finally:
+        browser.quit()
+        run.kill()
+        run.wait()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
