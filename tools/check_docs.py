@@ -105,7 +105,8 @@ def citation_problems(root, sources):
 def known_commands(root):
     """Subcommand -> text of the sources that parse its flags."""
     names = re.findall(r'Command\{"(\w+)"', (root / "apps/main.cc").read_text())
-    common = (root / "apps/command_line.cc").read_text()
+    # Flags that several commands have.
+    common = "".join((root / "apps" / file).read_text() for file in ("command_line.cc", "view_options.cc"))
     # The sources of `map` are map.cc and those of its own commands, map_info.cc and so on.
     files = {name: sorted((root / "apps").glob(f"{name}.cc")) +
              sorted((root / "apps").glob(f"{name}_*.cc")) for name in names}

@@ -44,7 +44,8 @@ LAYERS = {
                "slam"],
     "cutting_testbed": ["base", "geometry", "optimization", "cutting"],
     "experiments": ["base", "geometry", "image", "features", "map", "association", "initialization",
-                    "io", "slam", "starts", "worlds", "eval", "cutting", "cutting_testbed"],
+                    "optimization", "tracking", "io", "slam", "starts", "worlds", "eval", "report",
+                    "cutting", "cutting_testbed"],
 }
 # The modules that are not in plumbline/, and where they are. The product includes none of them, and the
 # worlds include nothing of the laboratory.
@@ -67,7 +68,7 @@ THIRD_PARTY = {
     "opencv2/": r"image/opencv_bridge\.h|"
                 r"(image|features|initialization|io|live|report|view)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
-    "yaml-cpp/": r"(base|io)/\w+\.cc",
+    "yaml-cpp/": r"((base|io)/\w+|lab/experiments/(printed_figures|gate))\.cc",
     "bzlib.h": r"recording/compression\.cc",
     "lz4": r"recording/compression\.cc",
     "zstd.h": r"(io/section_file|recording/(compression|mcap_file_writer))\.cc",

@@ -89,19 +89,24 @@ void AddLogDeterminants(const SceneOptions& options,
   steps.emplace_back([=, &out] { out.joint.push_back(TryJoint(options, repeats)); });
 }
 
-// The work as a list of steps, each of about a cell.
-Steps MakeSteps(int repeats, TestbedTrials& out) {
+void AddPosesAndChoices(int repeats, TestbedTrials& out, Steps& steps) {
   using enum SceneKind;
-  Steps steps;
-  for (const SceneOptions& options : Cells({kHomogeneousPoints, kInverseDepthPoints})) {
-    AddLogDeterminants(options, repeats, out, steps);
-  }
   for (const SceneOptions& options : Cells({kHomogeneousPoints, kInverseDepthPoints, kStereo})) {
     steps.emplace_back([=, &out] { out.poses.push_back(TryPoseCell(options, repeats)); });
   }
   for (const ChoiceOptions& options : {ChoiceOptions{5, 5, 6, true}, {100, 30, 40, false}}) {
     steps.emplace_back([=, &out] { out.choices.push_back(TryChoiceCell(options, repeats)); });
   }
+}
+
+// The work as a list of steps, each of about a cell.
+Steps MakeSteps(int repeats, TestbedParts parts, TestbedTrials& out) {
+  using enum SceneKind;
+  Steps steps;
+  for (const SceneOptions& options : Cells({kHomogeneousPoints, kInverseDepthPoints})) {
+    AddLogDeterminants(options, repeats, out, steps);
+  }
+  if (parts == TestbedParts::kAll) AddPosesAndChoices(repeats, out, steps);
   for (const double noise : {0.005, 0.015}) {
     steps.emplace_back([=, &out] {
       const SceneOptions options{kHomogeneousPoints, noise, 10};
@@ -123,9 +128,10 @@ std::string NameOf(const SceneOptions& options) {
 }
 
 TestbedTrials RunTestbed(int repeats,
+                         TestbedParts parts,
                          const std::function<bool(std::size_t, std::size_t)>& progress) {
   TestbedTrials out;
-  const Steps steps = MakeSteps(repeats, out);
+  const Steps steps = MakeSteps(repeats, parts, out);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     steps[i]();
     if (!progress(i + 1, steps.size())) break;

@@ -47,11 +47,18 @@ struct TestbedTrials {
   std::vector<SurfaceExample> surfaces;  // full length, piece, point
 };
 
+// Which of it.
+enum class TestbedParts {
+  kAll,
+  kFigures,  // Figures 2 to 4: single lines, joint optimizers, camera paths, surfaces
+};
+
 // `repeats` scenes for each kind, noise (0.005, 0.015; stereo 0.05, 0.15) and number of lines (6,
 // 10, 15, 20, 30; printed information: at most 20 scenes, one line of each). One thread; 100
 // repeats take some five minutes, most of it in Ipopt. `progress(done, total)` is called after each
 // cell; false ends the run, what is there so far is returned.
 TestbedTrials RunTestbed(int repeats,
+                         TestbedParts parts,
                          const std::function<bool(std::size_t, std::size_t)>& progress);
 
 }  // namespace plumbline

@@ -3,6 +3,7 @@
 #include "lab/experiments/catalog.h"
 
 #include "lab/experiments/computed.h"
+#include "lab/experiments/paper_catalog.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
 
@@ -276,10 +277,9 @@ Experiment MonocularRobustnessExperiment() {
   return experiment;
 }
 
-}  // namespace
-
-std::span<const Experiment> Experiments() {
-  static const std::array kExperiments = {
+// Experiments of our own, beside those of the papers.
+std::vector<Experiment> OwnExperiments() {
+  return {
       Experiment{
           .name = "sensors",
           .help = "points, lines and both together on every sequence there is",
@@ -316,6 +316,17 @@ std::span<const Experiment> Experiments() {
                       PointVariants(),
                       "points in an image"),
   };
+}
+
+}  // namespace
+
+std::span<const Experiment> Experiments() {
+  static const std::vector<Experiment> kExperiments = [] {
+    std::vector<Experiment> all = OwnExperiments();
+    for (Experiment& experiment : PaperExperiments()) all.push_back(std::move(experiment));
+    all.push_back(GateExperiment());
+    return all;
+  }();
   return kExperiments;
 }
 
@@ -327,6 +338,7 @@ const Experiment& FindExperiment(std::string_view name) {
   }
   for (const ComputedExperiment& experiment : ComputedExperiments())
     names += ", " + experiment.name;
+  for (const ExperimentGroup& group : ExperimentGroups()) names += ", " + group.name;
   throw InputError("there is no experiment " + InQuotes(name) + "; there are: " + names);
 }
 

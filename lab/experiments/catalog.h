@@ -29,8 +29,13 @@ struct Variant {
 struct SequenceChoice {
   std::string pattern;
   std::vector<std::string> world_settings = {};  // KEY=VALUE, as of plumbline synth --set
-  std::string label = {};  // for worlds with settings: the sequence is called worlds/NAME@label
+  std::string label =
+      {};  // the sequence is called FOLDER/NAME@label; worlds with settings need one
   std::vector<std::string> arguments = {};  // further arguments of the command on these
+  // A sequence of a paper: what the paper calls it, and where users get it. The name may then be
+  // followed by _firstN: a part of the sequence.
+  std::string paper = {};
+  std::string source = {};
 };
 
 // Of rendered worlds. Recorded sequences are taken as they are.
@@ -44,8 +49,18 @@ constexpr auto EnumNames(std::type_identity<WorldSize>) {
 
 // The command that makes the figures of a run.
 enum class RunCommandKind {
-  kRun,     // plumbline run
-  kStarts,  // plumbline starts
+  kRun,       // plumbline run
+  kStarts,    // plumbline starts
+  kComputed,  // plumbline experiment: computes by itself (computed.h)
+};
+
+// Plots that are made of the runs' folders, beside those of metrics.
+enum class PaperPlot {
+  kNone,
+  kRevisits,      // landmarks made at the beginning and at the end, from above (Figure 6)
+  kConvergence,   // errors by how long the start takes, and by points (Figure 8)
+  kTrajectories,  // paths beside the true one, from above (Figure 9)
+  kCutLines,      // images with the measured lines and the pieces that are left (Figure 5)
 };
 
 // Sequences whose starts are also taken together.
@@ -73,12 +88,28 @@ struct Experiment {
   // of the frames) count as failed, and a variant with more failed runs than this on a sequence has
   // no figures there but "-", as the second paper's tables have it.
   std::optional<int> tolerated_failures = {};
+  // Runs with --full, where these are more than `runs`.
+  std::optional<int> full_runs = {};
+  std::vector<std::string> test_arguments = {};  // of the command, without --full
+  bool exclusive = false;  // measures times: its runs have the machine for themselves
+  PaperPlot paper_plot = PaperPlot::kNone;
 };
 
-// The experiments there are. A new one is an entry here and nothing else.
+// The experiments there are. A new one is an entry here, or in paper_catalog.cc, and nothing else.
 std::span<const Experiment> Experiments();
 
 // Throws InputError for an unknown name, with the names there are.
 const Experiment& FindExperiment(std::string_view name);
+
+// Experiments under one name: all that reproduces a figure or a paper.
+struct ExperimentGroup {
+  std::string name;
+  std::string help;
+  std::vector<std::string> experiments;  // names of Experiments() and ComputedExperiments()
+};
+std::span<const ExperimentGroup> ExperimentGroups();
+
+// nullptr for an unknown name.
+const ExperimentGroup* FindExperimentGroup(std::string_view name);
 
 }  // namespace plumbline

@@ -11,6 +11,7 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,10 +19,14 @@ namespace plumbline {
 namespace {
 
 // Only what may be called between fork and exec.
-[[noreturn]] void Become(char* const* arguments, int log, pid_t parent) {
+[[noreturn]] void Become(char* const* arguments, int log, pid_t parent, rlim_t memory) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);  // it died before the line above
+  if (memory != RLIM_INFINITY) {
+    const rlimit limit{memory, memory};
+    ::setrlimit(RLIMIT_AS, &limit);
+  }
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   const int input = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -41,7 +46,8 @@ namespace {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command,
-                           const std::filesystem::path& log) {
+                           const std::filesystem::path& log,
+                           std::optional<int> memory_mb) {
   PLUMBLINE_CHECK(!command.empty(), "a program to start");
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
@@ -51,8 +57,9 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command,
   const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) FailStart("cannot write " + log.string());
   const pid_t parent = ::getpid();
+  const rlim_t memory = memory_mb ? static_cast<rlim_t>(*memory_mb) << 20 : RLIM_INFINITY;
   id_ = ::fork();
-  if (id_ == 0) Become(arguments.data(), file, parent);
+  if (id_ == 0) Become(arguments.data(), file, parent, memory);
   ::close(file);
   if (id_ < 0) FailStart("cannot start " + command[0]);
   ::setpgid(id_, id_);  // here too: whichever of the two comes first

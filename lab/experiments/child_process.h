@@ -15,8 +15,11 @@ class ChildProcess {
  public:
   // Starts command[0] with the other words as arguments; its output and messages go to the file
   // `log`. Throws InputError when the log cannot be written or no process be made. A program that
-  // cannot be started ends with code 127.
-  ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& log);
+  // cannot be started ends with code 127. With `memory_mb` its address space is limited to so much:
+  // what it asks for beyond is refused.
+  ChildProcess(const std::vector<std::string>& command,
+               const std::filesystem::path& log,
+               std::optional<int> memory_mb = std::nullopt);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   // Kills it, and what it started, where it still runs.

@@ -17,8 +17,11 @@ namespace plumbline {
 // Experiment in catalog.h).
 struct ComputedExperiment {
   std::string name;
-  std::string help;  // what it shows, one sentence
-  int repeats = 1;   // unless asked for otherwise
+  std::string help;        // what it shows, one sentence
+  int repeats = 1;         // unless asked for otherwise
+  int full_repeats = 1;    // the same with --full
+  double repeat_s = 1;     // what a repeat takes, roughly
+  bool exclusive = false;  // measures times
   std::span<const FigureMetric> metrics;
   // Computes and writes results.json, timing.json, table.md, table.html and plots/*.svg into `out`.
   // `progress(done, total)` returns false to stop; no file is then written and false returned.

@@ -102,7 +102,7 @@ Figure PoseErrorPlot(const TestbedTrials& trials) {
 
 std::vector<PagePlot> CuttingTestbedPlots(const TestbedTrials& trials) {
   std::vector<PagePlot> plots;
-  plots.push_back({"pose_error", ToSvg(PoseErrorPlot(trials))});
+  if (!trials.poses.empty()) plots.push_back({"pose_error", ToSvg(PoseErrorPlot(trials))});
   plots.push_back({"camera_path", ToSvg(CameraPathPlot(trials))});
   constexpr std::array kShapes = {"full_length", "piece", "point"};
   for (std::size_t i = 0; i < trials.surfaces.size(); ++i) {

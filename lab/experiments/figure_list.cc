@@ -95,6 +95,9 @@ std::string FormatFigureList(const std::string& experiment, std::span<const Figu
                                    {"metric", row.metric},
                                    {"value", nullptr},
                                    {"unit", row.unit}};
+    for (const char* key : {"sequence", "variant", "metric"}) {
+      if (json[key] == "") json[key] = nullptr;
+    }
     if (row.seed) json["seed"] = *row.seed;
     if (row.value) {
       json["value"] = *row.value;
@@ -139,7 +142,8 @@ std::string FormatFigurePage(const std::string& title,
                              const std::string& help,
                              std::span<const FigureRow> rows,
                              std::span<const FigureMetric> metrics,
-                             std::span<const PagePlot> plots) {
+                             std::span<const PagePlot> plots,
+                             const PaperComparison& comparison) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{0}</title>\n"
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>{2}.</p>\n<h2>Plots</h2>\n",
@@ -149,6 +153,7 @@ std::string FormatFigurePage(const std::string& title,
   for (const PagePlot& plot : plots) {
     html += fmt::format("<h3>{}</h3>\n<figure>{}</figure>\n", EscapeHtml(plot.metric), plot.svg);
   }
+  html += FormatComparisonHtml(comparison);
   for (const Section& section : Sections(rows, metrics)) html += HtmlTable(section, metrics);
   html += "<h2>Metrics</h2>\n<ul>\n";
   for (const FigureMetric& metric : metrics) {

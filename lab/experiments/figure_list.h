@@ -41,11 +41,12 @@ std::string FormatFigureMarkdown(const std::string& title,
                                  std::span<const FigureRow> rows,
                                  std::span<const FigureMetric> metrics);
 
-// The same and the plots as one page that needs nothing else.
+// The same, what a paper says of it, and the plots as one page that needs nothing else.
 std::string FormatFigurePage(const std::string& title,
                              const std::string& help,
                              std::span<const FigureRow> rows,
                              std::span<const FigureMetric> metrics,
-                             std::span<const PagePlot> plots);
+                             std::span<const PagePlot> plots,
+                             const PaperComparison& comparison = {});
 
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lab/experiments/job_executor.h"
 #include "lab/experiments/metrics.h"
 #include "lab/experiments/plan.h"
 
@@ -18,40 +19,57 @@ namespace plumbline {
 struct JobResult {
   std::optional<RunFigures> figures;
   std::string reason;
+  // Why earlier tries failed, in their order.
+  std::vector<std::string> earlier = {};
 };
 
 // How far an experiment is.
 struct RunnerState {
-  std::size_t done = 0, total = 0, failed = 0;
+  std::size_t done = 0, total = 0, failed = 0, running = 0;
   std::string current;  // "euroc/MH_01_easy/points/1", or what is rendered
-  std::optional<double> seconds_left;
+  double seconds_left = 0;
 };
 
 struct RunnerOptions {
   std::filesystem::path program;  // ours
-  int jobs = 1;                   // at once
   bool force = false;             // run again what is done
   // Of one job; nullopt: a minute and a second for each frame. What takes longer is killed.
   std::optional<double> time_limit_s = std::nullopt;
+  std::optional<int> memory_mb = std::nullopt;  // of one job
+  // How often a job is tried again that crashes, or whose machine goes away. Bad input, too little
+  // memory and too long a time would be the same again.
+  int retries = 0;
   std::function<void(const RunnerState&)> progress = {};  // called often
   std::function<bool()> stop = {};                        // asked often; true ends all
 };
 
-// Does the jobs of a plan that are not done: renders the worlds they need, then starts the program
-// for each.
+// Does the jobs of plans that are not done: renders the worlds they need, then has the executor run
+// the program for each. Those of experiments that measure times come last.
 //
 // A job that crashes, hangs or fails is a result with a reason; the next call tries it again. The
 // result of a job counts only once its program has ended well, so that whatever ends this function
 // in the middle, the next call goes on where it was. The reasons hold no paths.
 //
-//   returns   a result for each job of the plan; nullopt when told to stop
+//   folder    that all plans write to, or a folder above; nobody else may do jobs in it meanwhile
+//   finished  called for each plan as soon as all its jobs have a result; may throw
+//   returns   a result for each job of each plan; nullopt when told to stop
 //   fails     InputError when another process does jobs in the same folder, folders cannot be
 //             written, or a world cannot be rendered
-std::optional<std::vector<JobResult>> RunJobs(const Plan& plan, const RunnerOptions& options);
+using PlanFinished = std::function<void(std::size_t plan, const std::vector<JobResult>&)>;
+std::optional<std::vector<std::vector<JobResult>>> RunPlans(const std::vector<const Plan*>& plans,
+                                                            const std::filesystem::path& folder,
+                                                            JobExecutor& executor,
+                                                            const RunnerOptions& options,
+                                                            const PlanFinished& finished = {});
+
+// The same for one plan.
+std::optional<std::vector<JobResult>> RunJobs(const Plan& plan,
+                                              JobExecutor& executor,
+                                              const RunnerOptions& options);
 
 // Time that the jobs without a time will take, one after the other: for each the mean of those of
-// the same sequence and variant, else of the same sequence, else of all. nullopt when none has one.
-std::optional<double> SecondsLeft(const Plan& plan,
-                                  const std::vector<std::optional<double>>& seconds_of_job);
+// the same sequence and variant, else EstimatedSeconds times what all so far took by what was
+// estimated for them.
+double SecondsLeft(const Plan& plan, const std::vector<std::optional<double>>& seconds_of_job);
 
 }  // namespace plumbline

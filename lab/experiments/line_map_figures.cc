@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/line_map_figures.h"
 
+#include "lab/experiments/run_trajectory.h"
 #include "plumbline/base/error.h"
 #include "plumbline/eval/line_map_error.h"
 #include "plumbline/eval/trajectory_error.h"
@@ -24,13 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTolerance = 0.05;  // metres
-
-std::optional<TrajectoryError> CompareWithTruth(const Dataset& dataset, const fs::path& run) {
-  if (!dataset.info().ground_truth) return std::nullopt;
-  return CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
-                             ReadTrajectory(run / "trajectory.txt").poses,
-                             {});
-}
 
 // nullopt where the run left no list of its keyframes.
 std::optional<LineViewers> KeyFrameViewers(const Dataset& dataset,
@@ -83,7 +77,7 @@ void AddLineMapFigures(const fs::path& sequence, const fs::path& run, RunFigures
   if (coverage == figures.values.end() || coverage->second == 0) return;
   try {
     const auto dataset = OpenDataset(sequence);
-    const auto trajectory = CompareWithTruth(*dataset, run);
+    const auto trajectory = CompareRunWithTruth(sequence, run);
     if (!trajectory) return;
     const LineMapErrorAt at = Compare(*dataset, run, *trajectory);
     add("line_recall", kPercent, at.recall);

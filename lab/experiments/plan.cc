@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/plan.h"
 
-#include "lab/experiments/metrics.h"
+#include "lab/experiments/computed.h"
 #include "lab/starts/start_bench.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
@@ -77,13 +77,17 @@ std::vector<std::string> PlayedFrames(const ExperimentSequence& sequence,
 Job MakeJob(const ExperimentSequence& sequence,
             const Variant& variant,
             int run,
-            RunCommandKind command,
+            const Experiment& experiment,
             const PlanRequest& request) {
   std::vector<std::string> arguments = {"--seed", std::to_string(run)};
   const std::vector<std::string> frames = PlayedFrames(sequence, variant, run);
   arguments.insert(arguments.end(), frames.begin(), frames.end());
   arguments.insert(arguments.end(), sequence.arguments.begin(), sequence.arguments.end());
   arguments.insert(arguments.end(), variant.arguments.begin(), variant.arguments.end());
+  if (!request.full) {
+    const auto& of_test = experiment.test_arguments;
+    arguments.insert(arguments.end(), of_test.begin(), of_test.end());
+  }
   for (const auto* settings : {&request.settings, &variant.settings}) {
     for (const std::string& setting : *settings) {
       arguments.emplace_back("--set");
@@ -98,10 +102,21 @@ Job MakeJob(const ExperimentSequence& sequence,
                         sequence.name,
                         sequence.identity,
                         fmt::join(arguments, " "));
-  const std::string name = command == RunCommandKind::kStarts ? "starts" : "run";
+  const std::string name = experiment.command == RunCommandKind::kStarts ? "starts" : "run";
   job.command = {name, sequence.path.string(), "--out", job.folder.string(), "--quiet"};
   job.command.insert(job.command.end(), arguments.begin(), arguments.end());
   return job;
+}
+
+// Of the frames of the sequence those that a job reads.
+double FramesOf(const Job& job, double frames) {
+  const auto value = [&](const char* name) -> std::optional<double> {
+    const auto at = std::find(job.command.begin(), job.command.end(), name);
+    if (at == job.command.end() || at + 1 == job.command.end()) return std::nullopt;
+    return std::stod(*(at + 1));
+  };
+  const double end = std::min(frames, value("--to").value_or(frames));
+  return std::max(0.0, end - value("--from").value_or(0)) / value("--stride").value_or(1);
 }
 
 [[noreturn]] void FailNothing(const Plan& plan, const PlanRequest& request) {
@@ -136,14 +151,15 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
   plan.missing = std::move(found.missing);
   plan.out = request.out;
   plan.cache = request.sources.cache;
-  const int runs = request.runs.value_or(experiment.runs);
+  const int usual = request.full ? experiment.full_runs.value_or(experiment.runs) : experiment.runs;
+  const int runs = request.runs.value_or(usual);
   for (ExperimentSequence& sequence : found.sequences) {
     std::vector<Job> jobs;
     for (std::size_t v = 0; v < experiment.variants.size(); ++v) {
       const Variant& variant = experiment.variants[v];
       if (!IsChosen(sequence.name + "/" + variant.name, request.only)) continue;
       for (int run = 1; run <= runs; ++run) {
-        jobs.push_back(MakeJob(sequence, variant, run, experiment.command, request));
+        jobs.push_back(MakeJob(sequence, variant, run, experiment, request));
         jobs.back().variant = v;
         jobs.back().sequence = plan.sequences.size();
       }
@@ -157,6 +173,49 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
     FailNothing(plan, request);
   }
   return plan;
+}
+
+Plan MakePlan(const ComputedExperiment& experiment,
+              const fs::path& out,
+              int repeats,
+              const std::string& program) {
+  Plan plan;
+  plan.experiment.name = experiment.name;
+  plan.experiment.help = experiment.help;
+  plan.experiment.command = RunCommandKind::kComputed;
+  plan.experiment.variants = {{"computed", {}}};
+  plan.experiment.exclusive = experiment.exclusive;
+  plan.out = out;
+  ExperimentSequence computed;
+  computed.name = experiment.name;
+  plan.sequences = {computed};
+  Job job;
+  job.folder = out;
+  job.computed = true;
+  job.key = fmt::format("program {}\ncomputes {}\nrepeats {}\n", program, experiment.name, repeats);
+  job.command = {"experiment",
+                 experiment.name,
+                 "--runs",
+                 std::to_string(repeats),
+                 "--out",
+                 out.string(),
+                 "--quiet"};
+  plan.jobs = {job};
+  return plan;
+}
+
+double EstimatedSeconds(const Plan& plan, const Job& job) {
+  // Measured on two cores, see docs/experiments.md.
+  constexpr double kStart = 0.5, kFrame = 0.015, kMegapixel = 0.08, kOfUnknown = 300;
+  constexpr double kStartsFactor = 6;
+  if (const auto* computed = FindComputedExperiment(plan.experiment.name)) {
+    return computed->repeat_s * std::stod(job.command[3]);
+  }
+  const ExperimentSequence& sequence = plan.SequenceOf(job);
+  const double frames = sequence.frames > 0 ? static_cast<double>(sequence.frames) : kOfUnknown;
+  const bool starts = plan.experiment.command == RunCommandKind::kStarts;
+  return kStart + (starts ? kStartsFactor : 1) * FramesOf(job, frames) *
+                      (kFrame + kMegapixel * sequence.megapixels);
 }
 
 std::string ProgramId(const fs::path& program) {
@@ -174,8 +233,15 @@ std::string ProgramId(const fs::path& program) {
   return fmt::format("{} bytes, checksum {:08x}", size, checksum);
 }
 
+std::optional<RunFigures> ReadResult(const Job& job) {
+  if (!job.computed) return ReadFigures(job.folder);
+  std::error_code error;
+  if (!fs::is_regular_file(job.folder / "results.json", error)) return std::nullopt;
+  return RunFigures{};
+}
+
 bool IsDone(const Job& job) {
-  return ReadText(job.folder / kMark) == job.key && ReadFigures(job.folder).has_value();
+  return ReadText(job.folder / kMark) == job.key && ReadResult(job).has_value();
 }
 
 void MarkDone(const Job& job) { WriteFileAtomically(job.folder / kMark, job.key); }

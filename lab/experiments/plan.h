@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/experiments/catalog.h"
+#include "lab/experiments/metrics.h"
 #include "lab/experiments/sequences.h"
 
 #include <cstddef>
@@ -22,13 +23,14 @@ struct Job {
   // All that the result depends on, as text: program, sequence, arguments. A job is done while the
   // folder holds the result of the same key.
   std::string key;
+  bool computed = false;  // of an experiment that computes by itself: it writes its own tables
 };
 
 // All that is to be done for an experiment.
 struct Plan {
   Experiment experiment;
   std::vector<ExperimentSequence> sequences;  // those with a job
-  std::vector<std::string> missing;           // patterns that nothing was found for
+  std::vector<std::string> missing;           // that nothing was found for (FoundSequences)
   std::vector<Job> jobs;                      // by sequence, then variant, then run
   std::filesystem::path out, cache;
 
@@ -48,15 +50,31 @@ struct PlanRequest {
   // KEY=VALUE for all runs; what a variant sets itself goes before it.
   std::vector<std::string> settings = {};
   std::string program;  // ProgramId
+  bool full = false;    // the runs of the papers' protocol, without Experiment::test_arguments
 };
 
 // Lists the jobs of an experiment. Throws InputError where a setting is wrong, nothing is found, or
 // `only` leaves nothing.
 Plan MakePlan(const Experiment& experiment, const PlanRequest& request);
 
+// The plan of an experiment that computes by itself: one job, the program computing it, whose
+// folder is that of the experiment.
+struct ComputedExperiment;
+Plan MakePlan(const ComputedExperiment& experiment,
+              const std::filesystem::path& out,
+              int repeats,
+              const std::string& program);
+
+// Seconds that a job takes on two cores of the usual machine, roughly: by the images it is to read.
+double EstimatedSeconds(const Plan& plan, const Job& job);
+
 // Tells builds of a program apart: size and checksum of its file. Throws InputError when it cannot
 // be read.
 std::string ProgramId(const std::filesystem::path& program);
+
+// What is in the folder of a job that has ended well; nullopt where its result is missing or not
+// whole. That of a computed experiment has no figures here.
+std::optional<RunFigures> ReadResult(const Job& job);
 
 // Whether the folder of a job holds its result.
 bool IsDone(const Job& job);

@@ -4,6 +4,8 @@
 
 #include "lab/experiments/dot_plot.h"
 #include "lab/experiments/figure_list.h"
+#include "lab/experiments/paper_comparison.h"
+#include "lab/experiments/paper_plots.h"
 #include "lab/experiments/start_plots.h"
 #include "lab/experiments/start_pools.h"
 #include "lab/experiments/table.h"
@@ -50,21 +52,26 @@ void WriteTables(const Plan& plan,
   RemovePlots(plan.out / "plots");
   const std::vector<PairedRatio> ratios = PairedRatios(plan, results);
   std::vector<ResultTable> tables;
+  PaperComparison comparison;
   for (const MetricKind kind : {MetricKind::kRepeatable, MetricKind::kTiming}) {
     const bool timing = kind == MetricKind::kTiming;
     tables.push_back(MakeTable(plan, results, kind));
+    if (!timing) comparison = CompareWithPaper(plan, tables.back());
     WriteFileAtomically(plan.out / (timing ? "timing.json" : "results.json"),
                         FormatResults(plan.experiment.name, CollectResults(plan, results, kind)));
     WriteFileAtomically(
         plan.out / (timing ? "timing.md" : "table.md"),
-        FormatMarkdown(plan, tables.back()) + (timing ? "" : FormatRatios(plan, ratios)));
+        FormatMarkdown(plan, tables.back()) +
+            (timing ? "" : FormatRatios(plan, ratios) + FormatComparisonMarkdown(comparison)));
   }
   std::vector<PagePlot> plots = MakePlots(plan, tables);
   plots.insert(plots.end(), more_plots.begin(), more_plots.end());
+  const std::vector<PagePlot> of_paper = PaperPlots(plan, results);
+  plots.insert(plots.end(), of_paper.begin(), of_paper.end());
   for (const PagePlot& plot : plots) {
     WriteFileAtomically(plan.out / "plots" / (plot.metric + ".svg"), plot.svg);
   }
-  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots, ratios));
+  WriteFileAtomically(plan.out / "table.html", FormatPage(plan, tables, plots, ratios, comparison));
 }
 
 }  // namespace
@@ -128,6 +135,7 @@ std::string FormatResults(const std::string& experiment, const std::vector<Resul
 }
 
 void WriteResults(const Plan& plan, const std::vector<JobResult>& results) {
+  if (plan.experiment.command == RunCommandKind::kComputed) return;
   if (plan.experiment.command != RunCommandKind::kStarts) {
     WriteTables(plan, results, {});
     return;

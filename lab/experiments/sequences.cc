@@ -38,6 +38,22 @@ std::optional<std::string> CameraOf(const std::string& folder) {
   return std::nullopt;
 }
 
+// Images of a run over it, in megapixels a frame.
+double MegapixelsOf(const DatasetInfo& info) {
+  const double image = 1e-6 * info.calibration.left.width() * info.calibration.left.height();
+  return info.sensor == SensorKind::kStereo ? 2 * image : image;
+}
+
+// Whether a name is that of the choice: its pattern, or of a paper's sequence a part of it.
+bool IsChosenName(const std::string& name, const SequenceChoice& choice) {
+  if (MatchesPattern(name, choice.pattern)) return true;
+  return !choice.paper.empty() && MatchesPattern(name, choice.pattern + "_first*");
+}
+
+std::string Labelled(const std::string& name, const SequenceChoice& choice) {
+  return choice.label.empty() ? name : name + "@" + choice.label;
+}
+
 bool IsSequence(const fs::path& path) {
   const auto format = FindFormat(path);
   return format && *format != DatasetFormat::kImages;
@@ -104,6 +120,7 @@ ExperimentSequence Recorded(const std::string& folder, const fs::path& path) {
     }
     sequence.identity = IdentityOf(*dataset);
     sequence.frames = dataset->size();
+    sequence.megapixels = MegapixelsOf(dataset->info());
   } catch (const InputError& error) {
     // What is wrong, wherever the data lies.
     const std::string message = error.what(), root = path.string();
@@ -122,9 +139,13 @@ std::vector<ExperimentSequence> RecordedSequences(const SequenceChoice& choice,
   std::vector<fs::path> paths;
   FindBelow(*sources.data / folder, 1, paths);
   for (const fs::path& path : paths) {
-    if (!MatchesPattern(folder + "/" + path.filename().string(), choice.pattern)) continue;
+    if (!IsChosenName(folder + "/" + path.filename().string(), choice)) continue;
     sequences.push_back(Recorded(folder, path));
-    auto& arguments = sequences.back().arguments;
+    ExperimentSequence& sequence = sequences.back();
+    sequence.paper = choice.paper;
+    sequence.part = !choice.paper.empty() && !MatchesPattern(sequence.name, choice.pattern);
+    sequence.name = Labelled(sequence.name, choice);
+    auto& arguments = sequence.arguments;
     arguments.insert(arguments.end(), choice.arguments.begin(), choice.arguments.end());
   }
   return sequences;
@@ -150,15 +171,26 @@ std::vector<ExperimentSequence> RenderedSequences(const SequenceChoice& choice,
     if (!MatchesPattern(kWorlds + world.name, choice.pattern)) continue;
     const SynthOptions options = OptionsOf(world, choice, sources.size);
     ExperimentSequence sequence;
-    sequence.name = kWorlds + world.name + (choice.label.empty() ? "" : "@" + choice.label);
+    sequence.name = Labelled(kWorlds + world.name, choice);
     sequence.identity = SequenceKey(world.name, options);
     sequence.path = sources.cache / sequence.identity;
     sequence.frames = static_cast<std::size_t>(options.frames);
     sequence.arguments = choice.arguments;
+    constexpr double kMegapixels = 2 * 0.752 * 0.480;  // a pair of the usual camera
+    sequence.megapixels = kMegapixels * options.scale * options.scale;
+    sequence.paper = choice.paper;
     sequence.rendered = RenderedWorld{world.name, options};
     sequences.push_back(std::move(sequence));
   }
   return sequences;
+}
+
+// With what users need to get it.
+std::string Described(const SequenceChoice& choice) {
+  const std::string name = Labelled(choice.pattern, choice);
+  if (choice.paper.empty() && choice.source.empty()) return name;
+  const std::string between = choice.paper.empty() || choice.source.empty() ? "" : "; ";
+  return name + " (" + choice.paper + between + choice.source + ")";
 }
 
 }  // namespace
@@ -174,7 +206,7 @@ FoundSequences FindSequences(const std::vector<SequenceChoice>& choices,
   for (const SequenceChoice& choice : choices) {
     auto sequences = choice.pattern.starts_with(kWorlds) ? RenderedSequences(choice, sources)
                                                          : RecordedSequences(choice, sources);
-    if (sequences.empty()) found.missing.push_back(choice.pattern);
+    if (sequences.empty()) found.missing.push_back(Described(choice));
     for (ExperimentSequence& sequence : sequences) {
       const auto [other, added] = names.emplace(sequence.name, sequence.path);
       if (!added && other->second != sequence.path) {

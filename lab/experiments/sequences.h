@@ -29,6 +29,9 @@ struct ExperimentSequence {
   std::string identity = {};  // changes when lists, calibration or ground truth do, or the options
                               // of the world
   std::size_t frames = 0;     // 0 for one that cannot be opened
+  double megapixels = 0;      // of one image of each camera together; 0 likewise
+  std::string paper = {};     // what a paper calls it
+  bool part = false;          // of what the paper calls so
 };
 
 struct SequenceSources {
@@ -39,13 +42,16 @@ struct SequenceSources {
 
 struct FoundSequences {
   std::vector<ExperimentSequence> sequences;  // in the order of the choices, then of the names
-  std::vector<std::string> missing;           // patterns that nothing was found for
+  // Patterns that nothing was found for; of those of a paper also what it calls them and where
+  // they come from: "tum/rgbd_dataset_freiburg1_xyz (fr1_xyz; https://...)".
+  std::vector<std::string> missing;
 };
 
 // Finds the sequences that are chosen.
 //
 // A recorded one is a folder in EuRoC, TUM or KITTI form, at most four levels below data/FOLDER,
-// named FOLDER/<its own name>. One that cannot be opened is among them: its runs will tell why.
+// named FOLDER/<its own name>[@label]. One that cannot be opened is among them: its runs will tell
+// why.
 // Nothing is rendered yet. Throws InputError when the folder of the data is absent, two sequences
 // have the same name, or a setting of a world is wrong.
 FoundSequences FindSequences(const std::vector<SequenceChoice>& choices,

@@ -136,23 +136,26 @@ void MarkBest(ResultTable& table, std::size_t column, std::pair<std::size_t, std
   }
 }
 
-std::vector<Failure> FailuresOf(const std::vector<Group>& groups) {
-  std::vector<Failure> failures;
+void AddFailure(const Group& group, const std::string& reason, std::vector<Failure>& failures) {
+  const auto same = std::find_if(failures.begin(), failures.end(), [&](const Failure& f) {
+    return f.sequence == group.sequence && f.variant == group.variant && f.reason == reason;
+  });
+  if (same != failures.end()) {
+    ++same->runs;
+  } else {
+    failures.push_back({group.sequence, group.variant, 1, reason});
+  }
+}
+
+void AddFailures(const std::vector<Group>& groups, ResultTable& table) {
   for (const Group& group : groups) {
     for (const JobResult* result : group.runs) {
-      if (result->figures) continue;
-      const auto same = std::find_if(failures.begin(), failures.end(), [&](const Failure& f) {
-        return f.sequence == group.sequence && f.variant == group.variant &&
-               f.reason == result->reason;
-      });
-      if (same != failures.end()) {
-        ++same->runs;
-      } else {
-        failures.push_back({group.sequence, group.variant, 1, result->reason});
+      if (!result->figures) AddFailure(group, result->reason, table.failures);
+      for (const std::string& reason : result->earlier) {
+        AddFailure(group, reason, table.tried_again);
       }
     }
   }
-  return failures;
 }
 
 // What would be taken for the end of a cell.
@@ -191,7 +194,7 @@ ResultTable MakeTable(const Plan& plan, const std::vector<JobResult>& results, M
       MarkBest(table, c, {begin, end});
     }
   }
-  table.failures = FailuresOf(groups);
+  AddFailures(groups, table);
   return table;
 }
 
@@ -216,6 +219,23 @@ std::string RunsText(const TableRow& row) {
 std::string ColumnTitle(const Metric& metric) {
   return metric.unit.empty() ? std::string(metric.name)
                              : fmt::format("{} [{}]", metric.name, metric.unit);
+}
+
+std::vector<std::string> FailureTexts(const Plan& plan, const ResultTable& table) {
+  std::vector<std::string> texts;
+  const auto add = [&](const char* what, const char* unit, const Failure& failure) {
+    texts.push_back(fmt::format("{}: {}, {}, {} {}{}: {}",
+                                what,
+                                plan.sequences[failure.sequence].name,
+                                plan.experiment.variants[failure.variant].name,
+                                failure.runs,
+                                unit,
+                                failure.runs == 1 ? "" : "s",
+                                failure.reason));
+  };
+  for (const Failure& failure : table.failures) add("failed", "run", failure);
+  for (const Failure& failure : table.tried_again) add("tried again after", "failure", failure);
+  return texts;
 }
 
 std::string FormatMarkdown(const Plan& plan, const ResultTable& table) {
@@ -246,13 +266,7 @@ std::string FormatMarkdown(const Plan& plan, const ResultTable& table) {
   for (const std::string& pattern : plan.missing) {
     text += fmt::format("- not there: no sequence {}\n", pattern);
   }
-  for (const Failure& failure : table.failures) {
-    text += fmt::format("- failed: {}, {}, {}: {}\n",
-                        plan.sequences[failure.sequence].name,
-                        plan.experiment.variants[failure.variant].name,
-                        failure.runs == 1 ? "1 run" : fmt::format("{} runs", failure.runs),
-                        failure.reason);
-  }
+  for (const std::string& failure : FailureTexts(plan, table)) text += "- " + failure + "\n";
   for (const Metric* metric : table.columns) {
     text += fmt::format("- {}: {}\n", metric->name, metric->help);
   }

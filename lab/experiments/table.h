@@ -34,10 +34,10 @@ struct TableRow {
   std::vector<TableCell> cells;           // one for each column
 };
 
-// Why runs failed.
+// Why runs failed, or tries of runs that went well in the end.
 struct Failure {
   std::size_t sequence = 0, variant = 0;
-  int runs = 0;
+  int runs = 0;  // or tries
   std::string reason;
 };
 
@@ -46,6 +46,7 @@ struct ResultTable {
   std::vector<const Metric*> columns;
   std::vector<TableRow> rows;  // by sequence, then variant
   std::vector<Failure> failures;
+  std::vector<Failure> tried_again;
 };
 
 // Medians and ranges over the runs of each variant on each sequence.
@@ -67,5 +68,8 @@ std::string ColumnTitle(const Metric& metric);
 
 // A document with the table, best cells bold, and what failed or is missing.
 std::string FormatMarkdown(const Plan& plan, const ResultTable& table);
+
+// One sentence for each failure and each try that failed: "failed: euroc/a, points, 2 runs: why".
+std::vector<std::string> FailureTexts(const Plan& plan, const ResultTable& table);
 
 }  // namespace plumbline

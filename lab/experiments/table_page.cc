@@ -115,17 +115,14 @@ std::string Variants(const Plan& plan) {
 
 // What failed or is not there; nothing where all is well.
 std::string Gaps(const Plan& plan, const ResultTable& table) {
-  if (plan.missing.empty() && table.failures.empty()) return "";
+  const std::vector<std::string> failures = FailureTexts(plan, table);
+  if (plan.missing.empty() && failures.empty()) return "";
   std::string html = "<h2>What is missing</h2>\n<ul>\n";
   for (const std::string& pattern : plan.missing) {
     html += fmt::format("<li>no sequence {}</li>\n", EscapeHtml(pattern));
   }
-  for (const Failure& failure : table.failures) {
-    html += fmt::format("<li>{}, {}, {}: {}</li>\n",
-                        EscapeHtml(plan.sequences[failure.sequence].name),
-                        EscapeHtml(plan.experiment.variants[failure.variant].name),
-                        failure.runs == 1 ? "1 run" : fmt::format("{} runs", failure.runs),
-                        EscapeHtml(failure.reason));
+  for (const std::string& failure : failures) {
+    html += fmt::format("<li>{}</li>\n", EscapeHtml(failure));
   }
   return html + "</ul>\n";
 }
@@ -148,7 +145,8 @@ std::string_view TablePageStyle() { return kStyle; }
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
                        const std::vector<PagePlot>& plots,
-                       const std::vector<PairedRatio>& ratios) {
+                       const std::vector<PairedRatio>& ratios,
+                       const PaperComparison& comparison) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{0}</title>\n"
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>{2}.</p>\n"
@@ -165,8 +163,11 @@ std::string FormatPage(const Plan& plan,
     html += Table(plan, table);
     if (table.kind == MetricKind::kRepeatable) html += Gaps(plan, table);
   }
+  html += FormatComparisonHtml(comparison);
   html += Ratios(plan, ratios) + "<h2>Plots</h2>\n";
-  for (const PagePlot& plot : plots) html += "<figure>" + plot.svg + "</figure>\n";
+  for (const PagePlot& plot : plots) {
+    html += fmt::format("<h3>{}</h3>\n<figure>{}</figure>\n", EscapeHtml(plot.metric), plot.svg);
+  }
   return html + Variants(plan) + Legend(tables) + "</body>\n</html>\n";
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/experiments/paired_ratios.h"
+#include "lab/experiments/paper_comparison.h"
 #include "lab/experiments/table.h"
 
 #include <string>
@@ -20,11 +21,12 @@ struct PagePlot {
 std::string_view TablePageStyle();
 
 // One page that needs nothing else, not even scripts: the tables with the best of each sequence
-// marked, the errors against a reference where there is one, the plots, what the variants are, what
-// failed and what is missing.
+// marked, the errors against a reference where there is one, what a paper has, the plots, what the
+// variants are, what failed and what is missing.
 std::string FormatPage(const Plan& plan,
                        const std::vector<ResultTable>& tables,
                        const std::vector<PagePlot>& plots,
-                       const std::vector<PairedRatio>& ratios = {});
+                       const std::vector<PairedRatio>& ratios = {},
+                       const PaperComparison& comparison = {});
 
 }  // namespace plumbline

@@ -38,13 +38,14 @@ TEST(ExperimentCommand, ListsWhatThereIsAndWhatItWouldDo) {
   const ScratchFolder folder;
   WriteData(folder);
   EXPECT_THAT(RunProgram(folder, "experiment --list").out,
-              HasSubstr("sensors                 points"));
+              HasSubstr("sensors                      points"));
   const Outcome parts = RunProgram(folder, "experiment sensors --list");
   EXPECT_THAT(parts.out, HasSubstr("worlds/* euroc/*"));
   EXPECT_THAT(parts.out, HasSubstr("features.lines=false"));
   const Outcome dry = RunExperiment(folder, "--runs 2 --only euroc/ --dry-run");
   EXPECT_EQ(dry.code, 0) << dry.err;
-  EXPECT_EQ(std::count(dry.out.begin(), dry.out.end(), '\n'), 6);
+  EXPECT_EQ(std::count(dry.out.begin(), dry.out.end(), '\n'), 6 + 1);
+  EXPECT_THAT(dry.out, HasSubstr("6 runs, 0 done; the others take about "));
   EXPECT_THAT(dry.out, HasSubstr("run   euroc/poster/lines/2: plumbline run "));
   EXPECT_THAT(dry.err, HasSubstr("no sequence kitti/* found; left out\n"));
   EXPECT_FALSE(fs::exists(folder / "out"));
@@ -174,6 +175,13 @@ TEST(ExperimentCommand, RefusesBadInputInOneLineBeforeAnyRun) {
       {"sensors" + data + out + " --set features.pionts=true", "unknown option 'features.pionts'"},
       {"sensors" + data + out + " --only nowhere", "--only nowhere: expected part of one of"},
       {"sensors" + data + out + " --runs 0", "--runs: expected a whole number from 1 to 1000"},
+      {"sensors" + data + out + " --executor cloud", "--executor: expected local or slurm"},
+      {"sensors" + data + out + " --sbatch x", "--sbatch: expected with --executor slurm"},
+      {"sensors" + data + out + " --executor slurm --jobs 2", "--jobs: expected with --executor"},
+      {"sensors" + data + out + " --memory 0", "--memory: expected a whole number from 1 to"},
+      {"all --data /does/not/exist" + out, "/does/not/exist: expected the folder"},
+      {"all" + data + out + " --only nowhere", "--only nowhere: expected part of one of"},
+      {"all" + data, "expected --out DIR"},
       {"sensors" + data + out + " --size huge", "--size: expected test or full, found huge"},
       {"sensors" + data + out + " --job 2", "unknown option --job; the nearest is --jobs"},
       {"cutting-testbed" + out + data, "cutting-testbed: computes by itself and takes no --data"},

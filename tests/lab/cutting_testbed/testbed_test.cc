@@ -13,11 +13,12 @@ TEST(Testbed, NamesItsCells) {
 
 TEST(Testbed, StopsWhenAskedTo) {
   std::size_t calls = 0;
-  const TestbedTrials trials = RunTestbed(1, [&](std::size_t done, std::size_t total) {
-    EXPECT_EQ(done, ++calls);
-    EXPECT_GT(total, 100U);
-    return done < 5;
-  });
+  const TestbedTrials trials =
+      RunTestbed(1, TestbedParts::kAll, [&](std::size_t done, std::size_t total) {
+        EXPECT_EQ(done, ++calls);
+        EXPECT_GT(total, 100U);
+        return done < 5;
+      });
   EXPECT_EQ(calls, 5U);
   // A cell: three sets of starts and the printed information of single lines, then joint.
   ASSERT_EQ(trials.single.size(), 4U);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/plan.h"
 
+#include "lab/experiments/computed.h"
+
 #include "tests/io/scratch_folder.h"
 #include "tests/lab/experiments/experiment_fixtures.h"
 #include <string>
@@ -116,6 +118,45 @@ TEST(Plan, OnlyKeepsWhatItNames) {
   EXPECT_THAT(MessageOf([&] { MakePlan(TwoVariants(), request); }),
               HasSubstr("--only a/three: expected part of one of euroc/a, euroc/b, with / and one "
                         "of one, two"));
+}
+
+TEST(Plan, AtTestSizeThereAreFewerRunsAndFurtherArguments) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.full_runs = 4;
+  experiment.test_arguments = {"--stride", "2"};
+  PlanRequest request = RequestIn(folder);
+  const Plan test = MakePlan(experiment, request);
+  EXPECT_EQ(test.jobs.size(), 2U * 2U);
+  EXPECT_THAT(test.jobs[0].key, HasSubstr("--stride 2"));
+  request.full = true;
+  const Plan full = MakePlan(experiment, request);
+  EXPECT_EQ(full.jobs.size(), 2U * 4U);
+  EXPECT_EQ(full.jobs[0].key.find("--stride"), std::string::npos);
+  EXPECT_LT(EstimatedSeconds(test, test.jobs[0]), EstimatedSeconds(full, full.jobs[0]));
+}
+
+TEST(Plan, WhatComputesByItselfIsOneJobDoneWhileItsResultIsThere) {
+  const ScratchFolder folder;
+  const ComputedExperiment& experiment = *FindComputedExperiment("cutting-testbed");
+  const Plan plan = MakePlan(experiment, folder / "out", 3, "program 1");
+  ASSERT_EQ(plan.jobs.size(), 1U);
+  EXPECT_THAT(plan.jobs[0].command,
+              ElementsAre("experiment",
+                          "cutting-testbed",
+                          "--runs",
+                          "3",
+                          "--out",
+                          (folder / "out").string(),
+                          "--quiet"));
+  EXPECT_GT(EstimatedSeconds(plan, plan.jobs[0]), 0);
+  folder.Write("out/results.json", "[]");
+  EXPECT_FALSE(IsDone(plan.jobs[0]));
+  MarkDone(plan.jobs[0]);
+  EXPECT_TRUE(IsDone(plan.jobs[0]));
+  EXPECT_FALSE(IsDone(MakePlan(experiment, folder / "out", 4, "program 1").jobs[0]));
+  EXPECT_FALSE(IsDone(MakePlan(experiment, folder / "out", 3, "program 2").jobs[0]));
 }
 
 TEST(Plan, RefusesWhatCannotBeRunBeforeAnyRun) {

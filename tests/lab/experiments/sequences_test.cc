@@ -100,6 +100,27 @@ TEST(ExperimentSequences, WorldsAreThoseThatCanBeRendered) {
   EXPECT_EQ(FindSequences({{"worlds/*"}}, sources).sequences.size(), Worlds().size());
 }
 
+TEST(ExperimentSequences, OfAPaperAreFoundWholeOrInPartAndTellWhereTheyComeFrom) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/V1_01_easy");
+  WriteSequenceFolder(folder, "data/euroc/V1_02_medium_first50");
+  WriteSequenceFolder(folder, "data/euroc/V1_03_difficult_other");
+  std::vector<SequenceChoice> choices;
+  for (const std::string name : {"V1_01_easy", "V1_02_medium", "V1_03_difficult"}) {
+    choices.push_back({"euroc/" + name, {}, "blurred", {"--blur", "5"}, name + " b", "somewhere"});
+  }
+  const auto found = FindSequences(choices, SourcesIn(folder));
+  ASSERT_THAT(NamesOf(found),
+              ElementsAre("euroc/V1_01_easy@blurred", "euroc/V1_02_medium_first50@blurred"));
+  EXPECT_THAT(found.missing,
+              ElementsAre("euroc/V1_03_difficult@blurred (V1_03_difficult b; somewhere)"));
+  EXPECT_EQ(found.sequences[0].paper, "V1_01_easy b");
+  EXPECT_FALSE(found.sequences[0].part);
+  EXPECT_TRUE(found.sequences[1].part);
+  EXPECT_THAT(found.sequences[1].arguments, ElementsAre("--blur", "5"));
+  EXPECT_NEAR(found.sequences[0].megapixels, 2 * 64 * 48 * 1e-6, 1e-12);
+}
+
 TEST(ExperimentSequences, BadSourcesAreRefused) {
   const ScratchFolder folder;
   EXPECT_THAT(MessageOf([&] { FindSequences({{"euroc/*"}}, SourcesIn(folder)); }),

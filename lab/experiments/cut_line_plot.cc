@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/paper_plots.h"
+#include "plumbline/association/projection_search.h"
+#include "plumbline/base/error.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/io/keyframe_images.h"
+#include "plumbline/io/map_io.h"
+#include "plumbline/io/png.h"
+#include "plumbline/report/base64.h"
+#include "plumbline/tracking/line_cutting.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+namespace {
+
+constexpr Color kMeasured{0, 200, 0}, kPiece{230, 0, 0};
+
+// The lines of a keyframe as tracking would cut them at its final pose, all whole yet.
+struct LinesOfKeyFrame {
+  PoseProblem problem;
+  std::vector<CutCandidate> candidates;
+};
+
+LinesOfKeyFrame CollectLines(const SavedMap& saved, const KeyFrame& keyframe) {
+  LinesOfKeyFrame lines;
+  lines.problem.camera = saved.camera;
+  lines.problem.line_residual = LineResidualKind::kProjectedEnds;
+  lines.problem.cam_from_world = keyframe.frame.cam_from_world;
+  const Features& features = keyframe.frame.features();
+  for (std::size_t i = 0; i < keyframe.frame.points.size(); ++i) {
+    if (const MapPoint* point = saved.map.Find(keyframe.frame.points[i])) {
+      lines.problem.points.push_back({point->position, MeasurePoint(features, i)});
+    }
+  }
+  for (std::size_t i = 0; i < keyframe.frame.lines.size(); ++i) {
+    const MapLine* line = saved.map.Find(keyframe.frame.lines[i]);
+    if (line == nullptr) continue;
+    const LineMeasurement measurement = MeasureLeftLine(features, i, LineWeighting::kNone);
+    const auto visible =
+        TrimToSegment(saved.camera, keyframe.frame.cam_from_world, line->line, measurement.segment);
+    if (!visible) continue;
+    lines.problem.lines.push_back(
+        {line->line, measurement, static_cast<int>(i), SegmentOf(line->line, *visible)});
+    lines.candidates.push_back({line, features.lines[i].sigma_px});
+  }
+  return lines;
+}
+
+Overlay DrawCuts(const LinesOfKeyFrame& lines) {
+  LineOptions options;
+  options.residual = LineResidualKind::kProjectedEnds;
+  options.weighting = LineWeighting::kNone;
+  CuttingOptions cutting;
+  cutting.method = CuttingMethod::kGreedy;
+  const PoseProblem cut = WithCutLines(lines.problem, lines.candidates, options, cutting);
+  Overlay overlay;
+  for (const auto& match : lines.problem.lines) {
+    overlay.segments.push_back({match.measurement.segment, kMeasured});
+  }
+  for (std::size_t i = 0; i < cut.lines.size(); ++i) {
+    const Rigid3& pose = cut.cam_from_world;
+    const Segment3 piece{pose * cut.lines[i].ends.start, pose * cut.lines[i].ends.end};
+    const auto segment = ProjectSegment(cut.camera, piece);
+    if (!segment) continue;
+    overlay.segments.push_back({*segment, kPiece});
+    // A line that is cut to a point would not be seen.
+    overlay.points.push_back({segment->start, kPiece});
+    overlay.points.push_back({segment->end, kPiece});
+  }
+  return overlay;
+}
+
+// Of the keyframes in the middle half of the run that with the most lines.
+const KeyFrame& ChooseKeyFrame(const Map& map) {
+  const auto count = [](const KeyFrame& keyframe) {
+    return std::count_if(keyframe.frame.lines.begin(), keyframe.frame.lines.end(), [](LineId id) {
+      return id.valid();
+    });
+  };
+  const KeyFrame* best = nullptr;
+  std::size_t at = 0;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const bool middle = 4 * at >= map.keyframes().size() && 4 * at <= 3 * map.keyframes().size();
+    if (middle && (best == nullptr || count(keyframe) > count(*best))) best = &keyframe;
+    ++at;
+  }
+  if (best == nullptr || count(*best) == 0) throw InputError("there is no keyframe with lines");
+  return *best;
+}
+
+}  // namespace
+
+std::string CutLinePlot(const Plan& plan, const Job& job) {
+  const SavedMap saved = LoadMap(job.folder / "map.plb");
+  const KeyFrame& keyframe = ChooseKeyFrame(saved.map);
+  const GrayImage image = KeyFrameImages(plan.SequenceOf(job).path, {}, saved).Read(keyframe);
+  const std::string png = EncodeOverlayPng(image, DrawCuts(CollectLines(saved, keyframe)));
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+      "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\"><image width=\"{0}\" height=\"{1}\" "
+      "xlink:href=\"data:image/png;base64,{2}\"/></svg>\n",
+      image.width(),
+      image.height(),
+      EncodeBase64(png));
+}
+
+}  // namespace plumbline

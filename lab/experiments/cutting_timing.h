@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/figure_list.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace plumbline {
+
+// Figures that the same bytes give again, and times, which do not.
+struct TimedFigures {
+  std::vector<FigureRow> figures, times;
+};
+
+std::span<const FigureMetric> CuttingTimingMetrics();
+
+// How long it takes to cut 10, 30, 60 and 100 lines of a frame by each method, and what it gains,
+// over `repeats` simulated stereo scenes each. Sequences: lines/<count>. nullopt when
+// `progress(done, total)` returns false.
+std::optional<TimedFigures> TimeCutting(
+    int repeats, const std::function<bool(std::size_t, std::size_t)>& progress);
+
+}  // namespace plumbline

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/job_runner.h"
+#include "lab/experiments/plan.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plumbline {
+
+// What came of one experiment of a group, whose files are in a folder of its name.
+struct GroupPart {
+  std::string name, help;
+  std::string trouble;  // why nothing of it could be run; empty: it was
+  std::size_t runs = 0, failed = 0;
+  std::vector<std::string> missing;   // sequences that are not there
+  std::vector<std::string> failures;  // "euroc/MH_01_easy, points, run 2: why"
+};
+
+// Of an experiment whose jobs have results.
+GroupPart SummarizePart(const Plan& plan, const std::vector<JobResult>& results);
+
+// Writes results.json and timing.json, the lists of the parts one behind the other, table.md, all
+// their tables, and table.html, a page that leads to theirs and says what failed. An experiment
+// that could not be run is in results.json as a row with a reason. Throws InputError when a file
+// cannot be written.
+void WriteGroupReport(const std::filesystem::path& out,
+                      const std::string& name,
+                      const std::string& help,
+                      const std::vector<GroupPart>& parts);
+
+}  // namespace plumbline

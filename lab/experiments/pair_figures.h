@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/metrics.h"
+
+#include <filesystem>
+
+namespace plumbline {
+
+// Adds rpe_pairs to the figures of a run: for all pairs of frames with a pose the error of the
+// relative position, RMSE, as the tool of the TUM RGB-D benchmark computes it when it is not told a
+// distance in time (of more than 1000 frames, 1000 evenly taken ones). The estimate is aligned
+// first, with one camera its scale too.
+//
+//   sequence  folder of the data; without ground truth, or where a file cannot be read, there is a
+//             reason instead
+//   run       folder of the run
+//   cost      O(pairs)
+void AddPairFigures(const std::filesystem::path& sequence,
+                    const std::filesystem::path& run,
+                    RunFigures& figures);
+
+// Adds start_frames: how many frames were given to the run until it reported a first pose, that one
+// included, from its frames.csv and trajectory_causal.txt.
+void AddStartFigure(const std::filesystem::path& run, RunFigures& figures);
+
+}  // namespace plumbline

@@ -1,0 +1,418 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/paper_catalog.h"
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+const std::string kTum = "https://cvg.cit.tum.de/data/datasets/rgbd-dataset/download";
+const std::string kEuroc = "https://projects.asl.ethz.ch/datasets/euroc-mav/";
+const std::string kNoLoops = "loop.enabled=false";
+const std::vector<std::string> kMono = {"--sensor", "mono"};
+
+SequenceChoice Tum(const std::string& folder, const std::string& paper) {
+  return {"tum/rgbd_dataset_" + folder, {}, "", {}, paper, kTum};
+}
+
+// Of the first paper's tables: the sequences of both, those of the second without sitting_static.
+std::vector<SequenceChoice> RipplSequences(bool with_static) {
+  std::vector<SequenceChoice> choices = {
+      Tum("freiburg1_xyz", "fr1_xyz"),
+      Tum("freiburg2_xyz", "fr2_xyz"),
+      Tum("freiburg1_floor", "fr1_floor"),
+      Tum("freiburg2_desk", "fr2_desk"),
+      Tum("freiburg3_long_office_household", "fr3_long_office"),
+      Tum("freiburg3_nostructure_texture_far", "fr3_nstr_tex_far"),
+      Tum("freiburg3_sitting_static", "fr3_sit_static"),
+      Tum("freiburg3_structure_texture_far", "fr3_str_tex_far")};
+  if (!with_static) choices.erase(choices.begin() + 6);
+  return choices;
+}
+
+void Append(std::vector<SequenceChoice>& choices, std::initializer_list<const char*> patterns) {
+  for (const char* pattern : patterns) choices.push_back({pattern});
+}
+
+// One of the first paper's initial maps: by factorization of m frames, or of two views.
+std::vector<std::string> StartSettings(const char* method) {
+  return {kNoLoops, std::string("initialization.method=") + method};
+}
+
+std::vector<std::string> With(std::vector<std::string> settings,
+                              std::initializer_list<const char*> more) {
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
+Experiment RipplTable1() {
+  Experiment e;
+  e.name = "rippl-table1";
+  e.help = "Lee and Hwang 2019, table 1: one camera, 2000 points, by the way the map begins";
+  e.sequences = RipplSequences(true);
+  Append(e.sequences,
+         {"euroc/*",
+          "icl/*",
+          "kitti/*",
+          "worlds/room",
+          "worlds/office",
+          "worlds/planar",
+          "worlds/forward"});
+  const auto settings = [](const char* method) {
+    return With(StartSettings(method), {"features.lines=false", "features.point_count=2000"});
+  };
+  e.variants = {{"proposed", settings("rank1"), kMono},
+                {"conventional", settings("two_view"), kMono}};
+  e.metrics = {
+      "ate", "rpe_pairs", "ate_causal", "scale_drift", "start_frames", "lost", "maps", "keyframes"};
+  e.plots = {"ate", "rpe_pairs"};
+  e.runs = 2;
+  e.full_runs = 10;
+  e.reference = "proposed";
+  return e;
+}
+
+// The three systems of table 2, each with all that makes it: RIPPL begins by factorization, the
+// others by two views; EPL has end points from creation to adjustment; PPL the other Jacobian.
+std::vector<Variant> RipplSystems() {
+  const auto few = [](std::vector<std::string> settings) {
+    return With(std::move(settings), {"features.point_count=500", "features.line_count=300"});
+  };
+  return {{"RIPPL", few(StartSettings("rank1")), kMono},
+          {"EPL",
+           With(few(StartSettings("two_view")),
+                {"lines.parametrization=endpoints",
+                 "lines.residual=projected_ends",
+                 "lines.reconstruction=two_view"}),
+           kMono},
+          {"PPL",
+           With(few(StartSettings("two_view")),
+                {"lines.parametrization=plucker_left", "lines.reconstruction=two_view"}),
+           kMono}};
+}
+
+Experiment RipplTable2() {
+  Experiment e;
+  e.name = "rippl-table2";
+  e.help = "Lee and Hwang 2019, table 2: one camera, 500 points and 300 lines, by kind of line";
+  e.sequences = RipplSequences(false);
+  Append(e.sequences,
+         {"euroc/*",
+          "icl/*",
+          "kitti/*",
+          "worlds/room",
+          "worlds/office",
+          "worlds/planar",
+          "worlds/lowtexture"});
+  e.variants = RipplSystems();
+  e.metrics = {
+      "ate", "rpe_pairs", "ate_causal", "scale_drift", "start_frames", "lost", "maps", "lines"};
+  e.plots = {"ate"};
+  e.runs = 1;
+  e.full_runs = 10;
+  e.reference = "RIPPL";
+  return e;
+}
+
+Experiment RipplFigure6() {
+  Experiment e;
+  e.name = "rippl-figure6";
+  e.help =
+      "Lee and Hwang 2019, figure 6: landmarks of the beginning and those made when the camera is "
+      "back, loops open, by the way the map begins";
+  // Once round a room, back to where it began.
+  e.sequences = {Tum("freiburg3_long_office_household", "fr3_long_office"),
+                 {"worlds/room", {"rate_hz=15", "frames=150"}, "round"}};
+  e.variants = RipplTable1().variants;
+  e.metrics = {"ate", "scale_drift", "start_frames", "lost", "maps", "points"};
+  e.plots = {"ate", "scale_drift"};
+  e.runs = 3;
+  e.full_runs = 10;
+  e.paper_plot = PaperPlot::kRevisits;
+  return e;
+}
+
+Experiment RipplFigure7() {
+  const auto world = [](const char* pattern) {
+    return SequenceChoice{pattern, {"depth=true", "depth_noise=0"}, "depth"};
+  };
+  Experiment e;
+  e.name = "rippl-figure7";
+  e.help =
+      "Lee and Hwang 2019, figure 7: how soon and how well a map begins on a plane and in slow "
+      "forward motion, by the way it begins";
+  e.sequences = {Tum("freiburg1_floor", "fr1_floor"),
+                 world("worlds/forward"),
+                 world("worlds/planar"),
+                 {"euroc/*"}};
+  e.variants = {{"proposed", {"initialization.method=rank1"}},
+                {"conventional", {"initialization.method=two_view"}}};
+  e.metrics = {"starts",
+               "possible",
+               "success",
+               "wrong",
+               "late",
+               "waiting",
+               "map_frames",
+               "map_seconds",
+               "rotation_error",
+               "direction_error",
+               "depth_error",
+               "map_points"};
+  e.plots = {"success", "map_frames", "direction_error"};
+  e.runs = 1;
+  e.command = RunCommandKind::kStarts;
+  e.test_arguments = {"--every", "15"};
+  e.pools = {{"plane", {"tum/*", "worlds/planar@*"}},
+             {"forward", {"worlds/forward@*"}},
+             {"all", {"tum/*", "euroc/*", "worlds/*"}}};
+  return e;
+}
+
+Experiment RipplFigure8() {
+  Experiment e;
+  e.name = "rippl-figure8";
+  e.help =
+      "Lee and Hwang 2019, figure 8: the first 100 frames by the frames solved together and by the "
+      "points in an image";
+  e.sequences = RipplSequences(true);
+  Append(e.sequences, {"euroc/*", "worlds/office", "worlds/planar"});
+  const std::vector<std::string> begin = {"--sensor", "mono", "--to", "100"};
+  const auto add = [&](const std::string& name,
+                       std::vector<std::string> settings,
+                       const std::string& curve,
+                       int number) {
+    settings.insert(settings.end(), {kNoLoops, "features.lines=false"});
+    e.variants.push_back({name, std::move(settings), begin, curve, static_cast<double>(number)});
+  };
+  const std::string method = "initialization.method=";
+  for (const int m : {3, 4, 5, 7, 10}) {
+    const std::string number = std::to_string(m);
+    add("m" + number,
+        {method + "rank1", "initialization.frames=" + number, "features.point_count=2000"},
+        "frames/proposed",
+        m);
+  }
+  add("two_view", {method + "two_view", "features.point_count=2000"}, "frames/conventional", 2);
+  for (const int points : {100, 200, 500, 1000, 2000}) {
+    const std::string number = std::to_string(points), count = "features.point_count=" + number;
+    add("p" + number, {method + "rank1", count}, "points/proposed", points);
+    add("outliers_p" + number,
+        {method + "rank1", "initialization.reweighting=0", count},
+        "points/without outlier rejection",
+        points);
+    add("two_view_p" + number, {method + "two_view", count}, "points/conventional", points);
+  }
+  e.metrics = {"rpe_pairs", "ate", "start_frames", "lost"};
+  e.runs = 1;
+  e.full_runs = 5;
+  e.abscissa = "frames solved together, or points in an image";
+  e.paper_plot = PaperPlot::kConvergence;
+  return e;
+}
+
+Experiment RipplFigure9() {
+  Experiment e;
+  e.name = "rippl-figure9";
+  e.help = "Lee and Hwang 2019, figure 9: the camera before a plane, by kind of line and start";
+  e.sequences = {Tum("freiburg3_nostructure_texture_far", "fr3_nstr_tex_far"),
+                 Tum("freiburg1_floor", "fr1_floor"),
+                 {"worlds/planar"}};
+  e.variants = RipplSystems();
+  e.metrics = {"ate", "start_frames", "lost", "maps", "lines"};
+  e.plots = {"ate"};
+  e.runs = 2;
+  e.full_runs = 10;
+  e.paper_plot = PaperPlot::kTrajectories;
+  return e;
+}
+
+Experiment RipplTimingSystem() {
+  Experiment e;
+  e.name = "rippl-timing-system";
+  e.help = "Lee and Hwang 2019, section 5: times of tracking and adjustment by kind of line";
+  e.sequences = RipplSequences(false);
+  Append(e.sequences, {"euroc/*", "worlds/room"});
+  e.variants = RipplSystems();
+  e.metrics = {"adjust_ms",
+               "adjust_p95_ms",
+               "track_ms",
+               "frame_ms",
+               "cpu_ms",
+               "adjusted_line_bytes",
+               "map_line_bytes",
+               "memory_mb"};
+  e.plots = {"adjust_ms", "frame_ms"};
+  e.runs = 1;
+  e.full_runs = 5;
+  e.exclusive = true;
+  return e;
+}
+
+// Of the second paper: against the last frame, with the residuals and weights of its program.
+std::vector<Variant> CuttingSystems() {
+  const std::vector<std::string> odometry = {kNoLoops,
+                                             "tracking.reference=last_frame",
+                                             "lines.residual=projected_ends",
+                                             "lines.weighting=none"};
+  const char *no_points = "features.points=false", *cut = "cutting.method=greedy";
+  return {{"L", With(odometry, {no_points})},
+          {"L+Cut", With(odometry, {no_points, cut})},
+          {"PL", odometry},
+          {"PL+Cut", With(odometry, {cut})},
+          {"P", With(odometry, {"features.lines=false"})},
+          {"PL_weighted", With(odometry, {"lines.weighting=covariance"})}};
+}
+
+const std::vector<std::string> kCuttingMetrics = {
+    "rpe_causal_mean", "roe_causal_mean", "coverage", "lost"};
+
+Experiment CuttingTable1() {
+  Experiment e;
+  e.name = "cutting-table1";
+  e.help = "Zhao and Vela 2018, table 1: line cutting where there is little texture";
+  SequenceChoice world = {"worlds/lowtexture"};
+  world.paper = "low texture";
+  e.sequences = {world};
+  e.variants = CuttingSystems();
+  e.metrics = kCuttingMetrics;
+  e.plots = {"rpe_causal_mean", "roe_causal_mean"};
+  e.runs = 3;
+  e.full_runs = 10;
+  e.tolerated_failures = 2;
+  return e;
+}
+
+Experiment CuttingTables2And3() {
+  Experiment e;
+  e.name = "cutting-table2-3";
+  e.help = "Zhao and Vela 2018, tables 2 and 3: line cutting in fast flight, sharp and blurred";
+  for (const bool blurred : {false, true}) {
+    const std::string label = blurred ? "blurred" : "";
+    const std::vector<std::string> blur =
+        blurred ? std::vector<std::string>{"--blur", "5"} : std::vector<std::string>{};
+    for (const std::string name : {"V1_01_easy",
+                                   "V1_02_medium",
+                                   "V1_03_difficult",
+                                   "V2_01_easy",
+                                   "V2_02_medium",
+                                   "V2_03_difficult"}) {
+      const std::string paper = blurred ? name + " blurred" : name;
+      e.sequences.push_back({"euroc/" + name, {}, label, blur, paper, kEuroc});
+    }
+    for (const char* pattern : {"euroc/MH_*", "worlds/vicon_*"}) {
+      e.sequences.push_back({pattern, {}, label, blur});
+    }
+  }
+  e.variants = CuttingSystems();
+  e.metrics = kCuttingMetrics;
+  e.plots = {"rpe_causal_mean", "roe_causal_mean"};
+  e.runs = 1;
+  e.full_runs = 10;
+  e.tolerated_failures = 2;
+  return e;
+}
+
+Experiment CuttingFigure5() {
+  Experiment e;
+  e.name = "cutting-figure5";
+  e.help =
+      "Zhao and Vela 2018, figure 5: measured lines and the pieces that are left of them, with "
+      "little texture, motion blur and changing light";
+  e.sequences = {{"euroc/V1_03_difficult", {}, "", {}, "V1_03_difficult", kEuroc},
+                 {"worlds/lowtexture"},
+                 {"worlds/vicon_difficult"},
+                 {"worlds/lights"}};
+  e.variants = {{"PL+Cut", {kNoLoops, "lines.residual=projected_ends", "cutting.method=greedy"}}};
+  e.metrics = {"rpe_causal_mean", "lost", "lines"};
+  e.runs = 1;
+  e.paper_plot = PaperPlot::kCutLines;
+  return e;
+}
+
+Experiment CuttingTimingSystem() {
+  Experiment e;
+  e.name = "cutting-timing-system";
+  e.help = "Zhao and Vela 2018, section 6.2: time of tracking with and without line cutting";
+  e.sequences = {{"euroc/V1_01_easy", {}, "", {}, "V1_01_easy", kEuroc},
+                 {"euroc/MH_*"},
+                 {"worlds/vicon_medium"}};
+  const std::vector<Variant> all = CuttingSystems();
+  e.variants = {all[2], all[3]};
+  e.metrics = {"track_ms", "frame_ms", "frame_p95_ms", "cpu_ms"};
+  e.plots = {"track_ms"};
+  e.runs = 1;
+  e.full_runs = 5;
+  e.exclusive = true;
+  return e;
+}
+
+}  // namespace
+
+std::vector<Experiment> PaperExperiments() {
+  return {RipplTable1(),
+          RipplTable2(),
+          RipplFigure6(),
+          RipplFigure7(),
+          RipplFigure8(),
+          RipplFigure9(),
+          RipplTimingSystem(),
+          CuttingTable1(),
+          CuttingTables2And3(),
+          CuttingFigure5(),
+          CuttingTimingSystem()};
+}
+
+Experiment GateExperiment() {
+  Experiment e;
+  e.name = "gate";
+  e.help = "a few minutes over worlds and what recordings there are, with limits to keep";
+  for (const char* world :
+       {"worlds/room", "worlds/lowtexture", "worlds/planar", "worlds/lateral"}) {
+    e.sequences.push_back({world, {"frames=100"}, "short"});
+  }
+  Append(e.sequences,
+         {"euroc/MH_01_easy_first250",
+          "tum/rgbd_dataset_freiburg1_floor_first90",
+          "kitti/06_first51"});
+  e.variants = {{"both", {}}, {"mono", {}, kMono}};
+  e.metrics = {
+      "ate", "ate_causal", "rpe_causal_mean", "lost", "maps", "line_recall", "line_precision"};
+  e.plots = {"ate"};
+  e.runs = 1;
+  return e;
+}
+
+std::span<const ExperimentGroup> ExperimentGroups() {
+  static const std::vector<ExperimentGroup> kGroups = [] {
+    std::vector<ExperimentGroup> groups = {
+        {"rippl-timing",
+         "Lee and Hwang 2019, section 5: times of the system and of a start",
+         {"rippl-timing-system", "rippl-timing-initialization"}},
+        {"cutting-timing",
+         "Zhao and Vela 2018, section 6.2: times of line cutting, in the system and by itself",
+         {"cutting-timing-system", "cutting-timing-optimizers"}}};
+    ExperimentGroup all{"all", "every table and figure of both papers", {}};
+    for (const Experiment& experiment : PaperExperiments()) {
+      all.experiments.push_back(experiment.name);
+    }
+    all.experiments.insert(
+        all.experiments.end(),
+        {"cutting-figure2-4", "rippl-timing-initialization", "cutting-timing-optimizers"});
+    groups.push_back(all);
+    return groups;
+  }();
+  return kGroups;
+}
+
+const ExperimentGroup* FindExperimentGroup(std::string_view name) {
+  for (const ExperimentGroup& group : ExperimentGroups()) {
+    if (group.name == name) return &group;
+  }
+  return nullptr;
+}
+
+}  // namespace plumbline

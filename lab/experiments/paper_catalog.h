@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/catalog.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// The tables and figures of the two papers that runs can make, named after them: rippl-* of Lee and
+// Hwang 2019, cutting-* of Zhao and Vela 2018. Loops stay open, as in the papers. Variants have the
+// papers' names; what the papers print stands in printed/*.yaml under the same names. Beside the
+// papers' sequences there are others that stand in for those that are not at hand.
+std::vector<Experiment> PaperExperiments();
+
+// A few minutes on rendered worlds and on what recorded sequences there are, whose figures must
+// keep the limits of gate_limits.yaml (gate.h).
+Experiment GateExperiment();
+
+}  // namespace plumbline

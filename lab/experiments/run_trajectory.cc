@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/run_trajectory.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
+#include "plumbline/io/trajectory_io.h"
+
+#include <cstdint>
+#include <string>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kKittiGapNs = 250'000'000;
+
+bool IsOfOneCamera(const fs::path& run) {
+  const auto summary = nlohmann::json::parse(ReadInputFile(run / "summary.json"), nullptr, false);
+  return summary.is_object() && summary.contains("sensor") && summary["sensor"] == "mono";
+}
+
+}  // namespace
+
+std::optional<TrajectoryError> CompareRunWithTruth(const fs::path& sequence, const fs::path& run) {
+  std::error_code error;
+  if (!fs::exists(run / "trajectory.txt", error) || fs::file_size(run / "trajectory.txt") == 0) {
+    return std::nullopt;
+  }
+  DatasetOptions data_options;
+  data_options.allow_missing_camera = true;
+  const auto dataset = OpenDataset(sequence, data_options);
+  if (!dataset->info().ground_truth) return std::nullopt;
+  TrajectoryErrorOptions options;
+  if (IsOfOneCamera(run)) options.alignment = TrajectoryAlignment::kSim3;
+  if (dataset->info().format == DatasetFormat::kKitti) options.max_gap_ns = kKittiGapNs;
+  return CompareTrajectories(dataset->info().ground_truth->OfCamera(dataset->calibration()),
+                             ReadTrajectory(run / "trajectory.txt").poses,
+                             options);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/e2e/program.h"
+#include "tests/support/data_folder.h"
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+// The worlds, and the recorded sequences where they are there.
+TEST(ExperimentGate, KeepsItsLimits) {
+  const ScratchFolder folder;
+  const auto data = FindData(".");
+  const std::string sources = data ? " --data " + Quoted(*data) : "";
+  const Outcome outcome =
+      RunProgram(folder,
+                 "experiment gate --quiet --jobs 2 --cache '" PLUMBLINE_RENDERED_FOLDER "' --out " +
+                     Quoted(folder / "out") + sources);
+  EXPECT_EQ(outcome.code, 0) << outcome.err << Contents(folder / "out/gate.md");
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/paper_catalog.h"
+
+#include "lab/experiments/computed.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/slam/options.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+SlamOptions OptionsOf(const std::string& experiment, const std::string& variant) {
+  SlamOptions options;
+  OptionTable table(options);
+  for (const Variant& v : FindExperiment(experiment).variants) {
+    if (v.name != variant) continue;
+    for (const std::string& setting : v.settings) table.Set(setting);
+    return options;
+  }
+  ADD_FAILURE() << experiment << " has no " << variant;
+  return options;
+}
+
+TEST(PaperCatalog, AllHoldsEveryTableAndFigure) {
+  const ExperimentGroup* all = FindExperimentGroup("all");
+  ASSERT_NE(all, nullptr);
+  for (const std::string name : {"rippl-table1",
+                                 "rippl-table2",
+                                 "rippl-figure6",
+                                 "rippl-figure7",
+                                 "rippl-figure8",
+                                 "rippl-figure9",
+                                 "cutting-table1",
+                                 "cutting-table2-3",
+                                 "cutting-figure2-4",
+                                 "cutting-figure5"}) {
+    EXPECT_THAT(all->experiments, testing::Contains(name));
+  }
+  for (const char* group : {"rippl-timing", "cutting-timing"}) {
+    for (const std::string& name : FindExperimentGroup(group)->experiments) {
+      EXPECT_THAT(all->experiments, testing::Contains(name));
+      const ComputedExperiment* computed = FindComputedExperiment(name);
+      EXPECT_TRUE(computed != nullptr ? computed->exclusive : FindExperiment(name).exclusive);
+    }
+  }
+  for (const std::string& name : all->experiments) {
+    if (FindComputedExperiment(name) != nullptr) continue;
+    EXPECT_NO_THROW(FindExperiment(name)) << name;
+  }
+}
+
+TEST(PaperCatalog, LoopsStayOpenInAllOfThem) {
+  for (const Experiment& experiment : PaperExperiments()) {
+    if (experiment.command == RunCommandKind::kStarts) continue;
+    for (const Variant& variant : experiment.variants) {
+      EXPECT_FALSE(OptionsOf(experiment.name, variant.name).loop.enabled)
+          << experiment.name << " " << variant.name;
+    }
+  }
+}
+
+TEST(PaperCatalog, TheSystemsOfTable2DifferInAllThatMakesThem) {
+  const SlamOptions rippl = OptionsOf("rippl-table2", "RIPPL"),
+                    epl = OptionsOf("rippl-table2", "EPL"), ppl = OptionsOf("rippl-table2", "PPL");
+  EXPECT_EQ(rippl.initialization.method, InitializationMethod::kRank1);
+  EXPECT_EQ(epl.initialization.method, InitializationMethod::kTwoView);
+  EXPECT_EQ(ppl.initialization.method, InitializationMethod::kTwoView);
+  EXPECT_EQ(rippl.lines.parametrization, LineParametrization::kPlucker);
+  EXPECT_EQ(epl.lines.parametrization, LineParametrization::kEndpoints);
+  EXPECT_EQ(epl.lines.residual, LineResidualKind::kProjectedEnds);
+  EXPECT_EQ(epl.lines.reconstruction, LineReconstruction::kTwoView);
+  EXPECT_EQ(NameOf(ppl.lines.parametrization), "plucker_left");
+  for (const SlamOptions* options : {&rippl, &epl, &ppl}) {
+    EXPECT_EQ(options->features.point_count, 500);
+    EXPECT_EQ(options->features.line_count, 300);
+  }
+}
+
+TEST(PaperCatalog, CuttingIsAgainstTheLastFrameWithoutWeights) {
+  for (const std::string name : {"L", "L+Cut", "PL", "PL+Cut", "P"}) {
+    const SlamOptions options = OptionsOf("cutting-table2-3", name);
+    EXPECT_EQ(options.tracking.reference, TrackingReference::kLastFrame) << name;
+    EXPECT_EQ(options.lines.weighting, LineWeighting::kNone) << name;
+    EXPECT_EQ(options.cutting.method == CuttingMethod::kGreedy, name.ends_with("Cut")) << name;
+    EXPECT_EQ(options.features.points, name.starts_with("P")) << name;
+    EXPECT_EQ(options.features.lines, name != "P") << name;
+  }
+}
+
+TEST(PaperCatalog, EverySequenceOfAPaperTellsWhereItComesFrom) {
+  std::set<std::string> tum, euroc;
+  for (const Experiment& experiment : PaperExperiments()) {
+    for (const SequenceChoice& choice : experiment.sequences) {
+      if (choice.paper.empty() || choice.pattern.starts_with("worlds/")) continue;
+      EXPECT_TRUE(choice.source.starts_with("https://")) << choice.pattern;
+      (choice.pattern.starts_with("tum/") ? tum : euroc).insert(choice.pattern);
+    }
+  }
+  EXPECT_EQ(tum.size(), 8U);
+  EXPECT_EQ(euroc.size(), 6U);
+}
+
+TEST(PaperCatalog, EightWorldsStandIn) {
+  std::set<std::string> worlds;
+  for (const Experiment& experiment : PaperExperiments()) {
+    for (const SequenceChoice& choice : experiment.sequences) {
+      if (choice.pattern.starts_with("worlds/")) worlds.insert(choice.pattern);
+    }
+  }
+  worlds.erase("worlds/vicon_*");
+  EXPECT_GE(worlds.size(), 8U);
+}
+
+}  // namespace
+}  // namespace plumbline
