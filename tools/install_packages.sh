@@ -4,6 +4,7 @@
 #
 #   tools/install_packages.sh                        to build and run (apt_packages.txt)
 #   tools/install_packages.sh --python               the package for Python as well (apt_packages_python.txt)
+#   tools/install_packages.sh --ros                  the node of ROS 1 as well (apt_packages_ros.txt)
 #   tools/install_packages.sh --tests [PACKAGE]...   to test as well (apt_packages_test.txt), and others
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -12,6 +13,10 @@ lists=(apt_packages.txt)
 case ${1:-} in
   --python)
     lists+=(apt_packages_python.txt)
+    shift
+    ;;
+  --ros)
+    lists+=(apt_packages_ros.txt)
     shift
     ;;
   --tests)

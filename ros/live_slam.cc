@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "live_slam.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
+#include "plumbline/io/camera_file.h"
+#include "plumbline/io/dataset.h"
+#include "plumbline/io/map_io.h"
+#include "plumbline/live/stamp_continuity.h"
+#include "plumbline/slam/pipeline.h"
+#include "plumbline/slam/system.h"
+
+#include "apps/command_line.h"
+#include "sensor_messages.h"
+#include <future>
+#include <map>
+#include <mutex>
+
+#include <fmt/format.h>
+
+namespace plumbline::ros_node {
+namespace {
+
+SlamOptions ReadOptions(const LiveSlamSettings& settings) {
+  SlamOptions options;
+  OptionTable table(options);
+  table.Set("slam.mode=live");
+  if (!settings.config.empty()) table.LoadFile(settings.config);
+  for (const std::string& option : settings.options) table.Set(option);
+  CheckOptions(options);
+  return options;
+}
+
+std::optional<Calibration> FindCalibration(const LiveSlamSettings& settings, SensorKind sensor) {
+  if (settings.camera.empty()) return std::nullopt;
+  const bool pair = sensor == SensorKind::kStereo;
+  Calibration calibration = FindCamera(settings.camera, pair).calibration;
+  if (pair && !calibration.right) {
+    throw InputError(settings.camera + ": expected two cameras for stereo, found one");
+  }
+  if (!pair) calibration.right.reset();
+  calibration.depth_factor.reset();
+  if (sensor == SensorKind::kRgbd) calibration.depth_factor = kDepthFactor;
+  return calibration;
+}
+
+MapView ViewOf(const Map& map, const Eigen::Quaterniond& rectified_from_left) {
+  MapView view;
+  for (const auto& [id, point] : map.points()) view.points.push_back(point.position);
+  for (const auto& [id, line] : map.lines()) {
+    const Segment3 segment = line.Interval();
+    view.lines.emplace_back(segment.start, segment.end);
+  }
+  const Rigid3 rectified_from_delivered{rectified_from_left, Eigen::Vector3d::Zero()};
+  std::map<std::int64_t, Rigid3> by_time;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    by_time.emplace(keyframe.frame.stamp_ns,
+                    Inverse(keyframe.frame.cam_from_world) * rectified_from_delivered);
+  }
+  view.keyframes.assign(by_time.begin(), by_time.end());
+  return view;
+}
+
+// One run of the camera: a System with its Pipeline.
+class Session {
+ public:
+  using Observer = std::function<void(const FrameRecord&, bool corrected)>;
+
+  Session(const Calibration& calibration, const SlamOptions& options, Observer observer)
+      : system_(calibration, options),
+        observer_(std::move(observer)),
+        pipeline_(system_,
+                  [this](const FrameRecord& record, const FrameView&) { Observe(record); }) {
+    system_.DescribeSession(PLUMBLINE_ROS_VERSION, "ROS");
+  }
+
+  System& system() { return system_; }
+  Pipeline& pipeline() { return pipeline_; }
+
+ private:
+  void Observe(const FrameRecord& record) {
+    const MapEvents events = system_.EventsSoFar();
+    const std::size_t count =
+        events.loops.size() + events.joins.size() + events.relocalizations.size();
+    observer_(record, count > std::exchange(corrections_, count));
+  }
+
+  System system_;
+  Observer observer_;
+  std::size_t corrections_ = 0;  // so far; the tracking thread's
+  Pipeline pipeline_;            // last: its thread calls Observe
+};
+
+}  // namespace
+
+class LiveSlam::Implementation {
+ public:
+  Implementation(const LiveSlamSettings& settings, LiveSlam::Observer observer)
+      : sensor_(ParseChoice<SensorKind>("sensor", settings.sensor)),
+        rectified_(settings.rectified),
+        options_(ReadOptions(settings)),
+        calibration_(FindCalibration(settings, sensor_)),
+        observer_(std::move(observer)) {}
+
+  bool IsCalibrated() const { return calibration_.has_value(); }
+  void SetCameras(const CameraNumbers& left, const std::optional<CameraNumbers>& right);
+  std::optional<double> Feed(std::int64_t stamp_ns, const RawImage& left, const RawImage* second);
+  bool HasFrames() const { return session_ && has_frames_; }
+  void ViewMap(std::function<void(MapView)> take);
+  std::string Save(const std::string& path);
+  std::vector<std::string> Load(const std::string& path, bool localize);
+  void Reset();
+
+ private:
+  SensorFrame FrameOf(const RawImage& left, const RawImage* second) const;
+  std::unique_ptr<Session> Begin();
+  void Observe(const FrameRecord& record, bool corrected);
+  std::int64_t StampAsFed(std::int64_t stamp_ns);
+
+  SensorKind sensor_;
+  bool rectified_;
+  SlamOptions options_;
+  std::optional<Calibration> calibration_;
+  LiveSlam::Observer observer_;
+  std::optional<SavedAtlas> loaded_;  // to begin with
+  bool localize_ = false;
+  StampContinuity continuity_;
+  bool has_frames_ = false;
+  std::mutex stamps_mutex_;
+  std::map<std::int64_t, std::int64_t> stamps_;  // ours to those as fed, of frames that are not out
+  std::unique_ptr<Session> session_;  // null until the first frame; last: its threads call Observe
+};
+
+void LiveSlam::Implementation::SetCameras(const CameraNumbers& left,
+                                          const std::optional<CameraNumbers>& right) {
+  if ((sensor_ == SensorKind::kStereo) != right.has_value()) {
+    throw InputError("cameras: expected two for stereo and one otherwise");
+  }
+  calibration_ = CalibrationOf(left, right, rectified_, sensor_ == SensorKind::kRgbd);
+}
+
+std::optional<double> LiveSlam::Implementation::Feed(std::int64_t stamp_ns,
+                                                     const RawImage& left,
+                                                     const RawImage* second) {
+  SensorFrame frame = FrameOf(left, second);
+  if (!session_) session_ = Begin();
+  const StampContinuity::Stamp next = continuity_.Next(stamp_ns);
+  frame.stamp_ns = next.stamp_ns;
+  {
+    const std::lock_guard lock(stamps_mutex_);
+    stamps_[next.stamp_ns] = stamp_ns;
+  }
+  has_frames_ = true;
+  session_->pipeline().Feed(std::move(frame));
+  if (!next.jumped_back_ns) return std::nullopt;
+  return 1e-9 * static_cast<double>(*next.jumped_back_ns);
+}
+
+SensorFrame LiveSlam::Implementation::FrameOf(const RawImage& left, const RawImage* second) const {
+  if (!calibration_) throw InputError("expected a calibration before the first frame, found none");
+  const ImageSize size{calibration_->left.width(), calibration_->left.height()};
+  SensorFrame frame;
+  frame.left = GrayOf(left, size);
+  if (sensor_ == SensorKind::kMono) return frame;
+  if (second == nullptr) throw InputError("expected a second image, found none");
+  if (sensor_ == SensorKind::kStereo) frame.right = GrayOf(*second, size);
+  if (sensor_ == SensorKind::kRgbd) frame.depth = DepthOf(*second, size);
+  return frame;
+}
+
+// With what was loaded, or nothing. What was loaded stays where it does not fit.
+std::unique_ptr<Session> LiveSlam::Implementation::Begin() {
+  auto session = std::make_unique<Session>(
+      *calibration_, options_, [this](const FrameRecord& r, bool corrected) {
+        Observe(r, corrected);
+      });
+  if (loaded_) {
+    session->system().Continue(*loaded_, localize_);
+    loaded_.reset();
+  }
+  has_frames_ = false;
+  return session;
+}
+
+void LiveSlam::Implementation::Observe(const FrameRecord& record, bool corrected) {
+  FrameOutcome outcome;
+  outcome.stamp_ns = StampAsFed(record.stamp_ns);
+  outcome.skipped = record.status == FrameStatus::kSkipped;
+  outcome.state = NameOf(record.status);
+  outcome.world_from_camera = record.causal_world_from_camera;
+  outcome.map = record.map.valid() ? record.map.value : -1;
+  outcome.corrected = corrected;
+  observer_(outcome);
+}
+
+// Forgets the frames before.
+std::int64_t LiveSlam::Implementation::StampAsFed(std::int64_t stamp_ns) {
+  const std::lock_guard lock(stamps_mutex_);
+  const auto found = stamps_.find(stamp_ns);
+  PLUMBLINE_CHECK(found != stamps_.end(), "a frame came out that was not fed");
+  const std::int64_t as_fed = found->second;
+  stamps_.erase(stamps_.begin(), std::next(found));
+  return as_fed;
+}
+
+void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
+  if (!HasFrames()) return;
+  session_->pipeline().Drain();
+  session_->system().CopyMaps([take = std::move(take)](const SavedAtlas& saved) {
+    const Map* map = saved.atlas.Find(saved.atlas.active_id());
+    if (map != nullptr) take(ViewOf(*map, saved.context.rectified_from_left));
+  });
+}
+
+std::string LiveSlam::Implementation::Save(const std::string& path) {
+  if (!HasFrames()) throw InputError(path + ": expected frames before a map is saved, found none");
+  std::promise<SavedAtlas> promise;
+  session_->pipeline().Drain();
+  session_->system().CopyMaps(
+      [&promise](SavedAtlas saved) { promise.set_value(std::move(saved)); });
+  const SavedAtlas saved = promise.get_future().get();
+  SaveAtlas(path, saved.atlas, saved.context);
+  const Map* map = saved.atlas.Find(saved.atlas.active_id());
+  return fmt::format("{}: {} keyframes, {} points, {} lines",
+                     path,
+                     map != nullptr ? map->keyframes().size() : 0,
+                     map != nullptr ? map->points().size() : 0,
+                     map != nullptr ? map->lines().size() : 0);
+}
+
+std::vector<std::string> LiveSlam::Implementation::Load(const std::string& path, bool localize) {
+  SavedAtlas saved = LoadAtlas(path);
+  if (!calibration_) {
+    loaded_ = std::move(saved);
+    localize_ = localize;
+    return {};
+  }
+  auto session = std::make_unique<Session>(
+      *calibration_, options_, [this](const FrameRecord& r, bool corrected) {
+        Observe(r, corrected);
+      });
+  std::vector<std::string> remarks = session->system().Continue(std::move(saved), localize);
+  session_ = std::move(session);
+  has_frames_ = false;
+  return remarks;
+}
+
+void LiveSlam::Implementation::Reset() {
+  session_.reset();
+  loaded_.reset();
+  localize_ = false;
+  has_frames_ = false;
+}
+
+LiveSlam::LiveSlam(const LiveSlamSettings& settings, Observer observer)
+    : implementation_(std::make_unique<Implementation>(settings, std::move(observer))) {}
+LiveSlam::~LiveSlam() = default;
+
+bool LiveSlam::IsCalibrated() const { return implementation_->IsCalibrated(); }
+void LiveSlam::SetCameras(const CameraNumbers& left, const std::optional<CameraNumbers>& right) {
+  implementation_->SetCameras(left, right);
+}
+std::optional<double> LiveSlam::Feed(std::int64_t stamp_ns,
+                                     const RawImage& left,
+                                     const RawImage* second) {
+  return implementation_->Feed(stamp_ns, left, second);
+}
+bool LiveSlam::HasFrames() const { return implementation_->HasFrames(); }
+void LiveSlam::ViewMap(std::function<void(MapView)> take) {
+  implementation_->ViewMap(std::move(take));
+}
+std::string LiveSlam::Save(const std::string& path) { return implementation_->Save(path); }
+std::vector<std::string> LiveSlam::Load(const std::string& path, bool localize) {
+  return implementation_->Load(path, localize);
+}
+void LiveSlam::Reset() { implementation_->Reset(); }
+
+}  // namespace plumbline::ros_node

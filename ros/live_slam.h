@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/se3.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+// What the node wants of the library, in C++17: the headers of ROS 1 do not compile as C++20, those
+// of the library do not as C++17, and these have to do with neither.
+namespace plumbline::ros_node {
+
+// An image as sensor_msgs/Image has it; the pixels belong to the caller.
+struct RawImage {
+  std::string topic;  // for messages
+  std::string encoding;
+  std::uint32_t width = 0, height = 0, step = 0;
+  bool big_endian = false;
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+};
+
+// A camera as sensor_msgs/CameraInfo has it.
+struct CameraNumbers {
+  std::string topic;  // for messages
+  std::uint32_t width = 0, height = 0;
+  std::string distortion_model;
+  std::vector<double> d;
+  std::array<double, 9> k{}, r{};
+  std::array<double, 12> p{};
+  std::uint32_t binning_x = 0, binning_y = 0;
+  std::array<std::uint32_t, 4> region{};  // x, y, width, height; all 0: the whole image
+};
+
+struct LiveSlamSettings {
+  std::string sensor = "mono";       // mono, stereo, rgbd
+  std::string camera;                // a file, or the name of a built-in camera; empty: SetCameras
+  bool rectified = false;            // the images are (SetCameras)
+  std::string config;                // a file of options; empty: none
+  std::vector<std::string> options;  // "features.line_count=100", applied after the file
+};
+
+// What came of a frame.
+struct FrameOutcome {
+  std::int64_t stamp_ns = 0;  // as it was fed
+  bool skipped = false;       // it was left out, for want of time
+  std::string state;          // initializing, tracked, lost, skipped
+  std::optional<Rigid3> world_from_camera;
+  std::int64_t map = -1;   // in which the pose is
+  bool corrected = false;  // the map was corrected at large since the frame before
+};
+
+// The active map at one moment.
+struct MapView {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;
+  // Stamps and world_from_camera, the camera as delivered, by time.
+  std::vector<std::pair<std::int64_t, Rigid3>> keyframes;
+};
+
+// SLAM on frames that come when they come, in live mode unless told otherwise: one run of the
+// camera after the other, each begun by Load or Reset. One thread calls; what is wrong with its
+// arguments is told by InputError, after which all is as it was before the call.
+class LiveSlam {
+ public:
+  // Called in the thread that tracks, in the order of the frames.
+  using Observer = std::function<void(const FrameOutcome&)>;
+
+  LiveSlam(const LiveSlamSettings& settings, Observer observer);
+  ~LiveSlam();
+  LiveSlam(const LiveSlam&) = delete;
+  LiveSlam& operator=(const LiveSlam&) = delete;
+
+  // Whether the cameras are known.
+  bool IsCalibrated() const;
+  void SetCameras(const CameraNumbers& left, const std::optional<CameraNumbers>& right);
+
+  // A frame; `second` is the right image or the depth image, null with one camera. Stamps that jump
+  // back go on behind the frame before (StampContinuity): then this returns by how many seconds
+  // they jumped. 16 bits of depth are millimetres.
+  std::optional<double> Feed(std::int64_t stamp_ns, const RawImage& left, const RawImage* second);
+  bool HasFrames() const;
+
+  // Hands over the active map as mapping has it when it has done what was fed, in the thread that
+  // maps; nothing where there is no map. Waits until the frames so far are tracked.
+  void ViewMap(std::function<void(MapView)> take);
+
+  // Writes all maps into a file, and says what was written.
+  std::string Save(const std::string& path);
+  // Goes on in the maps of a file, where the camera is looked for; `localize`: changes nothing of
+  // them. Before the cameras are known the maps wait. Returns what makes them harder to use.
+  std::vector<std::string> Load(const std::string& path, bool localize);
+  void Reset();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace plumbline::ros_node
