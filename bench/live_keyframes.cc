@@ -15,6 +15,7 @@
 #include "plumbline/base/options_io.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/open_dataset.h"
 #include "plumbline/slam/system.h"
 
 #include <algorithm>
