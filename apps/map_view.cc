@@ -25,13 +25,12 @@ constexpr auto kStep = std::chrono::milliseconds(20);
 constexpr const char* kDefaultAddress = "8080";
 
 CommandSyntax Syntax() {
-  CommandSyntax syntax = {
-      "map view",
-      "Shows a map file in browsers, and in Foxglove, until Ctrl-C.",
-      {"FILE"},
-      {{"--map", "N", "the map of this number (default: the one that grew last)"}}};
-  for (CommandOption& option : ViewOptions()) syntax.options.push_back(std::move(option));
-  return syntax;
+  return {"map view",
+          "Shows a map file in browsers, and in Foxglove, until Ctrl-C.",
+          {"FILE"},
+          {{"--map", "N", "the map of this number (default: the one that grew last)"},
+           {"--view", "[HOST:]PORT", "where to listen (default: 8080 of this machine)"},
+           {"--view-origin", "URL", "another page that may connect; may be repeated"}}};
 }
 
 // plumbline.Frame of a keyframe of the map that is shown; null where there is none.

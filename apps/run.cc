@@ -49,7 +49,7 @@ constexpr int kLongestPause = 1'000'000;  // seconds
 constexpr int kWidestBlur = 1001;         // pixels; nothing is left to see by then
 
 CommandSyntax Syntax() {
-  CommandSyntax syntax = {
+  return {
       "run",
       "Tracks the camera through a recorded sequence, or while it runs, and maps what it sees.\n"
       "PATH: a data set; camera:N or camera:N,M; rtsp://...; gst:PIPELINE; - (standard input)",
@@ -76,10 +76,10 @@ CommandSyntax Syntax() {
         "write there what --resume needs, when the run stops (--to, Ctrl-C)"},
        {"--resume", "FILE", "go on with the next frame of the run that wrote this --checkpoint"},
        {"--out", "DIR", "folder for the results (default: plumbline_run)"},
+       {"--view", "[HOST:]PORT", "show it in browsers, and in Foxglove"},
+       {"--view-origin", "URL", "another page that may connect to --view; may be repeated"},
+       {"--record", "FILE.mcap", "write what viewers are sent into a file"},
        {"--quiet", "", "print nothing but errors"}}};
-  syntax.options.push_back({"--record", "FILE.mcap", "write what viewers are sent into a file"});
-  for (CommandOption& option : ViewOptions()) syntax.options.push_back(std::move(option));
-  return syntax;
 }
 
 // The frames to process, by index in the data set.

@@ -81,7 +81,7 @@ class FrameFeed {
     SayStopped();
     Keeping([&] { pipeline_.Finish(StepStop()); });
     NameShortage();
-    FinishViewing();
+    Keeping([&] { FinishViewing(); });
     return result_;
   }
 

@@ -6,11 +6,6 @@
 
 namespace plumbline {
 
-std::vector<CommandOption> ViewOptions() {
-  return {{"--view", "[HOST:]PORT", "show it in browsers, and in Foxglove (docs/viewer.md)"},
-          {"--view-origin", "URL", "another page that may connect; may be repeated"}};
-}
-
 std::optional<WebAccess> ReadViewOptions(const CommandLine& line, bool quiet) {
   const auto address = line.Value("--view");
   if (!address) {

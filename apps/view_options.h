@@ -6,16 +6,12 @@
 
 #include "apps/command_line.h"
 #include <optional>
-#include <vector>
 
 namespace plumbline {
 
-// --view and --view-origin, for the syntax of commands.
-std::vector<CommandOption> ViewOptions();
-
-// Where a viewer is to listen, nullopt where none was asked for. Who listens for others than this
-// machine gets a token. InputError for what is no address or origin, and where the token would not
-// be told (quiet).
+// Where a viewer is to listen by --view and --view-origin, nullopt where none was asked for. Who
+// listens for others than this machine gets a token. InputError for what is no address or origin,
+// and where the token would not be told (quiet).
 std::optional<WebAccess> ReadViewOptions(const CommandLine& line, bool quiet);
 
 }  // namespace plumbline

@@ -6,6 +6,7 @@ find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(zstd REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers alone
 find_package(Threads REQUIRED)
 if(PLUMBLINE_WORLDS)
   find_package(embree 3 REQUIRED)
