@@ -67,12 +67,12 @@ def test_a_pair(node, world, bag):
     assert len(heard.path[-1].poses) >= 2
 
 
-def test_one_camera_and_states(node, world, bag):
+def test_one_camera_waits_for_its_map(node, bag):
     running = node(*ONE)
     play(bag)
-    assert wait_for(lambda: running.listener.pose and
-                    running.listener.pose[-1].header.stamp == world.stamp(world.frames[-1]))
-    assert [message.data for message in running.listener.state][:2] == ["initializing", "tracked"]
+    assert wait_for(lambda: running.listener.state)
+    assert running.listener.state[0].data == "initializing"
+    assert len(running.listener.pose) == 0 or running.listener.state[-1].data != "initializing"
 
 
 @pytest.mark.parametrize("millimetres", [False, True])
