@@ -35,7 +35,7 @@ class IndependentLineObjective {
   };
   Point At(double ratio) const;
 
-  Eigen::Matrix3d gram_;  // of the coefficients of p in the metric R^-1
+  Eigen::Matrix3d gram_;  // Gram matrix of the coefficients of p in the metric R^-1
   // w^T Sigma_k w with w = z^2 g = w_0 + a w_1: coefficients of (1, a, a^2).
   Eigen::Vector3d start_variance_, end_variance_;
   double depth_ = 0, depth_by_ratio_ = 0, noise_ = 0;

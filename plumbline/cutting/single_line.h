@@ -15,8 +15,8 @@ namespace plumbline {
 // are the sums over the other lines.
 struct SingleLineCut {
   LineCut cut;
-  double gain = 0;     // of log det over the present cut; 0 where that is kept
-  int iterations = 0;  // of the three ascents together
+  double gain = 0;     // gain of log det over the present cut; 0 where that is kept
+  int iterations = 0;  // iterations of the three ascents together
 };
 SingleLineCut CutSingleLine(const CuttingProblem& problem,
                             std::size_t line,

@@ -23,7 +23,7 @@ struct Figure {
   };
   enum class Anchor { kStart, kMiddle, kEnd };
   struct Text {
-    Eigen::Vector2d position;  // of the anchor, on the base line
+    Eigen::Vector2d position;  // place of the anchor, on the base line
     std::string text;
     double size = 12;  // height of the letters' em
     Anchor anchor = Anchor::kStart;

@@ -44,13 +44,13 @@ struct LineCounterpart {
 
 // Shares are in [0, 1]; nullopt where there is nothing to take a share or a median of.
 struct LineMapErrorAt {
-  double tolerance = 0;                                              // metres
-  std::optional<double> recall;                                      // of the length asked for
+  double tolerance = 0;          // metres
+  std::optional<double> recall;  // share of the length asked for that was found
   std::array<std::optional<double>, kTrueLineKinds> recall_by_kind;  // by TrueLineKind
-  std::optional<double> precision;                                   // of the estimated length
-  std::size_t with_counterpart = 0;                                  // estimated segments
-  std::optional<double> median_angle;                                // of these, radians
-  std::optional<double> median_distance;                             // of these, metres
+  std::optional<double> precision;        // share of the estimated length that is right
+  std::size_t with_counterpart = 0;       // estimated segments
+  std::optional<double> median_angle;     // median angle to the true lines, radians
+  std::optional<double> median_distance;  // median distance from the true lines, metres
   std::optional<double> segments_per_line;
   std::optional<double> multiplicity;
 };
@@ -65,8 +65,9 @@ struct LineMapError {
   // without surfaces or without such length.
   double uncovered_length = 0;
   std::optional<SurfaceDistance> uncovered_from_surfaces;
-  std::vector<bool> asked;                                   // of each true line
-  std::vector<std::optional<LineCounterpart>> counterparts;  // of each estimated segment
+  std::vector<bool> asked;  // whether each true line is asked for
+  std::vector<std::optional<LineCounterpart>>
+      counterparts;  // the true line of each estimated segment
 };
 
 // Compares a line map with the lines of a known world. At each tolerance:

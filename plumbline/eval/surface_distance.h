@@ -13,7 +13,7 @@ namespace plumbline {
 // How far pieces of lines are from the nearest surface, each piece weighted with its length.
 struct SurfaceDistance {
   double median = 0;        // metres
-  double share_beyond = 0;  // of the length, further away than the limit; in [0, 1]
+  double share_beyond = 0;  // share of the length that is further away than the limit; in [0, 1]
 };
 
 // Cuts the pieces into cells of 5 mm (longer ones where the pieces sum up to more than 1 km) and

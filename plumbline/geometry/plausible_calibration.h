@@ -19,7 +19,7 @@ namespace plumbline {
 // 100000 Hz, found 1e+300", or nullopt where nothing is wrong. NaN is wrong everywhere.
 
 constexpr int kLongestSide = 100'000;              // pixels
-constexpr std::int64_t kMostPixels = 100'000'000;  // of an image
+constexpr std::int64_t kMostPixels = 100'000'000;  // pixels that an image may have
 constexpr double kMinBaseline = 1e-4;              // metres
 constexpr double kMaxBaseline = 1e3;
 constexpr double kLongestLever = 1e4;              // metres, from the camera to the body

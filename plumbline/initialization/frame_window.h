@@ -92,8 +92,9 @@ class FrameWindow {
   RectifiedCamera camera_;
   InitialMatching matching_;
   std::optional<InitializationFrame> reference_;
-  KltTracks flow_;                      // of features of the reference, by feature
-  std::vector<Eigen::Matrix2d> warps_;  // of their patches in the newest frame (match_refinement.h)
+  KltTracks flow_;  // optical flow of the reference's features, by feature
+  std::vector<Eigen::Matrix2d>
+      warps_;  // affine maps of their patches in the newest frame (match_refinement.h)
   std::vector<Matched> frames_;
 };
 

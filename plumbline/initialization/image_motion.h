@@ -56,8 +56,8 @@ class ImageMotion {
   Eigen::Matrix2d linear_ = Eigen::Matrix2d::Identity();
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
-  std::vector<Eigen::Vector2d> places_;     // of the matches, in the first image
-  std::vector<Eigen::Vector2d> leftovers_;  // of the affine map there
+  std::vector<Eigen::Vector2d> places_;     // places of the matches, in the first image
+  std::vector<Eigen::Vector2d> leftovers_;  // what the affine map leaves of the motion there
 };
 
 }  // namespace plumbline

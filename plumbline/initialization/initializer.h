@@ -80,7 +80,7 @@ struct InitialMap {
 
 struct InitializationResult {
   InitializationWait wait = InitializationWait::kNone;  // kNone: there is a map
-  int matches = 0;                                      // of points with the reference frame
+  int matches = 0;                                      // points matched with the reference frame
   double parallax_deg = 0;                              // median, after rotation; 0 where unknown
   std::optional<InitialMap> map;
 

@@ -43,7 +43,7 @@ class KltInitializer : public Initializer {
  private:
   struct Followed {
     InitializationFrame frame;
-    std::vector<std::optional<Eigen::Vector2d>> places;  // of the reference's features
+    std::vector<std::optional<Eigen::Vector2d>> places;  // where the reference's features are
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {

@@ -14,12 +14,12 @@
 namespace plumbline {
 
 struct MatchRefinementOptions {
-  int radius = 5;  // of the patch, in pixels of the feature's octave
+  int radius = 5;  // half the width of the patch, in pixels of the feature's octave
   int max_iterations = 15;
   // How far each of the two steps may go from where it begins, in pixels of the octave: shifts
   // alone begin at the guess, the affine map where these end.
   double max_shift_px = 1.5;
-  double min_correlation = 0.8;  // of the patches, normalized, in the end
+  double min_correlation = 0.8;  // least normalized correlation of the two patches in the end
   // Smaller over larger eigenvalue of the patch's structure tensor; below, it is an edge and the
   // place along it is free.
   double min_roundness = 0.15;

@@ -16,7 +16,7 @@ namespace plumbline {
 
 struct ReferenceMatchOptions {
   double first_window_px = 100;   // half width around the guess, where the motion is not yet known
-  double guessed_window_px = 50;  // the same where `guess` is known
+  double guessed_window_px = 50;  // half width around `guess`, where it is known
   int first_max_distance = 60;    // Hamming, of 256 bits
   double first_ratio = 0.8;       // best / second best in the window
   double window_px = 25;          // half width around the place that other matches predict

@@ -23,10 +23,10 @@ struct Rank1View {
 
 // Settings of FactorizeRank1.
 struct Rank1Options {
-  int iterations = 5;  // of reweighting; 0: one plain factorization, as the paper
+  int iterations = 5;  // rounds of reweighting; 0: one plain factorization, as the paper
   // Rays nearer to the line of the centres than this say nothing of the length of the motion.
   double min_epipole_angle = 0.02;  // radians
-  double loss_width = 2.385;        // of the Cauchy loss, in standard deviations
+  double loss_width = 2.385;        // width of the Cauchy loss, in standard deviations
 };
 
 // A matrix stored by rows, so that one coordinate of one frame has its numbers of all points side
@@ -35,11 +35,12 @@ using Rank1Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 // Cameras and points that are rank one together.
 struct Rank1Solution {
-  std::vector<Eigen::Vector3d> centres;  // of the views, in the reference frame; unit length in all
+  std::vector<Eigen::Vector3d>
+      centres;  // centres of the views, in the reference frame; unit length in all
   std::vector<double> inverse_distances;  // by point, along its unit ray; 0 where nothing is known
   int in_front = 0;                       // points with a positive one
   int solved = 0;                         // points with any
-  double spread = 0;  // of the residuals, by their median, in standard deviations
+  double spread = 0;  // spread of the residuals by their median, in standard deviations
 };
 
 // The 3m x n matrix of the first paper's eq. 4: column k has, frame by frame, the camera centre in

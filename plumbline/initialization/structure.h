@@ -15,8 +15,8 @@ using FeatureTrack = std::vector<InitialObservation>;
 
 struct StructureOptions {
   double min_parallax_deg = 0.3;
-  double max_relative_sigma = 0.3;       // of the depth of a point, standard deviation / depth
-  double max_line_relative_sigma = 0.1;  // of the depth across a line
+  double max_relative_sigma = 0.3;       // largest standard deviation / depth of a point
+  double max_line_relative_sigma = 0.1;  // largest standard deviation / depth across a line
 };
 
 // Points and lines from views whose poses are known.

@@ -14,7 +14,7 @@ struct WindowFit {
   // matches of all points with the reference: those of points without a place count in full.
   double cost = 0;
   int measurements = 0;  // that are summed, two coordinates each
-  int inliers = 0;       // of them within max_chi2
+  int inliers = 0;       // measurements within max_chi2
   // Noise of a measurement in units of the standard deviation assumed: the root mean square of the
   // errors, each limited as in `cost`, over the degrees of freedom that the parameters leave.
   double noise = 0;

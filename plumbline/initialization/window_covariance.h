@@ -44,8 +44,9 @@ std::optional<Eigen::MatrixXd> ComputePoseCovariance(const WindowTracks& tracks,
 
 // Standard deviations of the pose of one view.
 struct PoseAccuracy {
-  double rotation = 0;   // radians, along the worst axis
-  double direction = 0;  // of the line of the two camera centres, radians, along the worst axis
+  double rotation = 0;  // radians, along the worst axis
+  double direction =
+      0;  // deviation of the line of the two camera centres, radians, along the worst axis
 };
 PoseAccuracy AccuracyOf(const WindowSolution& solution,
                         const WindowCovariance& covariance,

@@ -17,10 +17,10 @@ inline constexpr double kSameDirection = 3 * std::numbers::pi / 180;
 // One way to explain a window of frames, and how well it does.
 struct Explanation {
   WindowSolution solution;
-  WindowFit fit;          // of the points
-  double cost = 0;        // of points and, where they take part, lines
+  WindowFit fit;          // fit of the points
+  double cost = 0;        // cost of points and, where they take part, lines
   int lines = 0;          // that fit every view which shows them
-  double line_noise = 1;  // of these, in the standard deviation assumed
+  double line_noise = 1;  // noise of the lines, in units of the standard deviation assumed
 };
 
 // Whether the newest poses of two solutions are the same, whatever their units.

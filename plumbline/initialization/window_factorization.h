@@ -12,11 +12,12 @@ namespace plumbline {
 
 struct WindowFactorizationOptions {
   bool interpolate = true;
-  double max_interpolation_sigma = 0.004;  // of a place that is used, ideal coordinates
-  double min_line_angle = 0;               // of the two epipolar lines, radians
-  int reweighting = 5;                     // steps; 0: the plain factorization
-  double min_robust_share = 0.5;           // of a frame's matches that must fit
-  int min_matches = 10;                    // of a frame, that fit
+  double max_interpolation_sigma =
+      0.004;                      // largest deviation of a place that is used, ideal coordinates
+  double min_line_angle = 0;      // least angle of the two epipolar lines, radians
+  int reweighting = 5;            // steps; 0: the plain factorization
+  double min_robust_share = 0.5;  // share of a frame's matches that must fit
+  int min_matches = 10;           // matches of a frame that must fit
 };
 
 // Where the solution of a window may begin: the pose of its newest frame and, where an earlier

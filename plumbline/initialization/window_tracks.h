@@ -48,7 +48,7 @@ struct WindowLines {
 struct WindowTracks {
   TrackedPoints reference;           // has all
   std::vector<TrackedPoints> views;  // by time; the last is the newest frame
-  std::vector<int> features;         // of the reference, by point
+  std::vector<int> features;         // features of the reference, by point
   WindowLines lines;
 
   std::size_t size() const { return reference.points.size(); }

@@ -61,7 +61,7 @@ class IdTable {
  private:
   struct Page {
     std::array<T*, kPage> entries{};  // into entries_
-    std::size_t count = 0;            // of those that are not null
+    std::size_t count = 0;            // ids of the page that are not null
   };
 
   static std::size_t PageOf(Id id) { return static_cast<std::size_t>(id.value) / kPage; }

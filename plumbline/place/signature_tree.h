@@ -69,7 +69,7 @@ class SignatureTree {
   int first_bit_;
   int step_;
   std::vector<Node> nodes_ = std::vector<Node>(1);
-  std::vector<std::uint32_t> free_pairs_;  // of children that are no more
+  std::vector<std::uint32_t> free_pairs_;  // pairs of children that are no more
 };
 
 }  // namespace plumbline

@@ -31,7 +31,8 @@ double SquaredTransferError(const Eigen::Matrix3d& homography, const RayMatch& m
 // A motion that maps one plane as a homography does: H ~ R + (translation / distance) normal^T.
 struct PlanarMotion {
   Rigid3 b_from_a;  // translation over the distance of the plane from camera a
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // of the plane, in a, away from the camera
+  Eigen::Vector3d normal =
+      Eigen::Vector3d::UnitZ();  // normal of the plane in frame a, away from the camera
 };
 
 // All motions with this homography: two, each with the opposite normal and translation, four in

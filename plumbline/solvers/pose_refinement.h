@@ -25,9 +25,9 @@ SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
 
 struct PoseRefinementOptions {
   int max_iterations = 15;
-  double tolerance = 1e-9;      // of the cost: to fall by less than this part is the end
+  double tolerance = 1e-9;      // the end is where the cost falls by less than this part of it
   bool rotation_known = false;  // only the direction of the translation is refined
-  double loss_scale = 4.685;    // of Tukey's biweight: 95 % efficient on normal residuals
+  double loss_scale = 4.685;    // scale of Tukey's biweight: 95 % efficient on normal residuals
   bool covariance = true;       // false: left at zero
 };
 

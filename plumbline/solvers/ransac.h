@@ -18,7 +18,7 @@
 namespace plumbline {
 
 struct RansacBudget {
-  double confidence = 0.999;  // of having drawn one sample without outliers
+  double confidence = 0.999;  // probability of having drawn one sample without outliers
   int max_iterations = 500;
 };
 
