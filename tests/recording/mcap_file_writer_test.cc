@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/recording/mcap_file_writer.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/recording/mcap.h"
+
+#include "tests/io/scratch_folder.h"
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+using Row = std::tuple<std::string, std::int64_t, std::string>;  // topic, time, message
+
+std::vector<Row> RowsOf(const std::filesystem::path& path) {
+  std::vector<Row> rows;
+  const auto take = [&](const Channel& channel, const StoredMessage& where, auto bytes) {
+    rows.emplace_back(channel.topic, where.logged_ns, std::string(bytes.begin(), bytes.end()));
+  };
+  ReadMcap(path, take);
+  return rows;
+}
+
+// Our reader compares all checksums.
+TEST(McapFileWriter, WhatIsWrittenIsRead) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "a.mcap";
+  std::vector<Row> rows;
+  {
+    McapFileWriter file(path);
+    for (const char* topic : {"/a", "/b"}) {
+      file.AddChannel({topic, "protobuf", "foxglove.PoseInFrame", "protobuf", "schema"});
+    }
+    for (int i = 0; i < 3000; ++i) {
+      const std::string message(static_cast<std::size_t>(i), static_cast<char>('a' + i % 26));
+      rows.emplace_back(i % 3 == 0 ? "/a" : "/b", 1'000'000'000LL + i, message);
+      file.Write(i % 3 == 0 ? 0 : 1, 1'000'000'000LL + i, message);
+    }
+    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.mcap.part"));
+    file.Close();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.mcap.part"));
+  EXPECT_EQ(RowsOf(path), rows);
+}
+
+TEST(McapFileWriter, AFileWithoutMessagesIsOne) {
+  const ScratchFolder folder;
+  McapFileWriter(folder / "a.mcap").AddChannel({"/a", "protobuf", "x.Y", "protobuf", ""});
+  EXPECT_TRUE(RowsOf(folder / "a.mcap").empty());
+}
+
+TEST(McapFileWriter, AFolderThatIsNotThereIsBadInput) {
+  EXPECT_THROW(McapFileWriter("/no/such/folder/a.mcap"), InputError);
+}
+
+}  // namespace
+}  // namespace plumbline
