@@ -13,8 +13,8 @@
 #include "plumbline/view/map_comparison.h"
 #include "plumbline/view/viewed_map.h"
 
-#include <ctime>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,8 +50,7 @@ Atlas MakeLargeMap() {
     keyframe.frame.cam_from_world.translation.x() = -0.3 * k;
     MapEdit edit = {edit::AddKeyFrame{keyframe}};
     const auto place = [&] {
-      return Eigen::Vector3d(
-          0.3 * k + rng.Uniform(-4, 4), rng.Uniform(-2, 2), rng.Uniform(2, 10));
+      return Eigen::Vector3d(0.3 * k + rng.Uniform(-4, 4), rng.Uniform(-2, 2), rng.Uniform(2, 10));
     };
     for (int i = 0; i < kPointsEach; ++i) {
       MapPoint point;
