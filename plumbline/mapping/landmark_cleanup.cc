@@ -55,9 +55,23 @@ bool HasViews(const Observations& observations, int views, const Counts& counts)
   return views <= 0;
 }
 
+// The landmarks that a keyframe shows together with at least one other.
+struct SharedLandmarks {
+  int all = 0;
+  int of_few = 0;  // that fewer than so many others show, whichever these are
+};
+
 template <class LandmarkId>
-std::ptrdiff_t CountValid(const std::vector<LandmarkId>& matches) {
-  return std::count_if(matches.begin(), matches.end(), [](auto id) { return id.valid(); });
+void CountShared(const Map& map,
+                 const std::vector<LandmarkId>& matches,
+                 int others,
+                 SharedLandmarks& count) {
+  for (const LandmarkId id : matches) {
+    if (!id.valid()) continue;
+    const auto views = static_cast<int>(map.Find(id)->observations.size());
+    count.all += views >= 2;
+    count.of_few += views >= 2 && views - 1 < others;
+  }
 }
 
 // Keyframes so far apart in the order of taking in are of two visits to a place.
@@ -75,46 +89,22 @@ bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe
   return apart > kVisit || apart < -kVisit;
 }
 
-// Whether of so many landmarks, of which some are a keyframe's own, others show less than the
-// share.
-bool IsBelowShare(std::ptrdiff_t own, std::ptrdiff_t of, const Redundancy& rule) {
-  return static_cast<double>(of - own) < rule.share * static_cast<double>(of);
-}
-
-// Whether the numbers of views alone tell that other keyframes do not show the share of a
-// keyframe's landmarks, of which there are so many at most. They do of most keyframes, and soon.
-bool IsNeeded(const Map& map, const Frame& frame, std::ptrdiff_t at_most, const Redundancy& rule) {
-  std::ptrdiff_t own = 0;
-  const auto tell = [&](const auto& matches) {
-    for (const auto id : matches) {
-      if (!id.valid()) continue;
-      const auto views = static_cast<int>(map.Find(id)->observations.size());
-      own += views >= 2 && views - 1 < rule.views;
-      if (IsBelowShare(own, at_most, rule)) return true;
-    }
-    return false;
-  };
-  return tell(frame.points) || tell(frame.lines);
-}
-
-// Whether other keyframes show the share of a keyframe's landmarks, points as sharply.
+// Whether other keyframes show the share of a keyframe's landmarks, points as sharply. Of most
+// keyframes the numbers of views tell that they do not.
 bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rule) {
   const Frame& frame = keyframe.frame;
-  const std::ptrdiff_t at_most = CountValid(frame.points) + CountValid(frame.lines);
-  if (IsNeeded(map, frame, at_most, rule)) return false;
+  SharedLandmarks shared;
+  CountShared(map, frame.points, rule.views, shared);
+  CountShared(map, frame.lines, rule.views, shared);
+  const auto is_below_share = [&](int own) { return shared.all - own < rule.share * shared.all; };
+  if (shared.all == 0 || is_below_share(shared.of_few)) return false;
   const auto is_met_again = [&](const Observations& observations) {
     return !rule.again || std::any_of(observations.begin(), observations.end(), [&](const auto& o) {
       return IsOfAnotherVisit(map, o.first, keyframe);
     });
   };
-  int landmarks = 0;
   int own = 0;
-  const auto count = [&](bool redundant) {
-    ++landmarks;
-    own += !redundant;
-  };
-  for (std::size_t i = 0; i < frame.points.size(); ++i) {
-    if (IsBelowShare(own, at_most, rule)) return false;
+  for (std::size_t i = 0; i < frame.points.size() && !is_below_share(own); ++i) {
     if (!frame.points[i].valid()) continue;
     const auto& observations = map.Find(frame.points[i])->observations;
     if (observations.size() < 2) continue;
@@ -122,15 +112,15 @@ bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rul
     const bool redundant = HasViews(observations, rule.views, [&](const auto& o) {
       return o.first != keyframe.id && OctaveOf(map, o.first, o.second) <= octave + 1;
     });
-    count(redundant && is_met_again(observations));
+    own += !(redundant && is_met_again(observations));
   }
   for (const LineId id : frame.lines) {
     if (!id.valid()) continue;
     const auto& observations = map.Find(id)->observations;
     const auto views = static_cast<int>(observations.size());
-    if (views >= 2) count(views - 1 >= rule.views && is_met_again(observations));
+    if (views >= 2) own += !(views - 1 >= rule.views && is_met_again(observations));
   }
-  return landmarks > 0 && !IsBelowShare(own, landmarks, rule);
+  return !is_below_share(own);
 }
 
 }  // namespace
