@@ -4,10 +4,12 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/processor.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace plumbline {
 namespace {
@@ -63,10 +65,26 @@ std::optional<DepthSample> SampleDepth(const DepthImage& depth, const Eigen::Vec
   return DepthSample{static_cast<double>(z), static_cast<double>(spread)};
 }
 
-struct LinePoint {
-  double t = 0;  // 0 at the start, 1 at the end of the line
-  double disparity = 0;
-  double sigma = 0;
+// Places along a line with their disparities, each number in a row of its own.
+struct LinePoints {
+  std::vector<double> t;  // 0 at the start, 1 at the end of the line
+  std::vector<double> disparity;
+  std::vector<double> sigma;
+  std::vector<double> gate;  // how far off a fit may be
+
+  explicit LinePoints(int most) {
+    for (std::vector<double>* row : {&t, &disparity, &sigma, &gate}) {
+      row->reserve(static_cast<std::size_t>(most));
+    }
+  }
+  void Add(double place, double disparity_px, double sigma_px) {
+    constexpr double kGate = 3;
+    t.push_back(place);
+    disparity.push_back(disparity_px);
+    sigma.push_back(sigma_px);
+    gate.push_back(kGate * sigma_px);
+  }
+  std::size_t size() const { return t.size(); }
 };
 
 struct DisparityFit {
@@ -78,14 +96,23 @@ struct DisparityFit {
   double At(double t) const { return (1 - t) * start + t * end; }
 };
 
-bool Fits(const DisparityFit& fit, const LinePoint& p) {
-  constexpr double kGate = 3;
-  return std::abs(p.disparity - fit.At(p.t)) <= kGate * p.sigma;
-}
+struct CountInliers {
+  [[gnu::always_inline]] static inline int Run(const LinePoints& points, double start, double end) {
+    const double* t = points.t.data();
+    const double* disparity = points.disparity.data();
+    const double* gate = points.gate.data();
+    const std::size_t count = points.size();
+    int inliers = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double at = (1 - t[i]) * start + t[i] * end;
+      inliers += std::abs(disparity[i] - at) <= gate[i] ? 1 : 0;
+    }
+    return inliers;
+  }
+};
 
 // Least squares over the points that fit `guess`.
-std::optional<DisparityFit> Polish(const std::vector<LinePoint>& points,
-                                   const DisparityFit& guess) {
+std::optional<DisparityFit> Polish(const LinePoints& points, const DisparityFit& guess) {
   double s0 = 0;
   double s1 = 0;
   double s2 = 0;
@@ -93,15 +120,17 @@ std::optional<DisparityFit> Polish(const std::vector<LinePoint>& points,
   double d1 = 0;
   double sigma = 0;
   DisparityFit fit;
-  for (const LinePoint& p : points) {
-    if (!Fits(guess, p)) continue;
-    const double w = 1 / (p.sigma * p.sigma);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double t = points.t[i];
+    const double disparity = points.disparity[i];
+    if (!(std::abs(disparity - guess.At(t)) <= points.gate[i])) continue;
+    const double w = 1 / (points.sigma[i] * points.sigma[i]);
     s0 += w;
-    s1 += w * p.t;
-    s2 += w * p.t * p.t;
-    d0 += w * p.disparity;
-    d1 += w * p.t * p.disparity;
-    sigma += p.sigma;
+    s1 += w * t;
+    s2 += w * t * t;
+    d0 += w * disparity;
+    d1 += w * t * disparity;
+    sigma += points.sigma[i];
     ++fit.inliers;
   }
   const double determinant = s0 * s2 - s1 * s1;
@@ -115,19 +144,21 @@ std::optional<DisparityFit> Polish(const std::vector<LinePoint>& points,
 }
 
 // The straight course of disparity that most points share; every pair far enough apart is tried.
-std::optional<DisparityFit> FitDisparity(const std::vector<LinePoint>& points, int min_inliers) {
+std::optional<DisparityFit> FitDisparity(const LinePoints& points, int min_inliers) {
   constexpr double kMinSpan = 0.4;
   constexpr std::size_t kMaxTried = 12;
   DisparityFit best;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kMaxTried);
   for (std::size_t i = 0; i < points.size(); i += stride) {
     for (std::size_t j = i + 1; j < points.size(); j += stride) {
-      const LinePoint& a = points[i];
-      const LinePoint& b = points[j];
-      if (b.t - a.t < kMinSpan) continue;
-      const double slope = (b.disparity - a.disparity) / (b.t - a.t);
-      DisparityFit fit{a.disparity - slope * a.t, a.disparity + slope * (1 - a.t), 0, 0};
-      for (const LinePoint& p : points) fit.inliers += Fits(fit, p) ? 1 : 0;
+      const double span = points.t[j] - points.t[i];
+      if (span < kMinSpan) continue;
+      const double slope = (points.disparity[j] - points.disparity[i]) / span;
+      DisparityFit fit{points.disparity[i] - slope * points.t[i],
+                       points.disparity[i] + slope * (1 - points.t[i]),
+                       0,
+                       0};
+      fit.inliers = RunBest<CountInliers>(points, fit.start, fit.end);
       if (fit.inliers > best.inliers) best = fit;
     }
   }
@@ -146,14 +177,14 @@ std::optional<DisparityFit> FitTrack(const RectifiedCamera& camera,
   const DepthModel model(camera, options);
   const Eigen::Vector2d direction = segment.Direction();
   const Eigen::Vector2d offset = side * Eigen::Vector2d(-direction.y(), direction.x());
-  std::vector<LinePoint> points;
+  LinePoints points(options.line_samples);
   for (int i = 0; i < options.line_samples; ++i) {
     const double t = (i + 0.5) / options.line_samples;
     const Eigen::Vector2d px = segment.start + t * (segment.end - segment.start) + offset;
     const std::optional<DepthSample> sample = SampleDepth(depth, px);
     if (!sample || !model.InRange(sample->z)) continue;
     if (sample->spread > options.max_relative_step * sample->z) continue;
-    points.push_back({t, camera.DisparityFromDepth(sample->z), model.DisparitySigma(sample->z)});
+    points.Add(t, camera.DisparityFromDepth(sample->z), model.DisparitySigma(sample->z));
   }
   const int needed =
       std::max(4, static_cast<int>(std::ceil(options.min_line_inliers * options.line_samples)));
