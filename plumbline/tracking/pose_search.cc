@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -19,10 +18,14 @@ namespace {
 // Adds the snapshot's landmarks that are not among the candidates yet.
 template <class Candidate, class Landmark>
 void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& candidates) {
-  std::set<decltype(Candidate::id)> known;
-  for (const Candidate& candidate : candidates) known.insert(candidate.id);
+  std::vector<decltype(Candidate::id)> known;
+  known.reserve(candidates.size());
+  for (const Candidate& candidate : candidates) known.push_back(candidate.id);
+  std::sort(known.begin(), known.end());
+  candidates.reserve(candidates.size() + landmarks.size());
   for (const Landmark& landmark : landmarks) {
-    if (!known.contains(landmark.id)) candidates.push_back({.id = landmark.id, .model = landmark});
+    if (std::binary_search(known.begin(), known.end(), landmark.id)) continue;
+    candidates.push_back({.id = landmark.id, .model = landmark});
   }
 }
 
