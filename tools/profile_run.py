@@ -3,6 +3,8 @@
 
     tools/profile_run.py SEQUENCE [--by cpu|instructions] [--program PROGRAM] [--top N] [-- OPTIONS OF RUN]
 
+OPTIONS OF RUN are for instance --camera icl_nuim --sensor mono --from 60 --to 140.
+
 Runs `plumbline run SEQUENCE` with all stages in one thread and prints two Markdown tables: the stages, each with
 what it calls, and the functions that take most by themselves. A stage is a function of the library, so nothing has
 to be measured in it: cpu takes samples of the call stack by `perf` on the clock of the process (997 a second),

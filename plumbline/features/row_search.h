@@ -18,7 +18,7 @@ namespace plumbline {
 // than 2 pixels away and of a window without slopes, and if the way back finds the pixel again:
 // what only one camera sees fails this. Both images have the same size.
 //
-// Not for several threads at once. Cost: some 4 ns for each pixel of the range, both
+// Not for several threads at once. Cost: some 2 ns for each pixel of the range, both
 // ways; the constructor, a few passes over both images.
 class RowSearch {
  public:
