@@ -31,9 +31,14 @@ void Write(const ComputedExperiment& self, const Computed& computed, const fs::p
   WriteFileAtomically(out / "table.md",
                       FormatFigureMarkdown(self.name, self.help, computed.figures, self.metrics) +
                           FormatComparisonMarkdown(comparison));
-  // The page has the times as well.
+  // Where times are what it is about the page has them as well.
   std::vector<FigureRow> all = computed.figures;
-  if (self.exclusive) all.insert(all.end(), computed.times.begin(), computed.times.end());
+  if (self.exclusive) {
+    all.insert(all.end(), computed.times.begin(), computed.times.end());
+    WriteFileAtomically(
+        out / "timing.md",
+        FormatFigureMarkdown(self.name + ": speed", self.help, computed.times, self.metrics));
+  }
   WriteFileAtomically(
       out / "table.html",
       FormatFigurePage(self.name, self.help, all, self.metrics, computed.plots, comparison));

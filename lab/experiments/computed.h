@@ -23,7 +23,8 @@ struct ComputedExperiment {
   double repeat_s = 1;     // what a repeat takes, roughly
   bool exclusive = false;  // measures times
   std::span<const FigureMetric> metrics;
-  // Computes and writes results.json, timing.json, table.md, table.html and plots/*.svg into `out`.
+  // Computes and writes results.json, timing.json, table.md, table.html and plots/*.svg into `out`,
+  // and timing.md where it measures times.
   // `progress(done, total)` returns false to stop; no file is then written and false returned.
   // Throws InputError when a file cannot be written.
   using Progress = std::function<bool(std::size_t, std::size_t)>;

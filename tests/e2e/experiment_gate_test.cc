@@ -14,10 +14,11 @@ TEST(ExperimentGate, KeepsItsLimits) {
   const ScratchFolder folder;
   const auto data = FindData(".");
   const std::string sources = data ? " --data " + Quoted(*data) : "";
-  const Outcome outcome =
-      RunProgram(folder,
-                 "experiment gate --quiet --jobs 2 --cache '" PLUMBLINE_RENDERED_FOLDER "' --out " +
-                     Quoted(folder / "out") + sources);
+  const Outcome outcome = RunProgram(
+      folder,
+      "experiment gate --quiet --jobs 2 --time-limit 100000 --cache '" PLUMBLINE_RENDERED_FOLDER
+      "' --out " +
+          Quoted(folder / "out") + sources);
   EXPECT_EQ(outcome.code, 0) << outcome.err << Contents(folder / "out/gate.md");
 }
 

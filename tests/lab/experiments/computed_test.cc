@@ -46,6 +46,18 @@ TEST(ComputedExperiments, CuttingTestbedWritesItsFiles) {
   }
 }
 
+TEST(ComputedExperiments, TimesStandInFilesOfTheirOwn) {
+  const ComputedExperiment& experiment = *FindComputedExperiment("rippl-timing-initialization");
+  const fs::path out = EmptyFolder("initialization_timing");
+  ASSERT_TRUE(experiment.run(experiment, 1, out, [](auto, auto) { return true; }));
+  std::ifstream results(out / "results.json"), times(out / "timing.json");
+  for (const auto& figure : nlohmann::json::parse(results))
+    EXPECT_NE(std::string(figure["unit"]), "ms");
+  for (const auto& figure : nlohmann::json::parse(times))
+    EXPECT_EQ(std::string(figure["unit"]), "ms");
+  EXPECT_TRUE(fs::is_regular_file(out / "timing.md"));
+}
+
 TEST(ComputedExperiments, WriteNothingWhenStopped) {
   const ComputedExperiment& experiment = *FindComputedExperiment("cutting-testbed");
   const fs::path out = EmptyFolder("cutting_testbed_stopped");
