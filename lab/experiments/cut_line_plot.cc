@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/paper_plots.h"
 #include "plumbline/association/projection_search.h"
+#include "plumbline/base/base64.h"
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/png.h"
-#include "plumbline/report/base64.h"
 #include "plumbline/tracking/line_cutting.h"
 
 #include <algorithm>
