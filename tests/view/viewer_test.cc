@@ -282,6 +282,8 @@ TEST_F(Shown, OnlySoManyConnectAtOnce) {
   TestSocket late(port_);
   EXPECT_TRUE(late.IsClosedByPeer());
   idle.clear();
+  // The server needs a moment to notice that they are gone.
+  EXPECT_TRUE(StepUntil([&] { return WebSocketClient(port_).is_open(); }));
   Spectator other(port_, kUpdates);
   EXPECT_TRUE(StepUntil([&] { return other.messages() >= 1; }));
 }
