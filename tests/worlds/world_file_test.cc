@@ -216,7 +216,8 @@ TEST(WorldFile, SaysWhatIsWrongAndWhere) {
 TEST(WorldFile, IsRenderedAndKeptBesideTheSequence) {
   const ScratchFolder folder;
   const auto file = folder / "den.yaml";
-  const std::string text = kShapes + kPath + "ambient: 0.6\n";
+  const std::string text =
+      kShapes + kPath + "lamps: [{centre: [2, 1, 2.3], size: [1, 0.2], power: 4}]\n";
   std::ofstream(file) << text;
   SynthOptions options;
   options.frames = 2;
