@@ -148,8 +148,8 @@ def test_ctrl_c_ends_a_run_and_keeps_its_results(sequence, tmp_path):
 def test_ctrl_c_ends_a_rendering(tmp_path):
     done = interrupted("""
         import sys, plumbline
-        print("begins", flush=True)
         try:
+            print("begins", flush=True)
             plumbline.render("room", sys.argv[1], frames=2000, scale=0.3, samples=1)
         except KeyboardInterrupt:
             print("interrupted")
