@@ -256,7 +256,7 @@ Plan PlanPart(const std::string& name, const CommandLine& line, const std::strin
 }
 
 bool IsChosenPart(const std::string& name, const CommandLine& line) {
-  // Of what computes by itself no sequence can be chosen.
+  // A computed experiment has no sequences among which --only could choose.
   return line.Values("--only").empty() || FindComputedExperiment(name) == nullptr;
 }
 

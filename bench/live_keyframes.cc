@@ -18,6 +18,7 @@
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/slam/system.h"
 
+#include "bench/replay_arguments.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -42,27 +43,6 @@ struct Setup {
   std::size_t frames = 0;  // so many; 0: all
   std::vector<std::string> settings;
 };
-
-int ParseCount(const std::string& name, const std::string& text) {
-  std::size_t used = 0;
-  int value = -1;
-  try {
-    value = std::stoi(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used != text.size() || text.empty() || value < 0) {
-    throw InputError(fmt::format("{} {}: expected a number from 0 on", name, text));
-  }
-  return value;
-}
-
-SensorKind ParseSensor(const std::string& text) {
-  for (const auto& [kind, name] : EnumNames(std::type_identity<SensorKind>{})) {
-    if (text == name) return kind;
-  }
-  throw InputError(fmt::format("--sensor {}: expected mono, stereo or rgbd", text));
-}
 
 std::vector<int> ParseCounts(const std::string& name, const std::string& text) {
   std::vector<int> counts;

@@ -19,6 +19,7 @@
 #include "plumbline/slam/system.h"
 #include "worlds/sensor.h"
 
+#include "bench/replay_arguments.h"
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -46,27 +47,6 @@ struct Setup {
   std::optional<SensorKind> sensor;
   std::vector<std::string> settings;
 };
-
-int ParseCount(const std::string& name, const std::string& text) {
-  std::size_t used = 0;
-  int value = -1;
-  try {
-    value = std::stoi(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used != text.size() || text.empty() || value < 0) {
-    throw InputError(fmt::format("{} {}: expected a number from 0 on", name, text));
-  }
-  return value;
-}
-
-SensorKind ParseSensor(const std::string& text) {
-  for (const auto& [kind, name] : EnumNames(std::type_identity<SensorKind>{})) {
-    if (text == name) return kind;
-  }
-  throw InputError(fmt::format("--sensor {}: expected mono, stereo or rgbd", text));
-}
 
 Setup ReadSetup(int count, char** arguments) {
   Setup setup;

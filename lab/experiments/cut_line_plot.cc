@@ -75,7 +75,7 @@ Overlay DrawCuts(const LinesOfKeyFrame& lines) {
   return overlay;
 }
 
-// Of the keyframes in the middle half of the run that with the most lines.
+// The keyframe that shows the most lines of the map, among those in the middle half of the run.
 const KeyFrame& ChooseKeyFrame(const Map& map) {
   const auto count = [](const KeyFrame& keyframe) {
     return std::count_if(keyframe.frame.lines.begin(), keyframe.frame.lines.end(), [](LineId id) {

@@ -41,7 +41,8 @@ std::string FormatFigureMarkdown(const std::string& title,
                                  std::span<const FigureRow> rows,
                                  std::span<const FigureMetric> metrics);
 
-// The same, what a paper says of it, and the plots as one page that needs nothing else.
+// A page of HTML that needs no other file: the tables of FormatFigureMarkdown, what a paper prints
+// of the same figures, and the plots.
 std::string FormatFigurePage(const std::string& title,
                              const std::string& help,
                              std::span<const FigureRow> rows,

@@ -20,7 +20,7 @@ struct GroupPart {
   std::vector<std::string> failures;  // "euroc/MH_01_easy, points, run 2: why"
 };
 
-// Of an experiment whose jobs have results.
+// The part of the report that stands for an experiment whose jobs have results.
 GroupPart SummarizePart(const Plan& plan, const std::vector<JobResult>& results);
 
 // Writes results.json and timing.json, the lists of the parts one behind the other, table.md, all

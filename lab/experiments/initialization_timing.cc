@@ -65,7 +65,8 @@ Window MakeWindow(int points, Rng& rng) {
   return window;
 }
 
-// As seen, but a fifth of the points of the frames between come from the interpolation.
+// The views of a window in which a fifth of the points of the frames between the reference and the
+// last are not observed but interpolated.
 std::vector<Rank1View> InterpolatedViews(const Window& window, double& milliseconds) {
   std::vector<Rank1View> views;
   for (std::size_t i = 0; i < kFrames; ++i) {

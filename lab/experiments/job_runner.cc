@@ -276,7 +276,7 @@ class Runner {
   const RunnerOptions& options_;
   const PlanFinished& finished_;
   RunnerState state_;
-  // By plan, then job.
+  // The result of each job: the outer index is the plan, the inner one the job in it.
   std::vector<std::vector<JobResult>> results_;
   std::vector<std::vector<std::optional<double>>> seconds_;  // of the jobs that have ended
   std::vector<std::size_t> open_;                            // jobs of a plan without a result

@@ -33,9 +33,9 @@ struct RunnerState {
 struct RunnerOptions {
   std::filesystem::path program;  // ours
   bool force = false;             // run again what is done
-  // Of one job; nullopt: a minute and a second for each frame. What takes longer is killed.
+  // A job that takes longer than this is killed. nullopt: a minute, and a second for each frame.
   std::optional<double> time_limit_s = std::nullopt;
-  std::optional<int> memory_mb = std::nullopt;  // of one job
+  std::optional<int> memory_mb = std::nullopt;  // what one job may use at most
   // How often a job is tried again that crashes, or whose machine goes away. Bad input, too little
   // memory and too long a time would be the same again.
   int retries = 0;
@@ -62,7 +62,7 @@ std::optional<std::vector<std::vector<JobResult>>> RunPlans(const std::vector<co
                                                             const RunnerOptions& options,
                                                             const PlanFinished& finished = {});
 
-// The same for one plan.
+// Does what RunPlans does, for a single plan.
 std::optional<std::vector<JobResult>> RunJobs(const Plan& plan,
                                               JobExecutor& executor,
                                               const RunnerOptions& options);
