@@ -101,9 +101,25 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   return times;
 }
 
+void LocalMapper::GoOnInAnotherMap() { stereo_change_.GiveUp(); }
+
+void LocalMapper::FollowJoins(const Atlas& atlas) {
+  for (auto of_map = young_.begin(); of_map != young_.end();) {
+    const MapId current = atlas.Current(of_map->first);
+    if (current == of_map->first) {
+      ++of_map;
+      continue;
+    }
+    const YoungLandmarks gone = std::move(of_map->second);
+    of_map = young_.erase(of_map);
+    YoungLandmarks& kept = young_[current];
+    kept.points.insert(kept.points.end(), gone.points.begin(), gone.points.end());
+    kept.lines.insert(kept.lines.end(), gone.lines.begin(), gone.lines.end());
+  }
+}
+
 void LocalMapper::StartNewMap(Map& map) {
-  young_ = {};
-  stereo_change_.GiveUp();
+  GoOnInAnotherMap();
   map.Apply({edit::CorrectStereo{calibrator_.Estimate()}});
 }
 
@@ -122,7 +138,7 @@ std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFr
   std::vector<MappingStep> times;
   Timed("take_in", times, [&] {
     map.Apply(edit);
-    Watch(edit);
+    Watch(map.id(), edit);
   });
   Timed("adjust", times, [&] { Adjust(map, newest); });
   Timed("create", times, [&] { CreateLandmarks(map, newest); });
@@ -167,7 +183,7 @@ LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
   }
   map.Apply(edit);
   ShownLandmarks refreshed = Refresh(map, keyframe.id, {});
-  map.Apply(RemoveWeakLandmarks(map, keyframe.id, options_.cleanup, young_));
+  map.Apply(RemoveWeakLandmarks(map, keyframe.id, options_.cleanup, young_[map.id()]));
   return refreshed;
 }
 
@@ -189,7 +205,7 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   const auto create = [&](const auto& creator) {
     const MapEdit edit = creator(map, imaging_, id, options_.creation);
     map.Apply(edit);
-    Watch(edit);
+    Watch(map.id(), edit);
   };
   create(CreateFromDepth);
   create(CreatePointsFromViews);
@@ -199,12 +215,13 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
 }
 
 // Counts the landmarks that an edit adds among the young ones, which have to prove themselves.
-void LocalMapper::Watch(const MapEdit& edit) {
+void LocalMapper::Watch(MapId map, const MapEdit& edit) {
+  YoungLandmarks& young = young_[map];
   for (const MapChange& change : edit) {
     if (const auto* point = std::get_if<edit::AddPoint>(&change)) {
-      young_.points.push_back(point->point.id);
+      young.points.push_back(point->point.id);
     } else if (const auto* line = std::get_if<edit::AddLine>(&change)) {
-      young_.lines.push_back(line->line.id);
+      young.lines.push_back(line->line.id);
     }
   }
 }

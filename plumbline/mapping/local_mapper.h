@@ -5,13 +5,16 @@
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/stop_check.h"
+#include "plumbline/map/atlas.h"
 #include "plumbline/map/map.h"
+#include "plumbline/map/young_landmarks.h"
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/mapping/stereo_calibration.h"
 #include "plumbline/mapping/stereo_change.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,9 +71,12 @@ class LocalMapper {
   // completed. Times as Add's.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
-  // Forgets what belongs to the map worked on so far; a new, empty map begins with what was learned
-  // of the camera.
+  // A new, empty map begins with what was learned of the camera.
   void StartNewMap(Map& map);
+  // What follows is about another map than what came before.
+  void GoOnInAnotherMap();
+  // Some maps of the atlas may have taken others in since the last call.
+  void FollowJoins(const Atlas& atlas);
 
   // The lines that took part in the adjustment of all maps so far.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
@@ -78,7 +84,7 @@ class LocalMapper {
   // What is remembered from keyframe to keyframe. A mapper of the same options that is given the
   // state of another one, and its map, does what the other would do.
   struct State {
-    YoungLandmarks young;  // of the map worked on
+    std::map<MapId, YoungLandmarks> young;
     StereoEvidence stereo_evidence;
     AdjustedLines adjusted_lines;
     std::optional<StereoChange::State> stereo_change = {};
@@ -96,7 +102,7 @@ class LocalMapper {
   ShownLandmarks TakeIn(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
   static ShownLandmarks Refresh(Map& map, KeyFrameId id, const ShownLandmarks& before);
   void CreateLandmarks(Map& map, KeyFrameId id);
-  void Watch(const MapEdit& edit);
+  void Watch(MapId map, const MapEdit& edit);
   void Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed) const;
   void Adjust(Map& map, KeyFrameId id);
   void CalibrateStereo(Map& map, KeyFrameId id);
@@ -104,7 +110,7 @@ class LocalMapper {
   ImagingModel imaging_;
   LineOptions lines_;
   MappingOptions options_;
-  YoungLandmarks young_;
+  std::map<MapId, YoungLandmarks> young_;
   StereoCalibrator calibrator_;
   StereoChange stereo_change_;
   AdjustedLines adjusted_lines_;

@@ -20,7 +20,15 @@ void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext&
     Uuid& uuid = context.maps[id].uuid;
     if (uuid == Uuid()) uuid = UuidOf(session + " map " + std::to_string(id.value));
   }
-  if (!atlas.empty()) context.maps[atlas.active_id()].young = mapper.young;
+  for (const auto& [id, young] : mapper.young) {
+    if (atlas.Find(id) != nullptr) context.maps[id].young = young;
+  }
+}
+
+std::map<MapId, YoungLandmarks> YoungOf(const AtlasContext& context) {
+  std::map<MapId, YoungLandmarks> young;
+  for (const auto& [id, of_map] : context.maps) young[id] = of_map.young;
+  return young;
 }
 
 }  // namespace plumbline

@@ -6,6 +6,7 @@
 #include "plumbline/mapping/local_mapper.h"
 #include "plumbline/slam/options.h"
 
+#include <map>
 #include <string>
 
 namespace plumbline {
@@ -17,5 +18,8 @@ std::string ResultOptionsYaml(const SlamOptions& options);
 // Adds to the context of a system what belongs to its maps: their ids, their young landmarks, and
 // what is known of the stereo pair.
 void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context);
+
+// The young landmarks of each map, as AddMaps has written them down.
+std::map<MapId, YoungLandmarks> YoungOf(const AtlasContext& context);
 
 }  // namespace plumbline

@@ -65,8 +65,7 @@ void RestoreHistory(const Atlas::History& history, Atlas& atlas) {
 // What the mapper remembers of the maps stands with these.
 LocalMapper::State MapperOf(const SavedAtlas& maps, LocalMapper::State mapper) {
   mapper.stereo_evidence = maps.context.stereo_evidence;
-  const auto active = maps.context.maps.find(maps.atlas.active_id());
-  if (active != maps.context.maps.end()) mapper.young = active->second.young;
+  mapper.young = YoungOf(maps.context);
   return mapper;
 }
 

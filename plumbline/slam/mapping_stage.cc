@@ -5,9 +5,11 @@
 #include "plumbline/base/error.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/final_adjustment.h"
+#include "plumbline/slam/atlas_places.h"
 #include "plumbline/slam/keyframes_ahead.h"
 
 #include <algorithm>
+#include <iterator>
 #include <chrono>
 
 namespace plumbline {
@@ -67,6 +69,12 @@ void MappingStage::Submit(std::int64_t frame, MapStart start) {
 
 void MappingStage::Submit(std::int64_t frame, RelocalizationRequest request) {
   Submit(frame, Work(std::move(request)), false);
+}
+
+void MappingStage::Submit(std::int64_t frame, MapReturn back) {
+  Submit(frame, Work(back), false);
+  map_begins_ = submitted_;  // snapshots of before are of another map
+  kept_.clear();
 }
 
 void MappingStage::Submit(std::int64_t frame, Sighting sighting) {
@@ -403,6 +411,7 @@ void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<Mapp
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
   times.push_back({"recognize", taken.count()});
   if (!older) return;
+  mapper_.FollowJoins(atlas_);
   Map& map = atlas_.active();
   changed_.insert(map.id());
   const std::vector<MappingStep> more = mapper_.Tie(map, id, *older);
@@ -421,20 +430,29 @@ MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {
 }
 
 MappingStage::Done MappingStage::Do(const RelocalizationRequest& request, std::int64_t) {
-  const Map& map = atlas_.active();
   Done done;
-  done.relocalization.emplace();
-  const std::vector<KeyFrameId> candidates =
-      places_.MostAlike(map, request.frame.features(), Relocalizer::kCandidates);
-  done.relocalization->found = relocalizer_.Find(map, request.frame, candidates);
-  if (const auto& found = done.relocalization->found) {
-    done.relocalization->snapshot = TakeSnapshotAround(map, found->keyframe);
-  }
+  RelocalizationOutcome& outcome = done.relocalization.emplace();
+  const std::vector<PlaceToTry> places =
+      places_.PlacesOf(atlas_, request.frame.features(), Relocalizer::kCandidates);
+  outcome.found = relocalizer_.Find(request.frame, places);
+  if (!outcome.found) return done;
+  const KeyFrameId keyframe = outcome.found->keyframe;
+  const Map& map = *MapOf(atlas_, keyframe);
+  outcome.snapshot = TakeSnapshotAround(map, keyframe);
   return done;
 }
 
+MappingStage::Done MappingStage::Do(const MapReturn& back, std::int64_t) {
+  const MapId id = atlas_.Current(back.map);
+  if (id == atlas_.active_id()) return {};
+  mapper_.GoOnInAnotherMap();
+  atlas_.Activate(id);
+  centres_ = {back.keyframe};
+  return {};
+}
+
 MappingStage::Done MappingStage::Do(const Sighting& sighting, std::int64_t) {
-  const Map& map = atlas_.active();
+  const Map& map = *atlas_.Find(atlas_.Current(sighting.map));
   SharedCounts shared;
   for (const PointId id : sighting.points) {
     if (const MapPoint* point = map.Find(id)) shared.Add(point->observations);
@@ -467,7 +485,10 @@ void MappingStage::TakeCorrection(std::int64_t frame) {
 std::shared_ptr<const MapSnapshot> MappingStage::TakeSnapshotAround(const Map& map,
                                                                     KeyFrameId centre) {
   constexpr std::size_t kRemembered = 16;
-  const std::vector<KeyFrameId> earlier(centres_.begin(), centres_.end());
+  std::vector<KeyFrameId> earlier;  // a lost camera may have been found in another map
+  std::copy_if(centres_.begin(), centres_.end(), std::back_inserter(earlier), [&](KeyFrameId id) {
+    return map.Knows(id);
+  });
   centres_.push_back(centre);
   if (centres_.size() > kRemembered) centres_.pop_front();
   auto snapshot = TakeSnapshot(map, centre, kSnapshotKeyFrames, earlier);

@@ -40,7 +40,7 @@ struct DemotedKeyFrame {
   RelativePose from_parent;
 };
 
-// A lost frame, to be found in the active map by its looks.
+// A lost frame, to be found in one of the maps by its looks.
 struct RelocalizationRequest {
   Frame frame;
 };
@@ -49,8 +49,16 @@ struct RelocalizationOutcome {
   std::shared_ptr<const MapSnapshot> snapshot;  // around the keyframe that showed the way
 };
 
+// The lost camera goes on in this map, which was left before: from now on this is the one that
+// grows.
+struct MapReturn {
+  MapId map;
+  KeyFrameId keyframe;  // that the camera is beside
+};
+
 // The landmarks that the camera sees, when it leaves the surroundings that the snapshot shows.
 struct Sighting {
+  MapId map;
   std::vector<PointId> points;
   std::vector<LineId> lines;
 };
@@ -99,6 +107,8 @@ class MappingStage {
   void Submit(std::int64_t frame, MapStart start);
   // The outcome is there when a keyframe of this frame would be in the snapshot.
   void Submit(std::int64_t frame, RelocalizationRequest request);
+  // Beside Use() of a snapshot of that map.
+  void Submit(std::int64_t frame, MapReturn back);
   // The snapshot is then that around the keyframe that shows most of what is seen.
   void Submit(std::int64_t frame, Sighting sighting);
   void Submit(std::int64_t frame, Visit visit);
@@ -170,8 +180,12 @@ class MappingStage {
   std::vector<MappingStep> TakeTimes();
 
  private:
-  using Work = std::
-      variant<std::shared_ptr<const NewKeyFrame>, MapStart, RelocalizationRequest, Sighting, Visit>;
+  using Work = std::variant<std::shared_ptr<const NewKeyFrame>,
+                            MapStart,
+                            RelocalizationRequest,
+                            MapReturn,
+                            Sighting,
+                            Visit>;
   // Something to be taken in. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
@@ -226,6 +240,7 @@ class MappingStage {
   Done Do(const std::shared_ptr<const NewKeyFrame>& added, std::int64_t frame);
   Done Do(const MapStart& start, std::int64_t frame);
   Done Do(const RelocalizationRequest& request, std::int64_t frame);
+  Done Do(const MapReturn& back, std::int64_t frame);
   Done Do(const Sighting& sighting, std::int64_t frame);
   Done Do(const Visit& visit, std::int64_t frame);
   void Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times);
@@ -252,7 +267,7 @@ class MappingStage {
   PlaceRecognition places_;
   Atlas atlas_;
   std::set<MapId> changed_;         // since the maps were loaded or last adjusted as a whole
-  std::deque<KeyFrameId> centres_;  // of the last snapshots of the active map
+  std::deque<KeyFrameId> centres_;  // of the last snapshots
   BackgroundAdjustment adjustment_;
   // Between the two, guarded by mutex_.
   mutable std::mutex mutex_;

@@ -60,10 +60,18 @@ PlaceRecognition::PlaceRecognition(const ImagingModel& imaging, const LoopOption
 
 void PlaceRecognition::Follow(const Atlas& atlas) { plumbline::Follow(atlas, &places_); }
 
-std::vector<KeyFrameId> PlaceRecognition::MostAlike(const Map& map,
-                                                    const Features& features,
-                                                    std::size_t most) const {
-  return plumbline::MostAlike(places_, map, features, most);
+std::vector<PlaceToTry> PlaceRecognition::PlacesOf(const Atlas& atlas,
+                                                   const Features& features,
+                                                   std::size_t most) const {
+  const auto allowed = [&](KeyFrameId id) {
+    const Map* map = MapOf(atlas, id);
+    return map != nullptr && !IsWithdrawn(map->id());
+  };
+  std::vector<PlaceToTry> places;
+  for (const PlaceCandidate& candidate : places_.Query(features, most, allowed)) {
+    places.push_back({MapOf(atlas, candidate.id), candidate.id});
+  }
+  return places;
 }
 
 // What lies around the keyframe is no place that comes back.

@@ -7,6 +7,7 @@
 #include "plumbline/place/place_index.h"
 #include "plumbline/slam/map_events.h"
 #include "plumbline/tracking/options.h"
+#include "plumbline/tracking/relocalization.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,10 +34,11 @@ class PlaceRecognition {
   // Learns what keyframes have come into the maps since the last call, and forgets those that left.
   void Follow(const Atlas& atlas);
 
-  // Which keyframes show what an image shows, most alike first.
-  std::vector<KeyFrameId> MostAlike(const Map& map,
-                                    const Features& features,
-                                    std::size_t most) const;
+  // Where an image may have been taken: the keyframes of all maps that show what it shows, most
+  // alike first, but those of maps that were withdrawn. Valid as long as the maps are.
+  std::vector<PlaceToTry> PlacesOf(const Atlas& atlas,
+                                   const Features& features,
+                                   std::size_t most) const;
 
   // Whether the active map, young and of one camera, shows with this keyframe that its unit runs
   // away (FindScaleConflict): among its first kYoungKeyFrames keyframes this looks at the three

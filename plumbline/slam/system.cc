@@ -108,7 +108,7 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
   const auto due = mapping_.SnapshotFor(record.id.value);
   clock.Done("map");
   for (const StageTime& time : TakeMappingTimes()) clock.Add(time.stage, time.milliseconds);
-  const auto relocalized = TakeRelocalized();
+  const auto relocalized = TakeRelocalized(record.id);
   const auto& snapshot = relocalized != nullptr ? relocalized : due;
   const auto earlier =
       tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
@@ -127,7 +127,7 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
     if (result.starts_map) map_ = MapId{next_map_++};
   }
   if (result.leaves_surroundings) {
-    mapping_.Submit(record.id.value, Sighting{result.frame.points, result.frame.lines});
+    mapping_.Submit(record.id.value, Sighting{map_, result.frame.points, result.frame.lines});
   }
   Relocalize(result);
   if (monocular_start_) {
@@ -140,13 +140,16 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
 
 // A place that was found for a frame before: the tracker goes on from there, if it is lost still.
 // Returns what surrounds it; null where there is nothing to go on from.
-std::shared_ptr<const MapSnapshot> System::TakeRelocalized() {
+std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   const auto outcome = mapping_.TakeRelocalization();
   if (!outcome) return nullptr;
   relocalizing_ = false;
   if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
   tracker_.Resume(*outcome->found, *outcome->snapshot);
   mapping_.Use(outcome->snapshot);
+  if (outcome->snapshot->map != map_ && !read_only_) {
+    mapping_.Submit(frame.value, MapReturn{outcome->snapshot->map, outcome->found->keyframe});
+  }
   relocalizations_.push_back({outcome->found->frame.id,
                               outcome->found->keyframe,
                               outcome->found->counts.inlier_points,
@@ -184,8 +187,7 @@ std::vector<std::string> System::Continue(SavedAtlas saved, bool read_only) {
   loaded_ = std::move(saved.context);
   tracker_.BeginLost({first_keyframe_, read_only, options_.relocalization.patience});
   LocalMapper::State mapper;
-  const auto active = loaded_->maps.find(map_);
-  if (active != loaded_->maps.end()) mapper.young = active->second.young;
+  mapper.young = YoungOf(*loaded_);
   if (loaded_->calibration == FingerprintOf(rectifier().calibration(), camera())) {
     mapper.stereo_evidence = loaded_->stereo_evidence;
   }

@@ -21,25 +21,35 @@ constexpr double kRival = 0.7;
 
 // The candidates that are tried, best first. What failed from one keyframe fails from its
 // neighbours most often, and what succeeded needs no second time.
-std::vector<KeyFrameId> OfDifferentPlaces(const Map& map, std::span<const KeyFrameId> candidates) {
-  std::vector<KeyFrameId> tried;
+std::vector<PlaceToTry> OfDifferentPlaces(std::span<const PlaceToTry> candidates) {
+  std::vector<PlaceToTry> tried;
   std::map<KeyFrameId, int> neighbours;  // of those tried: of how many
-  for (const KeyFrameId id : candidates) {
+  for (const PlaceToTry& place : candidates) {
+    const auto& [map, id] = place;
     if (tried.size() == kTried) break;
-    if (map.Find(id) == nullptr || neighbours[id] >= kOfOnePlace) continue;
-    tried.push_back(id);
-    for (const auto& near : ClosestCovisible(map, id, kCloseNeighbours)) ++neighbours[near.id];
+    if (map->Find(id) == nullptr || neighbours[id] >= kOfOnePlace) continue;
+    tried.push_back(place);
+    for (const auto& near : ClosestCovisible(*map, id, kCloseNeighbours)) ++neighbours[near.id];
   }
   return tried;
 }
 
+// A frame with the pose that it has in one of the maps.
+struct PlaceFound {
+  const Map* map = nullptr;
+  Relocalized frame;
+};
+
 // Whether two poses cannot be the same within what tracking can mend.
-bool Apart(const Relocalized& a, const Relocalized& b, double scene_depth) {
+bool Apart(const PlaceFound& one, const PlaceFound& other) {
+  if (one.map != other.map) return true;
+  const Relocalized& a = one.frame;
+  const Relocalized& b = other.frame;
   constexpr double kDegree = 3.14159265358979 / 180;
   constexpr double kAngle = 5 * kDegree;
   constexpr double kDistance = 0.1;  // of the scene's depth
   const Vector6d motion = LogSe3(a.frame.cam_from_world * Inverse(b.frame.cam_from_world));
-  return motion.head<3>().norm() > kAngle || motion.tail<3>().norm() > kDistance * scene_depth;
+  return motion.head<3>().norm() > kAngle || motion.tail<3>().norm() > kDistance * a.scene_depth;
 }
 
 }  // namespace
@@ -51,12 +61,14 @@ Relocalizer::Relocalizer(const ImagingModel& imaging,
                          const RelocalizationOptions& options)
     : options_(options), search_(imaging, tracking, lines, cutting) {}
 
-std::optional<Relocalized> Relocalizer::FindBeside(const Map& map,
-                                                   const Frame& frame,
-                                                   KeyFrameId id) const {
-  const auto snapshot = TakeSnapshot(map, id);
+std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
+                                                   const Frame& delivered) const {
+  const auto& [map, id] = place;
+  Frame frame = delivered;
+  frame.indexed = WithCorrection(delivered.indexed, map->stereo_correction());
+  const auto snapshot = TakeSnapshot(*map, id);
   LastFrame keyframe;  // stands in for a frame before, of which only the place is known
-  keyframe.frame.cam_from_world = map.PoseOf(id);
+  keyframe.frame.cam_from_world = map->PoseOf(id);
   FrameAssociation found;
   FrameCounts counts;
   const auto first = search_.FromAppearance(frame, keyframe, *snapshot, found, counts);
@@ -78,22 +90,28 @@ std::optional<Relocalized> Relocalizer::FindBeside(const Map& map,
 std::optional<Relocalized> Relocalizer::Find(const Map& map,
                                              const Frame& frame,
                                              std::span<const KeyFrameId> candidates) const {
-  Frame unplaced = frame;
-  unplaced.indexed = WithCorrection(frame.indexed, map.stereo_correction());
-  std::vector<Relocalized> places;
-  for (const KeyFrameId id : OfDifferentPlaces(map, candidates)) {
-    if (auto place = FindBeside(map, unplaced, id)) places.push_back(std::move(*place));
+  std::vector<PlaceToTry> places;
+  for (const KeyFrameId id : candidates) places.push_back({&map, id});
+  return Find(frame, places);
+}
+
+std::optional<Relocalized> Relocalizer::Find(const Frame& frame,
+                                             std::span<const PlaceToTry> candidates) const {
+  std::vector<PlaceFound> places;
+  for (const PlaceToTry& place : OfDifferentPlaces(candidates)) {
+    if (auto found = FindBeside(place, frame)) places.push_back({place.map, *std::move(found)});
   }
   if (places.empty()) return std::nullopt;
-  auto best = std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
-    return a.Inliers() < b.Inliers();
-  });
-  for (const Relocalized& other : places) {
-    if (other.Inliers() >= kRival * best->Inliers() && Apart(*best, other, best->scene_depth)) {
+  const auto best =
+      std::max_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
+        return a.frame.Inliers() < b.frame.Inliers();
+      });
+  for (const PlaceFound& other : places) {
+    if (other.frame.Inliers() >= kRival * best->frame.Inliers() && Apart(*best, other)) {
       return std::nullopt;
     }
   }
-  return std::move(*best);
+  return std::move(best->frame);
 }
 
 }  // namespace plumbline

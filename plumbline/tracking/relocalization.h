@@ -47,7 +47,13 @@ struct Relocalized {
   int Inliers() const { return counts.inlier_points + counts.inlier_lines; }
 };
 
-// Finds the pose of a frame in a map by appearance alone.
+// A keyframe that may show the place of a frame, and the map that has it; not owned.
+struct PlaceToTry {
+  const Map* map = nullptr;
+  KeyFrameId keyframe;
+};
+
+// Finds the pose of a frame in one of some maps by appearance alone.
 //
 // The caller names keyframes that may show the place, from an index of places. From each of the
 // first few that show different surroundings: a pose that most matches agree with (AP3P), then the
@@ -66,14 +72,17 @@ class Relocalizer {
   // So many candidates are worth naming: not all of them are tried.
   static constexpr std::size_t kCandidates = 20;
 
-  // `candidates`: the most alike first; those that are not in the map are passed over. The frame's
-  // pose and matches are not looked at.
+  // `candidates`: the most alike first, of whatever maps of one atlas; those that their map does
+  // not have are passed over. The frame's pose and matches are not looked at. Two maps are two
+  // places, also where nobody knows yet that they show the same.
+  std::optional<Relocalized> Find(const Frame& frame, std::span<const PlaceToTry> candidates) const;
+  // Candidates of one map.
   std::optional<Relocalized> Find(const Map& map,
                                   const Frame& frame,
                                   std::span<const KeyFrameId> candidates) const;
 
  private:
-  std::optional<Relocalized> FindBeside(const Map& map, const Frame& frame, KeyFrameId id) const;
+  std::optional<Relocalized> FindBeside(const PlaceToTry& place, const Frame& delivered) const;
 
   RelocalizationOptions options_;
   PoseSearch search_;

@@ -43,7 +43,7 @@ class MapperRun {
     context.camera = world_.camera;
     const LocalMapper::State state = mapper_.state();
     context.stereo_evidence = state.stereo_evidence;
-    context.maps[map_.id()].young = state.young;
+    context.maps[map_.id()].young = state.young.at(map_.id());
     Atlas atlas;
     atlas.Adopt(map_);
     SaveAtlas(file, atlas, context, map_.id());
@@ -54,7 +54,7 @@ class MapperRun {
     map_ = saved.atlas.active();
     mapper_ = LocalMapper(world_.Imaging(), {}, options_);
     mapper_.SetState(
-        {saved.context.maps.at(map_.id()).young, saved.context.stereo_evidence, AdjustedLines()});
+        {{{map_.id(), saved.context.maps.at(map_.id()).young}}, saved.context.stereo_evidence, AdjustedLines()});
   }
 
   // The right images of keyframes to come are displaced.
@@ -250,6 +250,27 @@ TEST(LocalMapper, GivesTheSameMapEveryTime) {
     EXPECT_EQ(point.descriptor, other->second.descriptor);
     ++other;
   }
+}
+
+// Young landmarks of a map that is left are judged when the camera is back in it, under whatever
+// name the map then has.
+TEST(LocalMapper, RemembersTheYoungLandmarksOfMapsThatAreLeftAndJoined) {
+  Atlas atlas;
+  for (int i = 0; i < 3; ++i) atlas.Start();
+  LocalMapper mapper(SyntheticWorld().Imaging(), {}, {});
+  mapper.SetState({{{MapId{0}, {{PointId{1}}, {}}},
+                    {MapId{1}, {{PointId{2}}, {LineId{3}}}},
+                    {MapId{2}, {{PointId{4}}, {}}}},
+                   {},
+                   AdjustedLines()});
+  mapper.GoOnInAnotherMap();
+  atlas.Join(MapId{0}, MapId{1}, {});
+  mapper.FollowJoins(atlas);
+  const auto young = mapper.state().young;
+  ASSERT_EQ(young.size(), 2U);
+  EXPECT_EQ(young.at(MapId{0}).points, (std::vector{PointId{1}, PointId{2}}));
+  EXPECT_EQ(young.at(MapId{0}).lines, std::vector{LineId{3}});
+  EXPECT_EQ(young.at(MapId{2}).points, std::vector{PointId{4}});
 }
 
 }  // namespace

@@ -217,11 +217,12 @@ TEST(PlaceRecognition, KnowsTheKeyFramesOfASavedAtlas) {
   PlaceRecognition places({}, {});
   const KeyFrame& keyframe = std::next(round.map().keyframes().begin(), 2)->second;
   const Features& features = keyframe.frame.features();
-  EXPECT_TRUE(places.MostAlike(atlas.active(), features, 3).empty());
+  EXPECT_TRUE(places.PlacesOf(atlas, features, 3).empty());
   places.Follow(atlas);
-  const auto alike = places.MostAlike(atlas.active(), features, 3);
+  const auto alike = places.PlacesOf(atlas, features, 3);
   ASSERT_EQ(alike.size(), 3U);
-  EXPECT_EQ(alike.front(), keyframe.id);
+  EXPECT_EQ(alike.front().keyframe, keyframe.id);
+  EXPECT_EQ(alike.front().map, &atlas.active());
 }
 
 }  // namespace

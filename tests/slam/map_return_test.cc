@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+// A lost camera that is found in a map that it left before.
+#include "plumbline/slam/system.h"
+
+#include "tests/support/moving_poster.h"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+constexpr int kLeftEnd = 0,
+              kRightEnd = 120;  // first frames of stretches that share next to nothing
+constexpr int kStretch = 12, kBlind = 14, kShortlyBlind = 4;  // frames
+
+SlamOptions InMode(RunMode mode) {
+  SlamOptions options;
+  options.slam.mode = mode;
+  options.loop.enabled = false;  // or the two ends, which share some corners, would be joined
+  return options;
+}
+
+// Stamps go on whatever is shown.
+class Show {
+ public:
+  explicit Show(RunMode mode)
+      : system_(std::make_unique<System>(MovingPoster::MakeCalibration(), InMode(mode))) {}
+
+  // The poster from this frame of it on.
+  void Stretch(int first) {
+    for (int i = 0; i < kStretch; ++i) Process(poster_.Frame(first + i));
+  }
+  void Black(int frames) {
+    for (int i = 0; i < frames; ++i) Process(MovingPoster::BlindFrame(0));
+  }
+  // Left end, long black, right end, a moment of black, left end again.
+  void AwayAndBack() {
+    Stretch(kLeftEnd);
+    Black(kBlind);
+    Stretch(kRightEnd);
+    Black(kShortlyBlind);
+    Stretch(kLeftEnd);
+  }
+
+  System& system() { return *system_; }
+  FrameRecord Newest() const { return system_->frames().back(); }
+
+ private:
+  void Process(SensorFrame frame) {
+    frame.stamp_ns = MovingPoster::StampNs(shown_++);
+    system_->Process(std::move(frame));
+  }
+
+  MovingPoster poster_;
+  std::unique_ptr<System> system_;
+  int shown_ = 0;
+};
+
+TEST(MapReturn, TheMapWhereTheCameraIsFoundGrowsAgain) {
+  Show show(RunMode::kInline);
+  show.AwayAndBack();
+  EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
+  EXPECT_EQ(show.Newest().map, MapId{0});
+  const std::size_t before = show.system().atlas().Find(MapId{0})->keyframes().size();
+  // Further than before: new keyframes.
+  for (int first = kLeftEnd; first < 5 * kStretch; first += kStretch) show.Stretch(first);
+  show.system().Finish();
+  const Atlas& atlas = show.system().atlas();
+  ASSERT_EQ(atlas.maps().size(), 2U);
+  EXPECT_EQ(atlas.active_id(), MapId{0});
+  const Map& old = *atlas.Find(MapId{0});
+  old.CheckInvariants();
+  EXPECT_GT(old.keyframes().size(), before);
+  // No id of the one is used in the other.
+  EXPECT_GT(old.keyframes().rbegin()->first, atlas.Find(MapId{1})->keyframes().rbegin()->first);
+  for (const auto& [id, point] : old.points()) {
+    EXPECT_EQ(atlas.Find(MapId{1})->Find(id), nullptr) << id.value;
+  }
+}
+
+TEST(MapReturn, PosesAreInTheWorldOfThatMap) {
+  Show show(RunMode::kInline);
+  show.AwayAndBack();
+  show.system().Finish();
+  const Trajectory poses = show.system().FinalTrajectory(MapId{0});
+  ASSERT_GT(poses.size(), static_cast<std::size_t>(3 * kStretch / 2));
+  const StampedPose& last = poses.back();
+  const Eigen::Vector3d expected((kStretch - 1) * MovingPoster::kStep, 0, 0);
+  EXPECT_LT((last.world_from_camera.translation - expected).norm(), 0.01);
+}
+
+// A map that is only read stays as it was saved, the one that would grow included.
+TEST(MapReturn, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
+  Show show(RunMode::kInline);
+  show.Stretch(kLeftEnd);
+  show.Black(kBlind);
+  show.Stretch(kRightEnd);
+  show.system().Finish();
+  SavedAtlas saved{show.system().atlas(), show.system().Context()};
+  ASSERT_EQ(saved.atlas.active_id(), MapId{1});
+  System localized(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  localized.Continue(saved, true);
+  const MovingPoster poster;
+  for (int i = 0; i < kStretch; ++i) localized.Process(poster.Frame(kLeftEnd + i));
+  EXPECT_EQ(localized.frames().back().status, FrameStatus::kTracked);
+  EXPECT_EQ(localized.frames().back().map, MapId{0});
+  EXPECT_EQ(localized.atlas().active_id(), MapId{1});
+}
+
+TEST(MapReturn, LockstepDoesWhatInlineDoes) {
+  Show alone(RunMode::kInline), beside(RunMode::kLockstep);
+  for (Show* show : {&alone, &beside}) {
+    show->AwayAndBack();
+    show->system().Finish();
+  }
+  const Trajectory a = alone.system().FinalTrajectory(MapId{0});
+  const Trajectory b = beside.system().FinalTrajectory(MapId{0});
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].stamp_ns, b[i].stamp_ns);
+    EXPECT_EQ(a[i].world_from_camera.translation, b[i].world_from_camera.translation);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
