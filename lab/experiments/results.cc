@@ -59,6 +59,11 @@ void WriteTables(const Plan& plan,
     if (!timing) comparison = CompareWithPaper(plan, tables.back());
     WriteFileAtomically(plan.out / (timing ? "timing.json" : "results.json"),
                         FormatResults(plan.experiment.name, CollectResults(plan, results, kind)));
+    if (timing && tables.back().columns.empty()) {
+      tables.pop_back();
+      std::filesystem::remove(plan.out / "timing.md");  // of an experiment that measured times
+      continue;
+    }
     WriteFileAtomically(
         plan.out / (timing ? "timing.md" : "table.md"),
         FormatMarkdown(plan, tables.back()) +

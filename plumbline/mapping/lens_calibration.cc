@@ -52,7 +52,8 @@ class Profile {
 };
 
 struct Parabola {
-  double minimum = 0;
+  double middle_cost = 0;
+  double minimum = 0;    // where the cost is least
   double curvature = 0;  // second derivative
 };
 
@@ -60,7 +61,7 @@ struct Parabola {
 Parabola Through(double middle, double step, const std::array<double, 3>& costs) {
   const double slope = (costs[2] - costs[0]) / (2 * step);
   const double curvature = (costs[0] - 2 * costs[1] + costs[2]) / (step * step);
-  return {middle - slope / curvature, curvature};
+  return {costs[1], middle - slope / curvature, curvature};
 }
 
 // Root mean square of what a correction of a pixel at the border moves the points of a problem by.
@@ -115,23 +116,27 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
 
 LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop) {
   constexpr double kStep = 0.002;  // of the width
-  constexpr double kSigmas = 3, kMost = 3;
+  constexpr double kMost = 3;      // deviations of the prior
+  // A map that goes straight on has spoken for 4.6 where there was nothing to correct: what is
+  // wrong with a corner is wrong in all its views, and the cost takes them for independent.
+  constexpr double kSigmas = 6;
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
   const double sigma = kPriorSigma * problem.camera.width;
   const double step = kStep * problem.camera.width;
   const Profile profile(problem, stop);
   std::optional<Parabola> fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
+  const double uncorrected = fit->middle_cost;
+  double corrected = uncorrected - 0.5 * fit->curvature * fit->minimum * fit->minimum;
   if (std::abs(fit->minimum) > step) {  // the profile is a parabola near its minimum only
     fit = FitAround(profile, fit->minimum, step, kMost * sigma);
     if (!fit) return {};
+    corrected = fit->middle_cost;
   }
-  const double information = fit->curvature + 1 / (sigma * sigma);
-  const double border = fit->minimum * fit->curvature / information;
-  const double allowed = kAllowed * problem.camera.width;
-  const double rms = std::abs(border) * MeanSize(problem);
-  const bool significant = std::abs(border) * std::sqrt(information) > kSigmas;
-  return {significant && rms > allowed ? border : 0};
+  const double border = fit->minimum * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
+  const bool significant = 2 * (uncorrected - corrected) > kSigmas * kSigmas;
+  const bool matters = std::abs(border) * MeanSize(problem) > kAllowed * problem.camera.width;
+  return {significant && matters ? border : 0};
 }
 
 }  // namespace plumbline

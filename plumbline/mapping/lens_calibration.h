@@ -30,9 +30,9 @@ void Correct(const LensCorrection& correction, BaProblem& problem);
 // there was at its side before.
 //
 // How: the profile of the cost over the correction, all poses and points adjusted for each (bundle
-// adjustment of the points alone); its minimum by successive parabolas. What it is, is known to
-// the curvature of the profile, joined with a normal distribution about none, its deviation a
-// hundredth of the image's width. A correction below three deviations is none: where the camera
+// adjustment of the points alone); its minimum by successive parabolas, joined with a normal
+// distribution about none, its deviation a hundredth of the image's width. A correction that lowers
+// the cost by less than six deviations would (a likelihood ratio of 36) is none: where the camera
 // goes straight on, nothing tells of it. None either where lengths are measured (a pair), or
 // when `stop` says so.
 //
