@@ -84,6 +84,7 @@ struct Experiment {
   std::string abscissa = {};             // what Variant::abscissa is; empty: no plots over it
   // The variant whose errors the others' are divided by, run by run (paired_ratios.h); empty: none.
   std::string reference = {};
+  std::vector<std::string> ratios = {"ate"};  // metrics that are divided so
   // Set: tables have means instead of medians, runs that lost the camera (a pose for less than 99 %
   // of the frames) count as failed, and a variant with more failed runs than this on a sequence has
   // no figures there but "-", as the second paper's tables have it.

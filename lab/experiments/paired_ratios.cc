@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,9 +41,11 @@ std::optional<double> ValueOf(const JobResult& result, std::string_view metric) 
 bool Lost(const JobResult& result) { return ValueOf(result, "lost").value_or(1) > 0; }
 
 // The logarithm of the ratio of a pair that can be compared.
-std::optional<double> LogRatio(const JobResult& variant, const JobResult& reference) {
-  const auto a = ValueOf(variant, "ate");
-  const auto b = ValueOf(reference, "ate");
+std::optional<double> LogRatio(const JobResult& variant,
+                               const JobResult& reference,
+                               std::string_view metric) {
+  const auto a = ValueOf(variant, metric);
+  const auto b = ValueOf(reference, metric);
   const double covered_a = ValueOf(variant, "coverage").value_or(0);
   const double covered_b = ValueOf(reference, "coverage").value_or(0);
   if (!a || !b || !(*a > 0) || !(*b > 0)) return std::nullopt;
@@ -99,7 +102,8 @@ struct SequencePairs {
 SequencePairs PairsOf(const Runs& runs,
                       std::size_t sequence,
                       std::size_t variant,
-                      std::size_t reference) {
+                      std::size_t reference,
+                      std::string_view metric) {
   SequencePairs out;
   std::set<std::pair<std::string, std::string>> seen;
   for (const auto& [key, by_variant] : runs) {
@@ -112,7 +116,7 @@ SequencePairs PairsOf(const Runs& runs,
     if (another_holds && Lost(*mine->second)) ++out.lost_alone;
     const auto other = by_variant.find(reference);
     if (other == by_variant.end()) continue;
-    const auto log = LogRatio(*mine->second, *other->second);
+    const auto log = LogRatio(*mine->second, *other->second, metric);
     if (!log) {
       ++out.left_out;
     } else if (seen.insert({mine->second->figures->trajectory, other->second->figures->trajectory})
@@ -121,6 +125,38 @@ SequencePairs PairsOf(const Runs& runs,
     }
   }
   return out;
+}
+
+// Of one metric.
+std::vector<PairedRatio> RatiosOf(const Plan& plan,
+                                  const Runs& runs,
+                                  std::size_t reference,
+                                  const std::string& metric) {
+  const auto& variants = plan.experiment.variants;
+  std::vector<PairedRatio> ratios;
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    PairedRatio all;
+    all.variant = v;
+    all.metric = metric;
+    std::vector<std::vector<double>> logs;
+    for (std::size_t s = 0; s < plan.sequences.size(); ++s) {
+      const SequencePairs pairs = PairsOf(runs, s, v, reference, metric);
+      PairedRatio one{s, v, static_cast<int>(pairs.logs.size()), pairs.left_out};
+      one.lost_alone = pairs.lost_alone;
+      one.metric = metric;
+      all.pairs += one.pairs;
+      all.left_out += one.left_out;
+      all.lost_alone += one.lost_alone;
+      if (!pairs.logs.empty()) {
+        SetRatio({pairs.logs}, plan.sequences[s].name + "/" + variants[v].name, one);
+        logs.push_back(pairs.logs);
+      }
+      if (one.pairs + one.left_out + one.lost_alone > 0) ratios.push_back(one);
+    }
+    SetRatio(logs, variants[v].name, all);
+    if (all.pairs + all.left_out + all.lost_alone > 0) ratios.push_back(all);
+  }
+  return ratios;
 }
 
 }  // namespace
@@ -139,27 +175,24 @@ std::vector<PairedRatio> PairedRatios(const Plan& plan, const std::vector<JobRes
   }
   const Runs runs = RunsOf(plan, results);
   std::vector<PairedRatio> ratios;
-  for (std::size_t v = 0; v < variants.size(); ++v) {
-    PairedRatio all;
-    all.variant = v;
-    std::vector<std::vector<double>> logs;
-    for (std::size_t s = 0; s < plan.sequences.size(); ++s) {
-      const SequencePairs pairs = PairsOf(runs, s, v, reference);
-      PairedRatio one{s, v, static_cast<int>(pairs.logs.size()), pairs.left_out};
-      one.lost_alone = pairs.lost_alone;
-      all.pairs += one.pairs;
-      all.left_out += one.left_out;
-      all.lost_alone += one.lost_alone;
-      if (!pairs.logs.empty()) {
-        SetRatio({pairs.logs}, plan.sequences[s].name + "/" + variants[v].name, one);
-        logs.push_back(pairs.logs);
-      }
-      if (one.pairs + one.left_out + one.lost_alone > 0) ratios.push_back(one);
-    }
-    SetRatio(logs, variants[v].name, all);
-    if (all.pairs + all.left_out + all.lost_alone > 0) ratios.push_back(all);
+  for (const std::string& metric : plan.experiment.ratios) {
+    const std::vector<PairedRatio> of_metric = RatiosOf(plan, runs, reference, metric);
+    ratios.insert(ratios.end(), of_metric.begin(), of_metric.end());
   }
   return ratios;
+}
+
+std::vector<std::vector<PairedRatio>> ByMetric(const std::vector<PairedRatio>& ratios) {
+  std::vector<std::vector<PairedRatio>> parts;
+  for (const PairedRatio& ratio : ratios) {
+    if (parts.empty() || parts.back().back().metric != ratio.metric) parts.emplace_back();
+    parts.back().push_back(ratio);
+  }
+  return parts;
+}
+
+std::string RatioTitle(const Plan& plan, const std::string& metric) {
+  return fmt::format("{} against {}", metric == "ate" ? "ATE" : metric, plan.experiment.reference);
 }
 
 std::string RatioText(const PairedRatio& ratio) {
@@ -168,22 +201,26 @@ std::string RatioText(const PairedRatio& ratio) {
 }
 
 std::string FormatRatios(const Plan& plan, const std::vector<PairedRatio>& ratios) {
-  if (ratios.empty()) return "";
-  std::string text = fmt::format(
-      "\n## ATE against {}\n\nGeometric mean over runs of the error divided by that of {} in the "
-      "same run of the same sequence, with 95 % bootstrap intervals; over all sequences each "
-      "counts the same. Lost alone: runs with lost frames where another variant lost none.\n\n"
-      "| variant | sequence | pairs | ratio | left out | lost alone |\n|---|---|---|---|---|---|\n",
-      plan.experiment.reference,
-      plan.experiment.reference);
-  for (const PairedRatio& r : ratios) {
-    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n",
-                        plan.experiment.variants[r.variant].name,
-                        r.sequence ? plan.sequences[*r.sequence].name : "**all**",
-                        r.pairs,
-                        RatioText(r),
-                        r.left_out,
-                        r.lost_alone);
+  std::string text;
+  for (const std::vector<PairedRatio>& of_metric : ByMetric(ratios)) {
+    text += fmt::format(
+        "\n## {}\n\nGeometric mean over runs of the error divided by that of {} in the same run of "
+        "the same sequence, with 95 % bootstrap intervals; over all sequences each counts the "
+        "same. "
+        "Lost alone: runs with lost frames where another variant lost none.\n\n"
+        "| variant | sequence | pairs | ratio | left out | lost alone "
+        "|\n|---|---|---|---|---|---|\n",
+        RatioTitle(plan, of_metric.front().metric),
+        plan.experiment.reference);
+    for (const PairedRatio& r : of_metric) {
+      text += fmt::format("| {} | {} | {} | {} | {} | {} |\n",
+                          plan.experiment.variants[r.variant].name,
+                          r.sequence ? plan.sequences[*r.sequence].name : "**all**",
+                          r.pairs,
+                          RatioText(r),
+                          r.left_out,
+                          r.lost_alone);
+    }
   }
   return text;
 }

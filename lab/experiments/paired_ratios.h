@@ -23,10 +23,12 @@ struct PairedRatio {
   double low = 1, high = 1;  // 95 % of the bootstrap samples lie between
   // Runs in which this variant lost frames or failed while another variant did not.
   int lost_alone = 0;
+  std::string metric = "ate";  // of metrics.h
 };
 
-// ATE of each variant against plan.experiment.reference, by sequence and over all; empty without a
-// reference, or where the plan leaves it out.
+// The errors that plan.experiment.ratios names, of each variant against plan.experiment.reference:
+// one metric after the other, by sequence and over all. Empty without a reference, or where the
+// plan leaves it out.
 //
 // Paired: the same run of the same sequence. Pairs whose two trajectories have both been seen
 // before count once. The intervals come from 2000 bootstrap samples: of the pairs of a sequence;
@@ -37,7 +39,13 @@ std::vector<PairedRatio> PairedRatios(const Plan& plan, const std::vector<JobRes
 // "0.97 (0.93-1.02)"; "-" without a pair.
 std::string RatioText(const PairedRatio& ratio);
 
-// A section of a Markdown document; empty for no ratios.
+// The ratios of one metric after the other, as they come.
+std::vector<std::vector<PairedRatio>> ByMetric(const std::vector<PairedRatio>& ratios);
+
+// "ATE against plucker": the heading of the ratios of a metric.
+std::string RatioTitle(const Plan& plan, const std::string& metric);
+
+// A section of a Markdown document for each metric; empty for no ratios.
 std::string FormatRatios(const Plan& plan, const std::vector<PairedRatio>& ratios);
 
 }  // namespace plumbline

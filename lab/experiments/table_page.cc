@@ -71,17 +71,15 @@ std::string Table(const Plan& plan, const ResultTable& table) {
   return html + "</tbody></table></div>\n";
 }
 
-// Nothing without ratios.
-std::string Ratios(const Plan& plan, const std::vector<PairedRatio>& ratios) {
-  if (ratios.empty()) return "";
+std::string RatiosOfMetric(const Plan& plan, const std::vector<PairedRatio>& ratios) {
   std::string html = fmt::format(
-      "<h2>ATE against {}</h2>\n<p class=\"note\">Geometric mean over the runs, with 95 % "
+      "<h2>{}</h2>\n<p class=\"note\">Geometric mean over the runs, with 95 % "
       "bootstrap "
       "intervals; over all sequences each counts the same. Lost alone: runs with lost frames where "
       "another variant lost none.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>variant</th>"
       "<th>sequence</th><th>pairs</th><th>ratio</th><th>left out</th><th>lost alone</th></tr>"
       "</thead>\n<tbody>\n",
-      EscapeHtml(plan.experiment.reference));
+      EscapeHtml(RatioTitle(plan, ratios.front().metric)));
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     const PairedRatio& r = ratios[i];
     const bool first = i == 0 || ratios[i - 1].variant != r.variant;
@@ -96,6 +94,13 @@ std::string Ratios(const Plan& plan, const std::vector<PairedRatio>& ratios) {
         r.lost_alone);
   }
   return html + "</tbody></table></div>\n";
+}
+
+// Nothing without ratios.
+std::string Ratios(const Plan& plan, const std::vector<PairedRatio>& ratios) {
+  std::string html;
+  for (const auto& of_metric : ByMetric(ratios)) html += RatiosOfMetric(plan, of_metric);
+  return html;
 }
 
 std::string Variants(const Plan& plan) {

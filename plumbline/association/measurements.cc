@@ -11,8 +11,8 @@
 namespace plumbline {
 namespace {
 
-LineMeasurement Measure(const Segment2& segment, double sigma_px, LineWeighting weighting) {
-  const double sigma = weighting == LineWeighting::kNone ? 1.0 : sigma_px;
+LineMeasurement Measure(const Segment2& segment, double sigma_px, const LineWeights& weights) {
+  const double sigma = weights.kind == LineWeighting::kNone ? weights.constant_sigma_px : sigma_px;
   return {segment, sigma * sigma * Eigen::Matrix2d::Identity(), false};
 }
 
@@ -23,8 +23,8 @@ Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J,
   return J * spread;
 }
 
-void MakeScalar(LineWeighting weighting, Eigen::Matrix2d& covariance) {
-  if (weighting != LineWeighting::kScalar) return;
+void MakeScalar(const LineWeights& weights, Eigen::Matrix2d& covariance) {
+  if (weights.kind != LineWeighting::kScalar) return;
   covariance = 0.5 * covariance.trace() * Eigen::Matrix2d::Identity();
 }
 
@@ -34,16 +34,18 @@ PointMeasurement MeasurePoint(const Features& features, std::size_t i) {
   return {features.points[i].px, features.points[i].sigma_px, features.point_disparity[i]};
 }
 
-LineMeasurement MeasureLeftLine(const Features& features, std::size_t i, LineWeighting weighting) {
-  return Measure(features.lines[i].segment, features.lines[i].sigma_px, weighting);
+LineMeasurement MeasureLeftLine(const Features& features,
+                                std::size_t i,
+                                const LineWeights& weights) {
+  return Measure(features.lines[i].segment, features.lines[i].sigma_px, weights);
 }
 
 std::optional<LineMeasurement> MeasureRightLine(const Features& features,
                                                 std::size_t i,
-                                                LineWeighting weighting) {
+                                                const LineWeights& weights) {
   const auto& right = features.line_right[i];
   if (!right) return std::nullopt;
-  LineMeasurement measurement = Measure(right->segment, right->sigma_px, weighting);
+  LineMeasurement measurement = Measure(right->segment, right->sigma_px, weights);
   measurement.in_right_camera = true;
   return measurement;
 }
@@ -52,25 +54,25 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const PluckerLine& line,
                             const Eigen::Matrix4d& information,
-                            LineWeighting weighting,
+                            const LineWeights& weights,
                             LineMeasurement& measurement) {
-  if (weighting == LineWeighting::kNone) return;
+  if (weights.kind == LineWeighting::kNone) return;
   AddLandmarkUncertainty(
-      camera, cam_from_world, UncertainLine(line, information), weighting, measurement);
+      camera, cam_from_world, UncertainLine(line, information), weights, measurement);
 }
 
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const UncertainLine& line,
-                            LineWeighting weighting,
+                            const LineWeights& weights,
                             LineMeasurement& measurement) {
-  if (weighting == LineWeighting::kNone) return;
+  if (weights.kind == LineWeighting::kNone) return;
   LineMeasurement unit = measurement;
   unit.covariance = Eigen::Matrix2d::Identity();
   const auto residual = EvaluateLine(camera, cam_from_world, line.prepared, unit);
   if (!residual) return;
   measurement.covariance += SpreadOf(residual->J_line, line.information);
-  MakeScalar(weighting, measurement.covariance);
+  MakeScalar(weights, measurement.covariance);
 }
 
 void UseProjectedEnds(const RectifiedCamera& camera,
@@ -78,9 +80,9 @@ void UseProjectedEnds(const RectifiedCamera& camera,
                       const PluckerLine& line,
                       const Segment3& ends,
                       const std::optional<Eigen::Matrix4d>& information,
-                      LineWeighting weighting,
+                      const LineWeights& weights,
                       LineMeasurement& measurement) {
-  if (weighting == LineWeighting::kNone) return;
+  if (weights.kind == LineWeighting::kNone) return;
   LineMeasurement unit = measurement;
   unit.covariance = Eigen::Matrix2d::Identity();
   measurement.covariance = ProjectedEndsCovariance(camera, cam_from_world, ends, measurement);
@@ -91,7 +93,7 @@ void UseProjectedEnds(const RectifiedCamera& camera,
     measurement.covariance +=
         SpreadOf(residual->J_line, RegularizedInformation(*information).llt());
   }
-  MakeScalar(weighting, measurement.covariance);
+  MakeScalar(weights, measurement.covariance);
 }
 
 }  // namespace plumbline

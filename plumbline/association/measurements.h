@@ -33,12 +33,24 @@ constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
                     std::pair{LineReconstruction::kTwoView, "two_view"}};
 }
 
+// What the residuals of a line weigh.
+struct LineWeights {
+  LineWeighting kind = LineWeighting::kCovariance;
+  double constant_sigma_px = 1;  // of each end point, with none
+
+  LineWeights(LineWeighting of_kind, double sigma_px = 1)
+      : kind(of_kind), constant_sigma_px(sigma_px) {}
+};
+
 // How lines are made from several views and enter all optimization.
 struct LineOptions {
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
   LineReconstruction reconstruction = LineReconstruction::kNView;
   LineWeighting weighting = LineWeighting::kCovariance;
+  double constant_sigma_px = 1;
+
+  LineWeights weights() const { return {weighting, constant_sigma_px}; }
 };
 
 template <class Visitor>
@@ -55,22 +67,28 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
         o.reconstruction,
         "of a line from several keyframes: n_view (all closest ones together, pairs where they "
         "disagree), two_view (the closest pair that agrees)");
-  visit(
-      "weighting",
-      o.weighting,
-      "of the two residuals of a line: none (1 px each), scalar (their mean variance), covariance "
-      "(2 x 2, with the uncertainty of the 3D line in tracking)");
+  visit("weighting",
+        o.weighting,
+        "of the two residuals of a line: none (constant_sigma_px each), scalar (their mean "
+        "variance), "
+        "covariance (2 x 2, with the uncertainty of the 3D line in tracking)");
+  visit("constant_sigma_px",
+        o.constant_sigma_px,
+        "deviation of the residuals of all lines where weighting is none [px]",
+        Range{0.01, 10});
 }
 
 // The measurement of point feature i.
 PointMeasurement MeasurePoint(const Features& features, std::size_t i);
 
 // The measurement of line feature i in the left image, and in the right one if it was found there.
-// Covariance: sigma_px^2 at each end, independent (weighting none: 1 px^2).
-LineMeasurement MeasureLeftLine(const Features& features, std::size_t i, LineWeighting weighting);
+// Covariance: sigma_px^2 at each end, independent (weighting none: the constant sigma).
+LineMeasurement MeasureLeftLine(const Features& features,
+                                std::size_t i,
+                                const LineWeights& weights);
 std::optional<LineMeasurement> MeasureRightLine(const Features& features,
                                                 std::size_t i,
-                                                LineWeighting weighting);
+                                                const LineWeights& weights);
 
 // Adds to the covariance of a measurement what the uncertainty of the 3D line makes of it:
 // Sigma + J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
@@ -81,14 +99,14 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const PluckerLine& line,
                             const Eigen::Matrix4d& information,
-                            LineWeighting weighting,
+                            const LineWeights& weights,
                             LineMeasurement& measurement);
 
 // The same with a line that was prepared for many measurements.
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const UncertainLine& line,
-                            LineWeighting weighting,
+                            const LineWeights& weights,
                             LineMeasurement& measurement);
 
 // Makes a measurement serve residuals that are the distances of the projected ends (in the world,
@@ -100,7 +118,7 @@ void UseProjectedEnds(const RectifiedCamera& camera,
                       const PluckerLine& line,
                       const Segment3& ends,
                       const std::optional<Eigen::Matrix4d>& information,
-                      LineWeighting weighting,
+                      const LineWeights& weights,
                       LineMeasurement& measurement);
 
 }  // namespace plumbline

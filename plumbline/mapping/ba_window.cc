@@ -31,7 +31,7 @@ class WindowBuilder {
         line_options_(lines),
         options_(options),
         centre_(centre),
-        builder_(map, imaging, lines.weighting, centre, window_) {
+        builder_(map, imaging, lines.weights(), centre, window_) {
     window_.problem.line_residual = lines.residual;
   }
 
@@ -160,7 +160,7 @@ class WindowBuilder {
                        ToPlucker(problem.lines[line]),
                        ends[line],
                        std::nullopt,  // the lines are free to move
-                       line_options_.weighting,
+                       line_options_.weights(),
                        o.measurement);
     }
   }

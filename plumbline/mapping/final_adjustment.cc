@@ -31,11 +31,11 @@ constexpr LineMapOptions kAdjustedLines{.min_keyframes = 4,
 // keyframe.
 MapProblem MakeWholeMap(const Map& map,
                         const ImagingModel& imaging,
-                        LineWeighting weighting,
+                        const LineWeights& weights,
                         const std::vector<WellSeenLine>& lines) {
   MapProblem whole;
   const KeyFrameId first = map.keyframes().begin()->first;
-  MapProblemBuilder builder(map, imaging, weighting, first, whole);
+  MapProblemBuilder builder(map, imaging, weights, first, whole);
   for (const auto& [id, keyframe] : map.keyframes()) builder.AddPose(id, id == first);
   for (const auto& [id, point] : map.points()) builder.AddPoint(point);
   for (const WellSeenLine& line : lines) {
@@ -175,12 +175,12 @@ Correction AdjustWholeMap(const Map& map,
   if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
   const bool large = count > static_cast<std::size_t>(limit);
   // The points alone tell of many maps, before the search for lines.
-  if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weighting, {}), limit)) return {};
+  if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weights(), {}), limit)) return {};
   const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
   if (IsToStop(stop)) return {};
-  MapProblem whole = MakeWholeMap(map, imaging, lines.weighting, well_seen);
+  MapProblem whole = MakeWholeMap(map, imaging, lines.weights(), well_seen);
   // Long lines that are seen from far away tie everything to everything.
-  if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weighting, {});
+  if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weights(), {});
   const LensCorrection lens =
       options.lens_calibration ? LearnLens(whole.problem, stop) : LensCorrection{};
   Correct(lens, whole.problem);

@@ -6,11 +6,11 @@ namespace plumbline {
 
 MapProblemBuilder::MapProblemBuilder(const Map& map,
                                      const ImagingModel& imaging,
-                                     LineWeighting weighting,
+                                     const LineWeights& weights,
                                      KeyFrameId origin,
                                      MapProblem& out)
     : map_(map),
-      weighting_(weighting),
+      weights_(weights),
       out_(out),
       pose_of_(static_cast<std::size_t>(map.NextKeyFrameId().value), kNoPose) {
   out_.problem.camera = imaging.camera;
@@ -67,9 +67,9 @@ int MapProblemBuilder::AddLine(const PluckerLine& in_world) {
 void MapProblemBuilder::AddLineView(int line, const View& view, bool with_right) {
   const Features& features = FeaturesOf(view);
   auto& observations = out_.problem.line_observations;
-  observations.push_back({view.pose, line, MeasureLeftLine(features, view.feature, weighting_)});
+  observations.push_back({view.pose, line, MeasureLeftLine(features, view.feature, weights_)});
   if (!with_right) return;
-  if (const auto right = MeasureRightLine(features, view.feature, weighting_)) {
+  if (const auto right = MeasureRightLine(features, view.feature, weights_)) {
     observations.push_back({view.pose, line, *right});
   }
 }

@@ -37,7 +37,7 @@ class MapProblemBuilder {
   // builder.
   MapProblemBuilder(const Map& map,
                     const ImagingModel& imaging,
-                    LineWeighting weighting,
+                    const LineWeights& weights,
                     KeyFrameId origin,
                     MapProblem& out);
 
@@ -64,7 +64,7 @@ class MapProblemBuilder {
   }
 
   const Map& map_;
-  LineWeighting weighting_;
+  LineWeights weights_;
   MapProblem& out_;
   Rigid3 world_from_problem_;
   std::vector<int> pose_of_;          // by keyframe

@@ -9,8 +9,8 @@
 #include "plumbline/slam/keyframes_ahead.h"
 
 #include <algorithm>
-#include <iterator>
 #include <chrono>
+#include <iterator>
 
 namespace plumbline {
 namespace {

@@ -111,15 +111,17 @@ Segment2 MeasuredPiece(const RectifiedCamera& camera,
 Eigen::Matrix2d PieceCovariance(const RectifiedCamera& camera,
                                 const CuttableLine& line,
                                 const LineCut& cut,
-                                LineWeighting weighting,
+                                const LineWeights& weights,
                                 CuttingInformation information) {
-  if (weighting == LineWeighting::kNone) return Eigen::Matrix2d::Identity();
+  if (weights.kind == LineWeighting::kNone) {
+    return weights.constant_sigma_px * weights.constant_sigma_px * Eigen::Matrix2d::Identity();
+  }
   // The printed information is none that a solver could weight with.
-  const CuttingInformation weights = information == CuttingInformation::kCorrelated
+  const CuttingInformation counted = information == CuttingInformation::kCorrelated
                                          ? CuttingInformation::kCorrelated
                                          : CuttingInformation::kIndependent;
-  const Eigen::Matrix2d covariance = EvaluateCut(camera, line, cut, weights).weight.inverse();
-  if (weighting == LineWeighting::kCovariance) return covariance;
+  const Eigen::Matrix2d covariance = EvaluateCut(camera, line, cut, counted).weight.inverse();
+  if (weights.kind == LineWeighting::kCovariance) return covariance;
   return 0.5 * covariance.trace() * Eigen::Matrix2d::Identity();
 }
 
@@ -132,7 +134,7 @@ void UsePiece(const RectifiedCamera& camera,
               PoseProblem::LineMatch& match) {
   LineMeasurement& measurement = match.measurement;
   const CuttableLine seen = SeenBy(camera, cuttable.line, measurement, sigma_px);
-  measurement.covariance = PieceCovariance(camera, seen, cut, lines.weighting, cutting.information);
+  measurement.covariance = PieceCovariance(camera, seen, cut, lines.weights(), cutting.information);
   match.ends = CutSegment(cuttable.in_world, cut);
   if (lines.residual == LineResidualKind::kObservedEnds) {
     measurement.segment =

@@ -59,14 +59,14 @@ void AddLine(const LineModel& line,
                      line.line,
                      ends,
                      line.information,
-                     options.weighting,
+                     options.weights(),
                      measurement);
   } else {
     AddLandmarkUncertainty(problem.camera,
                            problem.cam_from_world,
                            line.line,
                            line.information,
-                           options.weighting,
+                           options.weights(),
                            measurement);
   }
   problem.lines.push_back({line.line, measurement, static_cast<int>(feature), ends});
@@ -83,8 +83,8 @@ void AddLines(const Features& features,
     if (match < 0) continue;
     const LineModel& line = association.lines[static_cast<std::size_t>(match)].model;
     const double sigma_px = features.lines[i].sigma_px;
-    AddLine(line, MeasureLeftLine(features, i, lines.weighting), sigma_px, i, lines, out);
-    if (const auto right = MeasureRightLine(features, i, lines.weighting)) {
+    AddLine(line, MeasureLeftLine(features, i, lines.weights()), sigma_px, i, lines, out);
+    if (const auto right = MeasureRightLine(features, i, lines.weights())) {
       AddLine(line, *right, features.line_right[i]->sigma_px, i, lines, out);
     }
   }

@@ -64,6 +64,11 @@ TEST(Measurements, CarryTheFeaturesNoise) {
   }
   EXPECT_TRUE(MeasureLeftLine(features, 0, LineWeighting::kNone).covariance.isIdentity());
   EXPECT_TRUE(MeasureRightLine(features, 0, LineWeighting::kNone)->covariance.isIdentity());
+  const LineWeights constant(LineWeighting::kNone, 0.3);
+  EXPECT_TRUE(MeasureLeftLine(features, 0, constant)
+                  .covariance.isApprox(0.09 * Eigen::Matrix2d::Identity()));
+  EXPECT_TRUE(MeasureRightLine(features, 0, constant)
+                  ->covariance.isApprox(0.09 * Eigen::Matrix2d::Identity()));
   features.line_right[0].reset();
   EXPECT_FALSE(MeasureRightLine(features, 0, LineWeighting::kNone));
 }

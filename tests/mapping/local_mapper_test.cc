@@ -53,8 +53,9 @@ class MapperRun {
     const SavedAtlas saved = LoadAtlas(file);
     map_ = saved.atlas.active();
     mapper_ = LocalMapper(world_.Imaging(), {}, options_);
-    mapper_.SetState(
-        {{{map_.id(), saved.context.maps.at(map_.id()).young}}, saved.context.stereo_evidence, AdjustedLines()});
+    mapper_.SetState({{{map_.id(), saved.context.maps.at(map_.id()).young}},
+                      saved.context.stereo_evidence,
+                      AdjustedLines()});
   }
 
   // The right images of keyframes to come are displaced.

@@ -4,7 +4,6 @@
 #include "plumbline/slam/system.h"
 
 #include "tests/support/moving_poster.h"
-
 #include <memory>
 
 #include <gtest/gtest.h>
