@@ -139,8 +139,7 @@ struct MappingOptions {
   FusionOptions fusion;
   CleanupOptions cleanup;
   BaWindowOptions window;
-  // 1e-4: 1.2 times the time, no better
-  LocalBaOptions ba{.function_tolerance = 1e-3, .rejection_tolerance = 1e-2};
+  LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4: 1.2 times the time, no better
   bool stereo_calibration = true;
   bool lens_calibration = true;
   int final_adjustment_keyframes = 1000;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/keyframe_policy.h"
 
-#include <algorithm>
-
 namespace plumbline {
 
 KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
@@ -15,12 +13,8 @@ KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
     return situation.shared_landmarks <
            ratio * situation.share_of_reference * situation.reference_landmarks;
   };
-  const bool are_few =
-      situation.shared_landmarks < situation.share_of_reference * options.enough_shared;
-  const double usual_ratio = are_few
-                                 ? std::max(options.few_landmark_ratio, options.min_landmark_ratio)
-                                 : options.min_landmark_ratio;
-  const double min_ratio = situation.monocular ? options.monocular_landmark_ratio : usual_ratio;
+  const double min_ratio =
+      situation.monocular ? options.monocular_landmark_ratio : options.min_landmark_ratio;
   if (fewer_than(options.critical_ratio)) return KeyFrameReason::kAlmostLost;
   if (situation.frames_since_keyframe < options.min_frames) return KeyFrameReason::kNone;
   if (fewer_than(min_ratio)) return KeyFrameReason::kFewLandmarks;

@@ -7,11 +7,9 @@
 namespace plumbline {
 
 struct KeyFramePolicyOptions {
-  int max_frames = 20;               // a keyframe at the latest after so many frames
-  int min_frames = 2;                // and never sooner than this, unless tracking is about to fail
-  double min_landmark_ratio = 0.65;  // tracked of the landmarks that the last keyframe showed
-  double few_landmark_ratio = 0.8;   // the same where less than the following would be left
-  int enough_shared = 150;
+  int max_frames = 20;              // a keyframe at the latest after so many frames
+  int min_frames = 2;               // and never sooner than this, unless tracking is about to fail
+  double min_landmark_ratio = 0.7;  // landmarks tracked of those the last keyframe shows
   double monocular_landmark_ratio = 0.9;  // the same where new landmarks need a second view
   double critical_ratio = 0.35;           // below this at once
   int min_close = 100;                    // enough near landmarks to fix the translation
@@ -29,17 +27,8 @@ void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
         Range{1, 1000});
   visit("min_landmark_ratio",
         o.min_landmark_ratio,
-        "keyframe when a smaller share is tracked of the landmarks that the last keyframe showed "
-        "when it was made",
+        "keyframe when a smaller share of the last keyframe's landmarks is tracked",
         Range{0, 1});
-  visit("few_landmark_ratio",
-        o.few_landmark_ratio,
-        "the same where fewer than enough_shared landmarks are tracked",
-        Range{0, 1});
-  visit("enough_shared",
-        o.enough_shared,
-        "so many landmarks of the last keyframe tie the next one to it well",
-        Range{0, 100000});
   visit("monocular_landmark_ratio",
         o.monocular_landmark_ratio,
         "the same for a single camera, whose new landmarks need a second keyframe",
@@ -55,7 +44,7 @@ enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints
 struct KeyFrameSituation {
   int frames_since_keyframe = 0;
   int shared_landmarks = 0;     // of the following, those that it shows, too
-  int reference_landmarks = 0;  // well observed points and lines of the last keyframe
+  int reference_landmarks = 0;  // well observed points and lines that the last keyframe shows
   int close_tracked = 0;        // points with good disparity that show a map point
   int close_untracked = 0;      // and that show none
   bool monocular = false;       // no depth is measured

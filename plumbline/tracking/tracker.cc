@@ -290,7 +290,6 @@ TrackingResult Tracker::Succeed(Frame frame,
   } else if (wanted) {
     parent = {snapshot.centre, result.from_reference};
     result.keyframe = MakeKeyFrame(frame, snapshot.centre, result.from_reference);
-    tracks_ = {newest_keyframe_, frame, snapshot, ViewsOfWellObserved(snapshot, 1)};
     result.reference = newest_keyframe_;
     result.from_reference = {Rigid3{}, centre.unit};
   }
@@ -395,13 +394,6 @@ void Tracker::Score(const ExpectedLandmarks& expected, const FrameAssociation& a
   ScoreKind(expected.lines, association.matches.line_of_feature, association.lines, scores_.lines);
 }
 
-// From so many views on a landmark is well observed, in a map that is about to have some more
-// keyframes than the snapshot.
-int Tracker::ViewsOfWellObserved(const MapSnapshot& snapshot, int more) const {
-  return std::min(monocular_ ? kWellObservedByOne : kWellObserved,
-                  static_cast<int>(snapshot.cam_from_world.size()) + more);
-}
-
 KeyFrameSituation Tracker::Situation(const Frame& frame,
                                      const FrameAssociation& association,
                                      const MapSnapshot& snapshot,
@@ -418,15 +410,10 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
     situation.share_of_reference =
         std::min(1.0, features(frame) / std::max(1.0, features(reference)));
   }
-  if (tracks_.keyframe() == newest_keyframe_ && !tracks_.empty()) {
-    const KeyFrameTracks::Count count = tracks_.CountShared(frame, snapshot);
-    situation.reference_landmarks = count.shown;
-    situation.shared_landmarks = count.shared;
-  } else {
-    const int needed = ViewsOfWellObserved(snapshot, 0);
-    CountShared(reference.points, frame.points, snapshot, needed, situation);
-    CountShared(reference.lines, frame.lines, snapshot, needed, situation);
-  }
+  const int needed = std::min(situation.monocular ? kWellObservedByOne : kWellObserved,
+                              static_cast<int>(snapshot.cam_from_world.size()));
+  CountShared(reference.points, frame.points, snapshot, needed, situation);
+  CountShared(reference.lines, frame.lines, snapshot, needed, situation);
   const auto& disparities = frame.features().point_disparity;
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     if (!disparities[i] ||

@@ -7,7 +7,6 @@
 #include "plumbline/map/placement.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/keyframe_policy.h"
-#include "plumbline/tracking/keyframe_tracks.h"
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_search.h"
 #include "plumbline/tracking/relocalization.h"
@@ -143,7 +142,7 @@ class Tracker {
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.state_, self.last_, self.velocity_, self.spread_, self.scores_);
-    visit(self.next_keyframe_, self.newest_keyframe_, self.frames_since_keyframe_, self.tracks_);
+    visit(self.next_keyframe_, self.newest_keyframe_, self.frames_since_keyframe_);
     visit(self.lost_frames_, self.use_, self.trial_keyframes_);
   }
 
@@ -204,7 +203,6 @@ class Tracker {
   // No information where the velocity is not known.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;
   void Score(const ExpectedLandmarks& expected, const FrameAssociation& association);
-  int ViewsOfWellObserved(const MapSnapshot& snapshot, int more) const;
   KeyFrameSituation Situation(const Frame& frame,
                               const FrameAssociation& association,
                               const MapSnapshot& snapshot,
@@ -236,7 +234,6 @@ class Tracker {
   KeyFrameId next_keyframe_{0};
   KeyFrameId newest_keyframe_;
   std::int64_t frames_since_keyframe_ = 0;
-  KeyFrameTracks tracks_;  // of the newest keyframe, where it was made of a frame tracked in a map
   int lost_frames_ = 0;
   std::optional<MapUse> use_;  // of a map that was there before
   int trial_keyframes_ = 0;    // still to come until the map is trusted

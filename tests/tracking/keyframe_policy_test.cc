@@ -12,7 +12,6 @@ namespace {
 TEST(DecideKeyFrame, IsSoonerWithASingleCamera) {
   KeyFramePolicyOptions options;
   options.min_landmark_ratio = 0.75;
-  options.enough_shared = 150;
   options.monocular_landmark_ratio = 0.9;
   KeyFrameSituation situation{
       .frames_since_keyframe = 5, .shared_landmarks = 170, .reference_landmarks = 200};
@@ -26,7 +25,6 @@ TEST(DecideKeyFrame, IsSoonerWithASingleCamera) {
 TEST(DecideKeyFrame, ExpectsLessOfAFrameMeasuredWithFewerFeatures) {
   KeyFramePolicyOptions options;
   options.min_landmark_ratio = 0.7;
-  options.enough_shared = 0;
   options.critical_ratio = 0.35;
   options.min_close = 100;
   options.min_new_close = 70;
@@ -46,33 +44,8 @@ TEST(DecideKeyFrame, ExpectsLessOfAFrameMeasuredWithFewerFeatures) {
   EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kAlmostLost);
 }
 
-// 150 landmarks in common are enough, whatever share they are; of fewer, more have to be left.
-TEST(DecideKeyFrame, IsSoonerWhereFewLandmarksAreShared) {
-  KeyFramePolicyOptions options;
-  options.min_landmark_ratio = 0.65;
-  options.few_landmark_ratio = 0.8;
-  options.enough_shared = 150;
-  const auto decide = [&](int shared, int reference, double share_of_reference = 1) {
-    return DecideKeyFrame({.frames_since_keyframe = 5,
-                           .shared_landmarks = shared,
-                           .reference_landmarks = reference,
-                           .share_of_reference = share_of_reference},
-                          options);
-  };
-  EXPECT_EQ(decide(196, 300), KeyFrameReason::kNone);
-  EXPECT_EQ(decide(194, 300), KeyFrameReason::kFewLandmarks);
-  EXPECT_EQ(decide(150, 200), KeyFrameReason::kNone);
-  EXPECT_EQ(decide(149, 200), KeyFrameReason::kFewLandmarks);
-  EXPECT_EQ(decide(80, 100), KeyFrameReason::kNone);
-  EXPECT_EQ(decide(79, 100), KeyFrameReason::kFewLandmarks);
-  EXPECT_EQ(decide(75, 200, 0.5), KeyFrameReason::kNone);  // half of the features are measured
-  options.few_landmark_ratio = 0.5;                        // never the less strict of the two
-  EXPECT_EQ(decide(60, 100), KeyFrameReason::kFewLandmarks);
-}
-
 TEST(DecideKeyFrame, FollowsTheTable) {
   KeyFramePolicyOptions options;
-  options.enough_shared = 0;
   options.max_frames = 20;
   options.min_frames = 2;
   options.min_landmark_ratio = 0.75;
