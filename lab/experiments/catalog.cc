@@ -267,8 +267,8 @@ Experiment CuttingControlExperiment() {
   };
   const std::vector<Setting> weights = {
       {"1px", {"lines.weighting=none"}},
-      {"0.3px", {"lines.weighting=none", "lines.constant_sigma_px=0.3"}},
-      {"0.2px", {"lines.weighting=none", "lines.constant_sigma_px=0.2"}},
+      {"03px", {"lines.weighting=none", "lines.constant_sigma_px=0.3"}},
+      {"02px", {"lines.weighting=none", "lines.constant_sigma_px=0.2"}},
       {"covariance", {"lines.weighting=covariance"}}};
   const std::vector<Setting> cuts = {
       {"", {}},

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace plumbline {
 namespace {
@@ -198,6 +199,27 @@ std::string RatioTitle(const Plan& plan, const std::string& metric) {
 std::string RatioText(const PairedRatio& ratio) {
   if (ratio.pairs == 0) return "-";
   return fmt::format("{:.3f} ({:.3f}-{:.3f})", ratio.ratio, ratio.low, ratio.high);
+}
+
+std::string FormatRatioList(const Plan& plan, const std::vector<PairedRatio>& ratios) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const PairedRatio& r : ratios) {
+    nlohmann::ordered_json entry;
+    entry["metric"] = r.metric;
+    entry["variant"] = plan.experiment.variants[r.variant].name;
+    entry["sequence"] = nullptr;
+    if (r.sequence) entry["sequence"] = plan.sequences[*r.sequence].name;
+    entry["pairs"] = r.pairs;
+    entry["left_out"] = r.left_out;
+    entry["lost_alone"] = r.lost_alone;
+    for (const auto& [name, value] :
+         {std::pair{"ratio", r.ratio}, std::pair{"low", r.low}, std::pair{"high", r.high}}) {
+      entry[name] = nullptr;
+      if (r.pairs > 0) entry[name] = std::round(value * 1e4) / 1e4;
+    }
+    list.push_back(entry);
+  }
+  return list.dump(1) + "\n";
 }
 
 std::string FormatRatios(const Plan& plan, const std::vector<PairedRatio>& ratios) {

@@ -45,6 +45,10 @@ std::vector<std::vector<PairedRatio>> ByMetric(const std::vector<PairedRatio>& r
 // "ATE against plucker": the heading of the ratios of a metric.
 std::string RatioTitle(const Plan& plan, const std::string& metric);
 
+// A JSON list of {"metric", "variant", "sequence" (null: all), "pairs", "left_out", "lost_alone",
+// "ratio", "low", "high"}; the last three are null without a pair.
+std::string FormatRatioList(const Plan& plan, const std::vector<PairedRatio>& ratios);
+
 // A section of a Markdown document for each metric; empty for no ratios.
 std::string FormatRatios(const Plan& plan, const std::vector<PairedRatio>& ratios);
 

@@ -69,6 +69,9 @@ void WriteTables(const Plan& plan,
         FormatMarkdown(plan, tables.back()) +
             (timing ? "" : FormatRatios(plan, ratios) + FormatComparisonMarkdown(comparison)));
   }
+  if (!ratios.empty()) {
+    WriteFileAtomically(plan.out / "ratios.json", FormatRatioList(plan, ratios));
+  }
   std::vector<PagePlot> plots = MakePlots(plan, tables);
   plots.insert(plots.end(), more_plots.begin(), more_plots.end());
   const std::vector<PagePlot> of_paper = PaperPlots(plan, results);

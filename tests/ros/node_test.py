@@ -234,11 +234,13 @@ def test_mh_01_from_a_bag(node, tmp_path):
                    camera=str(tmp_path / "camera.yaml"))
     play(tmp_path / "mh_01.bag")
     assert wait_for(lambda: len(running.listener.pose) == frames, 240)
-    # The camera is the base here: the poses are those of a run on the same frames.
-    causal = plumbline.run(dataset, stop=frames).system.causal_trajectory()
+    # The camera is the base here: the poses are those of a run on the same frames with the same file:
+    # rotations that went through its matrices differ from the recording's in their last digits.
+    same = plumbline.open(DATA / "euroc" / "MH_01_easy_first250", camera=tmp_path / "camera.yaml")
+    causal = plumbline.run(same, stop=frames).system.causal_trajectory()
     positions = [[p.pose.position.x, p.pose.position.y, p.pose.position.z]
                  for p in running.listener.pose]
-    np.testing.assert_allclose(positions, causal.positions, atol=1e-6)
+    np.testing.assert_allclose(positions, causal.positions, rtol=0, atol=1e-6)
 
 
 def test_it_is_found_where_it_is_installed(tmp_path):

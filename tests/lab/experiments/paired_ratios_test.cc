@@ -8,9 +8,12 @@
 #include "tests/lab/experiments/experiment_fixtures.h"
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace plumbline {
 namespace {
@@ -114,6 +117,37 @@ TEST(PairedRatios, SamePairsCountOnce) {
                                     NoResult("x")});
   EXPECT_EQ(Find(ratios, 0, 1).pairs, 1);
   EXPECT_EQ(RatioText(Find(ratios, 0, 1)), "1.500 (1.500-1.500)");
+}
+
+TEST(PairedRatios, AreThereForEveryErrorThatTheExperimentNames) {
+  const ScratchFolder folder;
+  Plan plan = PlanWithReference(folder);
+  plan.experiment.ratios = {"ate", "rpe_mean"};
+  std::vector<JobResult> results(plan.jobs.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const bool reference =
+        plan.experiment.variants[plan.jobs[i].variant].name == plan.experiment.reference;
+    RunFigures figures;
+    figures.trajectory = std::to_string(i);
+    figures.values = {{"ate", reference ? 2.0 : 3.0},
+                      {"rpe_mean", reference ? 4.0 : 1.0},
+                      {"coverage", 100.0},
+                      {"lost", 0.0}};
+    results[i].figures = figures;
+  }
+  const auto ratios = PairedRatios(plan, results);
+  ASSERT_EQ(ByMetric(ratios).size(), 2U);
+  const auto list = nlohmann::json::parse(FormatRatioList(plan, ratios));
+  double ate = 0, rpe = 0;
+  for (const auto& entry : list) {
+    if (!entry["sequence"].is_null() || entry["variant"] == plan.experiment.reference) continue;
+    (entry["metric"] == "ate" ? ate : rpe) = entry["ratio"];
+  }
+  EXPECT_EQ(ate, 1.5);
+  EXPECT_EQ(rpe, 0.25);
+  const std::string text = FormatRatios(plan, ratios);
+  EXPECT_THAT(text, HasSubstr("## ATE against one"));
+  EXPECT_THAT(text, HasSubstr("## rpe_mean against one"));
 }
 
 TEST(PairedRatios, AreThereOnlyWithAReference) {
