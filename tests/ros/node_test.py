@@ -236,7 +236,7 @@ def test_mh_01_from_a_bag(node, tmp_path):
     assert wait_for(lambda: len(running.listener.pose) == frames, 240)
     # The camera is the base here: the poses are those of a run on the same frames with the same file:
     # rotations that went through its matrices differ from the recording's in their last digits.
-    same = plumbline.open(DATA / "euroc" / "MH_01_easy_first250", camera=tmp_path / "camera.yaml")
+    same = plumbline.open(DATA / "euroc" / "MH_01_easy_first250", camera=str(tmp_path / "camera.yaml"))
     causal = plumbline.run(same, stop=frames).system.causal_trajectory()
     positions = [[p.pose.position.x, p.pose.position.y, p.pose.position.z]
                  for p in running.listener.pose]
