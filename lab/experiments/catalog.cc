@@ -15,6 +15,12 @@
 namespace plumbline {
 namespace {
 
+// One choice among several from which the variants of an experiment are combined.
+struct Setting {
+  std::string name;
+  std::vector<std::string> settings;
+};
+
 // Starts on recorded sequences and on the worlds made for them, as large as they are.
 Experiment StartExperiment(const std::string& name,
                            const std::string& help,
@@ -185,10 +191,6 @@ Experiment MonocularLineExperiment() {
 // defaults as well.
 // PL80: the 80 points and lines that tell most about the pose, chosen together.
 std::vector<Variant> CuttingVariants() {
-  struct Setting {
-    std::string name;
-    std::vector<std::string> settings;
-  };
   const std::vector<Setting> references = {
       {"last", {"tracking.reference=last_frame", "lines.residual=projected_ends"}}, {"map", {}}};
   const std::vector<Setting> kinds = {{"P", {"features.lines=false"}},
@@ -261,10 +263,6 @@ Experiment CuttingControlExperiment() {
       experiment.sequences.push_back({pattern, {}, blurred ? "blurred" : "", blur});
     }
   }
-  struct Setting {
-    std::string name;
-    std::vector<std::string> settings;
-  };
   const std::vector<Setting> weights = {
       {"1px", {"lines.weighting=none"}},
       {"03px", {"lines.weighting=none", "lines.constant_sigma_px=0.3"}},
@@ -313,10 +311,6 @@ Experiment LineControlExperiment(bool mono) {
   for (const char* pattern : {"euroc/*", "kitti/*", "tum/*"}) {
     experiment.sequences.push_back({pattern});
   }
-  struct Setting {
-    std::string name;
-    std::vector<std::string> settings;
-  };
   const std::vector<Setting> kinds = {{"points", {"features.lines=false"}},
                                       {"plucker", {}},
                                       {"endpoints", {"lines.parametrization=endpoints"}},

@@ -128,7 +128,7 @@ SequencePairs PairsOf(const Runs& runs,
   return out;
 }
 
-// Of one metric.
+// The ratios of every variant in one metric: by sequence, then over all of them.
 std::vector<PairedRatio> RatiosOf(const Plan& plan,
                                   const Runs& runs,
                                   std::size_t reference,

@@ -62,10 +62,8 @@ Relocalizer::Relocalizer(const ImagingModel& imaging,
     : options_(options), search_(imaging, tracking, lines, cutting) {}
 
 std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
-                                                   const Frame& delivered) const {
+                                                   const Frame& frame) const {
   const auto& [map, id] = place;
-  Frame frame = delivered;
-  frame.indexed = WithCorrection(delivered.indexed, map->stereo_correction());
   const auto snapshot = TakeSnapshot(*map, id);
   LastFrame keyframe;  // stands in for a frame before, of which only the place is known
   keyframe.frame.cam_from_world = map->PoseOf(id);
@@ -98,8 +96,13 @@ std::optional<Relocalized> Relocalizer::Find(const Map& map,
 std::optional<Relocalized> Relocalizer::Find(const Frame& frame,
                                              std::span<const PlaceToTry> candidates) const {
   std::vector<PlaceFound> places;
+  Frame corrected = frame;  // as the map of the place has disparities
   for (const PlaceToTry& place : OfDifferentPlaces(candidates)) {
-    if (auto found = FindBeside(place, frame)) places.push_back({place.map, *std::move(found)});
+    const StereoCorrection& correction = place.map->stereo_correction();
+    if (!(corrected.indexed->correction == correction)) {
+      corrected.indexed = WithCorrection(frame.indexed, correction);
+    }
+    if (auto found = FindBeside(place, corrected)) places.push_back({place.map, *std::move(found)});
   }
   if (places.empty()) return std::nullopt;
   const auto best =

@@ -82,7 +82,7 @@ class Relocalizer {
                                   std::span<const KeyFrameId> candidates) const;
 
  private:
-  std::optional<Relocalized> FindBeside(const PlaceToTry& place, const Frame& delivered) const;
+  std::optional<Relocalized> FindBeside(const PlaceToTry& place, const Frame& frame) const;
 
   RelocalizationOptions options_;
   PoseSearch search_;
