@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Live runs over recorded sequences, in real time, beside processes that do nothing but keep the
-// machine busy: how many frames are left out and lost, how many maps come of it, the largest gap
-// between two poses, the error, and what was shed.
+// machine busy, or watched by viewers that throw away what they are sent: how many frames are left
+// out and lost, how many maps come of it, the largest gap between two poses, the error, what was
+// shed, the time from an image to its pose, processor time and memory.
 //
-//   live_under_load [--loops 0,2,4,8] [--runs 5] [--sequence NAME]... [--data DIR]
-//                   [--program FILE] [--processors 2] [--set KEY=VALUE]...
+//   live_under_load [--loops 0,2,4,8] [--viewers none,0,1] [--runs 5] [--sequence NAME]...
+//                   [--data DIR] [--program FILE] [--processors 2] [--set KEY=VALUE]...
+//
+// --viewers none is a run without --view (the default), 0 one that nobody looks at. Variants are
+// run in turn.
 //
 // Prints a Markdown table. What the numbers mean and what they were: docs/benchmarks.md.
 #include "plumbline/base/error.h"
 
+#include "bench/discarding_viewer.h"
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -18,6 +23,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <list>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -37,8 +43,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What one run has beside it.
+struct Variant {
+  int loops = 0;
+  std::optional<int> viewers;  // nullopt: the run cannot be looked at
+};
+
 struct Setup {
   std::vector<int> loops = {0, 2, 4, 8};
+  std::vector<std::optional<int>> viewers = {std::nullopt};
   int runs = 5;
   std::vector<std::string> sequences;
   fs::path data = PLUMBLINE_DATA_BESIDE_SOURCE;
@@ -61,6 +74,13 @@ int ParseNumber(const std::string& name, const std::string& text, int least) {
   return value;
 }
 
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream list(text);
+  for (std::string part; std::getline(list, part, ',');) parts.push_back(part);
+  return parts;
+}
+
 Setup ReadSetup(int count, char** arguments) {
   Setup setup;
   if (const char* data = std::getenv("PLUMBLINE_DATA")) setup.data = data;  // NOLINT
@@ -70,9 +90,14 @@ Setup ReadSetup(int count, char** arguments) {
     const std::string value = arguments[i + 1];
     if (name == "--loops") {
       setup.loops.clear();
-      std::istringstream list(value);
-      for (std::string part; std::getline(list, part, ',');) {
+      for (const std::string& part : SplitAtCommas(value)) {
         setup.loops.push_back(ParseNumber(name, part, 0));
+      }
+    } else if (name == "--viewers") {
+      setup.viewers.clear();
+      for (const std::string& part : SplitAtCommas(value)) {
+        setup.viewers.emplace_back(part == "none" ? std::nullopt
+                                                  : std::optional(ParseNumber(name, part, 0)));
       }
     } else if (name == "--runs") {
       setup.runs = ParseNumber(name, value, 1);
@@ -163,6 +188,8 @@ class TemporaryFolder {
 
 struct Figures {
   int in = 0, dropped = 0, lost = 0, maps = 0, keyframes = 0, demoted = 0;
+  double median_ms = 0, p95_ms = 0, p99_ms = 0;  // from an image to its pose
+  double cpu_ms = 0, peak_mb = 0;                // processor time a frame, of all threads
   double gap_seconds = 0;             // between two poses, before the first and after the last
   std::optional<double> ate, causal;  // metres
   int lighter = 0;                    // frames for which something was shed, but not left out
@@ -213,12 +240,18 @@ Figures ReadFigures(const fs::path& folder) {
     for (const char* what : {"mapping", "lines", "points"})
       figures.lighter += shed[what].get<int>();
   }
+  figures.median_ms = summary["timing"]["total"]["median_ms"];
+  figures.p95_ms = summary["timing"]["total"]["p95_ms"];
+  figures.p99_ms = summary["timing"]["total"]["p99_ms"];
+  figures.cpu_ms = 1e3 * summary["cpu_seconds"].get<double>() / figures.in;
+  figures.peak_mb = summary["peak_memory_mb"];
   figures.gap_seconds = LargestGap(folder / "frames.csv");
   return figures;
 }
 
-Figures Run(const Setup& setup, const std::string& sequence) {
+Figures Run(const Setup& setup, const std::string& sequence, std::optional<int> viewers) {
   const TemporaryFolder folder;
+  const std::uint16_t port = viewers ? FreePort() : 0;
   std::vector<std::string> words = {setup.program.string(),
                                     "run",
                                     (setup.data / sequence).string(),
@@ -227,6 +260,7 @@ Figures Run(const Setup& setup, const std::string& sequence) {
                                     "--quiet",
                                     "--out",
                                     (folder.path() / "run").string()};
+  if (viewers) words.insert(words.end(), {"--view", std::to_string(port)});
   for (const std::string& setting : setup.settings) {
     words.emplace_back("--set");
     words.push_back(setting);
@@ -241,9 +275,14 @@ Figures Run(const Setup& setup, const std::string& sequence) {
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
+  std::list<DiscardingViewer> watching;
+  for (int i = 0; i < viewers.value_or(0); ++i) watching.emplace_back(port);
   int status = 0;
   if (child < 0 || ::waitpid(child, &status, 0) != child || status != 0) {
     throw InputError(fmt::format("{} run {}: failed", setup.program.string(), sequence));
+  }
+  for (const DiscardingViewer& viewer : watching) {
+    if (viewer.bytes() == 0) throw InputError("a viewer was sent nothing");
   }
   return ReadFigures(folder.path() / "run");
 }
@@ -252,10 +291,14 @@ std::string Millimetres(const std::optional<double>& metres) {
   return metres ? fmt::format("{:.1f}", 1e3 * *metres) : std::string("-");
 }
 
-void Print(const std::string& sequence, int loops, const std::string& run, const Figures& f) {
-  fmt::print("| {} | {} | {} | {:.0f} % | {:.1f} % | {} | {:.2f} s | {} | {} | {} | {} | {} |\n",
+void Print(const std::string& sequence,
+           const Variant& variant,
+           const std::string& run,
+           const Figures& f) {
+  fmt::print("| {} | {} | {} | {} | {:.0f} % | {:.1f} % | {} | {:.2f} s | {} | {} | {} | {} | {} ",
              sequence,
-             loops,
+             variant.loops,
+             variant.viewers ? std::to_string(*variant.viewers) : "none",
              run,
              100 * f.DroppedShare(),
              100 * f.LostShare(),
@@ -266,6 +309,12 @@ void Print(const std::string& sequence, int loops, const std::string& run, const
              f.keyframes,
              f.demoted,
              f.lighter);
+  fmt::print("| {:.1f}, {:.1f}, {:.1f} | {:.1f} | {:.0f} |\n",
+             f.median_ms,
+             f.p95_ms,
+             f.p99_ms,
+             f.cpu_ms,
+             f.peak_mb);
   std::fflush(stdout);
 }
 
@@ -280,27 +329,40 @@ Figures Worst(const std::vector<Figures>& runs) {
     worst.demoted = std::max(worst.demoted, run.demoted);
     worst.lighter = std::max(worst.lighter, run.lighter);
     worst.gap_seconds = std::max(worst.gap_seconds, run.gap_seconds);
+    worst.median_ms = std::max(worst.median_ms, run.median_ms);
+    worst.p95_ms = std::max(worst.p95_ms, run.p95_ms);
+    worst.p99_ms = std::max(worst.p99_ms, run.p99_ms);
+    worst.cpu_ms = std::max(worst.cpu_ms, run.cpu_ms);
+    worst.peak_mb = std::max(worst.peak_mb, run.peak_mb);
     worst.ate = !worst.ate || !run.ate ? std::nullopt : std::max(worst.ate, run.ate);
     worst.causal = !worst.causal || !run.causal ? std::nullopt : std::max(worst.causal, run.causal);
   }
   return worst;
 }
 
+// All variants of a sequence in turn, as often as asked, then the worst of each.
+void MeasureSequence(const Setup& setup, const std::string& sequence, int loops) {
+  const BusyLoops busy(loops);
+  std::vector<std::vector<Figures>> runs(setup.viewers.size());
+  for (int run = 0; run < setup.runs; ++run) {
+    for (std::size_t v = 0; v < setup.viewers.size(); ++v) {
+      runs[v].push_back(Run(setup, sequence, setup.viewers[v]));
+      Print(sequence, {loops, setup.viewers[v]}, std::to_string(run + 1), runs[v].back());
+    }
+  }
+  for (std::size_t v = 0; v < setup.viewers.size(); ++v) {
+    Print(sequence, {loops, setup.viewers[v]}, "worst", Worst(runs[v]));
+  }
+}
+
 void Measure(const Setup& setup) {
   fmt::print(
-      "| sequence | busy loops | run | left out | lost | maps | largest gap | ATE [mm] | causal "
-      "[mm] | keyframes | given up | frames with less work |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| sequence | busy loops | viewers | run | left out | lost | maps | largest gap | ATE [mm] | "
+      "causal [mm] | keyframes | given up | frames with less work | image to pose: median, p95, "
+      "p99 [ms] | CPU a frame [ms] | memory [MB] |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& sequence : setup.sequences) {
-    for (const int loops : setup.loops) {
-      const BusyLoops busy(loops);
-      std::vector<Figures> runs;
-      for (int run = 0; run < setup.runs; ++run) {
-        runs.push_back(Run(setup, sequence));
-        Print(sequence, loops, std::to_string(run + 1), runs.back());
-      }
-      Print(sequence, loops, "worst", Worst(runs));
-    }
+    for (const int loops : setup.loops) MeasureSequence(setup, sequence, loops);
   }
 }
 
