@@ -3,11 +3,11 @@
 #include "bench/line_correspondence.h"
 
 #include "plumbline/base/random.h"
+#include "plumbline/base/units.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -15,8 +15,6 @@
 
 namespace plumbline::bench {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 cv::Matx33d ToCv(const Eigen::Matrix3d& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};

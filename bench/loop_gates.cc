@@ -15,6 +15,7 @@
 // having been elsewhere between; those that follow each other are one event. It is recognized where
 // one of them closes a loop or joins maps, or shares landmarks with keyframes at least 10 s older.
 #include "plumbline/base/error.h"
+#include "plumbline/base/units.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/map/covisibility.h"
@@ -28,7 +29,6 @@
 #include <exception>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -43,7 +43,6 @@ namespace plumbline::bench {
 namespace {
 
 constexpr double kLeastShared = 0.1;
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 struct Arguments {

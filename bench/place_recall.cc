@@ -12,6 +12,7 @@
 // with a right one among the first 1, 5 and 10 candidates; the share whose first candidate is right
 // and scores higher than any wrong first candidate (recall at full precision, with no
 // verification); that score; CPU time of a query.
+#include "plumbline/base/units.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -21,7 +22,6 @@
 #include <cstdint>
 #include <ctime>
 #include <exception>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,7 +62,6 @@ Sequence Load(const char* map_path, const char* truth_path) {
 enum class Relation { kSame, kNear, kOther };
 
 Relation RelationOf(const View& a, const View& b) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const Rigid3 motion = Inverse(a.world_from_camera) * b.world_from_camera;
   const double distance = motion.translation.norm();
   const double angle = LogSo3(motion.rotation).norm();

@@ -1,8 +1,21 @@
-# plumbline_module(NAME geometry SOURCES a.cc ... [DEPS base ...] [PUBLIC lib ...] [PRIVATE lib ...])
+# Headers and templates that files share are compiled once for all of them: from nothing this takes less than half the
+# time, after a change of one file more.
+option(PLUMBLINE_UNITY "Compile a dozen files at once" OFF)
+
+# Compiles the files of a target together, but for those named after it: what these define for themselves others do, too.
+function(plumbline_compile_together target)
+  if(PLUMBLINE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
+# plumbline_module(NAME geometry SOURCES a.cc ... [DEPS base ...] [PUBLIC lib ...] [PRIVATE lib ...] [ALONE a.cc ...])
 # One folder, one library plumbline::<name>. DEPS are other modules; their order is checked by
-# tools/check_layering.py. A module without sources is header only.
+# tools/check_layering.py. A module without sources is header only. ALONE: sources that are not
+# compiled together with others.
 function(plumbline_module)
-  cmake_parse_arguments(ARG "" "NAME" "SOURCES;DEPS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;DEPS;PUBLIC;PRIVATE;ALONE" ${ARGN})
   set(target plumbline_${ARG_NAME})
   list(TRANSFORM ARG_DEPS PREPEND plumbline_)
   if(ARG_SOURCES)
@@ -11,6 +24,7 @@ function(plumbline_module)
     target_link_libraries(${target} PUBLIC plumbline_flags ${ARG_DEPS} ${ARG_PUBLIC}
                           PRIVATE $<BUILD_INTERFACE:plumbline_warnings> ${ARG_PRIVATE})
     plumbline_use_precompiled(${target} plumbline_module_headers)
+    plumbline_compile_together(${target} ${ARG_ALONE})
     if(OpenCV_INCLUDE_DIRS)
       target_include_directories(${target} SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
     endif()

@@ -23,20 +23,20 @@ struct Task {
   std::vector<PointRows> points;
   std::size_t budget = 0;
 
-  double Value(const FeatureChoice& choice) const {
+  double Value(const ChosenFeatures& choice) const {
     CuttingProblem with_points = problem;
     with_points.other_information += SumPoints(points, choice.points);
     return LogDeterminantOf(with_points, choice.lines, CuttingInformation::kIndependent);
   }
 
-  FeatureChoice Choose(CuttingMethod method) const {
+  ChosenFeatures Choose(CuttingMethod method) const {
     return ChooseFeatures(problem, points, budget, {method});
   }
 
   // The marked features, points first, with their lines cut.
-  FeatureChoice Cut(const std::vector<bool>& marked) const {
-    FeatureChoice choice{std::vector<bool>(points.size()),
-                         std::vector<LineCut>(problem.lines.size())};
+  ChosenFeatures Cut(const std::vector<bool>& marked) const {
+    ChosenFeatures choice{std::vector<bool>(points.size()),
+                          std::vector<LineCut>(problem.lines.size())};
     std::copy_n(marked.begin(), points.size(), choice.points.begin());
     for (std::size_t i = 0; i < problem.lines.size(); ++i) {
       choice.lines[i].used = marked[points.size() + i];
@@ -62,23 +62,23 @@ Task MakeTask(const ChoiceOptions& options, std::uint64_t index) {
   return task;
 }
 
-std::vector<bool> MarksOf(const FeatureChoice& choice) {
+std::vector<bool> MarksOf(const ChosenFeatures& choice) {
   std::vector<bool> marks = choice.points;
   for (const LineCut& line : choice.lines) marks.push_back(line.used);
   return marks;
 }
 
-FeatureChoice ChooseApart(const Task& task) {
+ChosenFeatures ChooseApart(const Task& task) {
   Task half = task;
   half.budget /= 2;
   CuttingProblem no_lines = task.problem;
   no_lines.lines.clear();
-  FeatureChoice choice = ChooseFeatures(task.problem, {}, half.budget, {CuttingMethod::kGreedy});
+  ChosenFeatures choice = ChooseFeatures(task.problem, {}, half.budget, {CuttingMethod::kGreedy});
   choice.points = ChooseFeatures(no_lines, task.points, half.budget, {}).points;
   return choice;
 }
 
-FeatureChoice ChooseAtRandom(const Task& task, std::uint64_t index) {
+ChosenFeatures ChooseAtRandom(const Task& task, std::uint64_t index) {
   std::vector<std::size_t> order(task.points.size() + task.problem.lines.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   Rng rng(index, "random choice");
@@ -90,7 +90,7 @@ FeatureChoice ChooseAtRandom(const Task& task, std::uint64_t index) {
   return task.Cut(marks);
 }
 
-FeatureChoice ChooseBy(ChoiceVariant variant, const Task& task, std::uint64_t index) {
+ChosenFeatures ChooseBy(ChoiceVariant variant, const Task& task, std::uint64_t index) {
   switch (variant) {
     case ChoiceVariant::kTogether:
       return task.Choose(CuttingMethod::kGreedy);

@@ -60,7 +60,7 @@ class GreedyChoice {
   }
 
   // `choice` says which lines may be chosen, and becomes the choice.
-  void Run(std::size_t budget, FeatureChoice& choice) {
+  void Run(std::size_t budget, ChosenFeatures& choice) {
     Refresh();
     std::priority_queue<Candidate> queue;
     for (std::size_t i = 0; i < points_.size(); ++i) queue.push(Look(i));
@@ -97,7 +97,7 @@ class GreedyChoice {
     return {GainOf(rest_, residuals.rows, residuals.weight), index, chosen_, cut};
   }
 
-  void Take(const Candidate& best, FeatureChoice& choice) {
+  void Take(const Candidate& best, ChosenFeatures& choice) {
     if (best.index < points_.size()) {
       choice.points[best.index] = true;
       sums_.weighted.noalias() += points_[best.index].transpose() * points_[best.index];
@@ -133,7 +133,7 @@ Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& u
 void CutChosen(const CuttingProblem& problem,
                std::span<const PointRows> points,
                const CuttingOptions& options,
-               FeatureChoice& choice) {
+               ChosenFeatures& choice) {
   CuttingProblem chosen{problem.camera, {}, problem.other_information};
   chosen.other_information += SumPoints(points, choice.points);
   for (std::size_t i = 0; i < choice.lines.size(); ++i) {
@@ -146,17 +146,17 @@ void CutChosen(const CuttingProblem& problem,
   }
 }
 
-FeatureChoice ChooseFeatures(const CuttingProblem& problem,
-                             std::span<const PointRows> points,
-                             std::size_t budget,
-                             const CuttingOptions& options) {
+ChosenFeatures ChooseFeatures(const CuttingProblem& problem,
+                              std::span<const PointRows> points,
+                              std::size_t budget,
+                              const CuttingOptions& options) {
   if (budget >= points.size() + problem.lines.size()) {
     CuttingProblem all = problem;
     all.other_information += SumPoints(points);
     return {std::vector<bool>(points.size(), true), CutLines(all, options)};
   }
-  FeatureChoice choice{std::vector<bool>(points.size(), false),
-                       std::vector<LineCut>(problem.lines.size())};
+  ChosenFeatures choice{std::vector<bool>(points.size(), false),
+                        std::vector<LineCut>(problem.lines.size())};
   if (options.method == CuttingMethod::kDrop) choice.lines = CutLines(problem, options);
   GreedyChoice(problem, points, options).Run(budget, choice);
   const bool cut_already = options.method == CuttingMethod::kGreedy &&

@@ -16,7 +16,7 @@ namespace plumbline {
 // by the left perturbation exp([rotation, translation]).
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 3, 6>;
 
-struct FeatureChoice {
+struct ChosenFeatures {
   std::vector<bool> points;    // used or not
   std::vector<LineCut> lines;  // LineCut::used, and how they are cut
 };
@@ -35,16 +35,16 @@ struct FeatureChoice {
 // Everything is chosen where the budget is not below what there is, and cut as by CutLines.
 // Deterministic: of equal gains points come first, then the order given.
 //   cost: 40 of 200 points and 60 lines 0.7 ms, with greedy cuts 1.2 ms
-FeatureChoice ChooseFeatures(const CuttingProblem& problem,
-                             std::span<const PointRows> points,
-                             std::size_t budget,
-                             const CuttingOptions& options);
+ChosenFeatures ChooseFeatures(const CuttingProblem& problem,
+                              std::span<const PointRows> points,
+                              std::size_t budget,
+                              const CuttingOptions& options);
 
 // Cuts the used lines of a choice anew, as by CutLines, with its points for the constant part.
 void CutChosen(const CuttingProblem& problem,
                std::span<const PointRows> points,
                const CuttingOptions& options,
-               FeatureChoice& choice);
+               ChosenFeatures& choice);
 
 // Sum of rows^T rows over the points that are used (all where `used` is empty).
 Matrix6d SumPoints(std::span<const PointRows> points, const std::vector<bool>& used = {});

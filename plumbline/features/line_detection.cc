@@ -112,8 +112,8 @@ std::vector<LineFeature> SelectLines(const std::vector<LineFeature>& lines,
                                      int height,
                                      std::size_t count) {
   if (lines.size() <= count) return lines;
-  constexpr int kColumns = 6;
-  constexpr int kRows = 4;
+  constexpr int kCellColumns = 6;
+  constexpr int kCellRows = 4;
   std::vector<double> score(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     score[i] = lines[i].segment.Length() * std::sqrt(lines[i].response);
@@ -122,13 +122,15 @@ std::vector<LineFeature> SelectLines(const std::vector<LineFeature>& lines,
   std::iota(order.begin(), order.end(), 0);
   const auto by_score = [&](std::size_t a, std::size_t b) { return score[a] > score[b]; };
   std::stable_sort(order.begin(), order.end(), by_score);
-  std::array<int, static_cast<std::size_t>(kColumns * kRows)> taken{};
+  std::array<int, static_cast<std::size_t>(kCellColumns * kCellRows)> taken{};
   for (const std::size_t i : order) {
     const Eigen::Vector2d middle = lines[i].segment.Midpoint();
-    const int x = std::clamp(static_cast<int>(middle.x() * kColumns / width), 0, kColumns - 1);
-    const int y = std::clamp(static_cast<int>(middle.y() * kRows / height), 0, kRows - 1);
-    int& rank = taken[static_cast<std::size_t>(y * kColumns + x)];
-    score[i] /= 1 + rank * static_cast<double>(kColumns * kRows) / static_cast<double>(count);
+    const int x =
+        std::clamp(static_cast<int>(middle.x() * kCellColumns / width), 0, kCellColumns - 1);
+    const int y = std::clamp(static_cast<int>(middle.y() * kCellRows / height), 0, kCellRows - 1);
+    int& rank = taken[static_cast<std::size_t>(y * kCellColumns + x)];
+    score[i] /=
+        1 + rank * static_cast<double>(kCellColumns * kCellRows) / static_cast<double>(count);
     ++rank;
   }
   std::stable_sort(order.begin(), order.end(), by_score);

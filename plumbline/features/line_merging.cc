@@ -3,6 +3,7 @@
 #include "plumbline/features/line_merging.h"
 
 #include "plumbline/base/elementary.h"
+#include "plumbline/base/units.h"
 #include "plumbline/features/line_refinement.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 
 namespace plumbline {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 double Angle(const Segment2& segment) {
   const Eigen::Vector2d d = segment.end - segment.start;

@@ -4,15 +4,13 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/units.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace plumbline {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Whether both are pieces of one edge: then the one must not spoil the ratio test of the other.
 bool Collinear(const Segment2& a, const Segment2& b) {

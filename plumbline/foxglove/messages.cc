@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/foxglove/messages.h"
 
+#include "plumbline/base/units.h"
+
 #include <array>
 #include <bit>
 
 namespace plumbline {
 namespace {
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::uint32_t kBytesPerPoint = 12;
 
 // Of foxglove.PointsAnnotation, LinePrimitive, PackedElementField and SceneEntityDeletion.

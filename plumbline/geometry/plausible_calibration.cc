@@ -3,6 +3,7 @@
 #include "plumbline/geometry/plausible_calibration.h"
 
 #include "plumbline/base/elementary.h"
+#include "plumbline/base/units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,6 @@ constexpr double kMaxRectifiedAngle = 1e-3;  // radians
 constexpr double kMaxRectifiedTilt = 0.02;   // of the baseline
 // Optical axes further apart see nothing in common.
 constexpr double kMaxAxesAngleDeg = 120;
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 // Numbers and texts one after the other, numbers with six digits.
 template <class... Parts>

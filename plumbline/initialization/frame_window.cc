@@ -3,6 +3,7 @@
 #include "plumbline/initialization/frame_window.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/index.h"
 #include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/match_refinement.h"
 
@@ -19,8 +20,6 @@ namespace {
 
 constexpr std::size_t kMaxFrames = 40;
 constexpr double kSeparationPx = 5;  // of the points that are used together
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // Takes features in order, but none that is nearer than `distance_px` to one that was taken: a
 // corner is often found in several octaves, and its errors are the same in all of them.

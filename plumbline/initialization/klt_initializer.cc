@@ -3,6 +3,7 @@
 #include "plumbline/initialization/klt_initializer.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/index.h"
 #include "plumbline/base/random.h"
 #include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/structure.h"
@@ -25,8 +26,6 @@ constexpr double kTrackSigmaPx = 0.5;
 constexpr double kMinShareInFront = 0.9;
 constexpr double kMaxSpread = 2;  // of the residuals, in standard deviations
 constexpr double kMinParallaxDeg = 1;
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<RayMatch> Matches(const TrackedPoints& a, const TrackedPoints& b) {
   std::vector<RayMatch> matches;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/matching.h"
 
+#include "plumbline/base/units.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,7 +13,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kMaxOctaveStep = 2;  // of the scale: 1.44 with the usual 1.2 an octave
 
 std::vector<PointFeature> Moved(std::vector<PointFeature> points, const ImageMotion& motion) {

@@ -6,6 +6,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/median.h"
 #include "plumbline/base/parallel.h"
+#include "plumbline/base/units.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/initialization/line_evidence.h"
 #include "plumbline/initialization/window_adjustment.h"
@@ -17,14 +18,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace plumbline {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // A hypothesis this much worse than the best before adjustment is not worth one.
 constexpr double kHopeless = 2;
 // Least noise of a fit, in units of the noise that the distances from the epipolar lines have: what

@@ -4,7 +4,9 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/index.h"
 #include "plumbline/base/median.h"
+#include "plumbline/base/units.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/triangulation.h"
 #include "plumbline/geometry/trimming.h"
@@ -21,11 +23,8 @@
 namespace plumbline {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Lines lie where the points lie, give or take this factor on the nearest and furthest of them.
 constexpr double kDepthMargin = 2;
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 const Features& FeaturesOf(const InitialView& view) { return view.frame.indexed->features; }
 

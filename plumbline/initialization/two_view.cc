@@ -3,6 +3,7 @@
 #include "plumbline/initialization/two_view.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/units.h"
 #include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/structure.h"
 #include "plumbline/solvers/epipolar_cost.h"
@@ -15,13 +16,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 namespace plumbline {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Values of the paper (section IV); those that it does not give are ours.
 constexpr std::size_t kMinFeatures = 100;
 constexpr std::size_t kMinMatches = 100;

@@ -53,12 +53,12 @@ std::optional<FrameRange> ParseRange(std::string_view text) {
 }
 
 std::vector<FrameRange> RangesAt(const path& file, const TextRow& row) {
-  constexpr std::string_view kBlanks = " \t";
+  constexpr std::string_view kBetween = " \t";
   std::string_view rest = row.fields[kWithKind];
   std::vector<FrameRange> ranges;
   while (!rest.empty()) {
-    const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
-    rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(kBlanks, word.size())));
+    const std::string_view word = rest.substr(0, rest.find_first_of(kBetween));
+    rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(kBetween, word.size())));
     const std::optional<FrameRange> range = ParseRange(word);
     if (!range) {
       FailAt(file, row.line, "frames such as 0-17 25 30-44", InQuotes(word));

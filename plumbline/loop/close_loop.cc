@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/close_loop.h"
 
+#include "plumbline/base/index.h"
 #include "plumbline/map/motion.h"
 #include "plumbline/mapping/correction.h"
 #include "plumbline/optimization/pose_graph.h"
@@ -13,8 +14,6 @@
 
 namespace plumbline {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 bool ShowBoth(const Observations& a, const Observations& b) {
   return std::any_of(a.begin(), a.end(), [&](const auto& seen) { return b.contains(seen.first); });

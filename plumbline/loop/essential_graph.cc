@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/essential_graph.h"
 
+#include "plumbline/base/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,8 +16,6 @@
 
 namespace plumbline {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // Pairs of poses, each once, the lesser index second.
 class Ties {

@@ -3,6 +3,7 @@
 #include "plumbline/loop/loop_search.h"
 
 #include "plumbline/association/measurements.h"
+#include "plumbline/base/index.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
 
@@ -15,8 +16,6 @@ namespace plumbline {
 namespace {
 
 constexpr double kNearRadiusPx = 4;  // in the images of neighbours
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 ProjectionSearchOptions SearchOptions(double radius_px) {
   ProjectionSearchOptions options;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/pairwise_consistency.h"
 
+#include "plumbline/base/index.h"
 #include "plumbline/loop/uncertain_pose.h"
 
 #include <cstddef>
@@ -11,8 +12,6 @@
 
 namespace plumbline {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 UncertainPose Measured(const PoseGraphEdge& edge) {
   const Eigen::Index size = edge.information(6, 6) > 0 ? 7 : 6;

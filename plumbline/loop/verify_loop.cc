@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/verify_loop.h"
 
+#include "plumbline/base/index.h"
 #include "plumbline/loop/chance.h"
 #include "plumbline/loop/loop_search.h"
 #include "plumbline/loop/uncertain_pose.h"
@@ -26,8 +27,6 @@ constexpr int kLineWeight = 2;        // of a line against a point, in counts
 constexpr int kLeastTested = 15;      // landmarks in view of a neighbour that is worth asking
 constexpr std::size_t kAsked = 5;     // neighbours of either keyframe
 constexpr double kMaxChange = 24;     // chi2 of what neighbours change: 99.9 % of seven
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 int Count(const std::vector<bool>& flags) {
   return static_cast<int>(std::count(flags.begin(), flags.end(), true));

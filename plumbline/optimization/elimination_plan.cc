@@ -3,6 +3,7 @@
 #include "plumbline/optimization/elimination_plan.h"
 
 #include "plumbline/base/elementary.h"
+#include "plumbline/base/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@
 
 namespace plumbline {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // The factor by column, numbered in the order of elimination: rows below the diagonal, ascending.
 using Columns = std::vector<std::vector<int>>;

@@ -3,6 +3,7 @@
 #include "plumbline/optimization/multifrontal_cholesky.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/index.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,8 +14,6 @@
 
 namespace plumbline {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // Rows of scalars in a number of blocks.
 template <int kSize>

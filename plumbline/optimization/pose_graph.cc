@@ -3,6 +3,7 @@
 #include "plumbline/optimization/pose_graph.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/index.h"
 #include "plumbline/optimization/multifrontal_cholesky.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@
 
 namespace plumbline {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // The inverse of the left Jacobian of sim(3) for what edges leave: the Bernoulli series in ad(x),
 // up to its fourth power, where that is exact to 1e-8, else as the library has it.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/recording/protobuf_messages.h"
 
+#include "plumbline/base/units.h"
 #include "plumbline/recording/byte_cursor.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::size_t kMostCoefficients = 64;
 
 enum WireType : std::uint8_t { kVarint = 0, kFixed64 = 1, kBytes = 2, kFixed32 = 5 };

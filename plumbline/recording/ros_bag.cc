@@ -3,6 +3,7 @@
 #include "plumbline/recording/ros_bag.h"
 
 #include "plumbline/base/printable.h"
+#include "plumbline/base/units.h"
 #include "plumbline/recording/byte_cursor.h"
 
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace {
 constexpr std::string_view kMagicOfAny = "#ROSBAG V";
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::uint64_t kLargestHeader = 1 << 20;
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 enum Op : std::uint8_t {
   kMessage = 2,

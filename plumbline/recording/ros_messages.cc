@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/recording/ros_messages.h"
 
+#include "plumbline/base/units.h"
 #include "plumbline/recording/byte_cursor.h"
 
 #include <string_view>
@@ -11,7 +12,6 @@ namespace {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::size_t kCdrHeader = 4;
 constexpr std::uint32_t kMostCoefficients = 64;
 

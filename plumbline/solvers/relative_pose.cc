@@ -4,6 +4,7 @@
 
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/elementary.h"
+#include "plumbline/base/units.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/pose_refinement.h"
@@ -13,13 +14,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 
 namespace plumbline {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSameRotation = 0.3 * kDegree;
 constexpr double kSameDirection = 3 * kDegree;
 // A hypothesis with fewer inliers, or points in front, than this part of the best one's is none.

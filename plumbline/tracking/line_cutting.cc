@@ -187,7 +187,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
   const std::size_t offered = problem.points.size() + cuttable.size();
   const std::size_t budget =
       cutting.budget > 0 ? static_cast<std::size_t>(cutting.budget) : offered;
-  const FeatureChoice choice = ChooseFeatures(to_cut, RowsOfPoints(problem), budget, cutting);
+  const ChosenFeatures choice = ChooseFeatures(to_cut, RowsOfPoints(problem), budget, cutting);
   PoseProblem out = problem;
   out.points.clear();
   for (std::size_t i = 0; i < problem.points.size(); ++i) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/relocalization.h"
 
+#include "plumbline/base/units.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/map/snapshot.h"
 
@@ -45,7 +46,6 @@ bool Apart(const PlaceFound& one, const PlaceFound& other) {
   if (one.map != other.map) return true;
   const Relocalized& a = one.frame;
   const Relocalized& b = other.frame;
-  constexpr double kDegree = 3.14159265358979 / 180;
   constexpr double kAngle = 5 * kDegree;
   constexpr double kDistance = 0.1;  // of the scene's depth
   const Vector6d motion = LogSe3(a.frame.cam_from_world * Inverse(b.frame.cam_from_world));

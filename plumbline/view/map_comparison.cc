@@ -16,17 +16,17 @@ ShownPoint PointOf(const Eigen::Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
 }
 
-using Session = std::optional<SessionId>;
+using ShownSession = std::optional<SessionId>;
 
-ShownPoint ShownOf(const MapPoint& point, const Session&) { return PointOf(point.position); }
+ShownPoint ShownOf(const MapPoint& point, const ShownSession&) { return PointOf(point.position); }
 
-ShownLine ShownOf(const MapLine& line, const Session&) {
+ShownLine ShownOf(const MapLine& line, const ShownSession&) {
   const Segment3 interval = line.Interval();
   const ShownPoint a = PointOf(interval.start), b = PointOf(interval.end);
   return {a[0], a[1], a[2], b[0], b[1], b[2]};
 }
 
-ShownKeyFrame ShownOf(const KeyFrame& keyframe, const Session& session) {
+ShownKeyFrame ShownOf(const KeyFrame& keyframe, const ShownSession& session) {
   const bool is_ours = !session || keyframe.session == *session;
   const Rigid3 world_from_cam = Inverse(keyframe.frame.cam_from_world);
   const ShownPoint p = PointOf(world_from_cam.translation);
@@ -61,7 +61,7 @@ bool HasMoved(const ShownKeyFrame& before, const ShownKeyFrame& now, const Shown
 // Both are in the order of ids. Makes `shown` what is to be shown now.
 template <class Entries, class T>
 ShownChanges<T> CompareAll(const Entries& entries,
-                           const Session& session,
+                           const ShownSession& session,
                            const ShownPoint& eye,
                            std::vector<std::pair<ShownId, T>>& shown) {
   ShownChanges<T> changes;

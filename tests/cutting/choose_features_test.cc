@@ -20,7 +20,7 @@ struct Scene {
   CuttingProblem problem;
   std::vector<PointRows> points;
 
-  double Value(const FeatureChoice& choice) const {
+  double Value(const ChosenFeatures& choice) const {
     CuttingProblem with_points = problem;
     with_points.other_information += SumPoints(points, choice.points);
     return LogDeterminantOf(with_points, choice.lines, kIndependent);
@@ -31,34 +31,34 @@ Scene RandomScene(std::uint64_t seed, int points, int lines) {
   return {RandomProblem(seed, lines), RandomPoints(seed, points)};
 }
 
-std::size_t CountUsed(const FeatureChoice& choice) {
+std::size_t CountUsed(const ChosenFeatures& choice) {
   const auto lines = std::count_if(
       choice.lines.begin(), choice.lines.end(), [](const LineCut& cut) { return cut.used; });
   return static_cast<std::size_t>(lines +
                                   std::count(choice.points.begin(), choice.points.end(), true));
 }
 
-FeatureChoice Nothing(const Scene& scene) {
-  FeatureChoice choice{std::vector<bool>(scene.points.size(), false),
-                       std::vector<LineCut>(scene.problem.lines.size())};
+ChosenFeatures Nothing(const Scene& scene) {
+  ChosenFeatures choice{std::vector<bool>(scene.points.size(), false),
+                        std::vector<LineCut>(scene.problem.lines.size())};
   for (LineCut& line : choice.lines) line.used = false;
   return choice;
 }
 
 // Looks at every feature, whole, each time.
-FeatureChoice ChooseByLookingAtAll(const Scene& scene, std::size_t budget) {
-  FeatureChoice choice = Nothing(scene);
+ChosenFeatures ChooseByLookingAtAll(const Scene& scene, std::size_t budget) {
+  ChosenFeatures choice = Nothing(scene);
   while (CountUsed(choice) < budget) {
-    FeatureChoice best;
+    ChosenFeatures best;
     double best_value = -std::numeric_limits<double>::infinity();
-    const auto look = [&](const FeatureChoice& with) {
+    const auto look = [&](const ChosenFeatures& with) {
       const double value = scene.Value(with);
       if (value <= best_value) return;
       best_value = value;
       best = with;
     };
     for (std::size_t i = 0; i < choice.points.size() + choice.lines.size(); ++i) {
-      FeatureChoice with = choice;
+      ChosenFeatures with = choice;
       if (i < choice.points.size()) {
         if (choice.points[i]) continue;
         with.points[i] = true;
@@ -77,8 +77,8 @@ FeatureChoice ChooseByLookingAtAll(const Scene& scene, std::size_t budget) {
 TEST(ChooseFeatures, IsTheChoiceOfLookingAtAll) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Scene scene = RandomScene(seed, 20, 15);
-    const FeatureChoice lazy = ChooseFeatures(scene.problem, scene.points, 12, {});
-    const FeatureChoice all = ChooseByLookingAtAll(scene, 12);
+    const ChosenFeatures lazy = ChooseFeatures(scene.problem, scene.points, 12, {});
+    const ChosenFeatures all = ChooseByLookingAtAll(scene, 12);
     EXPECT_EQ(lazy.points, all.points);
     for (std::size_t i = 0; i < all.lines.size(); ++i) {
       EXPECT_EQ(lazy.lines[i].used, all.lines[i].used);
@@ -93,7 +93,7 @@ TEST(ChooseFeatures, IsNearTheBestOfAllSubsets) {
     double best = -std::numeric_limits<double>::infinity();
     for (unsigned subset = 0; subset < 1U << 10U; ++subset) {
       if (std::popcount(subset) != kBudget) continue;
-      FeatureChoice choice = Nothing(scene);
+      ChosenFeatures choice = Nothing(scene);
       for (std::size_t i = 0; i < 5; ++i) {
         choice.points[i] = (subset >> i & 1U) != 0;
         choice.lines[i].used = (subset >> (5 + i) & 1U) != 0;
@@ -112,7 +112,7 @@ TEST(ChooseFeatures, KeepsToTheBudgetWithEveryMethodAndInformation) {
   const Scene scene = RandomScene(3, 15, 15);
   for (const auto& [method, name] : EnumNames(std::type_identity<CuttingMethod>{})) {
     for (const auto& [information, text] : EnumNames(std::type_identity<CuttingInformation>{})) {
-      const FeatureChoice choice =
+      const ChosenFeatures choice =
           ChooseFeatures(scene.problem, scene.points, 12, {method, information});
       EXPECT_EQ(CountUsed(choice), 12U) << name << " " << text;
     }
@@ -124,7 +124,7 @@ TEST(ChooseFeatures, UsesAllWhereThereIsNotMoreThanTheBudget) {
   CuttingProblem with_points = scene.problem;
   with_points.other_information += SumPoints(scene.points);
   const CuttingOptions greedy{CuttingMethod::kGreedy};
-  const FeatureChoice choice = ChooseFeatures(scene.problem, scene.points, 13, greedy);
+  const ChosenFeatures choice = ChooseFeatures(scene.problem, scene.points, 13, greedy);
   EXPECT_EQ(choice.points, std::vector<bool>(7, true));
   EXPECT_EQ(choice.lines, CutLines(with_points, greedy));
 }
@@ -136,7 +136,7 @@ TEST(ChooseFeatures, LeavesOutWhatSaysLittle) {
     scene.problem.lines[i].start_covariance *= 1e6;
     scene.problem.lines[i].end_covariance *= 1e6;
   }
-  const FeatureChoice choice = ChooseFeatures(scene.problem, scene.points, 25, {});
+  const ChosenFeatures choice = ChooseFeatures(scene.problem, scene.points, 25, {});
   for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(choice.points[i], i != 0 && i != 3 && i != 9);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(choice.lines[i].used, i != 2 && i != 5);
 }
@@ -146,7 +146,7 @@ TEST(ChooseFeatures, DroppedLinesAreNotChosen) {
   scene.problem.lines[4].start_covariance *= 1e4;
   scene.problem.lines[4].end_covariance *= 1e4;
   const CuttingOptions drop{.method = CuttingMethod::kDrop, .drop_share = 0.1};
-  const FeatureChoice choice = ChooseFeatures(scene.problem, scene.points, 13, drop);
+  const ChosenFeatures choice = ChooseFeatures(scene.problem, scene.points, 13, drop);
   EXPECT_EQ(CountUsed(choice), 13U);
   EXPECT_FALSE(choice.lines[4].used);
 }

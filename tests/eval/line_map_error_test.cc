@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/eval/line_map_error.h"
 
+#include "plumbline/base/units.h"
+
 #include "tests/support/random_geometry.h"
 #include <algorithm>
 #include <cmath>
@@ -13,8 +15,6 @@ namespace plumbline {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 TrueLine Line(const Vector3d& start, const Vector3d& end) { return {{start, end}}; }
 

@@ -4,19 +4,17 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/base/median.h"
+#include "plumbline/base/units.h"
 #include "plumbline/optimization/residuals.h"
 
 #include "tests/support/synthetic_world.h"
 #include <algorithm>
 #include <map>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 namespace plumbline {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Scene {
   SyntheticWorld world = MakeSyntheticWorld(400, 60);

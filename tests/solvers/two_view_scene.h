@@ -3,18 +3,16 @@
 #pragma once
 
 #include "plumbline/base/random.h"
+#include "plumbline/base/units.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/solvers/relative_pose.h"
 
 #include "tests/support/random_geometry.h"
-#include <numbers>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace plumbline::testing {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 // kPlane: moving along it, so that the other solution has points behind the cameras; kTwofoldPlane:
 // towards it, so that it has none.

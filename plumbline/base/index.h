@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace plumbline {
+
+// A number that counts from 0, as what containers are asked with.
+constexpr std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace plumbline
