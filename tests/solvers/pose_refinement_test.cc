@@ -16,7 +16,6 @@ namespace plumbline {
 namespace {
 
 using testing::AngleBetween;
-using testing::kDegree;
 using testing::MakeTwoViewScene;
 using testing::SceneKind;
 using testing::TwoViewScene;

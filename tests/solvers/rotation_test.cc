@@ -9,7 +9,6 @@
 namespace plumbline {
 namespace {
 
-using testing::kDegree;
 using testing::MakeTwoViewScene;
 using testing::SceneKind;
 using testing::TwoViewScene;

@@ -12,7 +12,6 @@ namespace plumbline {
 namespace {
 
 using testing::AngleBetween;
-using testing::kDegree;
 using testing::MakeTwoViewScene;
 using testing::TwoViewScene;
 
