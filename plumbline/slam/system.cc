@@ -206,7 +206,7 @@ SessionId System::session_id() const {
 TrackingResult System::StartMap(const MeasuredFrame& measured, FrameRecord& record) {
   const InitializationResult start = monocular_start_->Offer(record.id, measured);
   if (start.map) return StartFrom(*start.map, record);
-  record.status = FrameStatus::kInitializing;
+  record.status = StatusWithoutPose();
   record.reason = NameOf(start.wait);
   record.counts.matched_points = start.matches;
   TrackingResult result;
@@ -263,11 +263,15 @@ void System::Demote(const DemotedKeyFrame& gone) {
   }
 }
 
+// A camera is lost that has had a map, also while it looks for the start of another one.
+FrameStatus System::StatusWithoutPose() const {
+  return map_.valid() ? FrameStatus::kLost : FrameStatus::kInitializing;
+}
+
 void System::RecordTracking(const TrackingResult& result, FrameRecord& record) const {
   record.counts = result.counts;
   if (!result.cam_from_world) {
-    record.status = result.state == TrackerState::kInitializing ? FrameStatus::kInitializing
-                                                                : FrameStatus::kLost;
+    record.status = StatusWithoutPose();
     record.reason = NameOf(result.failure);
     return;
   }

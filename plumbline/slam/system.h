@@ -198,6 +198,7 @@ class System {
   TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void Demote(const DemotedKeyFrame& gone);
+  FrameStatus StatusWithoutPose() const;
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
   const FrameRecord& Keep(FrameRecord record);
   void LoseFramesNotMapped();
