@@ -40,8 +40,8 @@ constexpr auto EnumNames(std::type_identity<InitializationWait>) {
                     std::pair{InitializationWait::kInaccurate, "inaccurate"}};
 }
 
-// A frame offered for the start of a map. The image is needed by rank1_klt and by
-// rank1 unless it matches by descriptor.
+// A frame offered for the start of a map. The image is needed by rank1_klt, by two_view_images and
+// by rank1 unless it matches by descriptor.
 struct InitializationFrame {
   FrameId id;
   std::int64_t stamp_ns = 0;

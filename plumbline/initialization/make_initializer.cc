@@ -6,6 +6,7 @@
 #include "plumbline/initialization/klt_initializer.h"
 #include "plumbline/initialization/rank1_initializer.h"
 #include "plumbline/initialization/two_view.h"
+#include "plumbline/initialization/two_view_images_initializer.h"
 
 namespace plumbline {
 
@@ -19,6 +20,8 @@ std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
       return std::make_unique<KltInitializer>(imaging, options, seed);
     case InitializationMethod::kTwoView:
       return std::make_unique<TwoViewInitializer>(imaging, seed);
+    case InitializationMethod::kTwoViewImages:
+      return std::make_unique<TwoViewImagesInitializer>(imaging, seed);
   }
   throw BugError("unknown initialization method");
 }

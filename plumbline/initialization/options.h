@@ -11,11 +11,12 @@
 
 namespace plumbline {
 
-enum class InitializationMethod { kRank1, kRank1Klt, kTwoView };
+enum class InitializationMethod { kRank1, kRank1Klt, kTwoView, kTwoViewImages };
 constexpr auto EnumNames(std::type_identity<InitializationMethod>) {
   return std::array{std::pair{InitializationMethod::kRank1, "rank1"},
                     std::pair{InitializationMethod::kRank1Klt, "rank1_klt"},
-                    std::pair{InitializationMethod::kTwoView, "two_view"}};
+                    std::pair{InitializationMethod::kTwoView, "two_view"},
+                    std::pair{InitializationMethod::kTwoViewImages, "two_view_images"}};
 }
 
 // How points are found again in the frames after the reference.
@@ -42,7 +43,8 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         o.method,
         "of a monocular start: rank1 (factorization of several frames, completed by geometric "
         "interpolation), rank1_klt (of tracks alive in all frames), two_view (homography or "
-        "essential matrix of two frames)");
+        "essential matrix of two frames, points matched by descriptor), two_view_images (the same "
+        "from the matches and with the patience of rank1)");
   visit("frames", o.frames, "frames after the reference that are solved together", Range{2, 30});
   visit("relative_pose",
         o.relative_pose,

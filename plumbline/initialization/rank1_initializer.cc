@@ -12,11 +12,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kMinFeatures = 60;
 constexpr int kDecisionPoints = 200;
-// Share of the most matches with the reference below which they have died out: those that are left
-// are more and more often wrong.
-constexpr double kDiedOut = 0.3;
 constexpr int kMinPoints = 30;  // of a map
 
 }  // namespace
@@ -42,7 +38,7 @@ void Rank1Initializer::Reset() {
 
 InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   using enum InitializationWait;
-  if (static_cast<int>(frame.indexed->features.points.size()) < kMinFeatures) {
+  if (static_cast<int>(frame.indexed->features.points.size()) < kMinWindowFeatures) {
     return InitializationResult::Wait(kTooFewFeatures);
   }
   if (window_.empty()) {
@@ -52,7 +48,7 @@ InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   InitializationResult result;
   result.matches = window_.Add(frame);
   most_matches_ = std::max(most_matches_, result.matches);
-  if (result.matches < std::max<double>(decision_.min_points, kDiedOut * most_matches_)) {
+  if (HaveDiedOut(result.matches, most_matches_)) {
     window_.MoveReference();
     memory_.Clear();
     most_matches_ = 0;

@@ -131,8 +131,9 @@ BaProblem MakeProblem(const RectifiedCamera& camera, const InitialMap& map) {
     problem.points.push_back(point.position);
     for (const InitialObservation& o : point.observations) {
       const Features& features = FeaturesOf(map.views[Index(o.view)]);
-      problem.point_observations.push_back(
-          {o.view, index, MeasurePoint(features, Index(o.feature))});
+      PointMeasurement measured = MeasurePoint(features, Index(o.feature));
+      if (o.px) measured.px = *o.px;
+      problem.point_observations.push_back({o.view, index, measured});
     }
   }
   for (const InitialLine& line : map.lines) {

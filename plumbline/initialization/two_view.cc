@@ -5,7 +5,6 @@
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/units.h"
 #include "plumbline/initialization/byte_format.h"
-#include "plumbline/initialization/structure.h"
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
 #include "plumbline/solvers/homography.h"
@@ -182,6 +181,19 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
   return solution;
 }
 
+std::optional<InitialMap> BuildTwoViewMap(const RectifiedCamera& camera,
+                                          const std::array<InitializationFrame, 2>& frames,
+                                          const Rigid3& b_from_a,
+                                          std::span<const FeatureTrack> points,
+                                          std::span<const FeatureTrack> lines) {
+  std::vector<InitialView> views{{frames[0], Rigid3{}}, {frames[1], b_from_a}};
+  InitialMap map = BuildStructure(camera, std::move(views), points, lines);
+  if (map.points.size() < kMinPoints) return std::nullopt;
+  AdjustStructure(camera, map);
+  if (map.points.size() < kMinPoints) return std::nullopt;
+  return map;
+}
+
 std::optional<InitialMap> TwoViewInitializer::BuildMap(const InitializationFrame& frame,
                                                        const ReferenceMatches& matches,
                                                        const TwoViewSolution& solution) const {
@@ -192,12 +204,7 @@ std::optional<InitialMap> TwoViewInitializer::BuildMap(const InitializationFrame
   }
   std::vector<FeatureTrack> lines;
   for (const LineMatch& match : matches.lines) lines.push_back({{0, match.a}, {1, match.b}});
-  std::vector<InitialView> views{{*reference_, Rigid3{}}, {frame, solution.b_from_a}};
-  InitialMap map = BuildStructure(camera_, std::move(views), points, lines);
-  if (map.points.size() < kMinPoints) return std::nullopt;
-  AdjustStructure(camera_, map);
-  if (map.points.size() < kMinPoints) return std::nullopt;
-  return map;
+  return BuildTwoViewMap(camera_, {*reference_, frame}, solution.b_from_a, points, lines);
 }
 
 InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {

@@ -4,8 +4,10 @@
 
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/matching.h"
+#include "plumbline/initialization/structure.h"
 #include "plumbline/solvers/relative_pose.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -44,6 +46,14 @@ struct TwoViewSolution {
 //          kTooLittleParallax (median below 1 degree), kInaccurate (too few good points)
 //   cost   some milliseconds
 TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng);
+
+// The map of two views, adjusted: the first is the world, the pose of the second is `b_from_a`.
+// nullopt where fewer than 50 points are left. Cost: some milliseconds.
+std::optional<InitialMap> BuildTwoViewMap(const RectifiedCamera& camera,
+                                          const std::array<InitializationFrame, 2>& frames,
+                                          const Rigid3& b_from_a,
+                                          std::span<const FeatureTrack> points,
+                                          std::span<const FeatureTrack> lines);
 
 // The conventional start: the first frame with enough features is the reference until a later one
 // gives a pose (SolveTwoViews) and a map after bundle adjustment. A frame with too few matches

@@ -6,6 +6,7 @@
 #include "plumbline/initialization/make_initializer.h"
 #include "plumbline/initialization/rank1_initializer.h"
 #include "plumbline/initialization/two_view.h"
+#include "plumbline/initialization/two_view_images_initializer.h"
 
 #include "tests/support/synthetic_world.h"
 
@@ -23,6 +24,7 @@ TEST(MakeInitializer, MakesTheMethodNamed) {
   EXPECT_TRUE(dynamic_cast<Rank1Initializer*>(make(kRank1).get()));
   EXPECT_TRUE(dynamic_cast<KltInitializer*>(make(kRank1Klt).get()));
   EXPECT_TRUE(dynamic_cast<TwoViewInitializer*>(make(kTwoView).get()));
+  EXPECT_TRUE(dynamic_cast<TwoViewImagesInitializer*>(make(kTwoViewImages).get()));
 }
 
 }  // namespace

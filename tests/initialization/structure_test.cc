@@ -193,5 +193,24 @@ TEST(AdjustStructure, BringsPosesBackAndDropsWhatDoesNotFit) {
   }
 }
 
+// Features have an error of one pixel, the places given beside them have none.
+TEST(AdjustStructure, MeasuresPlacesThatAreKnownBetterThanFeatures) {
+  Scene scene = MakeScene(1);
+  for (std::size_t k = 0; k < scene.points.size(); ++k) {
+    const Eigen::Vector3d& position = scene.world.points[scene.point_truth[k]].position;
+    for (InitialObservation& o : scene.points[k]) {
+      const Rigid3& pose = scene.views[static_cast<std::size_t>(o.view)].cam_from_world;
+      o.px = scene.world.camera.Project(pose * position);
+    }
+  }
+  scene.lines.clear();
+  const Rigid3 truth = scene.views[1].cam_from_world;
+  InitialMap map = Build(scene);
+  map.views[1].cam_from_world.rotation =
+      ExpSo3({0.003, -0.002, 0.002}) * map.views[1].cam_from_world.rotation;
+  AdjustStructure(scene.world.camera, map);
+  EXPECT_LT(AngularDistance(map.views[1].cam_from_world.rotation, truth.rotation), 0.005 * kDegree);
+}
+
 }  // namespace
 }  // namespace plumbline

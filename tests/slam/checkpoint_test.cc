@@ -201,7 +201,8 @@ TEST(Checkpoint, OfOneCameraGoesOnAsIfNothingHadBeen) {
 
 TEST(Checkpoint, OfEveryStartOfAMapGoesOnAsIfNothingHadBeen) {
   const Recording recording = MonoBands();
-  for (const auto method : {InitializationMethod::kTwoView, InitializationMethod::kRank1Klt}) {
+  using enum InitializationMethod;
+  for (const auto method : {kTwoView, kTwoViewImages, kRank1Klt}) {
     SlamOptions options = InMode(RunMode::kInline);
     options.initialization.method = method;
     std::map<int, SavedRun> saved = At({2, 4, 30});

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/two_view_images_initializer.h"
+
+#include "plumbline/initialization/byte_format.h"
+#include "plumbline/solvers/ray_match.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+// All points that the reference and the newest frame show.
+std::vector<RayMatch> MatchesOf(const WindowTracks& tracks) {
+  std::vector<RayMatch> matches;
+  const TrackedPoints& newest = tracks.views.front();
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    matches.push_back({tracks.reference.points[k],
+                       newest.points[k],
+                       tracks.reference.sigmas[k],
+                       newest.sigmas[k]});
+  }
+  return matches;
+}
+
+}  // namespace
+
+void TwoViewImagesInitializer::Reset() {
+  window_.Reset();
+  most_matches_ = 0;
+}
+
+InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& frame) {
+  using enum InitializationWait;
+  if (static_cast<int>(frame.indexed->features.points.size()) < kMinWindowFeatures) {
+    return InitializationResult::Wait(kTooFewFeatures);
+  }
+  if (window_.empty()) {
+    window_.Add(frame);
+    return InitializationResult::Wait(kTooFewFrames);
+  }
+  InitializationResult result;
+  const int matches = window_.Add(frame);
+  most_matches_ = std::max(most_matches_, matches);
+  if (HaveDiedOut(matches, most_matches_)) {
+    window_.MoveReference();
+    most_matches_ = 0;
+    result.wait = kTooFewMatches;
+  } else {
+    result = Attempt();
+  }
+  result.matches = matches;
+  return result;
+}
+
+InitializationResult TwoViewImagesInitializer::Attempt() {
+  const WindowTracks tracks =
+      window_.TracksOf({window_.size() - 1}, std::numeric_limits<int>::max());
+  const InitializationFrame& newest = window_.frame(window_.size() - 1);
+  Rng rng(seed_, "two_view", static_cast<std::uint64_t>(newest.id.value));
+  const TwoViewSolution solution = SolveTwoViews(MatchesOf(tracks), rng);
+  InitializationResult result;
+  result.parallax_deg = solution.parallax_deg;
+  result.wait = solution.wait;
+  if (result.wait != InitializationWait::kNone) return result;
+  result.map = BuildMap(tracks, solution);
+  if (!result.map) result.wait = InitializationWait::kInaccurate;
+  return result;
+}
+
+std::optional<InitialMap> TwoViewImagesInitializer::BuildMap(
+    const WindowTracks& tracks, const TwoViewSolution& solution) const {
+  const int newest = window_.size() - 1;
+  std::vector<bool> is_good(window_.reference().indexed->features.points.size(), false);
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    is_good[static_cast<std::size_t>(tracks.features[k])] = solution.is_good[k];
+  }
+  std::vector<FeatureTrack> points = window_.PointTracks({newest});
+  std::erase_if(points, [&](const FeatureTrack& track) {
+    return !is_good[static_cast<std::size_t>(track.front().feature)];
+  });
+  return BuildTwoViewMap(camera_,
+                         {window_.reference(), window_.frame(newest)},
+                         solution.b_from_a,
+                         points,
+                         window_.LineTracks({newest}));
+}
+
+void TwoViewImagesInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
+
+void TwoViewImagesInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
+
+}  // namespace plumbline
