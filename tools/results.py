@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of the documents that come from what a command wrote.
 
-  tools/results.py record NAME OUT COMMAND   keeps OUT/ratios.json of an experiment as docs/results/NAME.json, with
-                                             the command that made it, today's date and the commit checked out
+  tools/results.py record NAME OUT COMMAND   keeps OUT/ratios.json of an experiment as docs/results/NAME.json, and of
+                                             monocular starts their numbers, with the command that made them,
+                                             today's date and the commit checked out
   tools/results.py fill                      writes all tables anew
   tools/results.py check                     exit status 1 where a table is not what its file says
 
@@ -15,16 +16,36 @@ A table stands in a document of docs/ between two lines of comment:
 
 One row for each variant, one column for each metric: the ratio over all sequences with its 95 % interval. The line
 below the table names command, commit and date.
+
+  <!-- starts NAME -->
+  <!-- end -->
+
+One row for each variant: right starts in time of the possible ones (where those are known) and wrong ones by sequence,
+and by how many percent points more starts are right than with the first variant: mean over the sequences, with the 95 %
+interval of 2000 resamples of these.
 """
 import datetime
 import json
 import pathlib
+import random
 import re
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-TABLE = re.compile(r"<!-- ratios (\S+)((?: \S+)+) -->\n(.*?)<!-- end -->", re.DOTALL)
+TABLE = re.compile(r"<!-- (ratios|starts) (\S+)((?: \S+)*) -->\n(.*?)<!-- end -->", re.DOTALL)
+COUNTS = ("starts", "possible", "success", "late", "wrong")  # of the starts of a sequence
+
+
+# What became of the starts on each sequence, by variant. Pools of several sequences have no folder in their names.
+def starts_of(out):
+    figures = {}
+    for figure in json.loads((pathlib.Path(out) / "results.json").read_text()):
+        if figure["metric"] in COUNTS and "/" in figure["sequence"]:
+            row = figures.setdefault((figure["sequence"], figure["variant"]), {})
+            row[figure["metric"]] = figure["value"]
+    return [{"sequence": sequence, "variant": variant, **row}
+            for (sequence, variant), row in figures.items() if "starts" in row]
 
 
 def record(name, out, command):
@@ -33,6 +54,9 @@ def record(name, out, command):
                             capture_output=True).stdout.strip()
     kept = {"command": command, "commit": commit, "date": datetime.date.today().isoformat(),
             "ratios": ratios}
+    starts = starts_of(out)
+    if starts:
+        kept["starts"] = starts
     folder = ROOT / "docs" / "results"
     folder.mkdir(exist_ok=True)
     (folder / f"{name}.json").write_text(json.dumps(kept, indent=1) + "\n")
@@ -44,28 +68,74 @@ def cell(entry):
     return f"{entry['ratio']:.3f} ({entry['low']:.3f}-{entry['high']:.3f})"
 
 
-def table(name, metrics):
+def read(name):
     file = ROOT / "docs" / "results" / f"{name}.json"
     if not file.is_file():
         sys.exit(f"results: {file.relative_to(ROOT)} is missing, but a table is made of it")
-    kept = json.loads(file.read_text())
+    return json.loads(file.read_text())
+
+
+def table_of_ratios(name, metrics):
+    kept = read(name)
     whole = {(r["metric"], r["variant"]): r for r in kept["ratios"] if r["sequence"] is None}
     variants = list(dict.fromkeys(r["variant"] for r in kept["ratios"]))
     unknown = [m for m in metrics if m not in {metric for metric, _ in whole}]
-    if unknown:
-        sys.exit(f"results: {file.relative_to(ROOT)} has no ratios of {', '.join(unknown)}")
+    if unknown or not metrics:
+        sys.exit(f"results: docs/results/{name}.json has no ratios of {', '.join(unknown)}")
     lines = ["| variant | " + " | ".join(metrics) + " | pairs |", "|---" * (len(metrics) + 2) + "|"]
     for variant in variants:
         cells = [cell(whole.get((metric, variant))) for metric in metrics]
         pairs = whole.get((metrics[0], variant), {}).get("pairs", 0)
         lines.append(f"| {variant} | " + " | ".join(cells) + f" | {pairs} |")
-    return "\n".join(lines) + f"\n\n`{kept['command']}`, commit {kept['commit']}, {kept['date']}.\n"
+    return lines, kept
+
+
+# Percent points that the share of right starts is above that of the reference, by sequence.
+def gains(by_place, sequences, variant, reference):
+    shares = [(by_place[s, variant]["success"], by_place[s, reference]["success"]) for s in sequences]
+    return [mine - other for mine, other in shares if mine is not None and other is not None]
+
+
+def gain_with_interval(differences):
+    if not differences:
+        return "-"
+    chance = random.Random(0)
+    count = len(differences)
+    means = sorted(sum(chance.choices(differences, k=count)) / count for _ in range(2000))
+    return f"{sum(differences) / count:+.1f} ({means[50]:+.1f} to {means[1949]:+.1f})"
+
+
+def starts_cell(row):
+    if row.get("success") is None:
+        return f"- / {row['wrong']:.0f}"
+    return f"{row['success'] * row['possible'] / 100:.0f} of {row['possible']:.0f} / {row['wrong']:.0f}"
+
+
+def table_of_starts(name):
+    kept = read(name)
+    rows = kept.get("starts")
+    if not rows:
+        sys.exit(f"results: docs/results/{name}.json has no starts")
+    by_place = {(row["sequence"], row["variant"]): row for row in rows}
+    sequences = list(dict.fromkeys(row["sequence"] for row in rows))
+    variants = list(dict.fromkeys(row["variant"] for row in rows))
+    titles = [f"{s.split('/')[1].split('@')[0].split('_first')[0]} ({by_place[s, variants[0]]['starts']:.0f})"
+              for s in sequences]
+    lines = ["| right / wrong | " + " | ".join(titles) + " | right, points of % |",
+             "|---" * (len(sequences) + 2) + "|"]
+    for variant in variants:
+        cells = [starts_cell(by_place[s, variant]) for s in sequences]
+        cells.append(gain_with_interval(gains(by_place, sequences, variant, variants[0])))
+        lines.append(f"| {variant} | " + " | ".join(cells) + " |")
+    return lines, kept
 
 
 def filled(text):
     def anew(match):
-        name, metrics = match.group(1), match.group(2).split()
-        return f"<!-- ratios {name}{match.group(2)} -->\n{table(name, metrics)}<!-- end -->"
+        kind, name, metrics = match.group(1), match.group(2), match.group(3).split()
+        lines, kept = table_of_starts(name) if kind == "starts" else table_of_ratios(name, metrics)
+        below = f"`{kept['command']}`, commit {kept['commit']}, {kept['date']}."
+        return f"<!-- {kind} {name}{match.group(3)} -->\n" + "\n".join(lines) + f"\n\n{below}\n<!-- end -->"
     return TABLE.sub(anew, text)
 
 

@@ -30,6 +30,7 @@ struct InitializationOptions {
   InitializationMethod method = InitializationMethod::kRank1;
   int frames = 3;  // m of the first paper: frames after the reference that are solved together
   RelativePoseMethod relative_pose = RelativePoseMethod::kFivePoint;
+  bool factorize = true;
   bool interpolate = true;
   double max_interpolation_px = 2;
   double min_line_angle_deg = 0;
@@ -49,6 +50,10 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
   visit("relative_pose",
         o.relative_pose,
         "of rank1: five_point (and homographies), eight_point (as the paper; fails on planes)");
+  visit("factorize",
+        o.factorize,
+        "rank1: solve for cameras and points by factorization; false: points from the first and "
+        "the newest frame, poses of the frames between from these, all points from all poses");
   visit("interpolate",
         o.interpolate,
         "rank1: complete tracks by geometric interpolation; false: factorize complete tracks only");

@@ -23,6 +23,7 @@ Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
     : imaging_(imaging), options_(options), seed_(seed), window_(imaging.camera, options.matching) {
   const double focal = 0.5 * (imaging.camera.fx + imaging.camera.fy);
   WindowFactorizationOptions& factorization = decision_.factorization;
+  factorization.factorize = options.factorize;
   factorization.interpolate = options.interpolate;
   factorization.max_interpolation_sigma = options.max_interpolation_px / focal;
   factorization.min_line_angle = options.min_line_angle_deg * std::numbers::pi / 180;

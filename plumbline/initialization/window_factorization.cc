@@ -116,6 +116,28 @@ std::optional<std::vector<Rigid3>> PosesOfAll(const WindowTracks& tracks,
   return poses;
 }
 
+// All points from known poses: along the unit ray p of the reference, at the inverse distance d
+// that makes R p + d t parallel to the measured rays, linear least squares over all views.
+std::vector<double> InverseDistancesFrom(const WindowTracks& tracks,
+                                         const std::vector<Rigid3>& poses) {
+  std::vector<double> inverse_distances;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const Eigen::Vector3d p = tracks.reference.points[k].homogeneous().normalized();
+    double along = 0;
+    double squared = 0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const TrackedPoints& seen = tracks.views[i];
+      if (!seen.Has(k)) continue;
+      const Eigen::Vector3d ray = seen.points[k].homogeneous().normalized() / seen.sigmas[k];
+      const Eigen::Vector3d across = ray.cross(poses[i].translation);
+      along -= across.dot(ray.cross(poses[i].rotation * p));
+      squared += across.squaredNorm();
+    }
+    inverse_distances.push_back(squared > 0 ? along / squared : 0);
+  }
+  return inverse_distances;
+}
+
 // Factorizes the views and puts the centres found into the poses.
 std::optional<WindowSolution> Factorize(const WindowTracks& tracks,
                                         const std::vector<TrackedPoints>& seen,
@@ -195,6 +217,7 @@ std::optional<WindowSolution> FactorizeWindow(const WindowTracks& tracks,
   if (!structure) return std::nullopt;
   const auto poses = PosesOfAll(tracks, *structure, two_frames, options);
   if (!poses) return std::nullopt;
+  if (!options.factorize) return ToSolution(tracks, InverseDistancesFrom(tracks, *poses), *poses);
   if (!options.interpolate) return Factorize(tracks, CompleteTracks(tracks), *poses, options);
   auto first = Factorize(tracks, CompleteTracks(tracks), *poses, options);
   // Few complete tracks: what the frames share with the first and the newest must do.

@@ -11,6 +11,7 @@
 namespace plumbline {
 
 struct WindowFactorizationOptions {
+  bool factorize = true;  // false: step 1 alone, and all points from its poses
   bool interpolate = true;
   double max_interpolation_sigma =
       0.004;                      // largest deviation of a place that is used, ideal coordinates
@@ -41,6 +42,8 @@ std::optional<Rigid3> PoseOfNewest(const WindowTracks& tracks, const WindowHypot
 //    poses can be chained.
 // 3. Geometric interpolation places the points that the first and the newest frame show in frames
 //    that do not, where the propagated standard deviation allows; then all are factorized.
+//
+// Without `factorize` the poses of step 1 stay, and the points are triangulated from them.
 //
 //   returns  nullopt where a frame does not go with the hypothesis, or too few points are left
 std::optional<WindowSolution> FactorizeWindow(const WindowTracks& tracks,

@@ -63,6 +63,24 @@ TEST(FactorizeWindow, InterpolatesWhatIsMissing) {
   EXPECT_LT(known(*without), 120) << "only points that all frames show";
 }
 
+TEST(FactorizeWindow, TriangulatesFromResectedPosesWhenAskedTo) {
+  const WindowScene scene = MakeWindowScene(2, CurvedMotion(3), {.points = 300, .missed = 0.5});
+  const Rigid3 newest = OfUnitLength(scene.truth.cam_from_reference.back());
+  const WindowFactorizationOptions plain{.factorize = false};
+  const auto solution = FactorizeWindow(scene.tracks, {newest, {}}, plain);
+  ASSERT_TRUE(solution);
+  ExpectTruth(scene, *solution, 1e-4);
+  EXPECT_EQ(std::count(solution->is_known.begin(), solution->is_known.end(), true), 300);
+  // Of noisy places the pose of the newest stays what it was; factorization moves it.
+  const WindowScene noisy = MakeWindowScene(2, CurvedMotion(3), {.sigma = 1e-3});
+  const auto moved = [&](const WindowFactorizationOptions& options) {
+    const auto found = FactorizeWindow(noisy.tracks, {newest, {}}, options);
+    return (OfUnitLength(found->cam_from_reference.back()).translation - newest.translation).norm();
+  };
+  EXPECT_LT(moved(plain), 1e-15);
+  EXPECT_GT(moved({}), 1e-5);
+}
+
 TEST(FactorizeWindow, BeginsFromPointsOfAnEarlierWindow) {
   const WindowScene scene = MakeWindowScene(3, CurvedMotion(3));
   WindowHypothesis hypothesis;  // the pose no better than a guess
