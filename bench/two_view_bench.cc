@@ -72,15 +72,6 @@ void RelativePoses(benchmark::State& state) {
       static_cast<double>(hypotheses) / static_cast<double>(state.iterations());
 }
 
-void Translation(benchmark::State& state) {
-  const auto scene = Scene(testing::SceneKind::kGeneral, static_cast<int>(state.range(0)), 0.2);
-  std::uint64_t seed = 0;
-  for (auto _ : state) {
-    Rng rng(1, "bench", seed++);
-    benchmark::DoNotOptimize(EstimateTranslation(scene.matches, scene.b_from_a.rotation, {}, rng));
-  }
-}
-
 void Rotation(benchmark::State& state) {
   const auto scene = Scene(testing::SceneKind::kTurnOnly, static_cast<int>(state.range(0)), 0.2);
   std::uint64_t seed = 0;
@@ -97,7 +88,6 @@ BENCHMARK(RelativePoses)
     ->ArgsProduct({{0, 1, 2, 3, 4}, {300}, {20}})
     ->Args({0, 300, 0})
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK(Translation)->Arg(300)->Unit(benchmark::kMicrosecond);
 BENCHMARK(Rotation)->Arg(300)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

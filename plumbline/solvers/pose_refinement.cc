@@ -123,46 +123,35 @@ Rigid3 Moved(const Rigid3& pose, const Vector5d& step) {
   return {(ExpSo3(step.head<3>()) * pose.rotation).normalized(), t.normalized()};
 }
 
-// The free part of the damped normal equations: all five, or the last two.
-Vector5d Step(const NormalEquations& equations, double damping, bool rotation_known) {
+// Solves the damped normal equations.
+Vector5d Step(const NormalEquations& equations, double damping) {
   Matrix5d damped = equations.information;
   damped.diagonal() *= 1 + damping;
   // Where nothing is known nothing moves.
   damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff() + 1e-300;
-  Vector5d step = Vector5d::Zero();
-  if (rotation_known) {
-    step.tail<2>() = -damped.bottomRightCorner<2, 2>().ldlt().solve(equations.gradient.tail<2>());
-  } else {
-    step = -damped.ldlt().solve(equations.gradient);
-  }
-  return step.allFinite() ? step : Vector5d::Zero();
+  const Vector5d step = -damped.ldlt().solve(equations.gradient);
+  if (!step.allFinite()) return Vector5d::Zero();
+  return step;
 }
 
-template <int kSize>
-Eigen::Matrix<double, kSize, kSize> InverseOrInfinite(
-    const Eigen::Matrix<double, kSize, kSize>& information) {
-  using Matrix = Eigen::Matrix<double, kSize, kSize>;
-  const Eigen::LLT<Matrix> factor(information);
+Matrix5d InverseOrInfinite(const Matrix5d& information) {
+  const Eigen::LLT<Matrix5d> factor(information);
   if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-14)) {
-    Matrix unknown = Matrix::Zero();
+    Matrix5d unknown = Matrix5d::Zero();
     unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
     return unknown;
   }
-  return factor.solve(Matrix::Identity());
+  return factor.solve(Matrix5d::Identity());
 }
 
-Matrix5d Covariance(std::span<const RayMatch> matches, const Rigid3& pose, bool rotation_known) {
+Matrix5d Covariance(std::span<const RayMatch> matches, const Rigid3& pose) {
   const SampsonModel model(pose, BasisAcross(pose.translation));
   Matrix5d information = Matrix5d::Zero();
   for (const RayMatch& match : matches) {
     const SampsonResidual r = model.Evaluate(match);
     if (r.value * r.value < kChi2OneDof95) information += r.jacobian.transpose() * r.jacobian;
   }
-  if (!rotation_known) return InverseOrInfinite<5>(information);
-  Matrix5d covariance = Matrix5d::Zero();
-  covariance.bottomRightCorner<2, 2>() =
-      InverseOrInfinite<2>(information.bottomRightCorner<2, 2>());
-  return covariance;
+  return InverseOrInfinite(information);
 }
 
 }  // namespace
@@ -183,7 +172,7 @@ RefinedPose RefinePose(std::span<const RayMatch> matches,
   result.cost = equations.cost;
   double damping = 1e-4;
   for (; result.iterations < options.max_iterations && damping < 1e6; ++result.iterations) {
-    const Vector5d step = Step(equations, damping, options.rotation_known);
+    const Vector5d step = Step(equations, damping);
     const Rigid3 trial = Moved(result.b_from_a, step);
     const double cost = CostOf(matches, trial, loss);
     if (!(cost <= result.cost)) {
@@ -198,9 +187,7 @@ RefinedPose RefinePose(std::span<const RayMatch> matches,
     if (converged || result.iterations + 1 == options.max_iterations) break;
     equations = Linearize(matches, trial, loss);
   }
-  if (options.covariance) {
-    result.covariance = Covariance(matches, result.b_from_a, options.rotation_known);
-  }
+  if (options.covariance) result.covariance = Covariance(matches, result.b_from_a);
   return result;
 }
 

@@ -25,16 +25,15 @@ SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
 
 struct PoseRefinementOptions {
   int max_iterations = 15;
-  double tolerance = 1e-9;      // the end is where the cost falls by less than this part of it
-  bool rotation_known = false;  // only the direction of the translation is refined
-  double loss_scale = 4.685;    // scale of Tukey's biweight: 95 % efficient on normal residuals
-  bool covariance = true;       // false: left at zero
+  double tolerance = 1e-9;    // the end is where the cost falls by less than this part of it
+  double loss_scale = 4.685;  // scale of Tukey's biweight: 95 % efficient on normal residuals
+  bool covariance = true;     // false: left at zero
 };
 
 struct RefinedPose {
   Rigid3 b_from_a;  // |translation| = 1
-  // Covariance of (w, d) as above, from the inliers (chi2 at 95 %); that of w is zero with a known
-  // rotation. Infinite on the diagonal where the matches do not determine the pose.
+  // Covariance of (w, d) as above, from the inliers (chi2 at 95 %). Infinite on the diagonal where
+  // the matches do not determine the pose.
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
   double cost = 0;  // sum of the loss
   int iterations = 0;

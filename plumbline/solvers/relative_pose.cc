@@ -196,21 +196,4 @@ std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMat
   return list.Take();
 }
 
-RelativePoseHypothesis EstimateTranslation(std::span<const RayMatch> matches,
-                                           const Eigen::Quaterniond& b_from_a,
-                                           const RelativePoseOptions& options,
-                                           Rng& rng) {
-  const TranslationProblem problem(matches, b_from_a);
-  const RansacBudget budget{options.confidence, options.max_iterations};
-  const auto best = Ransac<TranslationProblem>(problem, budget, 1).Run({}, rng);
-  RelativePoseHypothesis none;
-  none.b_from_a.rotation = b_from_a;
-  if (best.empty()) return none;
-  const RefinedPose refined =
-      RefinePose(matches, {b_from_a, best.front().model}, {.rotation_known = true});
-  RelativePoseHypothesis h = Judge(matches, refined);
-  RelativePoseHypothesis opposite = Opposite(matches, h);
-  return opposite.in_front > h.in_front ? opposite : h;
-}
-
 }  // namespace plumbline

@@ -75,14 +75,6 @@ std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMat
                                                           Rng& rng,
                                                           std::span<const Rigid3> guesses = {});
 
-// The translation of the best fit with the rotation known (2-point RANSAC, two degrees of freedom),
-// its sign by the count of points in front. The covariance is that with an exact rotation. An empty
-// is_inlier where there are fewer than two matches or they show no parallax at all.
-RelativePoseHypothesis EstimateTranslation(std::span<const RayMatch> matches,
-                                           const Eigen::Quaterniond& b_from_a,
-                                           const RelativePoseOptions& options,
-                                           Rng& rng);
-
 // Whether a match, triangulated, is in front of both cameras.
 bool IsInFront(const Rigid3& b_from_a, const RayMatch& match);
 

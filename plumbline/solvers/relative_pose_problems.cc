@@ -5,7 +5,6 @@
 #include "plumbline/base/chi2.h"
 #include "plumbline/geometry/epipolar.h"
 #include "plumbline/solvers/pose_refinement.h"
-#include "plumbline/solvers/translation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,29 +106,6 @@ HomographyProblem::Model HomographyProblem::Improve(const Model& H) const {
     improved = *fitted;
   }
   return improved;
-}
-
-std::vector<Eigen::Vector3d> TranslationProblem::Solve(
-    const std::array<std::size_t, kSampleSize>& sample) const {
-  const auto t = TranslationFromTwoPoints(b_from_a_, Pick(matches_, sample));
-  return t ? std::vector<Model>{*t} : std::vector<Model>{};
-}
-
-double TranslationProblem::Cost(const Model& t, double limit) const {
-  return cost_.Truncated(EssentialMatrix({b_from_a_, t}), kChi2OneDof95, limit);
-}
-
-double TranslationProblem::InlierRatio(const Model& t) const {
-  return Ratio(cost_.CountBelow(EssentialMatrix({b_from_a_, t}), kChi2OneDof95), size());
-}
-
-TranslationProblem::Model TranslationProblem::Improve(const Model& t) const {
-  const Eigen::Matrix3d E = EssentialMatrix({b_from_a_, t});
-  std::vector<RayMatch> inliers;
-  for (const RayMatch& match : matches_) {
-    if (SampsonChi2(E, match) < 2 * kChi2OneDof95) inliers.push_back(match);
-  }
-  return TranslationFromPoints(b_from_a_, inliers, t).value_or(t);
 }
 
 }  // namespace plumbline

@@ -82,27 +82,4 @@ class HomographyProblem {
   Eigen::Vector3d mean_ray_ = Eigen::Vector3d::UnitZ();
 };
 
-// Directions of the translation with the rotation known.
-class TranslationProblem {
- public:
-  using Model = Eigen::Vector3d;
-  static constexpr std::size_t kSampleSize = 2;
-
-  TranslationProblem(std::span<const RayMatch> matches, const Eigen::Quaterniond& b_from_a)
-      : matches_(matches), cost_(matches), b_from_a_(b_from_a) {}
-
-  std::size_t size() const { return matches_.size(); }
-  std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const;
-  double Cost(const Model& t, double limit) const;
-  double InlierRatio(const Model& t) const;
-  // Least squares on the inliers.
-  Model Improve(const Model& t) const;
-  bool Same(const Model&, const Model&) const { return true; }  // the best alone
-
- private:
-  std::span<const RayMatch> matches_;
-  EpipolarCost cost_;
-  Eigen::Quaterniond b_from_a_;
-};
-
 }  // namespace plumbline

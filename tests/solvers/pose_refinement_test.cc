@@ -96,18 +96,6 @@ TEST(RefinePose, ReturnsToTheTruthFromNearby) {
   }
 }
 
-TEST(RefinePose, KnownRotationStays) {
-  const TwoViewScene scene = MakeTwoViewScene(1, {.noise = 0});
-  Rigid3 start = scene.b_from_a;
-  start.translation = (start.translation + Eigen::Vector3d(0.1, -0.2, 0.1)).normalized();
-  const RefinedPose refined =
-      RefinePose(scene.matches, start, {.rotation_known = true, .loss_scale = 100});
-  EXPECT_EQ(AngularDistance(refined.b_from_a.rotation, start.rotation), 0);
-  EXPECT_LT(AngleBetween(refined.b_from_a.translation, scene.b_from_a.translation), 1e-8);
-  EXPECT_EQ(refined.covariance.topRows<3>().norm(), 0);
-  EXPECT_GT(refined.covariance(3, 3), 0);
-}
-
 TEST(RefinePose, WithoutParallaxTheDirectionIsUnknown) {
   const TwoViewScene scene = MakeTwoViewScene(1, {.kind = SceneKind::kTurnOnly, .noise = 0});
   const Rigid3 start{scene.b_from_a.rotation, Eigen::Vector3d::UnitX()};

@@ -142,23 +142,6 @@ TEST(EstimateRelativePoses, TooFewMatchesGiveNothing) {
   EXPECT_TRUE(Estimate({}, RelativePoseMethod::kEightPoint).empty());
 }
 
-TEST(EstimateTranslation, FindsDirectionAndSign) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const TwoViewScene scene = MakeTwoViewScene(seed, {.outliers = 0.3});
-    Rng rng(seed);
-    const auto h = EstimateTranslation(scene.matches, scene.b_from_a.rotation, {}, rng);
-    EXPECT_LT(AngleBetween(h.b_from_a.translation, scene.b_from_a.translation), 1.5 * kDegree);
-    EXPECT_GT(h.covariance(3, 3), 0);
-  }
-}
-
-TEST(EstimateTranslation, OfNothingHasNoInliers) {
-  Rng rng(1);
-  const auto h = EstimateTranslation({}, Eigen::Quaterniond::Identity(), {}, rng);
-  EXPECT_TRUE(h.is_inlier.empty());
-  EXPECT_EQ(h.inliers, 0);
-}
-
 TEST(IsInFront, HoldsForOneOfTheFourPoses) {
   const TwoViewScene scene = MakeTwoViewScene(5, {.points = 50, .noise = 0});
   const Rigid3& truth = scene.b_from_a;
