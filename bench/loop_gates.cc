@@ -69,6 +69,7 @@ struct GateCounts {
 std::string GateOf(const Atlas& atlas, const LoopAttempt& attempt) {
   if (attempt.unverified) return NameOf(*attempt.unverified);
   if (attempt.beyond_drift) return "beyond_drift";
+  if (attempt.uncertain) return "uncertain";
   if (attempt.inconsistent) return "inconsistent";
   if (attempt.waits) return "waits";
   if (attempt.unclosed) return NameOf(*attempt.unclosed);

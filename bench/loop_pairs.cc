@@ -194,6 +194,7 @@ void CloseAll(SavedMap& saved,
       if (attempt.unclosed)
         fmt::print("  {} unclosed: {}\n", query.value, NameOf(*attempt.unclosed));
       if (attempt.beyond_drift) fmt::print("  {} beyond drift\n", query.value);
+      if (attempt.uncertain) fmt::print("  {} uncertain\n", query.value);
       if (attempt.inconsistent) fmt::print("  {} inconsistent\n", query.value);
     }
     if (!closure) continue;

@@ -44,6 +44,7 @@ struct LoopAttempt {
   double drift_chi2 = 0;                  // of the edge against what odometry says
   std::optional<ClosingRefusal> unclosed;
   bool beyond_drift = false;  // odometry cannot be so wrong
+  bool uncertain = false;     // the edge says too little: a nearer view is to come
   bool inconsistent = false;  // the other loops say otherwise
   bool waits = false;         // for another keyframe that sees it
 };

@@ -40,6 +40,9 @@ struct LoopClosingOptions {
   int max_candidates = 3;           // of those offered that are looked at
   int min_shared = 10;              // landmarks shared with a candidate that is no loop any more
   int pause = 5;                    // keyframes after a closure before the next
+  // A loop that is known worse waits for a nearer view: odometry, whose drift is taken for larger
+  // than it is, would follow it further than it should.
+  double max_rotation_sigma_deg = 0.5;
   double max_odometry_chi2 = 24.3;  // of one odometry edge after the correction
 };
 

@@ -68,6 +68,22 @@ TEST(LoopCloser, TellsIdenticalRoomsApartByDrift) {
   EXPECT_TRUE(closer.Try(scene.map, kQuery, right));
 }
 
+// What sees the place from afar is right, too, but says little: a nearer view is waited for.
+TEST(LoopCloser, WaitsForALoopThatIsKnownWell) {
+  const LoopScene scene = Drifted();
+  LoopOptions options;
+  options.closing.max_rotation_sigma_deg = 0.01;
+  LoopCloser strict(scene.Imaging(), options);
+  const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
+  EXPECT_FALSE(strict.Try(scene.map, kQuery, candidates));
+  ASSERT_EQ(strict.attempts().size(), 1U);
+  EXPECT_TRUE(strict.attempts()[0].edge);
+  EXPECT_TRUE(strict.attempts()[0].uncertain);
+  EXPECT_TRUE(strict.loops().empty());
+  LoopCloser usual(scene.Imaging(), {});
+  EXPECT_TRUE(usual.Try(scene.map, kQuery, candidates));
+}
+
 TEST(LoopCloser, PausesAfterAClosure) {
   LoopScene scene = Drifted();
   LoopCloser closer(scene.Imaging(), {});
