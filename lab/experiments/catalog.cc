@@ -377,6 +377,28 @@ Experiment LineControlExperiment(bool mono) {
   return experiment;
 }
 
+// What the first paper's rules for line matches do: lengths alike, and no more turn in the image
+// than the cameras have.
+Experiment LineMatchingExperiment() {
+  Experiment experiment = LineControlExperiment(true);
+  experiment.name = "line_matching_mono";
+  experiment.help = "lines matched by the first paper's rules, one camera";
+  const Variant plucker = experiment.variants[1];
+  const std::vector<Setting> rules = {
+      {"", {}},
+      {"_lengths", {"lines.min_length_ratio=0.8"}},
+      {"_rotation", {"lines.rotation_gate=true"}},
+      {"_both", {"lines.min_length_ratio=0.8", "lines.rotation_gate=true"}}};
+  experiment.variants.clear();
+  for (const Setting& rule : rules) {
+    Variant variant = plucker;
+    variant.name += rule.name;
+    variant.settings.insert(variant.settings.end(), rule.settings.begin(), rule.settings.end());
+    experiment.variants.push_back(std::move(variant));
+  }
+  return experiment;
+}
+
 // Recorded sequences in ways on which nothing was tuned.
 Experiment RobustnessExperiment() {
   Experiment experiment;
@@ -429,6 +451,7 @@ std::vector<Experiment> OwnExperiments() {
       MonocularLineExperiment(),
       LineControlExperiment(false),
       LineControlExperiment(true),
+      LineMatchingExperiment(),
       CuttingExperiment(),
       CuttingControlExperiment(),
       RobustnessExperiment(),

@@ -49,6 +49,8 @@ struct LineOptions {
   LineReconstruction reconstruction = LineReconstruction::kNView;
   LineWeighting weighting = LineWeighting::kCovariance;
   double constant_sigma_px = 1;
+  double min_length_ratio = 0.3;
+  bool rotation_gate = false;
 
   LineWeights weights() const { return {weighting, constant_sigma_px}; }
 };
@@ -76,6 +78,15 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
         o.constant_sigma_px,
         "deviation of the residuals of all lines where weighting is none [px]",
         Range{0.01, 10});
+  visit("min_length_ratio",
+        o.min_length_ratio,
+        "shorter over longer of two lines that are matched by their looks, between keyframes and "
+        "where no pose is predicted (the first paper: 0.8)",
+        Range{0, 1});
+  visit("rotation_gate",
+        o.rotation_gate,
+        "lines of two keyframes are matched only where their directions in the images differ by no "
+        "more than the keyframes are turned against each other (as the first paper)");
 }
 
 // The measurement of point feature i.

@@ -41,13 +41,14 @@ MapEdit CreatePointsFromViews(const Map& map,
                               const LandmarkCreationOptions& options);
 
 // New lines from line features without landmark in the keyframe and in up to three of its closest
-// neighbours (section 3.3): n-view reconstruction, from two views where the views disagree or where
-// `reconstruction` says so, kept where the end points of every view lie on the projected line (3
-// sigmas, TriangulateLine) and the interpretation planes meet at a large enough angle.
+// neighbours (section 3.3), matched by their looks as `lines` says: n-view reconstruction, from two
+// views where the views disagree or where lines.reconstruction says so, kept where the end points
+// of every view lie on the projected line (3 sigmas, TriangulateLine) and the interpretation planes
+// meet at a large enough angle.
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,
                              const LandmarkCreationOptions& options,
-                             LineReconstruction reconstruction = LineReconstruction::kNView);
+                             const LineOptions& lines = {});
 
 }  // namespace plumbline

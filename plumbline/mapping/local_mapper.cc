@@ -209,9 +209,7 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   };
   create(CreateFromDepth);
   create(CreatePointsFromViews);
-  create([&](const auto&... arguments) {
-    return CreateLinesFromViews(arguments..., lines_.reconstruction);
-  });
+  create([&](const auto&... arguments) { return CreateLinesFromViews(arguments..., lines_); });
 }
 
 // Counts the landmarks that an edit adds among the young ones, which have to prove themselves.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/association/line_information.h"
+#include "plumbline/association/line_matching.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/geometry/line_triangulation.h"
 #include "plumbline/geometry/trimming.h"
@@ -87,13 +88,16 @@ MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,
                              const LandmarkCreationOptions& options,
-                             LineReconstruction reconstruction) {
+                             const LineOptions& lines) {
   const Frame& frame = map.Find(id)->frame;
   const FreeLines mine(frame);
   std::map<std::size_t, std::vector<LineViewOf>> tracks;  // by feature of this keyframe
   for (const auto& neighbour : ClosestCovisible(map, id, kClosest)) {
-    const FreeLines theirs(map.Find(neighbour.id)->frame);
-    for (const LineMatch& match : MatchLines(mine.features, theirs.features, LineMatchOptions{})) {
+    const Frame& other = map.Find(neighbour.id)->frame;
+    const FreeLines theirs(other);
+    const LineMatchOptions matching = LineMatchingOf(
+        lines, other.cam_from_world.rotation * frame.cam_from_world.rotation.conjugate());
+    for (const LineMatch& match : MatchLines(mine.features, theirs.features, matching)) {
       auto& track = tracks[mine.index[static_cast<std::size_t>(match.a)]];
       if (track.empty()) track.push_back({id, mine.index[static_cast<std::size_t>(match.a)]});
       track.push_back({neighbour.id, theirs.index[static_cast<std::size_t>(match.b)]});
@@ -104,7 +108,7 @@ MapEdit CreateLinesFromViews(const Map& map,
   LineId next = map.NextLineId();
   for (const auto& [feature, views] : tracks) {
     std::optional<MapLine> line;
-    const bool all = reconstruction == LineReconstruction::kNView && views.size() > 2;
+    const bool all = lines.reconstruction == LineReconstruction::kNView && views.size() > 2;
     if (all) line = Reconstruct(map, imaging.camera, views, min_angle);
     // Two-view fallback: one wrong match spoils three views, but not those of the right pair.
     for (std::size_t k = 1; !line && k < views.size(); ++k) {

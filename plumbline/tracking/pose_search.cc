@@ -3,6 +3,7 @@
 #include "plumbline/tracking/pose_search.h"
 
 #include "plumbline/association/landmark_from_frame.h"
+#include "plumbline/association/line_matching.h"
 #include "plumbline/features/match_lines.h"
 #include "plumbline/features/match_points.h"
 #include "plumbline/solvers/absolute_pose.h"
@@ -197,7 +198,7 @@ FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
     result.points.push_back(*point);
   }
   const auto line_matches =
-      MatchLines(reference.features().lines, frame.features().lines, LineMatchOptions{});
+      MatchLines(reference.features().lines, frame.features().lines, LineMatchingOf(lines_));
   for (const LineMatch& match : line_matches) {
     const auto a = static_cast<std::size_t>(match.a);
     const auto line = LineOf(InSnapshot(reference.lines[a], snapshot), reference, a, sigma);

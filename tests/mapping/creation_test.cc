@@ -240,15 +240,35 @@ TEST(CreateLinesFromViews, TakesPairsWhereTwoViewsAreAskedFor) {
   const TrueMap scene =
       WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(15), PoseOnPath(30)}, kMono);
   const auto most_views = [&](LineReconstruction reconstruction) {
+    LineOptions lines;
+    lines.reconstruction = reconstruction;
     std::size_t most = 0;
     for (const auto& add : Only<edit::AddLine>(
-             CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, {}, reconstruction))) {
+             CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, {}, lines))) {
       most = std::max(most, add.line.observations.size());
     }
     return most;
   };
   EXPECT_EQ(most_views(LineReconstruction::kNView), 3U);
   EXPECT_EQ(most_views(LineReconstruction::kTwoView), 2U);
+}
+
+// Of cameras that are not turned against each other no line may turn, but for those that stay
+// parallel to the image.
+TEST(CreateLinesFromViews, MatchesAsTheLineOptionsSay) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 300);
+  const Rigid3 aside{Eigen::Quaterniond::Identity(), {-0.6, 0, 0}};
+  const TrueMap scene = WithFreeFeatures(world, {Rigid3{}, aside}, kMono);
+  const auto count = [&](const LineOptions& lines) {
+    return CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{1}, {}, lines).size();
+  };
+  const std::size_t usual = count({});
+  LineOptions gate;
+  gate.rotation_gate = true;
+  EXPECT_LT(count(gate), usual / 2);
+  LineOptions lengths;
+  lengths.min_length_ratio = 0.99;
+  EXPECT_LT(count(lengths), usual);
 }
 
 TEST(CreateLinesFromViews, DropsAViewThatContradictsTheOthers) {

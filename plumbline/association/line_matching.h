@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/features/match_lines.h"
+
+#include <optional>
+
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// What the lines of two images must have in common to be matched by their looks (MatchLines), with
+// the rules of the first paper, section 4, where `lines` asks for them.
+//
+//   b_from_a  rotation between the two cameras, where it is known: the rotation gate goes by its
+//             angle
+LineMatchOptions LineMatchingOf(const LineOptions& lines,
+                                const std::optional<Eigen::Quaterniond>& b_from_a = std::nullopt);
+
+}  // namespace plumbline
