@@ -290,10 +290,11 @@ Experiment CuttingExperiment() {
 // What decides whether cutting helps: each weight of lines with and without it, and what else
 // leaves uncertain parts of lines out. Lines weigh as much as points do at a constant 0.2 and 0.3
 // px; at the 1 px of `none` they count for little and their gates are wide.
-Experiment CuttingControlExperiment() {
+Experiment CuttingControlExperiment(bool points) {
   Experiment experiment;
-  experiment.name = "cutting_controls";
+  experiment.name = points ? "cutting_controls" : "cutting_controls_lines";
   experiment.help = "line cutting at each weight of lines, and what it is compared with";
+  if (!points) experiment.help += ", lines alone";
   for (const bool blurred : {false, true}) {
     const std::vector<std::string> blur =
         blurred ? std::vector<std::string>{"--blur", "5"} : std::vector<std::string>{};
@@ -310,26 +311,25 @@ Experiment CuttingControlExperiment() {
       {"", {}},
       {"+Cut", {"cutting.method=greedy"}},
       {"+Cut_printed", {"cutting.method=greedy", "cutting.information=printed"}},
+      {"+Cut_alike",
+       {"cutting.method=greedy", "cutting.ends=inverse_depth", "cutting.end_sigma=0.015"}},
       {"+Drop", {"cutting.method=drop"}}};
-  for (const Setting& lines : {Setting{"PL", {}}, Setting{"L", {"features.points=false"}}}) {
-    for (const Setting& weight : weights) {
-      for (const Setting& cut : cuts) {
-        Variant variant{lines.name + cut.name + "_" + weight.name,
-                        {"loop.enabled=false",
-                         "tracking.reference=last_frame",
-                         "lines.residual=projected_ends"}};
-        for (const Setting& part : {lines, weight, cut}) {
-          variant.settings.insert(
-              variant.settings.end(), part.settings.begin(), part.settings.end());
-        }
-        experiment.variants.push_back(std::move(variant));
+  const Setting lines = points ? Setting{"PL", {}} : Setting{"L", {"features.points=false"}};
+  for (const Setting& weight : weights) {
+    for (const Setting& cut : cuts) {
+      Variant variant{
+          lines.name + cut.name + "_" + weight.name,
+          {"loop.enabled=false", "tracking.reference=last_frame", "lines.residual=projected_ends"}};
+      for (const Setting& part : {lines, weight, cut}) {
+        variant.settings.insert(variant.settings.end(), part.settings.begin(), part.settings.end());
       }
+      experiment.variants.push_back(std::move(variant));
     }
   }
   experiment.metrics = {"rpe_causal_mean", "roe_causal_mean", "coverage", "lost"};
   experiment.plots = {"rpe_causal_mean", "roe_causal_mean"};
   experiment.runs = 3;
-  experiment.reference = "PL_1px";
+  experiment.reference = lines.name + "_1px";
   experiment.ratios = {"rpe_causal_mean", "roe_causal_mean"};
   return experiment;
 }
@@ -453,7 +453,8 @@ std::vector<Experiment> OwnExperiments() {
       LineControlExperiment(true),
       LineMatchingExperiment(),
       CuttingExperiment(),
-      CuttingControlExperiment(),
+      CuttingControlExperiment(true),
+      CuttingControlExperiment(false),
       RobustnessExperiment(),
       MonocularRobustnessExperiment(),
       StartExperiment(

@@ -31,6 +31,11 @@ enum class CuttingInformation {
   kPrinted,      // second paper, eq 5 to the letter
   kCorrelated,   // J^T C^-1 J with the covariance between the cut points: cutting changes nothing
 };
+// How well the ends of a line are taken to be known where lines are cut.
+enum class CuttingEnds {
+  kLandmark,      // as the information of the line says
+  kInverseDepth,  // all alike in image and inverse depth, as the second paper assumes
+};
 
 constexpr auto EnumNames(std::type_identity<CuttingMethod>) {
   return std::array{std::pair{CuttingMethod::kNone, "none"},
@@ -44,11 +49,17 @@ constexpr auto EnumNames(std::type_identity<CuttingInformation>) {
                     std::pair{CuttingInformation::kPrinted, "printed"},
                     std::pair{CuttingInformation::kCorrelated, "correlated"}};
 }
+constexpr auto EnumNames(std::type_identity<CuttingEnds>) {
+  return std::array{std::pair{CuttingEnds::kLandmark, "landmark"},
+                    std::pair{CuttingEnds::kInverseDepth, "inverse_depth"}};
+}
 
 // Settings of CutLines and, for the budget, of ChooseFeatures.
 struct CuttingOptions {
   CuttingMethod method = CuttingMethod::kNone;
   CuttingInformation information = CuttingInformation::kIndependent;
+  CuttingEnds ends = CuttingEnds::kLandmark;
+  double end_sigma = 0.005;
   double drop_share = 0.3;
   int budget = 0;
 };
@@ -64,6 +75,16 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
         o.information,
         "what cutting maximizes: independent (errors of the two cut points taken as independent), "
         "printed (eq 5 of the second paper), correlated (as they are; cutting gains nothing)");
+  visit("ends",
+        o.ends,
+        "how well the ends of a line are known: landmark (as its information says), inverse_depth "
+        "(end_sigma in image and inverse depth of the present camera, all alike, as the second "
+        "paper assumes)");
+  visit("end_sigma",
+        o.end_sigma,
+        "deviation with inverse_depth: of the inverse depth [1/m], of column and row in units of "
+        "the focal length (the second paper simulates 0.005 and 0.015)",
+        Range{1e-6, 1});
   visit("drop_share", o.drop_share, "of the lines that drop leaves out", Range{0, 1});
   visit("budget",
         o.budget,

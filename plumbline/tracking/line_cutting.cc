@@ -8,6 +8,7 @@
 #include "plumbline/base/chi2.h"
 #include "plumbline/cutting/choose_features.h"
 #include "plumbline/cutting/cut_residuals.h"
+#include "plumbline/cutting/endpoint_covariance.h"
 #include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 #include "plumbline/optimization/uncertain_point.h"
@@ -44,10 +45,20 @@ Eigen::Matrix3d CovarianceAt(const Rigid3& cam_from_world,
   return R * covariance * R.transpose();
 }
 
+// Column, row and inverse depth of both ends known alike in the present camera.
+EndCovariances AlikeInInverseDepth(const RectifiedCamera& camera,
+                                   const Segment3& in_cam,
+                                   double sigma) {
+  const double sigma_px = sigma * 0.5 * (camera.fx + camera.fy);
+  return {CovarianceFromInverseDepth(camera, in_cam.start, sigma_px, sigma),
+          CovarianceFromInverseDepth(camera, in_cam.end, sigma_px, sigma)};
+}
+
 std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
                                      const PoseProblem::LineMatch& match,
-                                     const LineModel& model,
-                                     double sigma_px) {
+                                     const CutCandidate& candidate,
+                                     const CuttingOptions& cutting) {
+  const LineModel& model = *candidate.model;
   const Segment2& seen = match.measurement.segment;
   if (match.measurement.in_right_camera || seen.Length() < kShortestPx) return std::nullopt;
   const auto interval = TrimToSegment(problem.camera, problem.cam_from_world, model.line, seen);
@@ -59,12 +70,14 @@ std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
                              problem.cam_from_world * out.in_world.end};
   const Segment3& in_cam = out.line.segment_in_cam;
   if (!(in_cam.start.z() > kMinDepth && in_cam.end.z() > kMinDepth)) return std::nullopt;
-  const EndCovariances ends = CovariancesOfEnds(problem.cam_from_world, model, *interval);
+  const EndCovariances ends = cutting.ends == CuttingEnds::kInverseDepth
+                                  ? AlikeInInverseDepth(problem.camera, in_cam, cutting.end_sigma)
+                                  : CovariancesOfEnds(problem.cam_from_world, model, *interval);
   if (!ends.start.allFinite() || !ends.end.allFinite()) return std::nullopt;
   out.line.start_covariance = ends.start;
   out.line.end_covariance = ends.end;
   out.line.image_line = LineThrough(seen);
-  out.line.sigma_px = sigma_px;
+  out.line.sigma_px = candidate.sigma_px;
   return out;
 }
 
@@ -177,8 +190,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
   std::vector<Cuttable> cuttable;
   std::map<int, std::size_t> place;  // in cuttable, by group
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
-    const auto made =
-        MakeCuttable(problem, problem.lines[i], *candidates[i].model, candidates[i].sigma_px);
+    const auto made = MakeCuttable(problem, problem.lines[i], candidates[i], cutting);
     if (!made) continue;
     place[made->group] = cuttable.size();
     cuttable.push_back(*made);

@@ -40,9 +40,10 @@ struct CutCandidate {
 // What is cut of each line is the part of the landmark that the measured segment of the left image
 // shows at the problem's pose (first paper, eq. 26-30), with end covariances from the landmark's
 // information: of a line made from one stereo or RGB-D frame that of its measured disparities, of a
-// line of the map that of all its observations. The errors of the two ends count as independent, as
-// the paper has them. The points of the problem are the constant part of the objective (eq. 7),
-// wrong matches included. The right image has no part in the choice.
+// line of the map that of all its observations (cutting.ends=inverse_depth: all alike). The errors
+// of the two ends count as independent, as the paper has them. The points of the problem are the
+// constant part of the objective (eq. 7), wrong matches included. The right image has no part in
+// the choice.
 //
 // The pieces are used in both images: projected_ends gets them for ends, observed_ends has the ends
 // of the measured segment moved to where they show, not beyond its ends. Weights of the pieces are
