@@ -36,10 +36,10 @@ struct DriftOptions {
 };
 
 struct LoopClosingOptions {
-  int strong_covisibility = 60;     // shared landmarks that make an edge of the pose graph
-  int max_candidates = 3;           // of those offered that are looked at
-  int min_shared = 10;              // landmarks shared with a candidate that is no loop any more
-  int pause = 5;                    // keyframes after a closure before the next
+  int strong_covisibility = 60;  // shared landmarks that make an edge of the pose graph
+  int max_candidates = 3;        // of those offered that are looked at
+  int min_shared = 10;           // landmarks shared with a candidate that is no loop any more
+  int pause = 5;                 // keyframes after a closure before the next
   // A loop that is known worse waits for a nearer view: odometry, whose drift is taken for larger
   // than it is, would follow it further than it should.
   double max_rotation_sigma_deg = 0.5;
