@@ -22,19 +22,6 @@ std::string SubscriptionToAll(const nlohmann::json& advertised) {
 
 }  // namespace
 
-std::uint16_t FreePort() {
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  const bool bound = ::bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
-                     ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-  ::close(socket);
-  if (!bound) throw std::runtime_error("no free port");
-  return ntohs(address.sin_port);
-}
-
 DiscardingViewer::DiscardingViewer(std::uint16_t port) : thread_([this, port] { Watch(port); }) {}
 
 DiscardingViewer::~DiscardingViewer() {

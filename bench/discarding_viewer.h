@@ -8,9 +8,6 @@
 
 namespace plumbline {
 
-// A port of this machine that nobody listens on at the moment.
-std::uint16_t FreePort();
-
 // A client of the viewer that asks for all channels and throws away what it is sent, in a thread of
 // its own. It waits until somebody listens on the port, and ends when the server closes.
 class DiscardingViewer {
@@ -20,7 +17,7 @@ class DiscardingViewer {
   DiscardingViewer(const DiscardingViewer&) = delete;
   DiscardingViewer& operator=(const DiscardingViewer&) = delete;
 
-  // Of all messages so far.
+  // Size of all messages that it was sent so far.
   std::uint64_t bytes() const { return bytes_; }
 
  private:

@@ -16,6 +16,7 @@
 #include "plumbline/base/error.h"
 
 #include "bench/discarding_viewer.h"
+#include "tests/support/free_port.h"
 #include <algorithm>
 #include <atomic>
 #include <cerrno>

@@ -58,12 +58,6 @@ std::vector<bool> ChooseFollowed(std::span<const PointFeature> points) {
 
 }  // namespace
 
-bool HaveDiedOut(int matches, int most_matches) {
-  constexpr int kFewest = 12;
-  constexpr double kShare = 0.3;
-  return matches < std::max<double>(kFewest, kShare * most_matches);
-}
-
 Places FrameWindow::PlacesOf(const Matched& matched) {
   Places places(matched.places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {

@@ -15,13 +15,6 @@
 
 namespace plumbline {
 
-// Fewest features of a frame that is taken into a window.
-inline constexpr int kMinWindowFeatures = 60;
-
-// Whether matches with a reference have died out, so that it has to move: few are left, absolutely
-// or of the most there were with it; those are more and more often wrong.
-bool HaveDiedOut(int matches, int most_matches);
-
 // A reference frame and the frames since, matched with it. Frames are kept when an attempt at a map
 // fails; beyond a limit every second one is left out.
 class FrameWindow {

@@ -4,7 +4,6 @@
 
 #include "plumbline/initialization/byte_format.h"
 
-#include <algorithm>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -20,7 +19,10 @@ constexpr int kMinPoints = 30;  // of a map
 Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
                                    const InitializationOptions& options,
                                    std::uint64_t seed)
-    : imaging_(imaging), options_(options), seed_(seed), window_(imaging.camera, options.matching) {
+    : WindowInitializer(imaging.camera, options.matching, options.frames),
+      imaging_(imaging),
+      options_(options),
+      seed_(seed) {
   const double focal = 0.5 * (imaging.camera.fx + imaging.camera.fy);
   WindowFactorizationOptions& factorization = decision_.factorization;
   factorization.factorize = options.factorize;
@@ -29,39 +31,6 @@ Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
   factorization.min_line_angle = options.min_line_angle_deg * std::numbers::pi / 180;
   factorization.reweighting = options.reweighting;
   decision_.relative_pose.method = options.relative_pose;
-}
-
-void Rank1Initializer::Reset() {
-  window_.Reset();
-  memory_.Clear();
-  most_matches_ = 0;
-}
-
-InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
-  using enum InitializationWait;
-  if (static_cast<int>(frame.indexed->features.points.size()) < kMinWindowFeatures) {
-    return InitializationResult::Wait(kTooFewFeatures);
-  }
-  if (window_.empty()) {
-    window_.Add(frame);
-    return InitializationResult::Wait(kTooFewFrames);
-  }
-  InitializationResult result;
-  result.matches = window_.Add(frame);
-  most_matches_ = std::max(most_matches_, result.matches);
-  if (HaveDiedOut(result.matches, most_matches_)) {
-    window_.MoveReference();
-    memory_.Clear();
-    most_matches_ = 0;
-    result.wait = kTooFewMatches;
-  } else if (window_.size() < options_.frames) {
-    result.wait = kTooFewFrames;
-  } else {
-    const int matches = result.matches;
-    result = Attempt();
-    result.matches = matches;
-  }
-  return result;
 }
 
 InitializationResult Rank1Initializer::Attempt() {

@@ -5,7 +5,6 @@
 #include "plumbline/initialization/byte_format.h"
 #include "plumbline/solvers/ray_match.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -28,34 +27,6 @@ std::vector<RayMatch> MatchesOf(const WindowTracks& tracks) {
 }
 
 }  // namespace
-
-void TwoViewImagesInitializer::Reset() {
-  window_.Reset();
-  most_matches_ = 0;
-}
-
-InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& frame) {
-  using enum InitializationWait;
-  if (static_cast<int>(frame.indexed->features.points.size()) < kMinWindowFeatures) {
-    return InitializationResult::Wait(kTooFewFeatures);
-  }
-  if (window_.empty()) {
-    window_.Add(frame);
-    return InitializationResult::Wait(kTooFewFrames);
-  }
-  InitializationResult result;
-  const int matches = window_.Add(frame);
-  most_matches_ = std::max(most_matches_, matches);
-  if (HaveDiedOut(matches, most_matches_)) {
-    window_.MoveReference();
-    most_matches_ = 0;
-    result.wait = kTooFewMatches;
-  } else {
-    result = Attempt();
-  }
-  result.matches = matches;
-  return result;
-}
 
 InitializationResult TwoViewImagesInitializer::Attempt() {
   const WindowTracks tracks =

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/initialization/frame_window.h"
-#include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/two_view.h"
+#include "plumbline/initialization/window_initializer.h"
 
 #include <cstdint>
 #include <optional>
@@ -18,16 +17,15 @@ namespace plumbline {
 // tells what factorization and the decision of several frames bring, beside two_view what the
 // matches bring.
 //
-// The first frame with enough features is the reference. Each later one is matched with it and
-// tried alone, with all points that it shows of the reference. Needs the images of all frames
-// (BugError otherwise).
-class TwoViewImagesInitializer : public Initializer {
+// Each frame is tried alone, with all points that it shows of the reference. Needs the images of
+// all frames (BugError otherwise).
+class TwoViewImagesInitializer : public WindowInitializer {
  public:
   TwoViewImagesInitializer(const ImagingModel& imaging, std::uint64_t seed)
-      : camera_(imaging.camera), seed_(seed), window_(imaging.camera, InitialMatching::kImages) {}
+      : WindowInitializer(imaging.camera, InitialMatching::kImages, 1),
+        camera_(imaging.camera),
+        seed_(seed) {}
 
-  InitializationResult Add(const InitializationFrame& frame) override;
-  void Reset() override;
   void Save(StateWriter& archive) const override;
   void Load(StateReader& archive) override;
 
@@ -38,7 +36,7 @@ class TwoViewImagesInitializer : public Initializer {
   }
 
  private:
-  InitializationResult Attempt();
+  InitializationResult Attempt() override;
   // From the points that go with the pose, where the image shows them; nullopt where too little is
   // left.
   std::optional<InitialMap> BuildMap(const WindowTracks& tracks,
@@ -46,8 +44,6 @@ class TwoViewImagesInitializer : public Initializer {
 
   RectifiedCamera camera_;
   std::uint64_t seed_;
-  FrameWindow window_;
-  int most_matches_ = 0;  // with the present reference
 };
 
 }  // namespace plumbline

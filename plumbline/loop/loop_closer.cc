@@ -7,11 +7,8 @@
 #include "plumbline/loop/uncertain_pose.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 namespace {
@@ -38,13 +35,6 @@ double DriftChi2(OdometryWays& odometry, const PoseGraphEdge& loop, const LoopEd
   const auto drifted = odometry.Along(loop.from, loop.to);
   if (!drifted) return 0;
   return ClosingChi2(Compose({loop.to_from, edge.covariance}, *drifted));
-}
-
-// About the axis that is known worst [rad].
-double RotationSigma(const LoopEdge& edge) {
-  const Eigen::Matrix3d covariance = edge.covariance.topLeftCorner<3, 3>();
-  return std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff());
 }
 
 // The landmarks of a keyframe, to be compared with those of others.
@@ -170,7 +160,8 @@ bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, Loop
   attempt.drift_chi2 = DriftChi2(odometry, *newest, edge);
   attempt.beyond_drift = attempt.drift_chi2 > options_.drift.max_chi2;
   if (attempt.beyond_drift) return false;
-  attempt.uncertain = RotationSigma(edge) > options_.closing.max_rotation_sigma_deg * kDegree;
+  attempt.uncertain = LargestSigma(edge.covariance.topLeftCorner<3, 3>()) >
+                      options_.closing.max_rotation_sigma_deg * kDegree;
   if (attempt.uncertain) return false;
   attempt.inconsistent = !AgreesWithTheOthers(map, essential, *newest, odometry);
   if (attempt.inconsistent) return false;

@@ -259,13 +259,10 @@ class Verification {
     if (depths.empty()) return true;
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
     std::nth_element(depths.begin(), middle, depths.end());
-    const auto largest = [&](int first) {
-      const Eigen::Matrix3d block = result_.covariance.block<3, 3>(first, first);
-      return std::sqrt(
-          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(block).eigenvalues().maxCoeff());
-    };
-    return !(largest(0) * 180 / std::numbers::pi <= options_.max_rotation_sigma_deg &&
-             largest(3) <= options_.max_translation_sigma * *middle);
+    const double rotation = LargestSigma(result_.covariance.topLeftCorner<3, 3>());
+    const double translation = LargestSigma(result_.covariance.block<3, 3>(3, 3));
+    return !(rotation * 180 / std::numbers::pi <= options_.max_rotation_sigma_deg &&
+             translation <= options_.max_translation_sigma * *middle);
   }
 
   std::optional<LoopRefusal> JudgeCoverage(const Frame& query, const Frame& candidate) {

@@ -4,6 +4,7 @@
 #include "tests/e2e/poster_sequence.h"
 #include "tests/e2e/program.h"
 #include "tests/e2e/same_run.h"
+#include "tests/support/free_port.h"
 #include "tests/support/web_socket_client.h"
 #include <chrono>
 #include <csignal>
@@ -23,21 +24,6 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-
-// One that nobody listens on.
-std::uint16_t FreePort() {
-  const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  if (::bind(probe, reinterpret_cast<sockaddr*>(&address), size) != 0) {
-    throw std::runtime_error("no free port");
-  }
-  ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size);
-  ::close(probe);
-  return ntohs(address.sin_port);
-}
 
 // As soon as somebody listens, at most half a minute.
 std::optional<WebSocketClient> ConnectTo(std::uint16_t port) {

@@ -71,7 +71,7 @@ TEST(FactorizeWindow, TriangulatesFromResectedPosesWhenAskedTo) {
   ASSERT_TRUE(solution);
   ExpectTruth(scene, *solution, 1e-4);
   EXPECT_EQ(std::count(solution->is_known.begin(), solution->is_known.end(), true), 300);
-  // Of noisy places the pose of the newest stays what it was; factorization moves it.
+  // Where places are noisy, factorization moves the newest pose, and resection leaves it as it was.
   const WindowScene noisy = MakeWindowScene(2, CurvedMotion(3), {.sigma = 1e-3});
   const auto moved = [&](const WindowFactorizationOptions& options) {
     const auto found = FactorizeWindow(noisy.tracks, {newest, {}}, options);

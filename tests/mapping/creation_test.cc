@@ -253,8 +253,8 @@ TEST(CreateLinesFromViews, TakesPairsWhereTwoViewsAreAskedFor) {
   EXPECT_EQ(most_views(LineReconstruction::kTwoView), 2U);
 }
 
-// Of cameras that are not turned against each other no line may turn, but for those that stay
-// parallel to the image.
+// Where two cameras are not turned against each other, the gate on rotation leaves only lines that
+// are parallel to the image, for only these keep their direction in it.
 TEST(CreateLinesFromViews, MatchesAsTheLineOptionsSay) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 300);
   const Rigid3 aside{Eigen::Quaterniond::Identity(), {-0.6, 0, 0}};
