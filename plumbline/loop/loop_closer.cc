@@ -3,6 +3,7 @@
 #include "plumbline/loop/loop_closer.h"
 
 #include "plumbline/base/units.h"
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/loop/pairwise_consistency.h"
 #include "plumbline/loop/uncertain_pose.h"
 

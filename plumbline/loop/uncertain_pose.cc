@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/uncertain_pose.h"
 
-#include <cmath>
 #include <limits>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 
@@ -28,11 +26,6 @@ double ClosingChi2(const UncertainPose& a_from_a) {
   if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
   const Eigen::VectorXd r = LogSim3(a_from_a.pose).head(size);
   return r.dot(factor.solve(r));
-}
-
-double LargestSigma(const Eigen::Matrix3d& covariance) {
-  return std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff());
 }
 
 }  // namespace plumbline

@@ -23,7 +23,4 @@ UncertainPose Inverse(const UncertainPose& b_from_a);
 // freedom, others seven. Infinite where the covariance is not positive definite.
 double ClosingChi2(const UncertainPose& a_from_a);
 
-// The standard deviation along the axis that is known worst, of a rotation or a translation.
-double LargestSigma(const Eigen::Matrix3d& covariance);
-
 }  // namespace plumbline

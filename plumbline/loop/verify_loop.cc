@@ -3,6 +3,7 @@
 #include "plumbline/loop/verify_loop.h"
 
 #include "plumbline/base/index.h"
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/loop/chance.h"
 #include "plumbline/loop/loop_search.h"
 #include "plumbline/loop/uncertain_pose.h"
