@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whether what a run takes for a place seen again is one, and what its gates refuse:
-// loop_gates [--mono] [--beside MAP.plb] [--verbose] SEQUENCE [FRAMES]
+// loop_gates [--mono] [--from K] [--beside MAP.plb] [--verbose] SEQUENCE [FRAMES]
 //
 // Runs the sequence (inline) and holds every keyframe that was compared with the newest one against
 // the truth: an edge is false where the two views share less than a tenth of what they show, or
@@ -49,7 +49,7 @@ struct Arguments {
   bool mono = false, verbose = false;
   std::optional<std::string> beside;
   std::string sequence;
-  std::size_t frames = SIZE_MAX;
+  std::size_t from = 0, frames = SIZE_MAX;
 };
 
 // How far a relative pose is from the truth.
@@ -356,8 +356,8 @@ void PrintRelocalizations(const System& system,
              foreign);
 }
 
-void Feed(const Dataset& dataset, std::size_t frames, System& system, Revisits& revisits) {
-  for (std::size_t i = 0; i < std::min(frames, dataset.size()); ++i) {
+void Feed(const Dataset& dataset, const Arguments& arguments, System& system, Revisits& revisits) {
+  for (std::size_t i = arguments.from; i < std::min(arguments.frames, dataset.size()); ++i) {
     auto frame = dataset.Read(i);
     if (frame) {
       system.Process(std::move(*frame));
@@ -392,7 +392,7 @@ void Run(const Arguments& arguments) {
   system.Observe(
       [&](const Atlas& atlas, const LoopAttempt& attempt) { gates.Count(atlas, attempt); });
   fmt::print("{}{}\n", arguments.sequence, arguments.mono ? ", one camera" : "");
-  Feed(*dataset, arguments.frames, system, revisits);
+  Feed(*dataset, arguments, system, revisits);
   gates.Print();
   revisits.Print();
   PrintRelocalizations(system, truth, revisits, arguments.mono);
@@ -412,6 +412,8 @@ Arguments Parse(int count, char** words) {
       arguments.mono = true;
     } else if (word == "--verbose") {
       arguments.verbose = true;
+    } else if (word == "--from" && i + 1 < count) {
+      arguments.from = static_cast<std::size_t>(std::atoi(words[++i]));
     } else if (word == "--beside" && i + 1 < count) {
       arguments.beside = words[++i];
     } else if (arguments.sequence.empty()) {
@@ -421,7 +423,7 @@ Arguments Parse(int count, char** words) {
     }
   }
   if (arguments.sequence.empty()) {
-    throw InputError("usage: loop_gates [--mono] [--beside MAP] [--verbose] SEQUENCE [FRAMES]");
+    throw InputError("usage: loop_gates [--mono] [--from K] [--beside MAP] [--verbose] SEQUENCE [FRAMES]");
   }
   return arguments;
 }
