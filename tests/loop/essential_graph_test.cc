@@ -55,6 +55,23 @@ TEST(EssentialGraph, PassesOverKeyFramesThatLeft) {
             KeyFrameId{22});
 }
 
+TEST(EssentialGraph, KnowsTheScaleWorseWhereTheCameraTurns) {
+  const LoopScene scene = MakeLoopScene({});
+  const DriftOptions drift{.log_scale = 0.02, .log_scale_per_turn = 0.1};
+  const EssentialGraph essential = MakeEssentialGraph(scene.map, true, drift, 100000);
+  double most = 0;
+  for (const PoseGraphEdge& edge : essential.graph.edges) {
+    const double angle = LogSo3(edge.to_from.rotation).norm();
+    most = std::max(most, angle);
+    EXPECT_NEAR(1 / edge.information(6, 6), 0.02 * 0.02 + 0.1 * 0.1 * angle * angle, 1e-12);
+  }
+  EXPECT_GT(most, 0.05);
+  for (const PoseGraphEdge& edge :
+       MakeEssentialGraph(scene.map, false, drift, 100000).graph.edges) {
+    EXPECT_EQ(edge.information(6, 6), 0);
+  }
+}
+
 TEST(ShareInformation, MakesAPathWithShortcutsAsStiffAsOneWithout) {
   // Of edges over one, two and three steps, six lead from any pose to what comes after it.
   PoseGraph graph;
