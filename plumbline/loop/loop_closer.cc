@@ -71,7 +71,42 @@ bool IsBesideAny(const Map& map, KeyFrameId candidate, const std::vector<KeyFram
   });
 }
 
+bool IsRefusedByOdometry(const LoopAttempt& attempt) {
+  return attempt.beyond_drift || attempt.inconsistent ||
+         attempt.unclosed == ClosingRefusal::kBendsOdometry;
+}
+
 }  // namespace
+
+// The essential graph of a map with the drift that odometry has as a rule and, with one camera, as
+// it has it at worst. Each is made when it is asked for.
+class LoopCloser::Drifts {
+ public:
+  Drifts(const Map& map, bool free_scale, const LoopOptions& options)
+      : map_(map), free_scale_(free_scale), options_(options) {}
+
+  bool MayBeLarger() const { return free_scale_; }
+
+  const EssentialGraph& Usual() {
+    DriftOptions drift = options_.drift;
+    drift.log_scale_per_turn = 0;
+    return Made(drift, usual_);
+  }
+  const EssentialGraph& Larger() { return Made(options_.drift, larger_); }
+
+ private:
+  const EssentialGraph& Made(const DriftOptions& drift, std::optional<EssentialGraph>& graph) {
+    if (!graph) {
+      graph = MakeEssentialGraph(map_, free_scale_, drift, options_.closing.strong_covisibility);
+    }
+    return *graph;
+  }
+
+  const Map& map_;
+  bool free_scale_;
+  const LoopOptions& options_;
+  std::optional<EssentialGraph> usual_, larger_;
+};
 
 LoopCloser::LoopCloser(const ImagingModel& imaging, const LoopOptions& options)
     : imaging_(imaging), options_(options) {}
@@ -97,30 +132,37 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
   if (map.Find(newest) == nullptr) return std::nullopt;
   const std::int64_t number = map.NumberOf(newest);
   if (last_closed_ >= 0 && number < last_closed_ + options_.closing.pause) return std::nullopt;
-  std::optional<EssentialGraph> essential;
+  Drifts drifts(map, imaging_.camera.baseline == 0, options_);
   std::vector<KeyFrameId> elsewhere;
   for (const KeyFrameId candidate : WorthTrying(map, newest, candidates)) {
     if (IsBesideAny(map, candidate, elsewhere)) continue;
-    LoopAttempt& attempt = attempts_.emplace_back();
-    attempt.query = newest;
-    attempt.candidate = candidate;
-    auto edge = VerifyLoop(map, newest, map, candidate, imaging_, options_.verification);
-    if (!edge) {
-      attempt.unverified = edge.error();
-      continue;
-    }
-    attempt.edge = *std::move(edge);
-    if (!essential) {
-      essential = MakeEssentialGraph(
-          map, imaging_.camera.baseline == 0, options_.drift, options_.closing.strong_covisibility);
-    }
-    auto closure = Close(map, *essential, attempt);
-    if (attempt.beyond_drift) elsewhere.push_back(candidate);
+    auto closure = TryCandidate(map, newest, candidate, drifts);
+    if (attempts_.back().beyond_drift) elsewhere.push_back(candidate);
     if (!closure) continue;
     last_closed_ = number;
     return closure;
   }
   return std::nullopt;
+}
+
+std::optional<LoopClosure> LoopCloser::TryCandidate(const Map& map,
+                                                    KeyFrameId newest,
+                                                    KeyFrameId candidate,
+                                                    Drifts& drifts) {
+  LoopAttempt& attempt = attempts_.emplace_back();
+  attempt.query = newest;
+  attempt.candidate = candidate;
+  auto edge = VerifyLoop(map, newest, map, candidate, imaging_, options_.verification);
+  if (!edge) {
+    attempt.unverified = edge.error();
+    return std::nullopt;
+  }
+  attempt.edge = *std::move(edge);
+  auto closure = Close(map, drifts.Usual(), attempt);
+  if (closure || !drifts.MayBeLarger() || !IsRefusedByOdometry(attempt)) return closure;
+  attempt.unclosed.reset();
+  attempt.drifted_far = true;
+  return Close(map, drifts.Larger(), attempt);
 }
 
 std::optional<LoopClosure> LoopCloser::Close(const Map& map,
@@ -166,9 +208,10 @@ bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, Loop
   if (attempt.uncertain) return false;
   attempt.inconsistent = !AgreesWithTheOthers(map, essential, *newest, odometry);
   if (attempt.inconsistent) return false;
-  // Nobody beside the query could be asked: another query must say the same.
-  attempt.waits =
-      edge.evidence.asked == 0 && !WasSaidBefore(map, essential, edge, *newest, odometry);
+  // Where nobody beside the query could be asked, or odometry speaks against it as a rule, another
+  // query must say the same.
+  attempt.waits = (edge.evidence.asked == 0 || attempt.drifted_far) &&
+                  !WasSaidBefore(map, essential, edge, *newest, odometry);
   if (attempt.waits) Wait(edge);
   return !attempt.waits;
 }

@@ -44,6 +44,7 @@ struct LoopAttempt {
   double drift_chi2 = 0;                  // of the edge against what odometry says
   std::optional<ClosingRefusal> unclosed;
   bool beyond_drift = false;  // odometry cannot be so wrong
+  bool drifted_far = false;   // it is more wrong than as a rule: one camera that turned
   bool uncertain = false;     // the edge says too little: a nearer view is to come
   bool inconsistent = false;  // the other loops say otherwise
   bool waits = false;         // for another keyframe that sees it
@@ -99,9 +100,15 @@ class LoopCloser {
   }
 
  private:
+  class Drifts;
+
   std::vector<KeyFrameId> WorthTrying(const Map& map,
                                       KeyFrameId newest,
                                       std::span<const KeyFrameId> candidates) const;
+  std::optional<LoopClosure> TryCandidate(const Map& map,
+                                          KeyFrameId newest,
+                                          KeyFrameId candidate,
+                                          Drifts& drifts);
   std::optional<LoopClosure> Close(const Map& map,
                                    const EssentialGraph& essential,
                                    LoopAttempt& attempt);

@@ -32,7 +32,7 @@ struct DriftOptions {
   double rotation_per_turn = 0.01;         // and this part of its rotation
   double translation_per_distance = 0.03;  // part of its length
   double log_scale = 0.01;                 // one camera: of each relative pose
-  double log_scale_per_turn = 0.04;        // and this times its rotation [1/rad]
+  double log_scale_per_turn = 0.04;        // and this times its rotation at worst [1/rad]
   double max_chi2 = 24.3;                  // 99.9 % of chi2 with seven degrees of freedom
 };
 

@@ -3,6 +3,7 @@
 #include "plumbline/loop/loop_closer.h"
 
 #include "tests/loop/loop_scene.h"
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,37 @@ TEST(LoopCloser, WaitsForALoopThatIsKnownWell) {
   EXPECT_TRUE(strict.loops().empty());
   LoopCloser usual(scene.Imaging(), {});
   EXPECT_TRUE(usual.Try(scene.map, kQuery, candidates));
+}
+
+// A scale that drifts further than it does as a rule is believed when a second keyframe finds it.
+TEST(LoopCloser, WantsTwoWitnessesWhereTheScaleDriftedFar) {
+  LoopSceneOptions options;
+  options.sensor.depth = false;
+  options.drift = [](int i) {
+    Similarity3 grown;
+    grown.scale = std::exp(0.006 * i);
+    return grown;
+  };
+  const LoopScene scene = MakeLoopScene(options);
+  LoopCloser closer(scene.Imaging(), {});
+  const std::vector<KeyFrameId> first{KeyFrameId{4}};
+  EXPECT_FALSE(closer.Try(scene.map, KeyFrameId{44}, first));
+  ASSERT_EQ(closer.attempts().size(), 1U);
+  EXPECT_TRUE(closer.attempts()[0].drifted_far);
+  EXPECT_TRUE(closer.attempts()[0].waits);
+  // The same keyframe again is no second one.
+  EXPECT_FALSE(closer.Try(scene.map, KeyFrameId{44}, first));
+  const std::vector<KeyFrameId> second{KeyFrameId{5}};
+  const auto closure = closer.Try(scene.map, kQuery, second);
+  ASSERT_TRUE(closure);
+  EXPECT_NEAR(std::log(closure->record.query_scale), -0.006 * 40, 0.03);
+
+  LoopOptions as_a_rule;
+  as_a_rule.drift.log_scale_per_turn = 0;
+  LoopCloser strict(scene.Imaging(), as_a_rule);
+  EXPECT_FALSE(strict.Try(scene.map, KeyFrameId{44}, first));
+  EXPECT_FALSE(strict.Try(scene.map, kQuery, second));
+  EXPECT_TRUE(strict.attempts()[0].beyond_drift);
 }
 
 TEST(LoopCloser, PausesAfterAClosure) {
