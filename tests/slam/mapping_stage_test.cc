@@ -140,7 +140,11 @@ TEST_P(MappingStageWithThread, ShowsMapsOnlyWhenTheyAreComplete) {
   MappingStage stage(world.Imaging(), WithLag(0, GetParam()));
   stage.Submit(0, KeyFrameAt(world, 0, -1), true);
   for (std::int64_t k = 1; k < 4; ++k) stage.Submit(k, KeyFrameAt(world, k, k - 1), false);
-  EXPECT_THROW(stage.maps(), BugError);
+  // The thread may be done already.
+  try {
+    EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 4U);
+  } catch (const BugError&) {
+  }
   stage.Finish();
   EXPECT_EQ(stage.maps().rbegin()->second.keyframes().size(), 4U);
   stage.maps().rbegin()->second.CheckInvariants();
