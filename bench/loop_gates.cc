@@ -423,7 +423,8 @@ Arguments Parse(int count, char** words) {
     }
   }
   if (arguments.sequence.empty()) {
-    throw InputError("usage: loop_gates [--mono] [--from K] [--beside MAP] [--verbose] SEQUENCE [FRAMES]");
+    throw InputError(
+        "usage: loop_gates [--mono] [--from K] [--beside MAP] [--verbose] SEQUENCE [FRAMES]");
   }
   return arguments;
 }

@@ -96,8 +96,9 @@ Matrix7d DriftInformation(const Similarity3& motion,
   Matrix7d information = Matrix7d::Zero();
   information.diagonal().head<3>().setConstant(1 / (rotation * rotation));
   information.diagonal().segment<3>(3).setConstant(1 / (translation * translation));
-  const double log_scale = std::hypot(drift.log_scale, drift.log_scale_per_turn * angle);
-  if (free_scale) information(6, 6) = 1 / (log_scale * log_scale);
+  const double turned = drift.log_scale_per_turn * angle;
+  const double log_scale_variance = drift.log_scale * drift.log_scale + turned * turned;
+  if (free_scale) information(6, 6) = 1 / log_scale_variance;
   return information;
 }
 
