@@ -6,7 +6,13 @@
 #include <utility>
 
 #if defined(__x86_64__)
+#if defined(__clang__)
+#define _Bool bool  // glibc's header has C's name, which GCC alone knows in C++
 #include <sys/platform/x86.h>
+#undef _Bool
+#else
+#include <sys/platform/x86.h>
+#endif
 #define PLUMBLINE_TARGET_AVX2 [[gnu::target("avx2,popcnt")]]
 #else
 #define PLUMBLINE_TARGET_AVX2

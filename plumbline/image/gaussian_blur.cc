@@ -22,7 +22,8 @@ struct BlurAlong {
                                                 const BlurWeights& weights,
                                                 int width,
                                                 std::uint16_t* blurred) {
-    const auto [w0, w1, w2, w3] = weights;
+    // Not by a structured binding, which not all compilers let a lambda see.
+    const auto w0 = weights[0], w1 = weights[1], w2 = weights[2], w3 = weights[3];
     ForBlocks<kBlock>(
         width, [&](int first, auto size) __attribute__((always_inline)) {
           std::uint16_t block[size];
@@ -46,7 +47,8 @@ struct BlurAcross {
                                                 const BlurWeights& weights,
                                                 int width,
                                                 std::uint8_t* blurred) {
-    const auto [r0, r1, r2, r3, r4, r5, r6] = rows;
+    const auto r0 = rows[0], r1 = rows[1], r2 = rows[2], r3 = rows[3], r4 = rows[4], r5 = rows[5],
+               r6 = rows[6];
     const std::uint32_t w0 = weights[0], w1 = weights[1], w2 = weights[2], w3 = weights[3];
     constexpr std::uint32_t kHalf = 1U << 15;
     ForBlocks<kBlock>(

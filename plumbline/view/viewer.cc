@@ -153,7 +153,7 @@ void Viewer::Deliver() {
   Mail mail;
   {
     const std::lock_guard lock(mutex_);
-    mail = std::exchange(mail_, Mail{counts_, {}, {}, {}, {}});
+    mail = std::exchange(mail_, Mail{mail_.counts, {}, {}, {}, {}});
     mail_posted_ = false;
   }
   state_.Take(mail.counts);
