@@ -22,7 +22,7 @@ struct BlurAlong {
                                                 const BlurWeights& weights,
                                                 int width,
                                                 std::uint16_t* blurred) {
-    // Not by a structured binding, which not all compilers let a lambda see.
+    // Clang 14 does not let a lambda capture the names of a structured binding.
     const auto w0 = weights[0], w1 = weights[1], w2 = weights[2], w3 = weights[3];
     ForBlocks<kBlock>(
         width, [&](int first, auto size) __attribute__((always_inline)) {

@@ -124,6 +124,11 @@ int EssentialGraph::PoseOf(KeyFrameId id) const {
   return static_cast<int>(place - keyframes.begin());
 }
 
+DriftOptions AsARule(DriftOptions drift) {
+  drift.log_scale_per_turn = 0;
+  return drift;
+}
+
 EssentialGraph MakeEssentialGraph(const Map& map,
                                   bool free_scale,
                                   const DriftOptions& drift,

@@ -29,6 +29,9 @@ struct EssentialGraph {
   int PoseOf(KeyFrameId id) const;
 };
 
+// The drift of odometry without what a single camera that turns may lose at worst.
+DriftOptions AsARule(DriftOptions drift);
+
 // free_scale: of a single camera. O(observations).
 EssentialGraph MakeEssentialGraph(const Map& map,
                                   bool free_scale,

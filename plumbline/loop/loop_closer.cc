@@ -87,11 +87,7 @@ class LoopCloser::Drifts {
 
   bool MayBeLarger() const { return free_scale_; }
 
-  const EssentialGraph& Usual() {
-    DriftOptions drift = options_.drift;
-    drift.log_scale_per_turn = 0;
-    return Made(drift, usual_);
-  }
+  const EssentialGraph& Usual() { return Made(AsARule(options_.drift), usual_); }
   const EssentialGraph& Larger() { return Made(options_.drift, larger_); }
 
  private:
@@ -161,6 +157,7 @@ std::optional<LoopClosure> LoopCloser::TryCandidate(const Map& map,
   auto closure = Close(map, drifts.Usual(), attempt);
   if (closure || !drifts.MayBeLarger() || !IsRefusedByOdometry(attempt)) return closure;
   attempt.unclosed.reset();
+  attempt.inconsistent = false;
   attempt.drifted_far = true;
   return Close(map, drifts.Larger(), attempt);
 }

@@ -68,8 +68,8 @@ Parts Agreeing(const Map& map,
                const std::vector<LoopEdge>& edges,
                bool free_scale,
                const LoopOptions& options) {
-  const EssentialGraph essential =
-      MakeEssentialGraph(map, free_scale, options.drift, options.closing.strong_covisibility);
+  const EssentialGraph essential = MakeEssentialGraph(
+      map, free_scale, AsARule(options.drift), options.closing.strong_covisibility);
   std::vector<PoseGraphEdge> loops;
   for (const LoopEdge& edge : edges) loops.push_back(*LoopAsEdge(map, essential, edge));
   OdometryWays odometry(essential.graph);
@@ -107,12 +107,13 @@ bool Bend(const std::vector<LoopEdge>& edges,
           bool free_scale,
           const LoopOptions& options,
           Map& map) {
-  const auto bent = CloseLoop(
-      map,
-      MakeEssentialGraph(map, free_scale, options.drift, options.closing.strong_covisibility),
-      std::span(edges).subspan(1),
-      edges.front(),
-      options);
+  const auto bent =
+      CloseLoop(map,
+                MakeEssentialGraph(
+                    map, free_scale, AsARule(options.drift), options.closing.strong_covisibility),
+                std::span(edges).subspan(1),
+                edges.front(),
+                options);
   if (!bent) return false;
   map.Apply(bent->edit);
   for (const LoopEdge& edge : std::span(edges).subspan(1)) {

@@ -101,7 +101,7 @@ TEST(LoopCloser, WantsTwoWitnessesWhereTheScaleDriftedFar) {
   ASSERT_EQ(closer.attempts().size(), 1U);
   EXPECT_TRUE(closer.attempts()[0].drifted_far);
   EXPECT_TRUE(closer.attempts()[0].waits);
-  // The same keyframe again is no second one.
+  // A keyframe that finds the loop twice is still a single witness.
   EXPECT_FALSE(closer.Try(scene.map, KeyFrameId{44}, first));
   const std::vector<KeyFrameId> second{KeyFrameId{5}};
   const auto closure = closer.Try(scene.map, kQuery, second);
