@@ -117,7 +117,7 @@ void Run() {
   std::puts("| update | compare [ms] | take [ms] | encode [ms] | bytes |\n|---|---|---|---|---|");
   Print("everything", LookOnce(comparison, viewed, atlas));
   while (comparison.HasMore()) LookOnce(comparison, viewed, atlas);
-  for (const int points : {0, 1000, 5000}) {
+  for (const int points : {0, 1000, 5000, kKeyFrames * kPointsEach}) {
     Cost mean;
     for (int i = 0; i < kLooks; ++i) {
       MoveSome(atlas.active(), points);

@@ -28,6 +28,11 @@ class Map {
   const std::map<PointId, MapPoint>& points() const { return points_.entries(); }
   const std::map<LineId, MapLine>& lines() const { return lines_.entries(); }
 
+  // The same, for those who follow what changes: by pages, each with the time of its last change.
+  const IdTable<KeyFrameId, KeyFrame>& keyframe_table() const { return keyframes_; }
+  const IdTable<PointId, MapPoint>& point_table() const { return points_; }
+  const IdTable<LineId, MapLine>& line_table() const { return lines_; }
+
   // nullptr where there is no such object (any more).
   const KeyFrame* Find(KeyFrameId id) const;
   const MapPoint* Find(PointId id) const;

@@ -58,17 +58,19 @@ bool HasMoved(const ShownKeyFrame& before, const ShownKeyFrame& now, const Shown
   return before != now;
 }
 
-// Both are in the order of ids. Makes `shown` what is to be shown now.
-template <class Entries, class T>
-ShownChanges<T> CompareAll(const Entries& entries,
-                           const ShownSession& session,
-                           const ShownPoint& eye,
-                           std::vector<std::pair<ShownId, T>>& shown) {
-  ShownChanges<T> changes;
+// Compares a page of a table with what was shown of it, `shown`, and makes `shown` what is to be
+// shown now. Both are in the order of ids.
+template <class Table, class T>
+void ComparePage(const Table& table,
+                 std::size_t page,
+                 const ShownSession& session,
+                 const ShownPoint& eye,
+                 std::vector<std::pair<ShownId, T>>& shown,
+                 ShownChanges<T>& changes) {
   std::vector<std::pair<ShownId, T>> next;
-  next.reserve(entries.size());
+  next.reserve(Table::kPage);
   auto before = shown.begin();
-  for (const auto& [id, entry] : entries) {
+  table.ForEachOfPage(page, [&](const auto& id, const auto& entry) {
     const auto name = static_cast<ShownId>(id.value);
     for (; before != shown.end() && before->first < name; ++before) {
       changes.gone.push_back(before->first);
@@ -82,13 +84,27 @@ ShownChanges<T> CompareAll(const Entries& entries,
     }
     if (known) ++before;
     next.emplace_back(name, now);
-  }
+  });
   for (; before != shown.end(); ++before) changes.gone.push_back(before->first);
   shown = std::move(next);
-  return changes;
 }
 
 }  // namespace
+
+template <class Table, class T>
+ShownChanges<T> MapComparison::CompareTable(const Table& table,
+                                            const ShownPoint& eye,
+                                            Shown<T>& shown) const {
+  ShownChanges<T> changes;
+  shown.pages.resize(std::max(shown.pages.size(), table.page_count()));
+  for (std::size_t page = 0; page < shown.pages.size(); ++page) {
+    const std::uint64_t changed = table.PageChanged(page);
+    const bool is_known = changed == 0 ? shown.pages[page].empty() : changed <= shown.changes;
+    if (!is_known) ComparePage(table, page, session_, eye, shown.pages[page], changes);
+  }
+  shown.changes = table.changes();
+  return changes;
+}
 
 MapChanges MapComparison::Compare(const Atlas& atlas) {
   MapChanges changes;
@@ -105,13 +121,13 @@ MapChanges MapComparison::Compare(const Atlas& atlas) {
     const Rigid3& pose = map.keyframes().rbegin()->second.frame.cam_from_world;
     eye = PointOf(Inverse(pose).translation);
   }
-  changes.points = CompareAll(map.points(), session_, eye, points_);
-  changes.lines = CompareAll(map.lines(), session_, eye, lines_);
-  const auto newest = keyframes_.empty() ? -1 : std::int64_t{keyframes_.back().first};
-  changes.keyframes = CompareAll(map.keyframes(), session_, eye, keyframes_);
-  for (auto it = map.keyframes().upper_bound(KeyFrameId{newest}); it != map.keyframes().end();
-       ++it) {
+  changes.points = CompareTable(map.point_table(), eye, points_);
+  changes.lines = CompareTable(map.line_table(), eye, lines_);
+  changes.keyframes = CompareTable(map.keyframe_table(), eye, keyframes_);
+  const auto& keyframes = map.keyframes();
+  for (auto it = keyframes.upper_bound(newest_); it != keyframes.end(); ++it) {
     without_neighbours_.push_back(it->first);
+    newest_ = it->first;
   }
   AddEdges(map, changes);
   return changes;

@@ -5,6 +5,7 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/view/map_changes.h"
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,9 +13,9 @@
 namespace plumbline {
 
 // Tells from look to look what has changed in the active map of an atlas. Landmarks that moved by
-// less than a 2000th of their distance from the newest keyframe, half a pixel of most cameras, stay
-// where they were shown until such moves add up. Remembers what it told: 16 bytes a point, 28 a
-// line.
+// less than a 2000th of their distance from the keyframe that is newest when they move, half a
+// pixel of most cameras, stay where they were shown until such moves add up. Remembers what it
+// told: 16 bytes a point, 28 a line.
 class MapComparison {
  public:
   // Keyframes whose neighbours are looked for in one look; those of others come with the next ones.
@@ -26,15 +27,22 @@ class MapComparison {
   // where each keyframe has the number that it had in its run.
   explicit MapComparison(std::optional<SessionId> session) : session_(session) {}
 
-  // One pass over the map: some 30 ns a landmark.
+  // Looks at what changed since the last look, by pages of the map's tables: some 30 ns for each
+  // landmark of a page in which one changed.
   MapChanges Compare(const Atlas& atlas);
   // Whether there are keyframes left whose neighbours were not looked for.
   bool HasMore() const { return !without_neighbours_.empty(); }
 
  private:
+  // What was told of one table, by its pages, and how many changes the table had had.
   template <class T>
-  using Shown = std::vector<std::pair<ShownId, T>>;  // by id
+  struct Shown {
+    std::vector<std::vector<std::pair<ShownId, T>>> pages;  // each by id
+    std::uint64_t changes = 0;
+  };
 
+  template <class Table, class T>
+  ShownChanges<T> CompareTable(const Table& table, const ShownPoint& eye, Shown<T>& shown) const;
   void AddEdges(const Map& map, MapChanges& changes);
 
   std::optional<SessionId> session_;
@@ -42,6 +50,7 @@ class MapComparison {
   Shown<ShownPoint> points_;
   Shown<ShownLine> lines_;
   Shown<ShownKeyFrame> keyframes_;
+  KeyFrameId newest_;                           // of those that were told
   std::vector<KeyFrameId> without_neighbours_;  // ascending
 };
 

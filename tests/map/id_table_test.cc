@@ -4,8 +4,10 @@
 
 #include "plumbline/base/ids.h"
 
+#include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +69,50 @@ TEST(IdTable, TheIndexStaysSmallWhereOldEntriesGo) {
   EXPECT_EQ(table.entries().size(), 500U);
   EXPECT_EQ(table.Find(PointId{99'499}), nullptr);
   EXPECT_EQ(*table.Find(PointId{99'500}), 99'500);
+}
+
+TEST(IdTable, APageKnowsWhenItChanged) {
+  IdTable<PointId, int> table;
+  table.Insert(PointId{1}, 1);
+  table.Insert(PointId{100}, 1);
+  ASSERT_EQ(table.page_count(), 2U);
+  std::uint64_t seen = table.changes();
+  const auto changed = [&](std::size_t page) {
+    return table.PageChanged(page) == 0 || table.PageChanged(page) > seen;
+  };
+  EXPECT_NE(std::as_const(table).Find(PointId{100}), nullptr);
+  EXPECT_EQ(table.Find(PointId{2}), nullptr);
+  EXPECT_FALSE(changed(0) || changed(1));
+  *table.Find(PointId{100}) = 2;
+  EXPECT_TRUE(!changed(0) && changed(1));
+  seen = table.changes();
+  table.Insert(PointId{2}, 1);
+  EXPECT_TRUE(changed(0) && !changed(1));
+  seen = table.changes();
+  table.Erase(PointId{2});
+  EXPECT_TRUE(changed(0) && !changed(1));
+  seen = table.changes();
+  table.Erase(PointId{100});
+  EXPECT_EQ(table.PageChanged(1), 0U);
+  table.Insert(PointId{101}, 1);
+  EXPECT_TRUE(!changed(0) && changed(1));
+  seen = table.changes();
+  for (auto& [id, entry] : table.entries()) ++entry;
+  EXPECT_TRUE(changed(0) && changed(1));
+  seen = table.changes();
+  table = IdTable<PointId, int>(table);
+  EXPECT_TRUE(changed(0) && changed(1));
+}
+
+TEST(IdTable, GoesThroughOnePage) {
+  IdTable<PointId, int> table;
+  for (const std::int64_t id : {3, 1, 63, 64}) table.Insert(PointId{id}, static_cast<int>(10 * id));
+  std::vector<std::pair<std::int64_t, int>> found;
+  table.ForEachOfPage(0,
+                      [&](PointId id, const int& entry) { found.emplace_back(id.value, entry); });
+  const std::vector<std::pair<std::int64_t, int>> expected{{1, 10}, {3, 30}, {63, 630}};
+  EXPECT_EQ(found, expected);
+  table.ForEachOfPage(2, [&](PointId, const int&) { FAIL(); });
 }
 
 }  // namespace

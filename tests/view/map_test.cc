@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/random.h"
 #include "plumbline/view/map_comparison.h"
 #include "plumbline/view/map_question.h"
 #include "plumbline/view/viewed_map.h"
 
 #include "tests/support/true_map.h"
+#include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +75,50 @@ TEST_F(MapSeen, MovesThatNobodySeesAddUp) {
   }
   EXPECT_GE(told, 1);
   EXPECT_LE(told, 7);
+}
+
+// Whatever happens to a map, what was told of it adds up to what a new look at all of it tells.
+TEST_F(MapSeen, WhatWasToldAddsUpToTheMap) {
+  Rng rng(7, "map seen");
+  std::map<ShownId, ShownPoint> points;
+  std::map<ShownId, ShownLine> lines;
+  const auto take = [](const auto& changes, auto& told) {
+    for (const auto& [id, value] : changes.set) told[id] = value;
+    for (const ShownId id : changes.gone) ASSERT_EQ(told.erase(id), 1U);
+  };
+  const auto change_something = [&]() -> MapChange {
+    const auto any = [&](const auto& entries) {
+      const auto n =
+          static_cast<std::ptrdiff_t>(rng.Uniform(0, static_cast<double>(entries.size())));
+      return std::next(entries.begin(), n)->first;
+    };
+    const PointId point = any(map().points());
+    const double what = rng.Uniform(0, 6);
+    if (what < 1) return edit::RemovePoint{point};
+    if (what < 2) return edit::RemoveLine{any(map().lines())};
+    if (what < 3) return edit::MovePoint{point, {rng.Uniform(-5, 5), 0, 9}};
+    if (what < 4) {
+      MapPoint added = *map().Find(point);
+      added.id = map().NextPointId();
+      added.observations = {};
+      added.observations.emplace(KeyFrameId{1}, static_cast<int>(rng.Uniform(0, 100)));
+      return edit::AddPoint{added};
+    }
+    if (what < 5) return edit::MergePoints{any(map().points()), point};
+    const Similarity3 right{1, Eigen::Quaterniond::Identity(), {0.5, 0, 0}};
+    return edit::MoveKeyFrames{{{any(map().keyframes()), right}}};
+  };
+  for (int look = 0; look < 60; ++look) {
+    const MapChanges changes = comparison_.Compare(atlas_);
+    take(changes.points, points);
+    take(changes.lines, lines);
+    const MapChanges all = MapComparison(SessionId{0}).Compare(atlas_);
+    using Points = std::vector<std::pair<ShownId, ShownPoint>>;
+    using Lines = std::vector<std::pair<ShownId, ShownLine>>;
+    ASSERT_EQ(Points(points.begin(), points.end()), all.points.set) << look;
+    ASSERT_EQ(Lines(lines.begin(), lines.end()), all.lines.set) << look;
+    for (int i = 0; i < 3; ++i) map().Apply({change_something()});
+  }
 }
 
 TEST_F(MapSeen, AnotherMapBeginsAnew) {
