@@ -39,7 +39,8 @@ class CMakeBuild(build_ext):
                        check=True)
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(BUILD / "python" / "plumbline" / target.name, target)
+        for name in (target.name, "libplumbline_opencv.so"):
+            shutil.copy2(BUILD / "python" / "plumbline" / name, target.parent / name)
 
 
 setuptools.setup(

@@ -3,6 +3,7 @@
 #include "apps/figure_file.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/image/image_codecs.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include <vector>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace plumbline {
@@ -48,9 +48,7 @@ std::string ToPng(const Figure& figure) {
     cv::putText(
         canvas, text.text, place, cv::FONT_HERSHEY_SIMPLEX, scale, Bgr(text.color), 1, cv::LINE_AA);
   }
-  std::vector<std::uint8_t> bytes;
-  PLUMBLINE_CHECK(cv::imencode(".png", canvas, bytes), "encoding a PNG image");
-  return {bytes.begin(), bytes.end()};
+  return EncodePng(canvas);
 }
 
 }  // namespace

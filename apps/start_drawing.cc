@@ -3,17 +3,16 @@
 #include "apps/start_drawing.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/image/image_codecs.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace plumbline {
@@ -103,10 +102,7 @@ void WriteStartDrawing(const InitialMap& map,
   Paste(*newest, camera.width, canvas);
   DrawLines(map, camera, canvas);
   DrawPoints(map, camera, canvas);
-  std::vector<std::uint8_t> bytes;
-  PLUMBLINE_CHECK(cv::imencode(".png", canvas, bytes), "encoding a PNG image");
-  WriteFileAtomically(path,
-                      std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  WriteFileAtomically(path, EncodePng(canvas));
 }
 
 }  // namespace plumbline

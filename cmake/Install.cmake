@@ -1,7 +1,6 @@
 # `cmake --install BUILD --prefix DIR`: the program, the static libraries, their headers, and the package
 # that find_package(plumbline) finds. Targets keep their names: plumbline::slam, plumbline::io, ...;
 # plumbline::plumbline is all of them. Components, which become Debian packages: program, dev.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(PublicHeaders)
 

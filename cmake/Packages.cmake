@@ -16,10 +16,10 @@ set(debian_package_spdlog "libspdlog-dev")
 set(debian_package_yaml-cpp "libyaml-cpp-dev")
 set(debian_package_zstd "libzstd-dev")
 
-# What libplumbline-dev depends on: what plumbline-config.cmake looks for, and libraries that are linked by
-# name alone.
+# What libplumbline-dev depends on: what plumbline-config.cmake looks for, libraries that are linked by
+# name alone, and the package with the library that is loaded for videos.
 function(plumbline_dev_dependencies result)
-  set(packages "libbz2-dev" "liblz4-dev")
+  set(packages "libbz2-dev" "liblz4-dev" "libspng-dev" "libturbojpeg0-dev" "libwebp-dev" "plumbline (= ${PROJECT_VERSION})")
   if(cutting_testbed IN_LIST PLUMBLINE_MODULES)
     list(APPEND packages "coinor-libipopt-dev" "libnlopt-cxx-dev")
   endif()
@@ -109,7 +109,7 @@ if(python IN_LIST components)
   # The module is made for one version of the interpreter.
   math(EXPR next_python_minor "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_python_minor}), python3-numpy")
+      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_python_minor}), python3-numpy, plumbline (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION
 "visual SLAM with points and straight lines - Python module
 Plumbline computes where a camera went and what it saw, from the images of

@@ -65,17 +65,22 @@ THIRD_PARTY = {
     "gtest/": None,
     "nlopt": r"lab/cutting_testbed/nlopt_\w+\.cc",
     "nlohmann/": r"(io|eval|report|foxglove|view|lab/experiments)/\w+\.cc",
-    "opencv2/": r"image/opencv_bridge\.h|"
+    "opencv2/": r"image/(opencv_bridge|opencv_modules|image_codecs)\.h|"
                 r"(image|features|initialization|io|live|report|view)/\w+\.cc",
     "spdlog/": r"base/log\.cc",
     "yaml-cpp/": r"((base|io)/\w+|lab/experiments/(printed_figures|gate))\.cc",
+    "spng.h": r"image/image_codecs\.cc",
+    "turbojpeg.h": r"image/image_codecs\.cc",
+    "webp/": r"image/image_codecs\.cc",
     "bzlib.h": r"recording/compression\.cc",
     "lz4": r"recording/compression\.cc",
     "zstd.h": r"(io/section_file|recording/(compression|mcap_file_writer))\.cc",
 }
 # Headers of the library that bring a heavy third-party header along: for .cc files only.
 HEAVY_HEADERS = {
+    "plumbline/image/image_codecs.h",
     "plumbline/image/opencv_bridge.h",
+    "plumbline/image/opencv_modules.h",
     "lab/ceres_reference/ceres_manifolds.h",
     "lab/ceres_reference/ceres_terms.h",
 }

@@ -4,12 +4,12 @@
 
 #include "plumbline/features/segment_drawing.h"
 #include "plumbline/image/opencv_bridge.h"
+#include "plumbline/image/opencv_modules.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/edge_drawing.hpp>
 
 namespace plumbline {
 namespace {
@@ -48,11 +48,7 @@ std::vector<Segment2> Lsd(const GrayImage& image, double scale) {
 }
 
 std::vector<Segment2> EdLines(const GrayImage& image) {
-  std::vector<cv::Vec4f> lines;
-  const auto drawing = cv::ximgproc::createEdgeDrawing();
-  drawing->detectEdges(AsMat(image));
-  drawing->detectLines(lines);
-  return ToSegments(lines);
+  return ToSegments(LoadOpenCvModules().EdgeDrawingLines(AsMat(image)));
 }
 
 }  // namespace

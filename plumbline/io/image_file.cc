@@ -4,7 +4,9 @@
 
 #include "plumbline/base/crc32.h"
 #include "plumbline/geometry/plausible_calibration.h"
+#include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
+#include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/decoder_messages.h"
 
 #include <algorithm>
@@ -45,6 +47,10 @@ bool HasText(Bytes bytes, std::size_t at, std::string_view text) {
   }
   return true;
 }
+
+bool IsPng(Bytes bytes) { return HasText(bytes, 0, "\x89PNG\r\n\x1a\n"); }
+bool IsJpeg(Bytes bytes) { return HasText(bytes, 0, "\xFF\xD8\xFF"); }
+bool IsWebp(Bytes bytes) { return HasText(bytes, 0, "RIFF") && HasText(bytes, 8, "WEBP"); }
 
 // Chunks of length, type, data, CRC up to IEND.
 std::optional<std::string> PngDamage(Bytes bytes) {
@@ -89,16 +95,14 @@ std::optional<std::string> WebpDamage(Bytes bytes) {
   return std::nullopt;
 }
 
-// Empty when the decoder refuses.
+// Empty when the decoder refuses. flags: of cv::imdecode, for files that are not decoded here.
 cv::Mat Decode(Bytes bytes, int flags) {
   const DecoderCall call;
-  const cv::Mat row(
-      1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data()));
-  try {
-    return cv::imdecode(row, flags);
-  } catch (const cv::Exception&) {
-    return {};
-  }
+  cv::Mat image;
+  if (IsPng(bytes)) image = DecodePng(bytes);
+  if (IsJpeg(bytes)) image = DecodeJpeg(bytes);
+  if (IsWebp(bytes)) image = DecodeWebp(bytes);
+  return image.empty() ? LoadOpenCvModules().DecodeImage(bytes, flags) : image;
 }
 
 // The bytes of a file.
@@ -133,6 +137,16 @@ Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
   return *size;
 }
 
+// Grey levels of 16 bits in 8.
+GrayImage UpperBytes(const cv::Mat& mat) {
+  GrayImage gray(mat.cols, mat.rows);
+  for (int y = 0; y < mat.rows; ++y) {
+    const auto* in = mat.ptr<std::uint16_t>(y);
+    for (int x = 0; x < mat.cols; ++x) gray.at(x, y) = static_cast<std::uint8_t>(in[x] >> 8U);
+  }
+  return gray;
+}
+
 Expected<cv::Mat, ImageFailure> DecodeMat(const std::filesystem::path& path,
                                           Bytes bytes,
                                           int flags,
@@ -153,9 +167,9 @@ Expected<cv::Mat, ImageFailure> DecodeMat(const std::filesystem::path& path,
 }  // namespace
 
 std::optional<std::string> FindDamage(std::span<const std::uint8_t> bytes) {
-  if (HasText(bytes, 0, "\x89PNG\r\n\x1a\n")) return PngDamage(bytes);
-  if (HasText(bytes, 0, "\xFF\xD8\xFF")) return JpegDamage(bytes);
-  if (HasText(bytes, 0, "RIFF") && HasText(bytes, 8, "WEBP")) return WebpDamage(bytes);
+  if (IsPng(bytes)) return PngDamage(bytes);
+  if (IsJpeg(bytes)) return JpegDamage(bytes);
+  if (IsWebp(bytes)) return WebpDamage(bytes);
   return std::nullopt;
 }
 
@@ -173,6 +187,7 @@ Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& n
       DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
   if (!mat) return mat.error();
   if (mat->type() == CV_8UC1) return ToImage<std::uint8_t>(*mat);
+  if (mat->type() == CV_16UC1) return UpperBytes(*mat);
   if (mat->type() != CV_8UC3) return ImageFailure{name, "neither a grey nor a colour image"};
   GrayImage gray(mat->cols, mat->rows);
   cv::Mat out = AsMat(gray);

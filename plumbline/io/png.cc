@@ -3,13 +3,13 @@
 #include "plumbline/io/png.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <cmath>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace plumbline {
@@ -28,12 +28,6 @@ cv::Scalar Bgr(const Color& color) { return {double(color.b), double(color.g), d
 
 bool Drawable(const Eigen::Vector2d& px) {
   return px.allFinite() && px.cwiseAbs().maxCoeff() < 1e6;
-}
-
-std::string Encode(const cv::Mat& mat) {
-  std::vector<std::uint8_t> bytes;
-  PLUMBLINE_CHECK(cv::imencode(".png", mat, bytes), "encoding a PNG image");
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -57,12 +51,12 @@ std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay) {
     const int radius = 2 << kShift;
     cv::circle(canvas, FixedPoint(drawn.px), radius, Bgr(drawn.color), 1, cv::LINE_AA, kShift);
   }
-  return Encode(canvas);
+  return EncodePng(canvas);
 }
 
 void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image) {
   PLUMBLINE_CHECK(!image.empty(), "an image without pixels");
-  WriteFileAtomically(path, Encode(AsMat(image)));
+  WriteFileAtomically(path, EncodePng(AsMat(image)));
 }
 
 void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, double factor) {
@@ -75,7 +69,7 @@ void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, d
       values(y, x) = value >= 0 && value <= kLargest ? static_cast<std::uint16_t>(value) : 0;
     }
   }
-  WriteFileAtomically(path, Encode(values));
+  WriteFileAtomically(path, EncodePng(values));
 }
 
 void WriteOverlayPng(const std::filesystem::path& path,

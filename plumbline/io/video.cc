@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
+#include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/decoder_messages.h"
 #include "plumbline/io/image_dataset.h"
@@ -29,19 +30,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-cv::VideoCapture OpenCapture(const fs::path& path) {
+std::unique_ptr<VideoCapture> OpenCapture(const fs::path& path) {
   const DecoderCall call;
-  cv::VideoCapture capture;
+  std::unique_ptr<VideoCapture> capture = LoadOpenCvModules().NewVideoCapture();
+  bool is_open = false;
   try {
-    capture.open(path.string(), cv::CAP_FFMPEG);  // others talk to the terminal
+    is_open = capture->Open(path.string(), cv::CAP_FFMPEG);  // others talk to the terminal
   } catch (const cv::Exception&) {
-    capture.release();
+    is_open = false;
   }
-  if (!capture.isOpened()) {
+  if (!is_open) {
     throw InputError(path.string() +
                      ": expected a folder or a video, found a file that cannot be decoded");
   }
-  capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
+  capture->Set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
   return capture;
 }
 
@@ -59,15 +61,15 @@ bool Increasing(const std::vector<std::int64_t>& stamps) {
 
 VideoContent Scan(const fs::path& path) {
   const DecoderCall call;
-  cv::VideoCapture capture = OpenCapture(path);
+  const std::unique_ptr<VideoCapture> capture = OpenCapture(path);
   VideoContent content;
-  content.width = static_cast<int>(capture.get(cv::CAP_PROP_FRAME_WIDTH));
-  content.height = static_cast<int>(capture.get(cv::CAP_PROP_FRAME_HEIGHT));
-  content.announced_frames = capture.get(cv::CAP_PROP_FRAME_COUNT);
-  const double rate = capture.get(cv::CAP_PROP_FPS);
+  content.width = static_cast<int>(capture->Get(cv::CAP_PROP_FRAME_WIDTH));
+  content.height = static_cast<int>(capture->Get(cv::CAP_PROP_FRAME_HEIGHT));
+  content.announced_frames = capture->Get(cv::CAP_PROP_FRAME_COUNT);
+  const double rate = capture->Get(cv::CAP_PROP_FPS);
   if (!RateFault(rate)) content.rate_hz = rate;
-  while (capture.grab()) {
-    const double milliseconds = capture.get(cv::CAP_PROP_POS_MSEC);
+  while (capture->Grab()) {
+    const double milliseconds = capture->Get(cv::CAP_PROP_POS_MSEC);
     // Times that cannot be do not increase, so that the rate takes their place.
     const bool plausible = std::abs(1e6 * milliseconds) <= static_cast<double>(kLatestStampNs);
     content.stamps_ns.push_back(plausible ? std::llround(1e6 * milliseconds) : 0);
@@ -102,11 +104,11 @@ class VideoDataset : public Dataset {
       next_ = 0;
     }
     while (next_ <= i) {
-      if (!capture_.grab()) return Failure(i, "the video ends early");
+      if (!capture_->Grab()) return Failure(i, "the video ends early");
       ++next_;
     }
     cv::Mat image;
-    if (!capture_.retrieve(image) || image.empty()) return Failure(i, "it cannot be decoded");
+    if (!capture_->Retrieve(image) || image.empty()) return Failure(i, "it cannot be decoded");
     if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
     if (image.type() != CV_8UC1) return Failure(i, "expected 8 bits a colour");
     frame.left = ToImage<std::uint8_t>(image);
@@ -119,7 +121,7 @@ class VideoDataset : public Dataset {
   }
 
   mutable std::mutex mutex_;
-  mutable cv::VideoCapture capture_;
+  mutable std::unique_ptr<VideoCapture> capture_;
   mutable std::size_t next_ = 0;  // frame that the capture gives next
 };
 

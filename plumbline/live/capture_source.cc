@@ -3,6 +3,7 @@
 #include "plumbline/live/capture_source.h"
 
 #include "plumbline/base/printable.h"
+#include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/decoder_messages.h"
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/live/live_camera.h"
@@ -12,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <memory>
 #include <system_error>
 #include <thread>
 
@@ -36,26 +38,26 @@ std::optional<int> DeviceNumber(const std::string& device) {
   return whole && number >= 0 && number <= kHighestNumber ? std::optional(number) : std::nullopt;
 }
 
-bool OpenDevice(cv::VideoCapture& capture, const std::string& device) {
-  if (const auto number = DeviceNumber(device)) return capture.open(*number, cv::CAP_V4L2);
-  return capture.open(device, cv::CAP_V4L2);
+bool OpenDevice(VideoCapture& capture, const std::string& device) {
+  if (const auto number = DeviceNumber(device)) return capture.Open(*number, cv::CAP_V4L2);
+  return capture.Open(device, cv::CAP_V4L2);
 }
 
-bool OpenAs(LiveKind kind, cv::VideoCapture& capture, const std::string& what) {
+bool OpenAs(LiveKind kind, VideoCapture& capture, const std::string& what) {
   const DecoderCall call;
   try {
     switch (kind) {
       case LiveKind::kCamera:
         return OpenDevice(capture, what);
       case LiveKind::kNetwork:
-        return capture.open(what,
+        return capture.Open(what,
                             cv::CAP_FFMPEG,
                             {cv::CAP_PROP_OPEN_TIMEOUT_MSEC,
                              kTimeoutMs,
                              cv::CAP_PROP_READ_TIMEOUT_MSEC,
                              kTimeoutMs});
       case LiveKind::kGstreamer:
-        return capture.open(what, cv::CAP_GSTREAMER);
+        return capture.Open(what, cv::CAP_GSTREAMER);
       case LiveKind::kStandardInput:
         break;
     }
@@ -117,8 +119,8 @@ class CaptureDevices {
   bool Open() {
     captures_.clear();
     for (const std::string& part : parts_) {
-      captures_.emplace_back();
-      if (!OpenAs(kind_, captures_.back(), part)) return false;
+      captures_.push_back(LoadOpenCvModules().NewVideoCapture());
+      if (!OpenAs(kind_, *captures_.back(), part)) return false;
     }
     return true;
   }
@@ -131,15 +133,15 @@ class CaptureDevices {
     const DecoderCall call;
     Taken taken;
     try {
-      for (cv::VideoCapture& capture : captures_) {
-        if (!capture.grab()) return std::nullopt;
+      for (const auto& capture : captures_) {
+        if (!capture->Grab()) return std::nullopt;
         if (&capture != captures_.data()) continue;
         const bool camera = kind_ == LiveKind::kCamera;
-        taken.stamp_ns = clock_.StampOf(camera ? capture.get(cv::CAP_PROP_POS_MSEC) : 0);
+        taken.stamp_ns = clock_.StampOf(camera ? capture->Get(cv::CAP_PROP_POS_MSEC) : 0);
       }
-      for (cv::VideoCapture& capture : captures_) {
+      for (const auto& capture : captures_) {
         taken.images.emplace_back();
-        if (!capture.retrieve(taken.images.back())) taken.images.back().release();
+        if (!capture->Retrieve(taken.images.back())) taken.images.back().release();
       }
     } catch (const cv::Exception&) {
       return std::nullopt;
@@ -150,7 +152,7 @@ class CaptureDevices {
  private:
   LiveKind kind_;
   std::vector<std::string> parts_;  // what is opened
-  std::vector<cv::VideoCapture> captures_;
+  std::vector<std::unique_ptr<VideoCapture>> captures_;
   FrameClock clock_;
 };
 
@@ -171,6 +173,7 @@ struct Opened {
 // GStreamer waits for ever for a pipeline that cannot start: it is left to a thread that may stay
 // behind.
 Opened OpenPatiently(const std::string& name, LiveKind kind, std::chrono::milliseconds patience) {
+  LoadOpenCvModules();  // here, since the program may end while that thread goes on
   std::packaged_task<Opened()> open([name, kind] {
     CaptureDevices devices(name, kind);
     std::optional<Taken> first = devices.Take();

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/sample_image.h"
 
-#include "plumbline/base/error.h"
+#include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace plumbline {
@@ -14,7 +13,7 @@ namespace {
 constexpr int kMaxWidth = 1280;
 constexpr int kJpegQuality = 80;
 
-std::string EncodeJpeg(const GrayImage& image) {
+std::string SmallJpegOf(const GrayImage& image) {
   cv::Mat pixels = AsMat(image);
   if (pixels.cols > kMaxWidth) {
     const double scale = static_cast<double>(kMaxWidth) / pixels.cols;
@@ -22,10 +21,7 @@ std::string EncodeJpeg(const GrayImage& image) {
     cv::resize(pixels, smaller, {}, scale, scale, cv::INTER_AREA);
     pixels = smaller;
   }
-  std::vector<unsigned char> bytes;
-  PLUMBLINE_CHECK(cv::imencode(".jpg", pixels, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}),
-                  "a grey image can be encoded");
-  return {bytes.begin(), bytes.end()};
+  return EncodeJpeg(pixels, kJpegQuality);
 }
 
 }  // namespace
@@ -36,7 +32,7 @@ SampleImage MakeSampleImage(const FrameView& view, const std::string& file) {
   sample.file = file;
   sample.width = view.images.left.width();
   sample.height = view.images.left.height();
-  sample.jpeg = EncodeJpeg(view.images.left);
+  sample.jpeg = SmallJpegOf(view.images.left);
   const Features& features = view.frame.features();
   for (std::size_t i = 0; i < features.points.size(); ++i) {
     const bool matched = view.frame.points[i].valid();

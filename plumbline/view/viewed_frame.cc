@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/view/viewed_frame.h"
 
+#include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/slam/load_shedding.h"
 
 #include <limits>
-
-#include <opencv2/imgcodecs.hpp>
 
 namespace plumbline {
 namespace {
@@ -85,9 +84,7 @@ ViewedFrame ViewedFrameOf(const KeyFrame& keyframe) {
 
 std::string JpegOf(const GrayImage& image) {
   if (image.empty()) return {};
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", AsMat(image), bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  return {bytes.begin(), bytes.end()};
+  return EncodeJpeg(AsMat(image), kJpegQuality);
 }
 
 std::array<ImageMarks, 4> MarksOf(const ViewedFrame& frame) {
