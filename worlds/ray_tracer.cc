@@ -133,10 +133,14 @@ class BodyTree {
   RTCScene tree_;
 };
 
+// Embree rounds in another way with each of its instruction sets. With the one that every processor
+// of the architecture has, a world has the same images everywhere.
+constexpr const char* kDeviceSettings = "threads=1,isa=sse2";
+
 class RayTracer::Implementation {
  public:
   explicit Implementation(const Scene& scene)
-      : device_(rtcNewDevice("threads=1")), bodies_(scene.bodies) {
+      : device_(rtcNewDevice(kDeviceSettings)), bodies_(scene.bodies) {
     PLUMBLINE_CHECK(device_ != nullptr, "ray tracing device");
     std::vector<std::vector<unsigned>> parts(1 + scene.bodies.size());
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "worlds/write_sequence.h"
 
+#include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
@@ -56,6 +57,17 @@ TEST(SyntheticSequence, BytesDoNotDependOnThreads) {
     ASSERT_TRUE(two.contains(name)) << name;
     EXPECT_TRUE(two.at(name) == bytes) << name;
   }
+}
+
+// Sums of pixels that were rendered elsewhere: a processor with other vector instructions must
+// not round in another way.
+TEST(SyntheticSequence, ImagesAreTheSameOnEveryProcessor) {
+  const auto checksum = [](const char* world) {
+    const GrayImage image = SyntheticSequence(world, Small(), 1).RenderImage(0, 0);
+    return Crc32({image.data(), static_cast<std::size_t>(image.width() * image.height())});
+  };
+  EXPECT_EQ(checksum("room"), 3981160820U);
+  EXPECT_EQ(checksum("lowtexture"), 554163989U);
 }
 
 TEST(SyntheticSequence, SeedsMakeDifferentImages) {
