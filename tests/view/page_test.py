@@ -54,16 +54,19 @@ def wait(what, condition):
     sys.exit(f"page_test: waited in vain until {what}")
 
 
-# How many pixels of the camera's canvas have a colour: the image is grey, features are not.
-COLOURED = """
+# How many pixels of the camera's canvas have a colour, and how many are grey but not black: the image
+# is grey, features are not.
+PIXELS = """
 const canvas = document.querySelector("#camera canvas");
 const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-let coloured = 0;
+let coloured = 0, grey = 0;
 for (let i = 0; i < data.length; i += 4) {
   const low = Math.min(data[i], data[i + 1], data[i + 2]);
-  if (Math.max(data[i], data[i + 1], data[i + 2]) - low > 60) ++coloured;
+  const difference = Math.max(data[i], data[i + 1], data[i + 2]) - low;
+  if (difference > 60) ++coloured;
+  if (difference < 5 && low > 20) ++grey;
 }
-return coloured;
+return {coloured, grey, all: data.length / 4};
 """
 STATE = """
 const s = window.plumbline;
@@ -77,8 +80,9 @@ return {updates: s.updates, session: s.session, frame: s.frame && (s.frame.numbe
 def check_growth(browser, shot):
     state = lambda: browser.execute_script(STATE)
     wait("there is an image", lambda: state()["frame"] is not None)
-    coloured = wait("features are drawn", lambda: browser.execute_script(COLOURED))
-    assert coloured > 500, coloured
+    pixels = lambda: browser.execute_script(PIXELS)
+    wait("features are drawn", lambda: pixels()["coloured"] > 500)
+    wait("the image is drawn", lambda: pixels()["grey"] > 0.3 * pixels()["all"])
     first = wait("there is a map", lambda: state()["keyframes"] > 2 and state())
     shot("begin")
     later = wait("the map grows", lambda: state()["keyframes"] > first["keyframes"] + 3 and state())
