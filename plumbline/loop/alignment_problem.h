@@ -15,12 +15,6 @@ namespace plumbline {
 // The relative pose of two cameras from landmarks that both of them know, as plain data: "query"
 // and "candidate" are cameras, everything is in the frame and the unit of one of them.
 
-// The keyframes that made the landmarks of a match. The errors of landmarks that one keyframe made
-// have much in common: its pose.
-struct Makers {
-  KeyFrameId of_query, of_candidate;
-};
-
 // A point in the frame of a camera.
 struct CameraPoint {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -30,18 +24,15 @@ struct CameraPoint {
 struct AlignmentProblem {
   struct PointPair {
     CameraPoint in_query, in_candidate;
-    Makers makers = {};
   };
   struct LinePair {
     LineModel in_query, in_candidate;
-    Makers makers = {};
   };
   // A point that only one of the two knows the place of; the other one saw it.
   struct Sighting {
     bool known_to_query = true;
     CameraPoint point;
     PointMeasurement measurement;  // by the other
-    Makers makers = {};            // one of the two
   };
 
   RectifiedCamera camera;

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -174,29 +173,6 @@ class Evaluator {
   Eigen::Matrix3d turn_;
 };
 
-using Gradients = std::map<KeyFrameId, Vector7d>;  // by the keyframe that made landmarks
-
-void AddTo(Gradients& gradients, KeyFrameId maker, const Vector7d& g) {
-  if (maker.valid()) gradients.try_emplace(maker, Vector7d::Zero()).first->second += g;
-}
-
-// The squares of independent groups.
-Matrix7d Squares(const Gradients& gradients) {
-  Matrix7d squares = Matrix7d::Zero();
-  for (const auto& [maker, g] : gradients) squares += g * g.transpose();
-  const auto groups = static_cast<double>(gradients.size());
-  return groups < 2 ? Matrix7d(Matrix7d::Zero()) : Matrix7d(squares * (groups / (groups - 1)));
-}
-
-struct GradientsOfBoth {
-  Gradients by_query, by_candidate;
-
-  void Add(const Makers& makers, const Vector7d& g) {
-    AddTo(by_query, makers.of_query, g);
-    AddTo(by_candidate, makers.of_candidate, g);
-  }
-};
-
 // Normal equations of all matches that agree.
 struct Equations {
   Matrix7d H = Matrix7d::Zero();
@@ -205,17 +181,14 @@ struct Equations {
   int rows = 0;
   int matches = 0;
 
-  // Returns what it adds to the gradient.
-  Vector7d Add(const Residual& residual) {
+  void Add(const Residual& residual) {
     const double squared = residual.r.squaredNorm();
     const double weight = HuberWeight(squared, kHuber);
     H.noalias() += weight * residual.J.transpose() * residual.J;
-    const Vector7d gradient = weight * residual.J.transpose() * residual.r;
-    g += gradient;
+    g.noalias() += weight * residual.J.transpose() * residual.r;
     chi2 += squared;
     rows += residual.rows;
     ++matches;
-    return gradient;
   }
 };
 
@@ -224,28 +197,23 @@ void AddAll(const Evaluator& evaluate,
             const std::vector<Match>& matches,
             double gate,
             std::vector<bool>& agree,
-            Equations& equations,
-            GradientsOfBoth* gradients) {
+            Equations& equations) {
   agree.assign(matches.size(), false);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     Residual residual;
     if (!evaluate(matches[i], true, residual)) continue;
     if (residual.r.squaredNorm() > gate * Chi2Limit95(residual.rows)) continue;
     agree[i] = true;
-    const Vector7d gradient = equations.Add(residual);
-    if (gradients != nullptr) gradients->Add(matches[i].makers, gradient);
+    equations.Add(residual);
   }
 }
 
-Equations Linearize(const AlignmentProblem& problem,
-                    double gate,
-                    AlignmentResult& at,
-                    GradientsOfBoth* gradients = nullptr) {
+Equations Linearize(const AlignmentProblem& problem, double gate, AlignmentResult& at) {
   const Evaluator evaluate(problem.camera, at.candidate_from_query);
   Equations equations;
-  AddAll(evaluate, problem.points, gate, at.points, equations, gradients);
-  AddAll(evaluate, problem.lines, gate, at.lines, equations, gradients);
-  AddAll(evaluate, problem.sightings, gate, at.sightings, equations, gradients);
+  AddAll(evaluate, problem.points, gate, at.points, equations);
+  AddAll(evaluate, problem.lines, gate, at.lines, equations);
+  AddAll(evaluate, problem.sightings, gate, at.sightings, equations);
   return equations;
 }
 
@@ -357,21 +325,6 @@ std::optional<AlignmentResult> RefineAlignment(const AlignmentProblem& problem,
     if (step.norm() < kTolerance) break;
   }
   return result;
-}
-
-Matrix7d CommonErrors(const AlignmentProblem& problem,
-                      const AlignmentResult& refined,
-                      double gate) {
-  const int size = problem.free_scale ? 7 : 6;
-  AlignmentResult at = refined;
-  GradientsOfBoth gradients;
-  const Equations equations = Linearize(problem, gate, at, &gradients);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(equations.H.topLeftCorner(size, size));
-  const Matrix7d squares = Squares(gradients.by_query) + Squares(gradients.by_candidate);
-  const Eigen::MatrixXd half = factor.solve(squares.topLeftCorner(size, size));
-  Matrix7d covariance = Matrix7d::Zero();
-  covariance.topLeftCorner(size, size) = factor.solve(half.transpose());
-  return covariance;
 }
 
 }  // namespace plumbline

@@ -43,11 +43,4 @@ std::optional<AlignmentResult> RefineAlignment(const AlignmentProblem& problem,
                                                const Similarity3& near,
                                                double gate);
 
-// What the landmarks' common errors leave open of a refined alignment, to be added to its
-// covariance: that which takes matches for independent is far too small where one of the two maps
-// is bent. Gradients are summed by the keyframe that made the landmarks, on either side, and their
-// squares take the place of the noise that the model expects (the covariance of Liang and Zeger
-// 1986, "sandwich", with its factor for few groups). Zero where a side has one group. O(matches).
-Matrix7d CommonErrors(const AlignmentProblem& problem, const AlignmentResult& refined, double gate);
-
 }  // namespace plumbline

@@ -143,20 +143,15 @@ const CameraPoint& LoopSearch::InCandidate(PointId id) {
 
 void LoopSearch::AddPair(PointId in_query, PointId in_candidate, LoopMatches& matches) {
   matches.points.push_back({in_query, in_candidate});
-  matches.problem.points.push_back(
-      {InQuery(in_query),
-       InCandidate(in_candidate),
-       {query_map_.Find(in_query)->created_by, candidate_map_.Find(in_candidate)->created_by}});
+  matches.problem.points.push_back({InQuery(in_query), InCandidate(in_candidate)});
 }
 
 void LoopSearch::AddPair(LineId in_query, LineId in_candidate, LoopMatches& matches) {
   matches.lines.push_back({in_query, in_candidate});
-  const MapLine& query_line = *query_map_.Find(in_query);
-  const MapLine& candidate_line = *candidate_map_.Find(in_candidate);
   matches.problem.lines.push_back(
-      {LineInCamera(query_line, query_.keyframe->frame.cam_from_world),
-       LineInCamera(candidate_line, candidate_.keyframe->frame.cam_from_world),
-       {query_line.created_by, candidate_line.created_by}});
+      {LineInCamera(*query_map_.Find(in_query), query_.keyframe->frame.cam_from_world),
+       LineInCamera(*candidate_map_.Find(in_candidate),
+                    candidate_.keyframe->frame.cam_from_world)});
 }
 
 LoopMatches LoopSearch::MatchByLooks(const LoopVerificationOptions& options) {
@@ -196,10 +191,8 @@ void LoopSearch::AddFoundInCandidate(const SearchedImage& found, LoopMatches& ma
     const PointId in_query = query_.points[Index(match.landmark)]->id;
     const PointId in_candidate = frame.points[Index(match.feature)];
     if (!in_candidate.valid()) {
-      matches.problem.sightings.push_back({true,
-                                           InQuery(in_query),
-                                           MeasurePoint(frame.features(), Index(match.feature)),
-                                           {query_map_.Find(in_query)->created_by, {}}});
+      matches.problem.sightings.push_back(
+          {true, InQuery(in_query), MeasurePoint(frame.features(), Index(match.feature))});
     } else if (!std::binary_search(common_points_.begin(), common_points_.end(), in_candidate)) {
       AddPair(in_query, in_candidate, matches);
     }
@@ -218,10 +211,8 @@ void LoopSearch::AddFoundInQuery(const SearchedImage& found, LoopMatches& matche
     const PointId in_query = frame.points[Index(match.feature)];
     const PointId in_candidate = candidate_.points[Index(match.landmark)]->id;
     if (!in_query.valid()) {
-      matches.problem.sightings.push_back({false,
-                                           InCandidate(in_candidate),
-                                           MeasurePoint(frame.features(), Index(match.feature)),
-                                           {{}, candidate_map_.Find(in_candidate)->created_by}});
+      matches.problem.sightings.push_back(
+          {false, InCandidate(in_candidate), MeasurePoint(frame.features(), Index(match.feature))});
     } else if (!std::binary_search(common_points_.begin(), common_points_.end(), in_query)) {
       AddPair(in_query, in_candidate, matches);
     }

@@ -199,7 +199,7 @@ class Verification {
         RefineAlignment(found_.matches.problem, closer->candidate_from_query, kLastGate);
     if (!last || WeightedCount(*last) < options_.min_inliers) return LoopRefusal::kFewInliers;
     result_ = *last;
-    LimitCertainty(found_.matches.problem);
+    LimitCertainty();
     return std::nullopt;
   }
 
@@ -330,14 +330,13 @@ class Verification {
     const Similarity3 change = agree->candidate_from_query * Inverse(result_.candidate_from_query);
     if (ClosingChi2({change, result_.covariance}) > kMaxChange) return;
     result_ = *agree;
-    LimitCertainty(problem);
+    LimitCertainty();
   }
 
   // Errors of landmarks have much in common: the keyframes they hang on, the calibration.
-  void LimitCertainty(const AlignmentProblem& problem) {
+  void LimitCertainty() {
     result_.covariance *=
         std::max(1.0, static_cast<double>(WeightedCount(result_)) / options_.independent_matches);
-    result_.covariance += CommonErrors(problem, result_, kLastGate);
   }
 
   LoopEdge Edge() const {

@@ -194,54 +194,5 @@ TEST(AlignByRansac, NeedsThreeMatches) {
   EXPECT_FALSE(AlignByRansac(scene.problem, 0));
 }
 
-// The map of the query is bent: what each of sixteen keyframes made is off by a shift of its own.
-TEST(CommonErrors, AreWhatTheLandmarksOfAKeyframeShare) {
-  constexpr int kSeeds = 40, kMakers = 16;
-  constexpr double kGate = 100;
-  double taken_for_independent = 0, with_common_errors = 0;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    Scene scene(seed, true);
-    scene.AddPoints(160);
-    Rng rng(seed, "bent");
-    std::vector<Eigen::Vector3d> shifts;
-    for (int i = 0; i < kMakers; ++i) shifts.push_back(RandomVector<3>(rng, 0.07));
-    for (std::size_t i = 0; i < scene.problem.points.size(); ++i) {
-      auto& pair = scene.problem.points[i];
-      pair.in_query.place += shifts[i % kMakers];
-      pair.makers = {KeyFrameId{static_cast<std::int64_t>(i % kMakers)}, KeyFrameId{100}};
-    }
-    auto result = RefineAlignment(scene.problem, scene.truth, kGate);
-    ASSERT_TRUE(result.has_value());
-    taken_for_independent += scene.Nees(*result) / (7 * kSeeds);
-    result->covariance += CommonErrors(scene.problem, *result, kGate);
-    with_common_errors += scene.Nees(*result) / (7 * kSeeds);
-  }
-  EXPECT_GT(taken_for_independent, 4);
-  EXPECT_LT(with_common_errors, 2);
-}
-
-TEST(CommonErrors, OfIndependentLandmarksAreSmall) {
-  Scene scene(3, false);
-  scene.AddPoints(300);
-  for (std::size_t i = 0; i < scene.problem.points.size(); ++i) {
-    scene.problem.points[i].makers = {KeyFrameId{static_cast<std::int64_t>(i % 30)}, {}};
-  }
-  const auto result = RefineAlignment(scene.problem, scene.truth, 4);
-  ASSERT_TRUE(result.has_value());
-  const Matrix7d common = CommonErrors(scene.problem, *result, 4);
-  EXPECT_GT(common.trace(), 0.3 * result->covariance.trace());
-  EXPECT_LT(common.trace(), 3 * result->covariance.trace());
-  EXPECT_EQ(common.col(6), Vector7d::Zero());
-}
-
-TEST(CommonErrors, OfOneKeyframeAreUnknown) {
-  Scene scene(3, false);
-  scene.AddPoints(50);
-  for (auto& pair : scene.problem.points) pair.makers = {KeyFrameId{1}, KeyFrameId{2}};
-  const auto result = RefineAlignment(scene.problem, scene.truth, 4);
-  ASSERT_TRUE(result.has_value());
-  EXPECT_EQ(CommonErrors(scene.problem, *result, 4), Matrix7d::Zero());
-}
-
 }  // namespace
 }  // namespace plumbline
