@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/start_drawing.h"
 
-#include "plumbline/base/error.h"
 #include "plumbline/image/image_codecs.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -28,7 +28,8 @@ class Map {
   const std::map<PointId, MapPoint>& points() const { return points_.entries(); }
   const std::map<LineId, MapLine>& lines() const { return lines_.entries(); }
 
-  // The same, for those who follow what changes: by pages, each with the time of its last change.
+  // The tables that hold keyframes, points and lines. Their pages tell when they last changed, so
+  // that whoever shows a large map need not compare all of it.
   const IdTable<KeyFrameId, KeyFrame>& keyframe_table() const { return keyframes_; }
   const IdTable<PointId, MapPoint>& point_table() const { return points_; }
   const IdTable<LineId, MapLine>& line_table() const { return lines_; }

@@ -81,7 +81,8 @@ def check_growth(browser, shot):
     state = lambda: browser.execute_script(STATE)
     wait("there is an image", lambda: state()["frame"] is not None)
     pixels = lambda: browser.execute_script(PIXELS)
-    wait("features are drawn", lambda: pixels()["coloured"] > 500)
+    coloured = wait("features are drawn", lambda: pixels()["coloured"])
+    assert coloured > 500, coloured
     wait("the image is drawn", lambda: pixels()["grey"] > 0.3 * pixels()["all"])
     first = wait("there is a map", lambda: state()["keyframes"] > 2 and state())
     shot("begin")
