@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-CommandSyntax Syntax() {
+CommandSyntax ConfigSyntax() {
   return {"config",
           "Prints the options of a run that users set, and those that differ from their defaults, "
           "with\n"
@@ -27,9 +27,9 @@ CommandSyntax Syntax() {
 }  // namespace
 
 int ConfigCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(ConfigSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(ConfigSyntax());
     return 0;
   }
   SlamOptions options;

@@ -28,7 +28,7 @@
 namespace plumbline {
 namespace {
 
-CommandSyntax Syntax() {
+CommandSyntax EvaluateSyntax() {
   return {
       "evaluate",
       "Compares an estimated trajectory, or the folder of a run, with ground truth: a trajectory "
@@ -199,9 +199,9 @@ std::vector<std::filesystem::path> FilesRead(const CommandLine& line,
 }  // namespace
 
 int EvaluateCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(EvaluateSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(EvaluateSyntax());
     return 0;
   }
   std::optional<ReferenceFrame> frame;

@@ -19,7 +19,7 @@
 namespace plumbline {
 namespace {
 
-CommandSyntax Syntax() {
+CommandSyntax ExperimentSyntax() {
   return {"experiment",
           "Runs every variant of an experiment on every sequence, several times, and makes tables "
           "and plots.\nGoes on where it stopped; what is done already is not run again.",
@@ -114,9 +114,9 @@ void ListParts(const Experiment& experiment) {
 }  // namespace
 
 int ExperimentCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(ExperimentSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(ExperimentSyntax());
     return 0;
   }
   const std::string& name = line.Positional(0);

@@ -21,7 +21,7 @@
 namespace plumbline {
 namespace {
 
-CommandSyntax Syntax() {
+CommandSyntax InfoSyntax() {
   return {
       "info",
       "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
@@ -34,7 +34,7 @@ CommandSyntax Syntax() {
 }
 
 template <class Enum>
-std::string NameOf(Enum value) {
+std::string EnumName(Enum value) {
   for (const auto& [enumerator, name] : EnumNames(std::type_identity<Enum>{})) {
     if (enumerator == value) return name;
   }
@@ -138,9 +138,9 @@ void CheckImages(const Dataset& dataset) {
 }  // namespace
 
 int InfoCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(InfoSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(InfoSyntax());
     return 0;
   }
   DatasetOptions options;
@@ -156,10 +156,10 @@ int InfoCommand(std::span<const std::string> arguments) {
   const std::unique_ptr<Dataset> dataset = OpenDataset(line.Positional(0), options);
   const DatasetInfo& info = dataset->info();
   Row("name", info.name);
-  Row("format", NameOf(info.format));
+  Row("format", EnumName(info.format));
   std::vector<std::string> sensors;
-  for (const SensorKind kind : info.available) sensors.push_back(NameOf(kind));
-  Row("sensors", fmt::format("{} (shown: {})", fmt::join(sensors, ", "), NameOf(info.sensor)));
+  for (const SensorKind kind : info.available) sensors.push_back(EnumName(kind));
+  Row("sensors", fmt::format("{} (shown: {})", fmt::join(sensors, ", "), EnumName(info.sensor)));
   PrintTimes(info);
   PrintCalibration(info);
   PrintGroundTruth(info);

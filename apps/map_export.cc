@@ -51,7 +51,7 @@ constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
                     std::pair{ColmapFiles::kBoth, "both"}};
 }
 
-CommandSyntax Syntax() {
+CommandSyntax MapExportSyntax() {
   return {"map export",
           "Writes a map in the form of another program: points and lines (ply), lines (obj, dxf), "
           "the\ntrajectory of the keyframes (tum), or a folder with a sparse model (colmap) or a "
@@ -82,7 +82,7 @@ void RefuseWithout(const CommandLine& line, const char* option, bool fits, const
   }
 }
 
-ExportRequest ReadRequest(const CommandLine& line) {
+ExportRequest ReadExportRequest(const CommandLine& line) {
   const auto to = line.Value("--to");
   const auto out = line.Value("--out");
   if (!to) throw InputError("map export: expected --to ply|obj|dxf|tum|colmap|nerfstudio");
@@ -243,12 +243,12 @@ void ExportFile(const SavedMap& saved, const ExportRequest& request) {
 }  // namespace
 
 int MapExportCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(MapExportSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(MapExportSyntax());
     return 0;
   }
-  const ExportRequest request = ReadRequest(line);
+  const ExportRequest request = ReadExportRequest(line);
   const SavedMap saved = LoadMap(line.Positional(0));
   if (request.format == ExportFormat::kColmap) {
     ExportColmap(saved, request);

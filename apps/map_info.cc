@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-CommandSyntax Syntax() {
+CommandSyntax MapInfoSyntax() {
   return {"map info",
           "Tells what is in a map file: version, camera, keyframes, points, lines, extent.",
           {"FILE"},
@@ -23,9 +23,9 @@ CommandSyntax Syntax() {
 }  // namespace
 
 int MapInfoCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(MapInfoSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(MapInfoSyntax());
     return 0;
   }
   const std::string& path = line.Positional(0);

@@ -22,7 +22,7 @@
 namespace plumbline {
 namespace {
 
-CommandSyntax Syntax() {
+CommandSyntax MapMergeSyntax() {
   return {
       "map merge",
       "Makes one map of two of the same camera, in the world of the first. Where the second map "
@@ -75,7 +75,7 @@ struct MergeRequest {
   std::string out;
 };
 
-MergeRequest ReadRequest(const CommandLine& line) {
+MergeRequest ReadMergeRequest(const CommandLine& line) {
   MergeRequest request{line.Positional(0), line.Positional(1), {}, {}};
   const auto out = line.Value("--out");
   if (!out) throw InputError("map merge: expected --out FILE");
@@ -115,12 +115,12 @@ void PrintOverlap(const MergedAtlases& merged) {
 }  // namespace
 
 int MapMergeCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(MapMergeSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(MapMergeSyntax());
     return 0;
   }
-  const MergeRequest request = ReadRequest(line);
+  const MergeRequest request = ReadMergeRequest(line);
   NamedAtlas first{request.first, LoadAtlas(request.first)};
   const NamedAtlas second{request.second, LoadAtlas(request.second)};
   const MergedAtlases merged = MergeAtlases(

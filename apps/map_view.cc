@@ -24,7 +24,7 @@ constexpr int kMostMaps = 1'000'000'000;
 constexpr auto kStep = std::chrono::milliseconds(20);
 constexpr const char* kDefaultAddress = "8080";
 
-CommandSyntax Syntax() {
+CommandSyntax MapViewSyntax() {
   return {"map view",
           "Shows a map file in browsers, and in Foxglove, until Ctrl-C.",
           {"FILE"},
@@ -57,9 +57,9 @@ void ChooseMap(const CommandLine& line, Atlas& atlas) {
 }  // namespace
 
 int MapViewCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(MapViewSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(MapViewSyntax());
     return 0;
   }
   const std::string& path = line.Positional(0);

@@ -48,7 +48,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kLongestPause = 1'000'000;  // seconds
 constexpr int kWidestBlur = 1001;         // pixels; nothing is left to see by then
 
-CommandSyntax Syntax() {
+CommandSyntax RunSyntax() {
   return {
       "run",
       "Tracks the camera through a recorded sequence, or while it runs, and maps what it sees.\n"
@@ -388,9 +388,9 @@ void RethrowFailures(const Processed& processed, const std::optional<std::string
 }  // namespace
 
 int RunCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(RunSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(RunSyntax());
     return 0;
   }
   const auto start = Clock::now();

@@ -38,7 +38,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kLongestStart = 3600;  // seconds of video
 
-CommandSyntax Syntax() {
+CommandSyntax StartsSyntax() {
   return {"starts",
           "Tries to start a monocular map at many frames of a sequence, each by itself, and "
           "compares the maps with\nthe ground truth. Writes starts.csv and summary.json.",
@@ -189,9 +189,9 @@ StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& pl
 }  // namespace
 
 int StartsCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(StartsSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(StartsSyntax());
     return 0;
   }
   const auto began = Clock::now();

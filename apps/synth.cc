@@ -19,7 +19,7 @@
 namespace plumbline {
 namespace {
 
-CommandSyntax Syntax() {
+CommandSyntax SynthSyntax() {
   return {
       "synth",
       "Renders a sequence of an invented world with exact ground truth: poses, depth, 3D lines, "
@@ -56,9 +56,9 @@ void List(const std::string& name) {
 }  // namespace
 
 int SynthCommand(std::span<const std::string> arguments) {
-  const CommandLine line(Syntax(), arguments);
+  const CommandLine line(SynthSyntax(), arguments);
   if (line.help()) {
-    std::cout << HelpText(Syntax());
+    std::cout << HelpText(SynthSyntax());
     return 0;
   }
   const std::string name = line.Positional(0);

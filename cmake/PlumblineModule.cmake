@@ -37,11 +37,11 @@ function(plumbline_module)
 endfunction()
 
 # plumbline_tests(NAME geometry SOURCES se3_test.cc ... [LIBS lib ...] [LABELS unit] [TIMEOUT 120]
-#                 [REAL_DATA])
+#                 [REAL_DATA] [ALONE se3_test.cc ...])
 # One test executable for one module; every TEST() becomes a CTest test. REAL_DATA: it looks for the
-# recorded sequences (tests/support/data_folder.h).
+# recorded sequences (tests/support/data_folder.h). ALONE: as for modules.
 function(plumbline_tests)
-  cmake_parse_arguments(ARG "REAL_DATA" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_DATA" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS;ALONE" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -52,6 +52,7 @@ function(plumbline_tests)
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LIBS} plumbline_warnings GTest::gmock GTest::gtest_main)
   plumbline_use_precompiled(${target} plumbline_test_headers)
+  plumbline_compile_together(${target} ${ARG_ALONE})
   if(ARG_REAL_DATA)
     target_compile_definitions(
       ${target} PRIVATE PLUMBLINE_DATA_BESIDE_SOURCE="${PROJECT_SOURCE_DIR}/../shared/data")

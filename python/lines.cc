@@ -213,13 +213,13 @@ py::tuple MatchPair(const RectifiedCamera& camera,
   }
   const auto lines = ReadLines(left, "left"), candidates = ReadLines(right, "right");
   const auto matches = MatchStereoLines(camera, lines, candidates, options);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
   Doubles segments({static_cast<py::ssize_t>(matches.size()), py::ssize_t{2}, py::ssize_t{2}});
   std::vector<double> sigmas;
   double* out = segments.mutable_data();
   for (const auto& match : matches) {
-    sigmas.push_back(match ? match->sigma_px : kNone);
-    const Eigen::Vector2d none(kNone, kNone);
+    sigmas.push_back(match ? match->sigma_px : kMissing);
+    const Eigen::Vector2d none(kMissing, kMissing);
     for (const Eigen::Vector2d& end :
          {match ? match->segment.start : none, match ? match->segment.end : none}) {
       *out++ = end.x();

@@ -91,7 +91,7 @@ py::dict ListWorlds() {
   return worlds;
 }
 
-Doubles LinesOf(const SyntheticSequence& sequence) {
+Doubles TrueLines(const SyntheticSequence& sequence) {
   std::vector<Segment3> segments;
   {
     const py::gil_scoped_release release;
@@ -122,7 +122,7 @@ Raises InputError with the program's message.)")
           "ground_truth",
           [](const SyntheticSequence& s) { return PoseList{s.GroundTruth()}; },
           "Trajectory of the left camera, a pose for each frame.")
-      .def("true_lines", &LinesOf, R"(true_lines() -> numpy.ndarray
+      .def("true_lines", &TrueLines, R"(true_lines() -> numpy.ndarray
 
 (N, 2, 3) ends of the lines of the world that the left camera sees, metres. A new array.)");
   module.def("worlds", &ListWorlds, "worlds() -> dict of str: str\n\nNames and what is in them.");

@@ -27,7 +27,7 @@ CommandLine Parse(const std::vector<std::string>& arguments) {
   return CommandLine(Syntax(), arguments);
 }
 
-std::string MessageOf(const std::vector<std::string>& arguments) {
+std::string ParseMessage(const std::vector<std::string>& arguments) {
   try {
     Parse(arguments);
   } catch (const InputError& error) {
@@ -56,25 +56,25 @@ TEST(CommandLine, TakesAllAsPositionalBehindTwoDashes) {
 TEST(CommandLine, HelpNeedsNothingElse) { EXPECT_TRUE(Parse({"--help"}).help()); }
 
 TEST(CommandLine, NamesWrongUse) {
-  EXPECT_EQ(MessageOf({"x", "--quite"}), "do: unknown option --quite; the nearest is --quiet");
-  EXPECT_EQ(MessageOf({"x", "--elephants"}), "do: unknown option --elephants");
-  EXPECT_EQ(MessageOf({"x", "--set"}), "--set: expected K=V");
-  EXPECT_EQ(MessageOf({"x", "--quiet=1"}), "--quiet: takes no value");
-  EXPECT_EQ(MessageOf({"x", "y", "z"}), "do: unexpected argument z");
-  EXPECT_THAT(MessageOf({}), HasSubstr("do: expected A"));
+  EXPECT_EQ(ParseMessage({"x", "--quite"}), "do: unknown option --quite; the nearest is --quiet");
+  EXPECT_EQ(ParseMessage({"x", "--elephants"}), "do: unknown option --elephants");
+  EXPECT_EQ(ParseMessage({"x", "--set"}), "--set: expected K=V");
+  EXPECT_EQ(ParseMessage({"x", "--quiet=1"}), "--quiet: takes no value");
+  EXPECT_EQ(ParseMessage({"x", "y", "z"}), "do: unexpected argument z");
+  EXPECT_THAT(ParseMessage({}), HasSubstr("do: expected A"));
 }
 
 TEST(CommandLine, TextsThatAreEmptyAreNone) {
-  EXPECT_EQ(MessageOf({"x", "--set", ""}), "--set: expected K=V, found an empty argument");
-  EXPECT_EQ(MessageOf({"x", "--set="}), "--set: expected K=V, found an empty argument");
-  EXPECT_EQ(MessageOf({""}), "do: found an empty argument");
+  EXPECT_EQ(ParseMessage({"x", "--set", ""}), "--set: expected K=V, found an empty argument");
+  EXPECT_EQ(ParseMessage({"x", "--set="}), "--set: expected K=V, found an empty argument");
+  EXPECT_EQ(ParseMessage({""}), "do: found an empty argument");
 }
 
 TEST(CommandLine, WhatIsRepeatedToTheUserIsShortAndPrintable) {
   const std::string megabyte(1'000'000, 'x');
-  for (const std::string& message : {MessageOf({"x", "--" + megabyte}),
-                                     MessageOf({"x", "y", "\x1b[31m\n" + megabyte}),
-                                     MessageOf({"x", "--count", megabyte})}) {
+  for (const std::string& message : {ParseMessage({"x", "--" + megabyte}),
+                                     ParseMessage({"x", "y", "\x1b[31m\n" + megabyte}),
+                                     ParseMessage({"x", "--count", megabyte})}) {
     EXPECT_LT(message.size(), 300U);
     EXPECT_EQ(message.find_first_of("\n\x1b"), std::string::npos) << message;
   }

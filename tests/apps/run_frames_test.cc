@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace run_frames_test {
 
 using testing::HasSubstr;
 
@@ -91,5 +91,5 @@ TEST(ProcessFrames, ThrowsWhenNothingWasDone) {
               HasSubstr("out of memory after 0 of 8 frames"));
 }
 
-}  // namespace
+}  // namespace run_frames_test
 }  // namespace plumbline

@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace options_io_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -261,5 +261,5 @@ TEST(OptionTable, GivesSingleValues) {
   EXPECT_THROW((void)table.Value("nothing"), InputError);
 }
 
-}  // namespace
+}  // namespace options_io_test
 }  // namespace plumbline

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace processor_test {
 
 constexpr std::size_t kCount = 101;
 struct Numbers {
@@ -49,5 +49,5 @@ TEST(Processor, AKernelGivesTheSameOnBothPaths) {
   EXPECT_EQ(avx2, anywhere);
 }
 
-}  // namespace
+}  // namespace processor_test
 }  // namespace plumbline

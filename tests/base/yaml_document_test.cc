@@ -12,7 +12,7 @@
 #include <yaml-cpp/yaml.h>
 
 namespace plumbline {
-namespace {
+namespace yaml_document_test {
 
 using testing::HasSubstr;
 
@@ -51,5 +51,5 @@ TEST(ParseYaml, NamesWhatIsWrong) {
   EXPECT_THAT(ErrorOf(std::string(100'000, '[')), HasSubstr("expected YAML, found an error: "));
 }
 
-}  // namespace
+}  // namespace yaml_document_test
 }  // namespace plumbline

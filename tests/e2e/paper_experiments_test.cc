@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 namespace plumbline {
-namespace {
+namespace paper_experiments_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -151,5 +151,5 @@ TEST(ExperimentGate, ABrokenLimitIsAnExitCode) {
   EXPECT_THAT(Contents(folder / "out/gate.md"), HasSubstr("**broken**"));
 }
 
-}  // namespace
+}  // namespace paper_experiments_test
 }  // namespace plumbline

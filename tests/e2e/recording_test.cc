@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace recording_test {
 
 using testing::HasSubstr;
 
@@ -93,5 +93,5 @@ TEST(RunRecording, SaysInOneLineWhatIsWrong) {
   EXPECT_THAT(run("#ROSBAG V2.0\n"), HasSubstr("expected a bag header"));
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace plumbline

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 namespace plumbline {
-namespace {
+namespace run_folder_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -260,5 +260,5 @@ TEST(RunFolder, IsMadeAgainWhenItIsRemovedDuringTheRun) {
   EXPECT_TRUE(fs::exists(out / "options.yaml"));
 }
 
-}  // namespace
+}  // namespace run_folder_test
 }  // namespace plumbline

@@ -22,7 +22,7 @@
 #include <nlohmann/json.hpp>
 
 namespace plumbline {
-namespace {
+namespace run_interruption_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -232,5 +232,5 @@ TEST(Interruption, TheJournalIsThereBeforeTheEnd) {
   EXPECT_EQ(Rows(out / "trajectory.txt"), 3);
 }
 
-}  // namespace
+}  // namespace run_interruption_test
 }  // namespace plumbline

@@ -18,7 +18,7 @@
 #include <nlohmann/json.hpp>
 
 namespace plumbline {
-namespace {
+namespace worlds_accuracy_test {
 
 struct WorldGate {
   const char* world;
@@ -74,5 +74,5 @@ TEST(WorldsAccuracy, PlanarWithPointsOnly) {
   Check({"planar", "--set features.lines=false", 0.004, 0, 0});
 }
 
-}  // namespace
+}  // namespace worlds_accuracy_test
 }  // namespace plumbline

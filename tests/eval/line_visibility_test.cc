@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace line_visibility_test {
 
 // 90 degrees wide, a little less high.
 Camera WideCamera() {
@@ -122,5 +122,5 @@ TEST(LineMapErrorWithViewers, AsksForWhatTheKeyFramesSee) {
   EXPECT_NEAR(*error.at[2].precision, 1, 1e-9);      // all of a true line covers
 }
 
-}  // namespace
+}  // namespace line_visibility_test
 }  // namespace plumbline

@@ -14,7 +14,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 namespace plumbline {
-namespace {
+namespace extractor_test {
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
@@ -146,5 +146,5 @@ TEST(ExtractFeatures, FindsDepthInARealStereoPair) {
   EXPECT_GT(given(f.line_right), 80);
 }
 
-}  // namespace
+}  // namespace extractor_test
 }  // namespace plumbline

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace match_lines_test {
 
 LineFeature Line(const Eigen::Vector2d& start, const Eigen::Vector2d& end, std::uint64_t word) {
   LineFeature line;
@@ -93,5 +93,5 @@ TEST(LineEndDisparities, AreMeasuredOnTheRowsOfTheLeftEnds) {
   EXPECT_FALSE(LineEndDisparities(left, {{{230, 80}, {236, 140}}, 0.5}));
 }
 
-}  // namespace
+}  // namespace match_lines_test
 }  // namespace plumbline

@@ -16,7 +16,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace plumbline {
-namespace {
+namespace row_search_test {
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 120;
@@ -163,5 +163,5 @@ TEST(RowSearch, FindsNothingInImagesSmallerThanTheWindow) {
   EXPECT_THROW(RowSearch(image, GrayImage(10, 9)), BugError);
 }
 
-}  // namespace
+}  // namespace row_search_test
 }  // namespace plumbline

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace stereo_points_test {
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
@@ -112,5 +112,5 @@ TEST(StereoPoints, OfEmptyViewsAreEmpty) {
   for (const std::optional<Disparity>& d : Match(left, flat)) EXPECT_FALSE(d);
 }
 
-}  // namespace
+}  // namespace stereo_points_test
 }  // namespace plumbline

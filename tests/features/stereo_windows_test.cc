@@ -17,7 +17,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace stereo_windows_test {
 
 using testing::HasSubstr;
 
@@ -129,5 +129,5 @@ TEST(StereoPointOptions, AllowWindowsOf2To15Pixels) {
   EXPECT_THROW(table.Set("window_px=16"), InputError);
 }
 
-}  // namespace
+}  // namespace stereo_windows_test
 }  // namespace plumbline

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace line_triangulation_test {
 
 // Cameras about 5 m in front of the world point (0, 0, 20), far from the world's origin.
 std::vector<Rigid3> CamerasNear(Rng& rng, int count) {
@@ -198,5 +198,5 @@ TEST(TriangulateLine, NamesItsFailures) {
   EXPECT_EQ(TriangulateLine(camera, inconsistent).error(), kInconsistentViews);
 }
 
-}  // namespace
+}  // namespace line_triangulation_test
 }  // namespace plumbline

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace plucker_test {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -226,5 +226,5 @@ TEST(OrthonormalLine, RetractStraightAlwaysGivesALine) {
   EXPECT_TRUE(infinite.w.allFinite());
 }
 
-}  // namespace
+}  // namespace plucker_test
 }  // namespace plumbline

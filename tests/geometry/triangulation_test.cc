@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace triangulation_test {
 
 // Cameras on an arc that look at the origin of the world from 5 m.
 std::vector<Rigid3> LookingAtTheOrigin(int count, double spread) {
@@ -167,5 +167,5 @@ TEST(TriangulatePoint, NamesItsFailures) {
   EXPECT_EQ(TriangulatePoint(camera, views).error(), kBehindCamera);
 }
 
-}  // namespace
+}  // namespace triangulation_test
 }  // namespace plumbline

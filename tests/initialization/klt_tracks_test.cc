@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace klt_tracks_test {
 
 std::shared_ptr<const GrayImage> ImageOf(const MovingPoster& poster, int index) {
   return std::make_shared<const GrayImage>(poster.Frame(index).left);
@@ -70,5 +70,5 @@ TEST(NearestFeatures, GivesEachFeatureToTheNearest) {
   EXPECT_EQ(nearest, (std::vector<int>{-1, 0, -1, -1}));
 }
 
-}  // namespace
+}  // namespace klt_tracks_test
 }  // namespace plumbline

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace multi_view_test {
 
 using testing::CurvedMotion;
 using testing::DirectionErrorDeg;
@@ -153,5 +153,5 @@ TEST(WindowMemory, BringsPointsBackByFeature) {
   EXPECT_TRUE(memory.HypothesesFor(later).empty());
 }
 
-}  // namespace
+}  // namespace multi_view_test
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace rank1_factorization_test {
 
 // Cameras that move about, and what they see of a cloud of points.
 struct Scene {
@@ -197,5 +197,5 @@ TEST(FactorizeRank1, RefusesWhatCannotBeSolved) {
   EXPECT_FALSE(FactorizeRank1(scene.reference, scene.views));
 }
 
-}  // namespace
+}  // namespace rank1_factorization_test
 }  // namespace plumbline

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace structure_test {
 
 struct Scene {
   SyntheticWorld world = MakeSyntheticWorld(400, 60);
@@ -212,5 +212,5 @@ TEST(AdjustStructure, MeasuresPlacesThatAreKnownBetterThanFeatures) {
   EXPECT_LT(AngularDistance(map.views[1].cam_from_world.rotation, truth.rotation), 0.005 * kDegree);
 }
 
-}  // namespace
+}  // namespace structure_test
 }  // namespace plumbline

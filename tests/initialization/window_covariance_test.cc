@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace window_covariance_test {
 
 using testing::CurvedMotion;
 using testing::MakeWindowScene;
@@ -142,5 +142,5 @@ TEST(WindowCovariance, SaysThatATurningCameraKnowsNoDepth) {
   EXPECT_FALSE(ComputeWindowCovariance(empty.tracks, empty.truth, 1, kMaxChi2));
 }
 
-}  // namespace
+}  // namespace window_covariance_test
 }  // namespace plumbline

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace window_lines_test {
 
 using testing::CurvedMotion;
 using testing::MakeWindowScene;
@@ -61,5 +61,5 @@ TEST(EvaluateLines, IsEmptyWhereLinesDoNotTakePart) {
   EXPECT_TRUE(EvaluateLines(scene.tracks, scene.truth, kMaxChi2).empty());
 }
 
-}  // namespace
+}  // namespace window_lines_test
 }  // namespace plumbline

@@ -11,7 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 namespace plumbline {
-namespace {
+namespace image_header_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -76,5 +76,5 @@ TEST(SizeInHeader, TakesHeadersThatEndEarly) {
   }
 }
 
-}  // namespace
+}  // namespace image_header_test
 }  // namespace plumbline

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace true_world_test {
 
 using testing::HasSubstr;
 
@@ -156,5 +156,5 @@ TEST(Surfaces, RefuseWhatIsMalformed) {
   }
 }
 
-}  // namespace
+}  // namespace true_world_test
 }  // namespace plumbline

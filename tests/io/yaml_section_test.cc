@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace yaml_section_test {
 
 using testing::HasSubstr;
 
@@ -62,5 +62,5 @@ TEST(YamlSection, OtherFilesAreNamed) {
               HasSubstr("expected YAML, found an error"));
 }
 
-}  // namespace
+}  // namespace yaml_section_test
 }  // namespace plumbline

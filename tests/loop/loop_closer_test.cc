@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace loop_closer_test {
 
 using testing::LoopScene;
 using testing::LoopSceneOptions;
@@ -153,5 +153,5 @@ TEST(LoopCloser, ClosesAgainWhatWasOpened) {
   EXPECT_EQ(again->record.largest_shift, closure->record.largest_shift);
 }
 
-}  // namespace
+}  // namespace loop_closer_test
 }  // namespace plumbline

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace open_loop_test {
 
 using testing::LoopScene;
 using testing::LoopSceneOptions;
@@ -116,5 +116,5 @@ TEST_F(OpenLoopTest, BelongsToALoopThatTheOthersLeaveOut) {
   EXPECT_EQ(closer_->loops().size(), 11U);
 }
 
-}  // namespace
+}  // namespace open_loop_test
 }  // namespace plumbline

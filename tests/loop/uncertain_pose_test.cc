@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace uncertain_pose_test {
 
 UncertainPose RandomPose(Rng& rng, double sigma) {
   UncertainPose pose;
@@ -63,5 +63,5 @@ TEST(UncertainPose, RigidOnesHaveSixDegreesOfFreedom) {
   EXPECT_EQ(ClosingChi2(pose), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace uncertain_pose_test
 }  // namespace plumbline

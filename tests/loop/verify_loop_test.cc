@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace verify_loop_test {
 
 using testing::LoopScene;
 using testing::LoopSceneOptions;
@@ -194,5 +194,5 @@ TEST(VerifyLoop, GivesTheSameEveryTime) {
   EXPECT_EQ(a->lines, b->lines);
 }
 
-}  // namespace
+}  // namespace verify_loop_test
 }  // namespace plumbline

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace final_adjustment_test {
 
 constexpr int kKeyFrames = 10;
 
@@ -182,5 +182,5 @@ TEST(AdjustWholeMap, LeavesOutLinesThatMakeItTakeTooLong) {
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
 }
 
-}  // namespace
+}  // namespace final_adjustment_test
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace line_map_test {
 
 const SensorModel kNoisy{.points = false, .noise = 0.5};
 
@@ -209,5 +209,5 @@ TEST(LineMap, DoesNotDependOnTheUnit) {
   EXPECT_NEAR(Length(small), kScale * Length(lines), 0.1 * kScale * Length(lines));
 }
 
-}  // namespace
+}  // namespace line_map_test
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace stereo_calibration_test {
 
 // A displacement whose mean over the image is small.
 StereoCorrection Displacement(const RectifiedCamera& camera) {
@@ -157,5 +157,5 @@ TEST(StereoCalibrator, HasNoOpinionWithoutEvidence) {
   EXPECT_EQ(Learn(world, scene.map), StereoCorrection());
 }
 
-}  // namespace
+}  // namespace stereo_calibration_test
 }  // namespace plumbline

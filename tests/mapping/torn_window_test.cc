@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace torn_window_test {
 
 constexpr int kKeyFrames = 10;
 constexpr double kFall = 0.6;     // metres along the lines
@@ -83,5 +83,5 @@ TEST(LocalMapper, DoesNotTearNewKeyFramesOffAlongParallelLines) {
   EXPECT_GT(LargestSlide(kNoLimit), 0.9 * kFall) << "nothing pulls here";
 }
 
-}  // namespace
+}  // namespace torn_window_test
 }  // namespace plumbline

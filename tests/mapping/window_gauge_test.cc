@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace window_gauge_test {
 
 constexpr int kKeyFrames = 7;
 using Ids = std::set<KeyFrameId>;
@@ -107,5 +107,5 @@ TEST(BaWindow, TwoPosesBetweenFreeOnesHoldTheScaleOfASingleCamera) {
   }
 }
 
-}  // namespace
+}  // namespace window_gauge_test
 }  // namespace plumbline

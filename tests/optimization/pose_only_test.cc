@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace pose_only_test {
 
 static_assert(OptionGroup<PoseOnlyOptions>);
 
@@ -210,5 +210,5 @@ TEST(SolvePose, RepeatsTheSameBytes) {
   EXPECT_EQ(a.information, b.information);
 }
 
-}  // namespace
+}  // namespace pose_only_test
 }  // namespace plumbline

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace residuals_test {
 
 using testing::AddNoise;
 using testing::MeasureLine;
@@ -197,5 +197,5 @@ TEST(LineResidual, CovarianceMustBePositiveDefinite) {
   EXPECT_THROW(MakeLineTerm(StereoCamera(), m), BugError);
 }
 
-}  // namespace
+}  // namespace residuals_test
 }  // namespace plumbline

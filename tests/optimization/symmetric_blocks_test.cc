@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace symmetric_blocks_test {
 
 constexpr int kRows = 100;
 
@@ -63,5 +63,5 @@ TEST(SymmetricBlocks, KeepsASmallMatrixWhole) {
   EXPECT_EQ(SymmetricBlocks(0, true).count(), 0U);
 }
 
-}  // namespace
+}  // namespace symmetric_blocks_test
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <zstd.h>
 
 namespace plumbline {
-namespace {
+namespace compression_test {
 
 using testing::HasSubstr;
 
@@ -83,5 +83,5 @@ TEST(Decompress, NoticesDamage) {
   EXPECT_THAT(bytes.error(), HasSubstr("damage"));
 }
 
-}  // namespace
+}  // namespace compression_test
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace parse_image_message_test {
 
 std::span<const std::uint8_t> BytesOf(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -131,5 +131,5 @@ TEST(ParseCalibration, RefusesMatricesOfAnotherSize) {
                                 BytesOf(fields.Take())));
 }
 
-}  // namespace
+}  // namespace parse_image_message_test
 }  // namespace plumbline

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace continued_map_test {
 
 constexpr int kFrames = 40;  // of the run that makes the map
 
@@ -208,5 +208,5 @@ TEST(ContinuedMap, NamesTheSessionsThatMadeIt) {
   EXPECT_EQ(keyframes.rbegin()->second.session, SessionId{1});
 }
 
-}  // namespace
+}  // namespace continued_map_test
 }  // namespace plumbline

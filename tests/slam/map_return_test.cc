@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace map_return_test {
 
 constexpr int kLeftEnd = 0,
               kRightEnd = 120;  // first frames of stretches that share next to nothing
@@ -124,5 +124,5 @@ TEST(MapReturn, LockstepDoesWhatInlineDoes) {
   }
 }
 
-}  // namespace
+}  // namespace map_return_test
 }  // namespace plumbline

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace pipeline_test {
 
 SlamOptions InMode(RunMode mode) {
   SlamOptions options;
@@ -182,5 +182,5 @@ TEST_P(PipelineFailure, OfTheObserverDoesToo) {
   EXPECT_THROW(feed(), InputError);
 }
 
-}  // namespace
+}  // namespace pipeline_test
 }  // namespace plumbline

@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace place_recognition_test {
 
 constexpr int kRound = 300;  // frames
 constexpr int kFrames = kRound + 60;
@@ -225,5 +225,5 @@ TEST(PlaceRecognition, KnowsTheKeyFramesOfASavedAtlas) {
   EXPECT_EQ(alike.front().map, &atlas.active());
 }
 
-}  // namespace
+}  // namespace place_recognition_test
 }  // namespace plumbline

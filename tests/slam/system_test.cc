@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace system_test {
 
 bool SameBits(const Trajectory& a, const Trajectory& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
@@ -217,5 +217,5 @@ TEST(System, CountsWhatIsDoneAtTheEndWithTheLastFrame) {
   EXPECT_GT(CountStage(system->frames()[2], "map_finish"), 0);
 }
 
-}  // namespace
+}  // namespace system_test
 }  // namespace plumbline

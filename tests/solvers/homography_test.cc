@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace homography_test {
 
 using testing::MakeTwoViewScene;
 using testing::SceneKind;
@@ -110,5 +110,5 @@ TEST(MotionsFromHomography, OfATurnIsTheTurn) {
   EXPECT_TRUE(MotionsFromHomography(Eigen::Matrix3d::Zero()).empty());
 }
 
-}  // namespace
+}  // namespace homography_test
 }  // namespace plumbline

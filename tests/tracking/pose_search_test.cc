@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace pose_search_test {
 
 // A frame of the path with its features, and no matches yet.
 Frame FrameAt(const SyntheticWorld& world, int step) {
@@ -162,5 +162,5 @@ TEST(PoseSearch, FindsMoreOfTheLastFrameFromAFirstPose) {
   EXPECT_GE(attempt.counts.matched_points, first->inlier_points);
 }
 
-}  // namespace
+}  // namespace pose_search_test
 }  // namespace plumbline

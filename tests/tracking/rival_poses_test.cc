@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace rival_poses_test {
 
 constexpr double kStep = 0.5;  // metres
 const SensorModel kExact{.noise = 0, .flipped_bits = 0, .missed = 0};
@@ -113,5 +113,5 @@ TEST(Tracker, PrefersThePoseThatMoreMatchesAgreeWithWhereThereIsNoMap) {
   EXPECT_FALSE(SceneWins({0, 40}, {0, 41}, TrackingReference::kLastFrame));
 }
 
-}  // namespace
+}  // namespace rival_poses_test
 }  // namespace plumbline

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace renderer_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -363,5 +363,5 @@ TEST(Renderer, WhereThereIsNothingThereIsTheSky) {
   }
 }
 
-}  // namespace
+}  // namespace renderer_test
 }  // namespace plumbline

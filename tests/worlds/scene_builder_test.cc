@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace scene_builder_test {
 
 using Eigen::Vector3d;
 
@@ -150,5 +150,5 @@ TEST(SceneBuilder, ABodyHasItsOwnFrameAndNoStillEdges) {
             6);
 }
 
-}  // namespace
+}  // namespace scene_builder_test
 }  // namespace plumbline

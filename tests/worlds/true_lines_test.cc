@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace true_lines_test {
 
 using Eigen::Vector3d;
 using testing::ElementsAre;
@@ -127,5 +127,5 @@ TEST(TrueLines, AreNoneWhereNothingIsSeen) {
   EXPECT_TRUE(TrueLines(Scene{}, TestCamera(), StandStill({-2, 0, 1.6}, 0, 0.6, 3), {}, 1).empty());
 }
 
-}  // namespace
+}  // namespace true_lines_test
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace job_executor_test {
 
 JobTask Shell(const ScratchFolder& folder, const std::string& name, const std::string& script) {
   JobTask task;
@@ -74,5 +74,5 @@ TEST(LocalExecutor, LimitsMemory) {
   EXPECT_EQ(Contents(LogOf(folder / "a")), "307200\n");
 }
 
-}  // namespace
+}  // namespace job_executor_test
 }  // namespace plumbline

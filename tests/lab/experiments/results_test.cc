@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 namespace plumbline {
-namespace {
+namespace results_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -114,5 +114,5 @@ TEST(Results, ForTheSameRunsHaveTheSameBytesWhateverTheTimes) {
   EXPECT_NE(Contents(first / "out/timing.json"), Contents(second / "out/timing.json"));
 }
 
-}  // namespace
+}  // namespace results_test
 }  // namespace plumbline

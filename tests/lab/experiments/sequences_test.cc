@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace sequences_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -135,5 +135,5 @@ TEST(ExperimentSequences, BadSourcesAreRefused) {
               HasSubstr("unknown option 'farmes'"));
 }
 
-}  // namespace
+}  // namespace sequences_test
 }  // namespace plumbline

@@ -17,7 +17,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace slurm_executor_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -274,5 +274,5 @@ TEST(SlurmExecutor, OnAClusterTasksEndAndANodeThatDiesIsTold) {
   EXPECT_TRUE(ends[4].by_machine) << ends[4].trouble;
 }
 
-}  // namespace
+}  // namespace slurm_executor_test
 }  // namespace plumbline

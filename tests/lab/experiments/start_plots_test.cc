@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace start_plots_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -47,5 +47,5 @@ TEST(StartPlots, GoOverTheAbscissaWhereThereIsOne) {
   EXPECT_THAT(plots[0].svg, Not(HasSubstr(">one<")));
 }
 
-}  // namespace
+}  // namespace start_plots_test
 }  // namespace plumbline
