@@ -166,7 +166,7 @@ void PrintResult(const StartResults& results, const Setup& setup) {
 }
 
 void DrawMaps(const Dataset& dataset, const Setup& setup, StartPlan& plan) {
-  const Rectifier rectifier(dataset.calibration(), setup.options.rectification);
+  const Rectifier rectifier(dataset.calibration());
   plan.on_map = [&setup, camera = rectifier.camera()](const StartRecord& start,
                                                       const InitialMap& map) {
     WriteStartDrawing(map, camera, setup.folder / fmt::format("start_{:06d}.png", start.frame));

@@ -40,11 +40,6 @@ constexpr int kMaxIterations = 10;
 constexpr int kManyIterations = 60;
 constexpr double kTolerance = 1e-4;
 
-HuberThresholds Huber() {
-  const LocalBaOptions o;
-  return {o.huber_point, o.huber_disparity, o.huber_line};
-}
-
 template <class Solve>
 void Run(benchmark::State& state, const Solve& solve) {
   double cost = 0;
@@ -71,7 +66,7 @@ void RunCeres(benchmark::State& state,
               const BaProblem& problem,
               LineParametrization lines,
               int max_iterations = kMaxIterations) {
-  const CeresBaOptions options{.huber = Huber(),
+  const CeresBaOptions options{.huber = kHuberThresholds,
                                .lines = lines,
                                .max_iterations = max_iterations,
                                .function_tolerance = kTolerance};
@@ -107,7 +102,7 @@ void CeresWeakLines(benchmark::State& state, LineParametrization lines) {
 // Ceres without iterations: building its problem, its preprocessing, one evaluation.
 void CeresSetUp(benchmark::State& state, LineParametrization lines) {
   const BaProblem problem = MakeProblem(state);
-  const CeresBaOptions options{.huber = Huber(), .lines = lines, .max_iterations = 0};
+  const CeresBaOptions options{.huber = kHuberThresholds, .lines = lines, .max_iterations = 0};
   Run(state, [&] { return SolveWithCeres(problem, options); });
 }
 

@@ -27,11 +27,6 @@ PoseProblem MakeProblem(const benchmark::State& state) {
       .problem;
 }
 
-HuberThresholds Huber() {
-  const PoseOnlyOptions o;
-  return {o.huber_point, o.huber_disparity, o.huber_line};
-}
-
 template <class Solve>
 void Run(benchmark::State& state, const Solve& solve) {
   const PoseProblem problem = MakeProblem(state);
@@ -53,7 +48,8 @@ void OursOneRound(benchmark::State& state) {
 }
 void CeresOneRound(benchmark::State& state) {
   Run(state, [](const PoseProblem& problem) {
-    return SolvePoseWithCeres(problem, {.huber = Huber(), .rounds = 1, .robust_rounds = 1});
+    return SolvePoseWithCeres(problem,
+                              {.huber = kHuberThresholds, .rounds = 1, .robust_rounds = 1});
   });
 }
 // As tracking does it: four rounds with the inliers chosen anew after each.
@@ -61,8 +57,9 @@ void Ours(benchmark::State& state) {
   Run(state, [](const PoseProblem& problem) { return SolvePose(problem); });
 }
 void Ceres(benchmark::State& state) {
-  Run(state,
-      [](const PoseProblem& problem) { return SolvePoseWithCeres(problem, {.huber = Huber()}); });
+  Run(state, [](const PoseProblem& problem) {
+    return SolvePoseWithCeres(problem, {.huber = kHuberThresholds});
+  });
 }
 
 void Sizes(benchmark::internal::Benchmark* benchmark) {

@@ -89,7 +89,7 @@ struct ImageFeatures {
 ImageFeatures FindFeatures(const GrayImage& image, const ValidRegion& valid) {
   ImageFeatures features;
   OrbOptions orb;
-  orb.fast_min_threshold = orb.fast_threshold;  // the same demand everywhere
+  orb.fast_min_threshold = kCornerContrast;  // the same demand everywhere
   features.corners = ExtractOrb(BuildOrbPyramid(image, orb), valid, kAll, orb);
   const GradientImage gradient = ComputeGradient(image, kLineBlurPx);
   features.lines = DetectLines(image, gradient, valid, LineDetector::kDrawing, kAll, {});

@@ -235,7 +235,7 @@ Camera pose from matches with points and lines of a known map, robustly, from an
 (4, 4). camera: RectifiedCamera. points: dictionary of "world" (N, 3), "pixels" (N, 2), "sigma_px"
 (one or (N,), default 1), "disparities" (N,) (0 or less: not measured), "disparity_sigma_px".
 lines: dictionary of "world" (M, 6) Pluecker, "segments" (M, 2, 2) in pixels, "sigma_px" of each end
-across the line. options: rounds, robust_rounds, max_iterations, huber_point, huber_line, ...
+across the line. options: rounds, robust_rounds, max_iterations, decrement_tolerance.
 
 "cam_from_world" (4, 4), "information" (6, 6) for the left perturbation [rotation, translation],
 "point_inliers" (N,), "line_inliers" (M,), "cost", "iterations", "converged". New arrays.)");
@@ -272,7 +272,8 @@ Bundle adjustment of poses (P, 4, 4), points (N, 3) and lines (M, 6) Pluecker by
 with the Schur complement. fixed: poses that stay (the gauge is up to the caller).
 point_observations: dictionary of "pose" and "point" (indices), "pixels" (K, 2), "sigma_px",
 "disparities", "disparity_sigma_px" as in solve_pose; line_observations: of "pose" and "line",
-"segments" (K, 2, 2), "sigma_px". options: rounds, max_iterations, robust, huber_point, ...
+"segments" (K, 2, 2), "sigma_px". options: rounds, max_iterations, function_tolerance,
+rejection_tolerance, robust.
 
 "cam_from_world", "points", "lines" as they came in; "point_inliers", "line_inliers", "point_chi2",
 "line_chi2" by observation; "initial_cost", "final_cost", "iterations", "termination". New arrays.

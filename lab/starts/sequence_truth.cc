@@ -59,8 +59,7 @@ SequenceTruth::SequenceTruth(const Dataset& mono,
   metric_ = OpenDataset(info.path, options);
   for (std::size_t i = 0; i < metric_->size(); ++i) metric_frames_[metric_->stamp_ns(i)] = i;
   if (!rgbd) {
-    stereo_ =
-        std::make_unique<FrontEnd>(metric_->calibration(), RectifierOptions{}, StereoFeatures());
+    stereo_ = std::make_unique<FrontEnd>(metric_->calibration(), StereoFeatures());
   }
 }
 

@@ -71,7 +71,7 @@ StartResults RunStarts(const Dataset& mono,
                        const StartPlan& plan,
                        const InitializerFactory& make_initializer,
                        const std::function<bool(std::size_t done)>& progress) {
-  const FrontEnd front_end(mono.calibration(), options.rectification, options.features);
+  const FrontEnd front_end(mono.calibration(), options.features);
   const SequenceTruth truth(mono, front_end.rectifier(), camera, plan.poses);
   const ImagingModel imaging{front_end.rectifier().camera(), options.features.orb.scale_factor};
   MeasuredFrames measured(mono, front_end);

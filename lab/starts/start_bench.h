@@ -5,7 +5,6 @@
 #include "lab/starts/start_trial.h"
 #include "plumbline/base/options.h"
 #include "plumbline/features/extractor.h"
-#include "plumbline/image/rectify.h"
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/io/dataset.h"
 
@@ -18,14 +17,12 @@ namespace plumbline {
 
 // The options of a run that a start depends on.
 struct StartOptions {
-  RectifierOptions rectification;
   FeatureOptions features;
   InitializationOptions initialization;
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StartOptions& o) {
-  visit("rectification", o.rectification, "from raw to ideal images");
   visit("features", o.features, "what is measured in the images");
   visit("initialization", o.initialization, "start of a monocular map");
 }

@@ -11,39 +11,37 @@
 namespace plumbline {
 namespace {
 
-ProjectionSearchOptions SearchOptions(const FusionOptions& options) {
-  ProjectionSearchOptions search;
-  search.point_radius_px = options.point_radius_px;
-  search.point_max_distance = options.point_max_distance;
-  search.point_ratio = 1;
-  search.line_offset_px = options.line_offset_px;
-  search.line_angle_deg = options.line_angle_deg;
-  search.line_max_distance = options.line_max_distance;
-  return search;
-}
+// Closer and more alike than what tracking takes for the same: poses are adjusted, and a landmark
+// that is merged by mistake is not taken apart again.
+constexpr ProjectionSearchOptions kSearch{.point_radius_px = 3,
+                                          .point_max_distance = 50,
+                                          .point_ratio = 1,
+                                          .line_offset_px = 4,
+                                          .line_angle_deg = 4,
+                                          .line_max_distance = 60};
+// Of a landmark's reprojection: the limit at 95 % for two residuals.
+constexpr double kMaxChi2 = 5.99;
 
 bool PointAgrees(const RectifiedCamera& camera,
                  const Frame& frame,
                  std::size_t feature,
-                 const MapPoint& point,
-                 double max_chi2) {
+                 const MapPoint& point) {
   const auto residual = EvaluatePoint(
       camera, frame.cam_from_world, point.position, MeasurePoint(frame.features(), feature));
-  return residual && residual->r.squaredNorm() <= max_chi2 * (residual->rows == 3 ? 1.3 : 1.0);
+  return residual && residual->r.squaredNorm() <= kMaxChi2 * (residual->rows == 3 ? 1.3 : 1.0);
 }
 
 bool LineAgrees(const RectifiedCamera& camera,
                 const Frame& frame,
                 std::size_t feature,
-                const MapLine& line,
-                double max_chi2) {
+                const MapLine& line) {
   const UncertainLine uncertain(line.line, line.information);
   const auto agrees = [&](LineMeasurement measurement) {
     AddLandmarkUncertainty(
         camera, frame.cam_from_world, uncertain, LineWeighting::kCovariance, measurement);
     const auto distances =
         LineDistances(camera, frame.cam_from_world, uncertain.prepared, measurement);
-    return distances && distances->squaredNorm() <= max_chi2;
+    return distances && distances->squaredNorm() <= kMaxChi2;
   };
   const auto right = MeasureRightLine(frame.features(), feature, LineWeighting::kCovariance);
   return agrees(MeasureLeftLine(frame.features(), feature, LineWeighting::kCovariance)) &&
@@ -72,18 +70,13 @@ Merge MergeInto(const Landmark& a, const Landmark& b) {
 
 }  // namespace
 
-FusionInto::FusionInto(const Map& map,
-                       const ImagingModel& imaging,
-                       KeyFrameId to,
-                       const FusionOptions& options)
+FusionInto::FusionInto(const Map& map, const ImagingModel& imaging, KeyFrameId to)
     : map_(map),
       imaging_(imaging),
       to_(to),
-      options_(options),
-      search_(SearchOptions(options)),
       target_(map.Find(to)->frame),
-      point_chooser_(*target_.indexed, search_),
-      line_chooser_(*target_.indexed, search_),
+      point_chooser_(*target_.indexed, kSearch),
+      line_chooser_(*target_.indexed, kSearch),
       no_point_(target_.points.size(), false),
       no_line_(target_.lines.size(), false) {}
 
@@ -103,7 +96,7 @@ void FusionInto::FusePoints(const Frame& source, MapEdit& edit) {
   for (const auto& match : OneToOne(choices, target_.points.size())) {
     const MapPoint& point = *points[static_cast<std::size_t>(match.landmark)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    if (!PointAgrees(imaging_.camera, target_, feature, point, options_.max_chi2)) continue;
+    if (!PointAgrees(imaging_.camera, target_, feature, point)) continue;
     const PointId present = target_.points[feature];
     if (present.valid()) {
       edit.push_back(MergeInto<edit::MergePoints>(point, *map_.Find(present)));
@@ -121,7 +114,7 @@ void FusionInto::FuseLines(const Frame& source, MapEdit& edit) {
   for (const auto& match : OneToOne(choices, target_.lines.size())) {
     const MapLine& line = *lines[static_cast<std::size_t>(match.landmark)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    if (!LineAgrees(imaging_.camera, target_, feature, line, options_.max_chi2)) continue;
+    if (!LineAgrees(imaging_.camera, target_, feature, line)) continue;
     const LineId present = target_.lines[feature];
     if (present.valid()) {
       edit.push_back(MergeInto<edit::MergeLines>(line, *map_.Find(present)));
@@ -134,7 +127,7 @@ void FusionInto::FuseLines(const Frame& source, MapEdit& edit) {
 std::optional<FeatureChoice> FusionInto::Choose(const MapPoint& point) {
   const auto [known, is_new] = chosen_by_point_.try_emplace(point.id);
   if (is_new) {
-    const auto projected = ProjectPoint(imaging_, target_.cam_from_world, point, search_);
+    const auto projected = ProjectPoint(imaging_, target_.cam_from_world, point);
     if (projected) known->second = point_chooser_.Choose(*projected, no_point_);
   }
   return known->second;
@@ -143,7 +136,7 @@ std::optional<FeatureChoice> FusionInto::Choose(const MapPoint& point) {
 std::optional<FeatureChoice> FusionInto::Choose(const MapLine& line) {
   const auto [known, is_new] = chosen_by_line_.try_emplace(line.id);
   if (is_new) {
-    const auto projected = ProjectLine(imaging_, target_.cam_from_world, line, search_);
+    const auto projected = ProjectLine(imaging_, target_.cam_from_world, line);
     if (projected) known->second = line_chooser_.Choose(*projected, no_line_);
   }
   return known->second;

@@ -14,11 +14,15 @@ namespace {
 // Keeps the division by depth finite, no more: a single camera's map has no unit.
 constexpr double kNearPlane = 1e-3;
 constexpr double kDisparityGateSigmas = 4;
+// Seen from a side that differs more, a landmark does not look like its descriptor any more.
+constexpr double kMaxViewAngleDeg = 60;
+// Shorter pieces of a line are not found for certain.
+constexpr double kMinVisibleLengthPx = 20;
 
 double Radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-bool SeenFromNear(const Eigen::Vector3d& usual, const Eigen::Vector3d& now, double max_angle_deg) {
-  return usual.isZero() || usual.dot(now.normalized()) >= math::Cos(Radians(max_angle_deg));
+bool SeenFromNear(const Eigen::Vector3d& usual, const Eigen::Vector3d& now) {
+  return usual.isZero() || usual.dot(now.normalized()) >= math::Cos(Radians(kMaxViewAngleDeg));
 }
 
 // Cuts the parameter interval [lo, hi] of p + t d to p.axis + t d.axis >= min.
@@ -66,14 +70,13 @@ bool DisparityAgrees(const std::optional<Disparity>& measured, double predicted,
 
 std::optional<ProjectedPoint> ProjectPoint(const ImagingModel& imaging,
                                            const Rigid3& cam_from_world,
-                                           const PointModel& point,
-                                           const ProjectionSearchOptions& options) {
+                                           const PointModel& point) {
   const Eigen::Vector3d p = cam_from_world * point.position;
   if (p.z() < kNearPlane) return std::nullopt;
   const Eigen::Vector2d px = imaging.camera.Project(p);
   if (!imaging.camera.Contains(px)) return std::nullopt;
   const Eigen::Vector3d now = cam_from_world.rotation.conjugate() * p;
-  if (!SeenFromNear(point.view_direction, now, options.max_view_angle_deg)) return std::nullopt;
+  if (!SeenFromNear(point.view_direction, now)) return std::nullopt;
   double octave = point.reference_octave;
   if (point.reference_distance > 0) {
     octave += math::Log(point.reference_distance / p.norm()) / math::Log(imaging.octave_scale);
@@ -108,16 +111,13 @@ std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segm
 
 std::optional<ProjectedLine> ProjectLine(const ImagingModel& imaging,
                                          const Rigid3& cam_from_world,
-                                         const LineModel& line,
-                                         const ProjectionSearchOptions& options) {
+                                         const LineModel& line) {
   const Segment3 world = line.Interval();
   const Eigen::Vector3d to_middle = world.Midpoint() - Inverse(cam_from_world).translation;
-  if (!SeenFromNear(line.view_direction, to_middle, options.max_view_angle_deg)) {
-    return std::nullopt;
-  }
+  if (!SeenFromNear(line.view_direction, to_middle)) return std::nullopt;
   const auto segment =
       ProjectSegment(imaging.camera, {cam_from_world * world.start, cam_from_world * world.end});
-  if (!segment || segment->Length() < options.line_min_length_px) return std::nullopt;
+  if (!segment || segment->Length() < kMinVisibleLengthPx) return std::nullopt;
   return ProjectedLine{*segment, line.descriptor};
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/options.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/map/frame.h"
@@ -14,29 +13,16 @@
 
 namespace plumbline {
 
+// How far from where a landmark should appear a feature may be, and how unlike it. The defaults are
+// tracking's, from a pose that is nearly right.
 struct ProjectionSearchOptions {
-  double point_radius_px = 4;      // at octave 0; grows with the octave
-  int point_max_distance = 80;     // Hamming, of 256 bits
-  double point_ratio = 0.85;       // best / second best in the window
-  double max_view_angle_deg = 60;  // between the usual and the present viewing direction
-  double line_offset_px = 10;      // midpoint of the feature from the projected line
-  double line_angle_deg = 8;       // between feature and projected line
-  int line_max_distance = 80;      // Hamming, of 256 bits
-  double line_min_length_px = 20;  // visible part of a projected line
+  double point_radius_px = 4;   // at octave 0; grows with the octave
+  int point_max_distance = 80;  // Hamming, of 256 bits
+  double point_ratio = 0.85;    // best / second best in the window
+  double line_offset_px = 10;   // midpoint of the feature from the projected line
+  double line_angle_deg = 8;    // between feature and projected line
+  int line_max_distance = 80;   // Hamming, of 256 bits
 };
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, ProjectionSearchOptions& o) {
-  visit("point_radius_px", o.point_radius_px, "search radius of a point [px]", Range{0.5, 200});
-  visit("point_max_distance", o.point_max_distance, "largest Hamming distance", Range{0, 256});
-  visit(
-      "point_ratio", o.point_ratio, "largest ratio of best to second best distance", Range{0.1, 1});
-  visit("max_view_angle_deg", o.max_view_angle_deg, "largest change of view [deg]", Range{1, 180});
-  visit("line_offset_px", o.line_offset_px, "search distance across a line [px]", Range{0.5, 200});
-  visit("line_angle_deg", o.line_angle_deg, "largest angle to the prediction [deg]", Range{1, 90});
-  visit("line_max_distance", o.line_max_distance, "largest Hamming distance", Range{0, 256});
-  visit("line_min_length_px", o.line_min_length_px, "shortest visible part [px]", Range{1, 1000});
-}
 
 // The camera and the size ratio of neighbouring octaves of its features.
 struct ImagingModel {
@@ -60,15 +46,13 @@ struct ProjectedLine {
 };
 
 // Where a landmark should appear; nullopt when it is behind the camera, outside the image, or seen
-// from too different a side.
+// from too different a side, and for a line of which too little is visible.
 std::optional<ProjectedPoint> ProjectPoint(const ImagingModel& imaging,
                                            const Rigid3& cam_from_world,
-                                           const PointModel& point,
-                                           const ProjectionSearchOptions& options);
+                                           const PointModel& point);
 std::optional<ProjectedLine> ProjectLine(const ImagingModel& imaging,
                                          const Rigid3& cam_from_world,
-                                         const LineModel& line,
-                                         const ProjectionSearchOptions& options);
+                                         const LineModel& line);
 
 // The part of a 3D segment (camera frame) in front of the camera and inside the image, projected.
 std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segment3& in_camera);

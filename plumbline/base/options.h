@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace plumbline {
@@ -50,6 +51,24 @@ struct FieldProbe {
 template <class T>
 concept OptionGroup = requires(T& t, FieldProbe probe) {
   VisitFields(probe, t);
+};
+
+// What was an option of a group in earlier versions and is a constant of the code now, so that
+// their files can still be read. Beside the struct stands a function found by ADL:
+//
+//   constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
+//     return std::array{FixedOption{"initial_lambda", "1e-04"}};
+//   }
+//
+// A constant that changes changes its row.
+struct FixedOption {
+  std::string_view key;    // in its group; dotted where a group inside it is gone as well
+  std::string_view value;  // as a file of options has it
+};
+
+template <class T>
+concept HasFixedOptions = requires {
+  FixedOptions(std::type_identity<T>{});
 };
 
 }  // namespace plumbline

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,12 +47,14 @@ struct OptionField {
 // Settings apply in the order of the calls; a later one replaces an earlier one. All members that
 // read settings throw InputError: an unknown key (with the nearest valid one), a value of the wrong
 // type, out of range or not among the choices; the message names file and line, the key, what is
-// allowed and what was found. Settings before the faulty one stay applied.
+// allowed and what was found. Settings before the faulty one stay applied. What is no option any
+// more (FixedOption) is passed over in files and texts that have it at its value, so that those of
+// earlier versions are read; another value, and any by Set, is an error that tells the value.
 class OptionTable {
  public:
   template <OptionGroup T>
   explicit OptionTable(T& options) {
-    VisitFields(Collector{this, ""}, options);
+    Collect("", options);
   }
 
   // Reads a YAML file of nested groups (`ba: {huber_px: 2}`); dotted keys are accepted as well.
@@ -72,6 +75,8 @@ class OptionTable {
   // Dotted keys of all options, in the order of the structs.
   std::vector<std::string> Keys() const;
   const std::vector<OptionField>& fields() const { return fields_; }
+  // What was an option in earlier versions: dotted key, and the value that it is fixed at.
+  const std::map<std::string, std::string>& fixed() const { return fixed_; }
 
  private:
   struct Group {
@@ -89,7 +94,7 @@ class OptionTable {
       const std::string key = prefix + std::string(name);
       if constexpr (OptionGroup<T>) {
         table->groups_.push_back({key, std::string(help), table->fields_.size()});
-        VisitFields(Collector{table, key + "."}, value);
+        table->Collect(key + ".", value);
       } else {
         table->fields_.push_back({key, std::string(help), std::nullopt, TargetOf(value)});
       }
@@ -101,6 +106,16 @@ class OptionTable {
       table->fields_.back().range = range;
     }
   };
+
+  template <class T>
+  void Collect(const std::string& prefix, T& group) {
+    if constexpr (HasFixedOptions<T>) {
+      for (const FixedOption& fixed : FixedOptions(std::type_identity<T>{})) {
+        fixed_.emplace(prefix + std::string(fixed.key), fixed.value);
+      }
+    }
+    VisitFields(Collector{this, prefix}, group);
+  }
 
   template <class T>
   static OptionField::Target TargetOf(T& value) {
@@ -128,9 +143,12 @@ class OptionTable {
 
   void SetField(const std::string& key, const std::string& text, const std::string& where);
   bool IsGroup(std::string_view key) const;
+  // Whether a text has what is no option any more at the value that it is fixed at.
+  bool IsFixedAt(const std::string& key, const std::string& text) const;
 
   std::vector<OptionField> fields_;
   std::vector<Group> groups_;
+  std::map<std::string, std::string> fixed_;
 };
 
 }  // namespace plumbline

@@ -14,6 +14,9 @@
 namespace plumbline {
 namespace {
 
+// Spread of the depths around a pixel, relative to depth, that counts as an edge.
+constexpr double kEdgeSpread = 0.05;
+
 class DepthModel {
  public:
   DepthModel(const RectifiedCamera& camera, const DepthDisparityOptions& options)
@@ -22,7 +25,9 @@ class DepthModel {
   bool InRange(double z) const { return z >= options_.min_depth_m && z <= options_.max_depth_m; }
 
   double DisparitySigma(double z) const {
-    const double sigma_z = options_.depth_sigma_a + options_.depth_sigma_b * (z - 0.4) * (z - 0.4);
+    // Of structured light, as its paper measured it [m], [1/m].
+    constexpr double kConstant = 0.0012, kQuadratic = 0.0019;
+    const double sigma_z = kConstant + kQuadratic * (z - 0.4) * (z - 0.4);
     return camera_.fx * camera_.baseline / (z * z) * sigma_z;
   }
 
@@ -174,20 +179,21 @@ std::optional<DisparityFit> FitTrack(const RectifiedCamera& camera,
                                      const Segment2& segment,
                                      double side,
                                      const DepthDisparityOptions& options) {
+  constexpr int kSamples = 32;         // along a line
+  constexpr double kMinInliers = 0.6;  // of these, on one straight line in space
   const DepthModel model(camera, options);
   const Eigen::Vector2d direction = segment.Direction();
   const Eigen::Vector2d offset = side * Eigen::Vector2d(-direction.y(), direction.x());
-  LinePoints points(options.line_samples);
-  for (int i = 0; i < options.line_samples; ++i) {
-    const double t = (i + 0.5) / options.line_samples;
+  LinePoints points(kSamples);
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = (i + 0.5) / kSamples;
     const Eigen::Vector2d px = segment.start + t * (segment.end - segment.start) + offset;
     const std::optional<DepthSample> sample = SampleDepth(depth, px);
     if (!sample || !model.InRange(sample->z)) continue;
-    if (sample->spread > options.max_relative_step * sample->z) continue;
+    if (sample->spread > kEdgeSpread * sample->z) continue;
     points.Add(t, camera.DisparityFromDepth(sample->z), model.DisparitySigma(sample->z));
   }
-  const int needed =
-      std::max(4, static_cast<int>(std::ceil(options.min_line_inliers * options.line_samples)));
+  const int needed = static_cast<int>(std::ceil(kMinInliers * kSamples));
   if (static_cast<int>(points.size()) < needed) return std::nullopt;
   return FitDisparity(points, needed);
 }
@@ -197,8 +203,9 @@ std::optional<DisparityFit> NearestTrack(const RectifiedCamera& camera,
                                          const DepthImage& depth,
                                          const Segment2& segment,
                                          const DepthDisparityOptions& options) {
+  constexpr double kSidePx = 2;
   std::optional<DisparityFit> best;
-  for (const double side : {0.0, options.line_side_px, -options.line_side_px}) {
+  for (const double side : {0.0, kSidePx, -kSidePx}) {
     const std::optional<DisparityFit> fit = FitTrack(camera, depth, segment, side, options);
     if (!fit) continue;
     // The line itself is preferred unless a side is nearer for certain.
@@ -217,6 +224,7 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
                                                        const std::vector<PointFeature>& points,
                                                        const DepthDisparityOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "depth needs a virtual baseline");
+  constexpr double kRegistrationSigmaPx = 0.5;  // of depth to colour
   const DepthModel model(camera, options);
   std::vector<std::optional<Disparity>> result;
   result.reserve(points.size());
@@ -224,10 +232,10 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
     result.emplace_back();
     const std::optional<DepthSample> sample = SampleDepth(depth, point.px);
     if (!sample || !model.InRange(sample->z)) continue;
-    if (sample->spread > options.max_relative_step * sample->z) continue;
+    if (sample->spread > kEdgeSpread * sample->z) continue;
     const double disparity = camera.DisparityFromDepth(sample->z);
     // The spread covers two pixels: what the depth changes over a misregistration.
-    const double slope = disparity * 0.5 * sample->spread / sample->z * options.pixel_sigma_px;
+    const double slope = disparity * 0.5 * sample->spread / sample->z * kRegistrationSigmaPx;
     result.back() = Disparity{disparity, math::Hypot(model.DisparitySigma(sample->z), slope)};
   }
   return result;

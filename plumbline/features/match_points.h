@@ -8,7 +8,9 @@
 #include "plumbline/image/image.h"
 #include "plumbline/image/pyramid.h"
 
+#include <array>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace plumbline {
@@ -35,11 +37,8 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
                                     const PointMatchOptions& options);
 
 struct StereoPointOptions {
-  double ratio = 0.9;  // best sum of differences / second best elsewhere in the row must be below
-  double min_depth_m = 0.25;   // gives the largest disparity
-  int window_px = 5;           // half width of the correlation window, finest level
-  double max_sad_factor = 4;   // matches with a residual above this times the median are dropped
-  double min_sigma_px = 0.08;  // floor of the disparity's deviation on the level image
+  double min_depth_m = 0.25;  // gives the largest disparity
+  int window_px = 5;          // half width of the correlation window, finest level
   // Deviation that the pair's calibration adds to every disparity, relative to the width of the
   // image: errors of angles and of the lens are the same part of an image of any size (8e-4: 1 px
   // of 1250).
@@ -72,28 +71,22 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoPointOptions& o) {
-  visit("ratio",
-        o.ratio,
-        "largest ratio of best to second best sum of differences in the row",
-        Range{0.1, 1});
   visit("min_depth_m", o.min_depth_m, "nearest depth searched [m]", Range{0.01, 100});
   visit("window_px",
         o.window_px,
         "half width of the correlation window of the finest level [px]",
         Range{2, 15});
-  visit("max_sad_factor",
-        o.max_sad_factor,
-        "residual limit as a multiple of the median",
-        Range{1, 100});
   visit("calibration_sigma",
         o.calibration_sigma,
         "deviation that the calibration of the pair adds to every disparity, relative to the width "
         "of the image",
         Range{0, 0.01});
-  visit("min_sigma_px",
-        o.min_sigma_px,
-        "floor of the deviation of a disparity at octave 0 [px]",
-        Range{0.01, 5});
+}
+
+constexpr auto FixedOptions(std::type_identity<StereoPointOptions>) {
+  return std::array{FixedOption{"ratio", "0.9"},
+                    FixedOption{"max_sad_factor", "4"},
+                    FixedOption{"min_sigma_px", "0.08"}};
 }
 
 }  // namespace plumbline

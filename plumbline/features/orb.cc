@@ -19,6 +19,8 @@
 namespace plumbline {
 namespace {
 
+constexpr int kLevels = 8;   // of the pyramid; by 1.2 the coarsest is 3.6 times smaller
+constexpr int kCellPx = 35;  // side of the cells of a level that have a threshold of their own
 constexpr int kCentroidRadius = 15;
 constexpr int kPatchRadius = 20;  // the turned sampling pattern (18.4) and a shift stay inside
 
@@ -29,22 +31,20 @@ std::vector<FastCorner> DetectCorners(const GrayImage& image, const OrbOptions& 
   std::vector<FastCorner> corners;
   if (area.empty()) return corners;
   const FastCorners fast(image, area);
-  fast.Collect(area, options.fast_threshold, &corners);
-  const int columns = (area.x1 - area.x0 + options.cell_px - 1) / options.cell_px;
-  const int rows = (area.y1 - area.y0 + options.cell_px - 1) / options.cell_px;
+  fast.Collect(area, kCornerContrast, &corners);
+  const int columns = (area.x1 - area.x0 + kCellPx - 1) / kCellPx;
+  const int rows = (area.y1 - area.y0 + kCellPx - 1) / kCellPx;
   std::vector<bool> occupied(static_cast<std::size_t>(columns * rows), false);
   for (const FastCorner& c : corners) {
-    const int cell =
-        (c.y - area.y0) / options.cell_px * columns + (c.x - area.x0) / options.cell_px;
+    const int cell = (c.y - area.y0) / kCellPx * columns + (c.x - area.x0) / kCellPx;
     occupied[static_cast<std::size_t>(cell)] = true;
   }
-  if (options.fast_min_threshold >= options.fast_threshold) return corners;
+  if (options.fast_min_threshold >= kCornerContrast) return corners;
   for (int cell = 0; cell < columns * rows; ++cell) {
     if (occupied[static_cast<std::size_t>(cell)]) continue;
-    const int x = area.x0 + cell % columns * options.cell_px;
-    const int y = area.y0 + cell / columns * options.cell_px;
-    fast.Collect(
-        {x, y, x + options.cell_px, y + options.cell_px}, options.fast_min_threshold, &corners);
+    const int x = area.x0 + cell % columns * kCellPx;
+    const int y = area.y0 + cell / columns * kCellPx;
+    fast.Collect({x, y, x + kCellPx, y + kCellPx}, options.fast_min_threshold, &corners);
   }
   return corners;
 }
@@ -313,7 +313,7 @@ void ExtractLevel(const PyramidLevel& level,
   std::vector<OrientedPixel> pixels;
   for (const FastCorner& c : corners) {
     Eigen::Vector2d px(c.x, c.y);
-    if (options.subpixel) px += CornerOffset(level.image, c.x, c.y);
+    px += CornerOffset(level.image, c.x, c.y);
     // Two corners may have moved to one peak; the first one is the stronger.
     if (std::any_of(places.begin(), places.end(), [&](const Eigen::Vector2d& other) {
           return (other - px).squaredNorm() < 1;
@@ -342,7 +342,7 @@ void ExtractLevel(const PyramidLevel& level,
 }  // namespace
 
 ImagePyramid BuildOrbPyramid(const GrayImage& image, const OrbOptions& options) {
-  return BuildPyramid(image, options.levels, options.scale_factor);
+  return BuildPyramid(image, kLevels, options.scale_factor);
 }
 
 std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,

@@ -7,18 +7,20 @@
 #include "plumbline/features/valid_region.h"
 #include "plumbline/image/pyramid.h"
 
+#include <array>
+#include <type_traits>
 #include <vector>
 
 namespace plumbline {
 
+// Contrast of a corner [grey levels] that is found wherever it is; weaker ones where there is no
+// such.
+inline constexpr int kCornerContrast = 20;
+
 struct OrbOptions {
-  int levels = 8;
   double scale_factor = 1.2;
-  int fast_threshold = 20;     // grey levels
-  int fast_min_threshold = 4;  // used in cells where the first finds nothing
-  int cell_px = 35;            // side of these cells on a level
-  bool subpixel = true;
-  double sigma_px = 0.2;  // of a sharp corner at octave 0
+  int fast_min_threshold = 4;  // grey levels, in cells without a corner of kCornerContrast
+  double sigma_px = 0.2;       // of a sharp corner at octave 0
   // What noise adds: of a corner of one grey level of contrast, less as the contrast grows.
   double noise_sigma_px = 6.7;
   // What lenses and shutter that are not quite as the calibration says add to every corner,
@@ -31,7 +33,7 @@ struct OrbOptions {
 // FAST corners (Rosten and Drummond 2006) on each level, with a lower threshold in cells that have
 // none; each level keeps a share of `count` that falls with its width, taken in turns from a grid
 // so that no textured spot takes all. Orientation by the intensity centroid and the steered BRIEF
-// pattern of ORB (Rublee et al., ICCV 2011), 256 bits. With `subpixel` a corner moves to the
+// pattern of ORB (Rublee et al., ICCV 2011), 256 bits. A corner moves to the
 // peak of the Harris response (parabola, at most 1.5 level pixels), which more than halves the
 // scatter between frames: 0.45 to 0.2 level pixels on EuRoC, where the Förstner point gives 0.50.
 //
@@ -39,7 +41,7 @@ struct OrbOptions {
 // 0.1 level pixels from frame to frame above 100 grey levels, 0.15 at 40, 0.3 at 17 and 1 below 7,
 // roughly hypot(0.1, 4 / contrast). The deviations are nearly in this proportion.
 //
-// `pyramid` must have been built with the levels and the factor of the options (BuildOrbPyramid).
+// `pyramid` must have been built with the factor of the options (BuildOrbPyramid).
 // Corners closer to an invalid pixel or to the border than the patch (20 level pixels) are left
 // out. Result: position and sigma (of corner and noise * scale of the octave, and the
 // calibration's) in pixels of the full image, ordered by octave, then as selected. Cost: about 4 ms
@@ -53,16 +55,11 @@ ImagePyramid BuildOrbPyramid(const GrayImage& image, const OrbOptions& options);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, OrbOptions& o) {
-  visit("levels", o.levels, "levels of the scale pyramid", Range{1, 16});
   visit("scale_factor", o.scale_factor, "size ratio of successive levels", Range{1.05, 2});
-  visit("fast_threshold", o.fast_threshold, "contrast of a corner [grey levels]", Range{1, 255});
   visit("fast_min_threshold",
         o.fast_min_threshold,
-        "contrast where there is none above the first "
-        "[grey levels]",
+        "contrast of a corner where there is none of 20 [grey levels]",
         Range{1, 255});
-  visit("cell_px", o.cell_px, "side of the cells with their own threshold [px]", Range{8, 500});
-  visit("subpixel", o.subpixel, "refine corners below the pixel");
   visit("sigma_px", o.sigma_px, "deviation of a sharp corner at octave 0 [px]", Range{0.05, 10});
   visit("noise_sigma_px",
         o.noise_sigma_px,
@@ -74,6 +71,13 @@ void VisitFields(Visitor&& visit, OrbOptions& o) {
       "deviation that the calibration of the camera adds to every corner, relative to the width of "
       "the image",
       Range{0, 0.01});
+}
+
+constexpr auto FixedOptions(std::type_identity<OrbOptions>) {
+  return std::array{FixedOption{"levels", "8"},
+                    FixedOption{"fast_threshold", "20"},
+                    FixedOption{"cell_px", "35"},
+                    FixedOption{"subpixel", "true"}};
 }
 
 }  // namespace plumbline

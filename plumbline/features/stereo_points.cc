@@ -17,6 +17,10 @@ namespace plumbline {
 namespace {
 
 constexpr int kMaxWindow = 15;
+// Best sum of differences over the second best elsewhere in the row: repeated texture is above.
+constexpr double kMaxRatio = 0.9;
+// Floor of a disparity's deviation on the level image, below which sampling errors are not known.
+constexpr double kMinSigmaPx = 0.08;
 constexpr std::size_t kMaxPatch =
     static_cast<std::size_t>((2 * kMaxWindow + 1) * (2 * kMaxWindow + 1));
 
@@ -167,7 +171,6 @@ class OctaveMatcher {
       : left_(left),
         right_(right),
         right_valid_(right_valid),
-        options_(options),
         window_(options.window_px, left.scale.maxCoeff()),
         search_(left.image, right.image),
         max_disparity_(camera.DisparityFromDepth(options.min_depth_m)),
@@ -178,7 +181,7 @@ class OctaveMatcher {
     const Eigen::Vector2i at = left_.FromFull(point.px).array().round().cast<int>();
     const auto range =
         static_cast<int>(std::ceil(std::min<double>(max_disparity_ / scale, left_.image.width())));
-    const std::optional<int> x = search_.Find(at, range, options_.ratio);
+    const std::optional<int> x = search_.Find(at, range, kMaxRatio);
     if (!x || !IsReal({*x, at.y()})) return std::nullopt;
     Patch patch;
     if (!ReadPatch(left_.image, at.x(), at.y(), window_.half(), &patch)) return std::nullopt;
@@ -187,7 +190,7 @@ class OctaveMatcher {
     const double disparity = (at.x() - found->x) * scale;
     if (disparity <= 0 || disparity > max_disparity_) return std::nullopt;
     const double sigma =
-        math::Hypot(std::max(options_.min_sigma_px, found->sigma) * scale, calibration_sigma_px_);
+        math::Hypot(std::max(kMinSigmaPx, found->sigma) * scale, calibration_sigma_px_);
     return Found{{disparity, sigma}, found->residual};
   }
 
@@ -203,21 +206,21 @@ class OctaveMatcher {
   const PyramidLevel& left_;
   const PyramidLevel& right_;
   const ValidRegion& right_valid_;
-  const StereoPointOptions& options_;
   CorrelationWindow window_;
   RowSearch search_;
   double max_disparity_;
   double calibration_sigma_px_;
 };
 
-void DropPoorResiduals(double factor, std::vector<std::optional<Found>>* matches) {
+void DropPoorResiduals(std::vector<std::optional<Found>>* matches) {
   constexpr double kAlwaysGood = 3;  // grey levels
+  constexpr double kPoor = 4;        // times the median
   std::vector<double> residuals;
   for (const std::optional<Found>& match : *matches) {
     if (match) residuals.push_back(match->residual);
   }
   if (residuals.empty()) return;
-  const double limit = std::max(kAlwaysGood, factor * UpperMedian(std::span<double>(residuals)));
+  const double limit = std::max(kAlwaysGood, kPoor * UpperMedian(std::span<double>(residuals)));
   for (std::optional<Found>& match : *matches) {
     if (match && match->residual > limit) match.reset();
   }
@@ -246,7 +249,7 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
       if (in_octave(points[i])) matches[i] = matcher.Match(points[i]);
     }
   });
-  DropPoorResiduals(options.max_sad_factor, &matches);
+  DropPoorResiduals(&matches);
   std::vector<std::optional<Disparity>> result(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (matches[i]) result[i] = matches[i]->disparity;

@@ -182,14 +182,16 @@ Rectifier::~Rectifier() = default;
 Rectifier::Rectifier(Rectifier&&) noexcept = default;
 Rectifier& Rectifier::operator=(Rectifier&&) noexcept = default;
 
-Rectifier::Rectifier(const Calibration& calibration, const RectifierOptions& options)
-    : calibration_(calibration) {
+Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration) {
+  // Turns depth into disparity [m]: about the baseline of sensors of structured light, so that
+  // these are the disparities that they measured.
+  constexpr double kVirtualBaseline = 0.08;
   const Camera& left = calibration_.left;
   const bool stereo = calibration_.right.has_value();
   const bool with_depth = calibration_.depth_factor.has_value();
   Refuse(RectifiedFault(calibration_));
   bool unchanged = left.IsIdeal();
-  double baseline = with_depth ? options.virtual_baseline : 0;
+  double baseline = with_depth ? kVirtualBaseline : 0;
   if (stereo) {
     Refuse(PairFault(calibration_));
     const Rigid3 left_from_right = Inverse(calibration_.right_from_left);

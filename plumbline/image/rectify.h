@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/options.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/image/image.h"
@@ -15,18 +14,6 @@
 #include <Eigen/Geometry>
 
 namespace plumbline {
-
-struct RectifierOptions {
-  double virtual_baseline = 0.08;
-};
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, RectifierOptions& o) {
-  visit("virtual_baseline",
-        o.virtual_baseline,
-        "RGB-D: distance of the virtual right camera, which turns depth into disparity [m]",
-        Range{0.001, 10});
-}
 
 // A frame as the ideal camera would have taken it.
 struct RectifiedFrame {
@@ -48,7 +35,7 @@ class Rectifier {
  public:
   // Throws InputError where the two cameras of a pair differ in size, the second one is not to the
   // right of the first, or `rectified` is set but the numbers contradict it. O(pixels), some 10 ms.
-  explicit Rectifier(const Calibration& calibration, const RectifierOptions& options = {});
+  explicit Rectifier(const Calibration& calibration);
   ~Rectifier();
   Rectifier(Rectifier&&) noexcept;
   Rectifier& operator=(Rectifier&&) noexcept;

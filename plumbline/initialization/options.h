@@ -32,7 +32,6 @@ struct InitializationOptions {
   RelativePoseMethod relative_pose = RelativePoseMethod::kFivePoint;
   bool factorize = true;
   bool interpolate = true;
-  double max_interpolation_px = 2;
   double min_line_angle_deg = 0;
   int reweighting = 5;
   InitialMatching matching = InitialMatching::kImages;
@@ -57,10 +56,6 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
   visit("interpolate",
         o.interpolate,
         "rank1: complete tracks by geometric interpolation; false: factorize complete tracks only");
-  visit("max_interpolation_px",
-        o.max_interpolation_px,
-        "largest standard deviation of an interpolated place that is used [px]",
-        Range{0, 1000});
   visit("min_line_angle_deg",
         o.min_line_angle_deg,
         "smallest angle at which the epipolar lines of an interpolated place meet (the paper: 5) "
@@ -74,6 +69,10 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         o.matching,
         "rank1: of points with the reference: images (followed, and shifted until the image looks "
         "as in the reference), descriptors (as the paper)");
+}
+
+constexpr auto FixedOptions(std::type_identity<InitializationOptions>) {
+  return std::array{FixedOption{"max_interpolation_px", "2"}};
 }
 
 }  // namespace plumbline

@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kDecisionPoints = 200;
 constexpr int kMinPoints = 30;  // of a map
+// Largest standard deviation of an interpolated place that is used; corners have 0.2 to 1 pixel.
+constexpr double kMaxInterpolationPx = 2;
 
 }  // namespace
 
@@ -27,7 +29,7 @@ Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
   WindowFactorizationOptions& factorization = decision_.factorization;
   factorization.factorize = options.factorize;
   factorization.interpolate = options.interpolate;
-  factorization.max_interpolation_sigma = options.max_interpolation_px / focal;
+  factorization.max_interpolation_sigma = kMaxInterpolationPx / focal;
   factorization.min_line_angle = options.min_line_angle_deg * std::numbers::pi / 180;
   factorization.reweighting = options.reweighting;
   decision_.relative_pose.method = options.relative_pose;

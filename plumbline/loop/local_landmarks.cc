@@ -101,12 +101,12 @@ SearchedImage SearchImage(const ImagingModel& imaging,
   SearchedImage out;
   out.projected_points.reserve(landmarks.points.size());
   for (const MapPoint* point : landmarks.points) {
-    out.projected_points.push_back(ProjectPoint(imaging, cam_from_world, *point, options));
+    out.projected_points.push_back(ProjectPoint(imaging, cam_from_world, *point));
     out.tested_points += out.projected_points.back().has_value();
   }
   out.projected_lines.reserve(landmarks.lines.size());
   for (const MapLine* line : landmarks.lines) {
-    out.projected_lines.push_back(ProjectLine(imaging, cam_from_world, *line, options));
+    out.projected_lines.push_back(ProjectLine(imaging, cam_from_world, *line));
     out.tested_lines += out.projected_lines.back().has_value();
   }
   const std::vector<bool> no_point(image.features.points.size(), false);

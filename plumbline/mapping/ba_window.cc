@@ -19,6 +19,8 @@
 namespace plumbline {
 namespace {
 
+constexpr int kMinShared = 15;  // landmarks: fewer tie a keyframe to the window by chance
+
 // Builds a BaWindow step by step: keyframes, then landmarks with their observations.
 class WindowBuilder {
  public:
@@ -50,7 +52,7 @@ class WindowBuilder {
  private:
   void ChooseFree() {
     free_ = {centre_};
-    for (const auto& neighbour : Covisible(map_, centre_, options_.min_shared)) {
+    for (const auto& neighbour : Covisible(map_, centre_, kMinShared)) {
       if (static_cast<int>(free_.size()) >= options_.free_keyframes) break;
       free_.insert(neighbour.id);
     }

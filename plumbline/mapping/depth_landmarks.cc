@@ -10,6 +10,10 @@
 namespace plumbline {
 namespace {
 
+// Relative depth uncertainty up to which points fill up what a keyframe should show: worse ones say
+// hardly more than their direction.
+constexpr double kWorstDepthSigma = 0.3;
+
 struct DepthPoint {
   std::size_t feature;
   double relative_sigma;
@@ -26,7 +30,7 @@ std::vector<DepthPoint> ChooseDepthPoints(const Frame& frame,
     const double relative = disparities[i]->sigma_px / disparities[i]->px;
     if (frame.points[i].valid()) {
       ++present;
-    } else if (relative <= options.worst_relative_depth_sigma) {
+    } else if (relative <= kWorstDepthSigma) {
       free.push_back({i, relative});
     }
   }
@@ -49,8 +53,7 @@ DepthLandmarks LandmarksFromDepth(const RectifiedCamera& camera,
                                   const LandmarkCreationOptions& options) {
   DepthLandmarks landmarks;
   for (const DepthPoint& point : ChooseDepthPoints(frame, options)) {
-    const auto model =
-        PointFromFrame(camera, frame, point.feature, options.worst_relative_depth_sigma);
+    const auto model = PointFromFrame(camera, frame, point.feature, kWorstDepthSigma);
     if (model) landmarks.points.emplace_back(point.feature, *model);
   }
   for (std::size_t i = 0; i < frame.lines.size(); ++i) {

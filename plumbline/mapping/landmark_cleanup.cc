@@ -12,31 +12,33 @@
 namespace plumbline {
 namespace {
 
+// Of the frames where a young landmark should be seen, the share that must find it.
+constexpr double kMinFoundRatio = 0.25;
+// Keyframes until a landmark is no longer young, and how many must show it then: what only one
+// shows ties nothing together.
+constexpr int kTrialKeyFrames = 3;
+constexpr int kMinObservations = 2;
+// Other keyframes that show the landmarks of a redundant one: with three, each of them keeps two
+// views when one of these goes in its turn.
+constexpr int kRedundantViews = 3;
+
 enum class Verdict { kKeepWatching, kPassed, kRemove };
 
 template <class Landmark>
-Verdict Judge(const Map& map,
-              const Landmark* landmark,
-              KeyFrameId newest,
-              const CleanupOptions& options) {
+Verdict Judge(const Map& map, const Landmark* landmark, KeyFrameId newest) {
   if (landmark == nullptr) return Verdict::kPassed;  // gone already
-  if (landmark->score.Ratio() < options.min_found_ratio) return Verdict::kRemove;
-  if (map.NumberOf(newest) - map.NumberOf(landmark->created_by) < options.trial_keyframes) {
+  if (landmark->score.Ratio() < kMinFoundRatio) return Verdict::kRemove;
+  if (map.NumberOf(newest) - map.NumberOf(landmark->created_by) < kTrialKeyFrames) {
     return Verdict::kKeepWatching;
   }
-  return static_cast<int>(landmark->observations.size()) < options.min_observations
-             ? Verdict::kRemove
-             : Verdict::kPassed;
+  return static_cast<int>(landmark->observations.size()) < kMinObservations ? Verdict::kRemove
+                                                                            : Verdict::kPassed;
 }
 
 template <class Remove, class LandmarkId>
-void JudgeAll(const Map& map,
-              KeyFrameId newest,
-              const CleanupOptions& options,
-              std::vector<LandmarkId>& young,
-              MapEdit& edit) {
+void JudgeAll(const Map& map, KeyFrameId newest, std::vector<LandmarkId>& young, MapEdit& edit) {
   std::erase_if(young, [&](LandmarkId id) {
-    const Verdict verdict = Judge(map, map.Find(id), newest, options);
+    const Verdict verdict = Judge(map, map.Find(id), newest);
     if (verdict == Verdict::kRemove) edit.push_back(Remove{id});
     return verdict != Verdict::kKeepWatching;
   });
@@ -79,9 +81,8 @@ constexpr std::int64_t kVisit = 20;
 
 // How a keyframe is judged by its landmarks.
 struct Redundancy {
-  double share = 0.9;  // of its landmarks that others must show
-  int views = 3;       // so many others ...
-  bool again = false;  // ... of which one is of another visit
+  double share = 0.9;  // of its landmarks that kRedundantViews others must show
+  bool again = false;  // one of which is of another visit
 };
 
 bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe) {
@@ -94,8 +95,8 @@ bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe
 bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rule) {
   const Frame& frame = keyframe.frame;
   SharedLandmarks shared;
-  CountShared(map, frame.points, rule.views, shared);
-  CountShared(map, frame.lines, rule.views, shared);
+  CountShared(map, frame.points, kRedundantViews, shared);
+  CountShared(map, frame.lines, kRedundantViews, shared);
   const auto is_below_share = [&](int own) { return shared.all - own < rule.share * shared.all; };
   if (shared.all == 0 || is_below_share(shared.of_few)) return false;
   const auto is_met_again = [&](const Observations& observations) {
@@ -109,7 +110,7 @@ bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rul
     const auto& observations = map.Find(frame.points[i])->observations;
     if (observations.size() < 2) continue;
     const int octave = frame.features().points[i].octave;
-    const bool redundant = HasViews(observations, rule.views, [&](const auto& o) {
+    const bool redundant = HasViews(observations, kRedundantViews, [&](const auto& o) {
       return o.first != keyframe.id && OctaveOf(map, o.first, o.second) <= octave + 1;
     });
     own += !(redundant && is_met_again(observations));
@@ -118,20 +119,17 @@ bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rul
     if (!id.valid()) continue;
     const auto& observations = map.Find(id)->observations;
     const auto views = static_cast<int>(observations.size());
-    if (views >= 2) own += !(views - 1 >= rule.views && is_met_again(observations));
+    if (views >= 2) own += !(views - 1 >= kRedundantViews && is_met_again(observations));
   }
   return !is_below_share(own);
 }
 
 }  // namespace
 
-MapEdit RemoveWeakLandmarks(const Map& map,
-                            KeyFrameId newest,
-                            const CleanupOptions& options,
-                            YoungLandmarks& young) {
+MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, YoungLandmarks& young) {
   MapEdit edit;
-  JudgeAll<edit::RemovePoint>(map, newest, options, young.points, edit);
-  JudgeAll<edit::RemoveLine>(map, newest, options, young.lines, edit);
+  JudgeAll<edit::RemovePoint>(map, newest, young.points, edit);
+  JudgeAll<edit::RemoveLine>(map, newest, young.lines, edit);
   return edit;
 }
 
@@ -162,7 +160,6 @@ template <class Remove, class LandmarkId>
 void RemoveForsaken(const Map& map,
                     KeyFrameId newest,
                     const std::vector<LandmarkId>& matches,
-                    const CleanupOptions& options,
                     MapEdit& edit) {
   for (const LandmarkId id : matches) {
     if (!id.valid()) continue;
@@ -170,9 +167,9 @@ void RemoveForsaken(const Map& map,
     // Files of merged maps tell of landmarks whose first keyframe is not known any more.
     const bool on_trial =
         map.Knows(landmark.created_by) &&
-        map.NumberOf(newest) - map.NumberOf(landmark.created_by) < options.trial_keyframes;
+        map.NumberOf(newest) - map.NumberOf(landmark.created_by) < kTrialKeyFrames;
     const auto left = static_cast<int>(landmark.observations.size()) - 1;
-    if (!on_trial && left < options.min_observations) edit.push_back(Remove{id});
+    if (!on_trial && left < kMinObservations) edit.push_back(Remove{id});
   }
 }
 
@@ -180,10 +177,7 @@ void RemoveForsaken(const Map& map,
 
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options) {
   const KeyFrame* redundant =
-      FindRedundant(map,
-                    centre,
-                    map.keyframes().size(),
-                    {options.redundant_share, options.redundant_views, false});
+      FindRedundant(map, centre, map.keyframes().size(), {options.redundant_share, false});
   // One at a time: what others show changes with each removal.
   if (redundant == nullptr) return {};
   return {edit::RemoveKeyFrame{redundant->id}};
@@ -191,12 +185,12 @@ MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const Cleanu
 
 MapEdit RemoveRevisitedKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options) {
   constexpr std::size_t kLookedAt = 30;
-  const KeyFrame* redundant = FindRedundant(
-      map, centre, kLookedAt, {options.revisited_share, options.redundant_views, true});
+  const KeyFrame* redundant =
+      FindRedundant(map, centre, kLookedAt, {options.revisited_share, true});
   if (redundant == nullptr) return {};
   MapEdit edit{edit::RemoveKeyFrame{redundant->id}};
-  RemoveForsaken<edit::RemovePoint>(map, centre, redundant->frame.points, options, edit);
-  RemoveForsaken<edit::RemoveLine>(map, centre, redundant->frame.lines, options, edit);
+  RemoveForsaken<edit::RemovePoint>(map, centre, redundant->frame.points, edit);
+  RemoveForsaken<edit::RemoveLine>(map, centre, redundant->frame.lines, edit);
   return edit;
 }
 

@@ -11,13 +11,10 @@ namespace plumbline {
 
 // Removes young landmarks that the tracker seldom finds where they should be, or that too few
 // keyframes show after their trial; those that passed the trial leave the list.
-MapEdit RemoveWeakLandmarks(const Map& map,
-                            KeyFrameId newest,
-                            const CleanupOptions& options,
-                            YoungLandmarks& young);
+MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, YoungLandmarks& young);
 
 // Removes one keyframe, or none: the first of those around `centre`, closest in covisibility,
-// nearly all of whose landmarks (of those that any other shows) enough others show, points at most
+// nearly all of whose landmarks (of those that any other shows) three others show, points at most
 // an octave coarser. The first keyframe, `centre` and the newest before it stay.
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
 

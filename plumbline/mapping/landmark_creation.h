@@ -48,7 +48,6 @@ MapEdit CreatePointsFromViews(const Map& map,
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,
-                             const LandmarkCreationOptions& options,
                              const LineOptions& lines = {});
 
 }  // namespace plumbline

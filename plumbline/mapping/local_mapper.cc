@@ -183,7 +183,7 @@ LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
   }
   map.Apply(edit);
   ShownLandmarks refreshed = Refresh(map, keyframe.id, {});
-  map.Apply(RemoveWeakLandmarks(map, keyframe.id, options_.cleanup, young_[map.id()]));
+  map.Apply(RemoveWeakLandmarks(map, keyframe.id, young_[map.id()]));
   return refreshed;
 }
 
@@ -202,14 +202,13 @@ LocalMapper::ShownLandmarks LocalMapper::Refresh(Map& map,
 }
 
 void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
-  const auto create = [&](const auto& creator) {
-    const MapEdit edit = creator(map, imaging_, id, options_.creation);
+  const auto create = [&](const MapEdit& edit) {
     map.Apply(edit);
     Watch(map.id(), edit);
   };
-  create(CreateFromDepth);
-  create(CreatePointsFromViews);
-  create([&](const auto&... arguments) { return CreateLinesFromViews(arguments..., lines_); });
+  create(CreateFromDepth(map, imaging_, id, options_.creation));
+  create(CreatePointsFromViews(map, imaging_, id, options_.creation));
+  create(CreateLinesFromViews(map, imaging_, id, lines_));
 }
 
 // Counts the landmarks that an edit adds among the young ones, which have to prove themselves.
@@ -225,9 +224,9 @@ void LocalMapper::Watch(MapId map, const MapEdit& edit) {
 }
 
 void LocalMapper::Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed) const {
-  FusionInto into_keyframe(map, imaging_, id, options_.fusion);
+  FusionInto into_keyframe(map, imaging_, id);
   for (const auto& neighbour : ClosestCovisible(map, id, options_.fusion_neighbours)) {
-    FusionInto into_neighbour(map, imaging_, neighbour.id, options_.fusion);
+    FusionInto into_neighbour(map, imaging_, neighbour.id);
     map.Apply(into_neighbour.Fuse(id));
     map.Apply(into_keyframe.Fuse(neighbour.id));
   }

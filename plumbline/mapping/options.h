@@ -2,24 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/fusion.h"
 #include "plumbline/base/options.h"
 #include "plumbline/mapping/line_map_options.h"
 #include "plumbline/optimization/local_ba.h"
 #include "plumbline/optimization/pose_sigma.h"
 
+#include <array>
+#include <type_traits>
+
 namespace plumbline {
 
 struct LandmarkCreationOptions {
-  double max_relative_depth_sigma = 0.04;   // of points from one stereo or RGB-D frame ...
-  int min_depth_points = 100;               // ... but at least so many, the best known first ...
-  double worst_relative_depth_sigma = 0.3;  // ... up to this
+  double max_relative_depth_sigma = 0.04;        // of points from one stereo or RGB-D frame ...
+  int min_depth_points = 100;                    // ... but at least so many, the best known first
   double max_relative_line_depth_sigma = 0.107;  // of the ends of lines from one frame
   int neighbours = 6;                            // keyframes searched for a second view of a point
-  double min_parallax_deg = 0.3;                 // between the two views of a new point
-  int max_distance = 50;                         // of their descriptors: Hamming, of 256 bits ...
-  double ratio = 0.8;                            // ... and against the second best
-  double min_plane_angle_deg = 2;                // between the two views of a new line
 };
 
 template <class Visitor>
@@ -32,10 +29,6 @@ void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
         o.min_depth_points,
         "points with depth that a keyframe should show, if need be less well known ones",
         Range{0, 10000});
-  visit("worst_relative_depth_sigma",
-        o.worst_relative_depth_sigma,
-        "depth uncertainty of those, relative to depth",
-        Range{0.001, 1});
   visit("max_relative_line_depth_sigma",
         o.max_relative_line_depth_sigma,
         "depth uncertainty of the ends of lines from one frame, relative to depth",
@@ -44,43 +37,27 @@ void VisitFields(Visitor&& visit, LandmarkCreationOptions& o) {
         o.neighbours,
         "closest keyframes searched for a second view of points without landmark",
         Range{0, 100});
-  visit("min_parallax_deg",
-        o.min_parallax_deg,
-        "between two views of a point [deg]",
-        Range{0.01, 45});
-  visit("max_distance",
-        o.max_distance,
-        "largest Hamming distance of the two views of a point, of 256 bits",
-        Range{0, 256});
-  visit("ratio",
-        o.ratio,
-        "largest ratio of this distance to that of the second best view",
-        Range{0.1, 1});
-  visit("min_plane_angle_deg",
-        o.min_plane_angle_deg,
-        "between the interpretation planes of a new line [deg]",
-        Range{0.01, 90});
+}
+
+constexpr auto FixedOptions(std::type_identity<LandmarkCreationOptions>) {
+  return std::array{FixedOption{"worst_relative_depth_sigma", "0.3"},
+                    FixedOption{"min_parallax_deg", "0.3"},
+                    FixedOption{"max_distance", "50"},
+                    FixedOption{"ratio", "0.8"},
+                    FixedOption{"min_plane_angle_deg", "2"}};
 }
 
 struct CleanupOptions {
-  double min_found_ratio = 0.25;  // of the frames where a young landmark should be seen
-  int trial_keyframes = 3;        // keyframes until a landmark is no longer young
-  int min_observations = 2;       // keyframes that must show it one before
-  double redundant_share = 0.9;   // of a keyframe's landmarks that others show as well
-  int redundant_views = 3;        // so many others
-  double revisited_share = 0.7;   // the same share where a place is seen again
+  double redundant_share = 0.9;  // of a keyframe's landmarks that three others show as well
+  double revisited_share = 0.7;  // the same share where a place is seen again
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, CleanupOptions& o) {
-  visit("min_found_ratio", o.min_found_ratio, "found / expected of a young landmark", Range{0, 1});
-  visit("trial_keyframes", o.trial_keyframes, "keyframes a landmark is young", Range{1, 100});
-  visit("min_observations", o.min_observations, "keyframes that must show it", Range{1, 100});
   visit("redundant_share",
         o.redundant_share,
-        "share of landmarks seen by others that makes a keyframe redundant; 1: never",
+        "share of landmarks seen by three others that makes a keyframe redundant; 1: never",
         Range{0.1, 1});
-  visit("redundant_views", o.redundant_views, "other keyframes that show them", Range{1, 100});
   visit("revisited_share",
         o.revisited_share,
         "the same share where one of these keyframes is of another visit to the place, more than "
@@ -88,10 +65,16 @@ void VisitFields(Visitor&& visit, CleanupOptions& o) {
         Range{0.1, 1});
 }
 
+constexpr auto FixedOptions(std::type_identity<CleanupOptions>) {
+  return std::array{FixedOption{"min_found_ratio", "0.25"},
+                    FixedOption{"trial_keyframes", "3"},
+                    FixedOption{"min_observations", "2"},
+                    FixedOption{"redundant_views", "3"}};
+}
+
 struct BaWindowOptions {
   int free_keyframes = 12;               // adjusted, closest in covisibility
   int fixed_keyframes = 20;              // at most, that see the same landmarks and hold the window
-  int min_shared = 15;                   // landmarks that tie a keyframe to the window
   double min_line_plane_angle_deg = 10;  // between views, for a line to take part ...
   double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
   double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma)
@@ -106,7 +89,6 @@ template <class Visitor>
 void VisitFields(Visitor&& visit, BaWindowOptions& o) {
   visit("free_keyframes", o.free_keyframes, "keyframes adjusted together", Range{1, 200});
   visit("fixed_keyframes", o.fixed_keyframes, "keyframes that hold the window", Range{0, 1000});
-  visit("min_shared", o.min_shared, "landmarks that tie a keyframe to the window", Range{1, 1000});
   visit("min_line_plane_angle_deg",
         o.min_line_plane_angle_deg,
         "angle between interpretation planes from which a line is adjusted [deg]",
@@ -133,10 +115,13 @@ void VisitFields(Visitor&& visit, BaWindowOptions& o) {
         "lines.residual: projected_ends)");
 }
 
+constexpr auto FixedOptions(std::type_identity<BaWindowOptions>) {
+  return std::array{FixedOption{"min_shared", "15"}};
+}
+
 struct MappingOptions {
   int fusion_neighbours = 10;
   LandmarkCreationOptions creation;
-  FusionOptions fusion;
   CleanupOptions cleanup;
   BaWindowOptions window;
   LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4: 1.2 times the time, no better
@@ -151,7 +136,6 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
   visit(
       "fusion_neighbours", o.fusion_neighbours, "keyframes searched for duplicates", Range{0, 100});
   visit("creation", o.creation, "new landmarks");
-  visit("fusion", o.fusion, "merging of duplicates");
   visit("cleanup", o.cleanup, "removal of weak landmarks and redundant keyframes");
   visit("window", o.window, "what local bundle adjustment adjusts");
   visit("ba", o.ba, "local bundle adjustment");
@@ -170,6 +154,15 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
       "only; 0: none",
       Range{0, 10000});
   visit("line_map", o.line_map, "which lines of the finished map are given out");
+}
+
+constexpr auto FixedOptions(std::type_identity<MappingOptions>) {
+  return std::array{FixedOption{"fusion.point_radius_px", "3"},
+                    FixedOption{"fusion.point_max_distance", "50"},
+                    FixedOption{"fusion.line_offset_px", "4"},
+                    FixedOption{"fusion.line_angle_deg", "4"},
+                    FixedOption{"fusion.line_max_distance", "60"},
+                    FixedOption{"fusion.max_chi2", "5.99"}};
 }
 
 }  // namespace plumbline

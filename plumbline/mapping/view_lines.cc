@@ -19,6 +19,8 @@ namespace plumbline {
 namespace {
 
 constexpr int kClosest = 3;  // keyframes that section 3.3 takes
+// Between the interpretation planes of a new line: nearer ones leave its depth open.
+constexpr double kMinPlaneAngle = 2 * std::numbers::pi / 180;
 
 struct LineViewOf {
   KeyFrameId keyframe;
@@ -58,10 +60,9 @@ std::vector<LineView> ImageViews(const Map& map,
 
 std::optional<MapLine> Reconstruct(const Map& map,
                                    const RectifiedCamera& camera,
-                                   const std::vector<LineViewOf>& views,
-                                   double min_plane_angle) {
+                                   const std::vector<LineViewOf>& views) {
   const auto triangulated =
-      TriangulateLine(camera, ImageViews(map, camera, views), {.min_plane_angle = min_plane_angle});
+      TriangulateLine(camera, ImageViews(map, camera, views), {.min_plane_angle = kMinPlaneAngle});
   if (!triangulated) return std::nullopt;
   MapLine line;
   line.line = triangulated->estimate.line;
@@ -87,7 +88,6 @@ std::optional<MapLine> Reconstruct(const Map& map,
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,
-                             const LandmarkCreationOptions& options,
                              const LineOptions& lines) {
   const Frame& frame = map.Find(id)->frame;
   const FreeLines mine(frame);
@@ -103,16 +103,15 @@ MapEdit CreateLinesFromViews(const Map& map,
       track.push_back({neighbour.id, theirs.index[static_cast<std::size_t>(match.b)]});
     }
   }
-  const double min_angle = options.min_plane_angle_deg * std::numbers::pi / 180;
   MapEdit edit;
   LineId next = map.NextLineId();
   for (const auto& [feature, views] : tracks) {
     std::optional<MapLine> line;
     const bool all = lines.reconstruction == LineReconstruction::kNView && views.size() > 2;
-    if (all) line = Reconstruct(map, imaging.camera, views, min_angle);
+    if (all) line = Reconstruct(map, imaging.camera, views);
     // Two-view fallback: one wrong match spoils three views, but not those of the right pair.
     for (std::size_t k = 1; !line && k < views.size(); ++k) {
-      line = Reconstruct(map, imaging.camera, {views.front(), views[k]}, min_angle);
+      line = Reconstruct(map, imaging.camera, {views.front(), views[k]});
     }
     if (!line) continue;
     line->id = next;

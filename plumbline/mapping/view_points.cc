@@ -26,6 +26,12 @@ constexpr double kFarthestDepth = 1e4;  // the same
 constexpr double kEpipolarChi2 = 3.84;  // 95 %, one degree of freedom
 constexpr double kDepthSigmas = 3;      // of a measured but poor depth
 constexpr double kMaxScaleRatio = 1.8;  // of octave and distance between the views
+// Of the descriptors of the two views: Hamming distance, of 256 bits, and its ratio to that of the
+// second best. There is no pose that a wrong landmark would contradict: stricter than tracking.
+constexpr int kMaxDistance = 50;
+constexpr double kMaxRatio = 0.8;
+// Between the two views of a new point: rays that are nearer to each other leave its depth open.
+constexpr double kMinParallax = 0.3 * std::numbers::pi / 180;
 
 // Piece of the epipolar line in the second image on which a point of the first must lie.
 struct SearchWindow {
@@ -94,16 +100,11 @@ class FreePoints {
 // Features without landmark of one keyframe against those of another.
 class PairSearch {
  public:
-  PairSearch(const RectifiedCamera& camera,
-             const Frame& a,
-             const Frame& b,
-             double median_depth,
-             const LandmarkCreationOptions& options)
+  PairSearch(const RectifiedCamera& camera, const Frame& a, const Frame& b, double median_depth)
       : camera_(camera),
         a_(a),
         b_(b),
         median_depth_(median_depth),
-        options_(options),
         b_from_a_(b.cam_from_world * Inverse(a.cam_from_world)),
         F_ba_(FundamentalMatrix(camera, b_from_a_)),
         free_in_b_(camera, b) {}
@@ -120,7 +121,7 @@ class PairSearch {
     if (!window) return std::nullopt;
     const Eigen::Vector3d line = F_ba_ * feature.px.homogeneous();
     const double norm2 = line.head<2>().squaredNorm();
-    int best = options_.max_distance + 1;
+    int best = kMaxDistance + 1;
     int second = 257;
     std::optional<std::size_t> match;
     for (const std::size_t j : free_in_b_.InWindow(*window)) {
@@ -137,16 +138,13 @@ class PairSearch {
         second = std::min(second, hamming);
       }
     }
-    if (!match || best > options_.max_distance || best > options_.ratio * second) {
-      return std::nullopt;
-    }
+    if (!match || best > kMaxDistance || best > kMaxRatio * second) return std::nullopt;
     return match;
   }
 
   std::optional<Eigen::Vector3d> Triangulate(std::size_t i, std::size_t j) const {
     const std::array<PointView, 2> views{View(a_, i), View(b_, j)};
-    const auto result = TriangulatePoint(
-        camera_, views, {.min_parallax = options_.min_parallax_deg * std::numbers::pi / 180});
+    const auto result = TriangulatePoint(camera_, views, {.min_parallax = kMinParallax});
     if (!result || result->chi2 > Chi2Limit95(result->residuals - 3)) return std::nullopt;
     const Eigen::Vector3d& position = result->point.position;
     const double distance_a = (a_.cam_from_world * position).norm();
@@ -167,7 +165,6 @@ class PairSearch {
   const Frame& a_;
   const Frame& b_;
   double median_depth_;
-  const LandmarkCreationOptions& options_;
   Rigid3 b_from_a_;
   Eigen::Matrix3d F_ba_;
   FreePoints free_in_b_;
@@ -210,7 +207,7 @@ MapEdit CreatePointsFromViews(const Map& map,
   PointId next = map.NextPointId();
   for (const auto& neighbour : ClosestCovisible(map, id, options.neighbours)) {
     const Frame& other = map.Find(neighbour.id)->frame;
-    PairSearch search(imaging.camera, frame, other, *median_depth, options);
+    PairSearch search(imaging.camera, frame, other, *median_depth);
     std::vector<bool> taken(other.points.size(), false);
     for (std::size_t i = 0; i < done.size(); ++i) {
       if (done[i]) continue;

@@ -54,9 +54,9 @@ class BaLandmarks {
   double expected_decrease() const { return expected_; }
   // Takes the trial states over.
   void Accept();
-  // Uses the observations with chi2 within `gate_scale` times the limit at 95 %; true when that
+  // Uses the observations with chi2 within the limit at 95 %; true when that
   // changed any.
-  bool Classify(const std::vector<BaPose>& poses, double gate_scale);
+  bool Classify(const std::vector<BaPose>& poses);
   // Uses all observations that have a residual.
   void UseAll(const std::vector<BaPose>& poses);
   std::size_t used() const {
@@ -321,12 +321,11 @@ void BaLandmarks<Kind>::UpdateChi2(const std::vector<BaPose>& poses) {
 }
 
 template <class Kind>
-bool BaLandmarks<Kind>::Classify(const std::vector<BaPose>& poses, double gate_scale) {
+bool BaLandmarks<Kind>::Classify(const std::vector<BaPose>& poses) {
   UpdateChi2(poses);
   bool changed = false;
   for (std::size_t k = 0; k < chi2_.size(); ++k) {
-    const char used =
-        chi2_[k] <= gate_scale * Chi2Limit95(Kind::Dof(observations_[k].term)) ? 1 : 0;
+    const char used = chi2_[k] <= Chi2Limit95(Kind::Dof(observations_[k].term)) ? 1 : 0;
     changed |= used != used_[k];
     used_[k] = used;
   }

@@ -6,6 +6,7 @@
 #include "plumbline/optimization/ba_projected_ends.h"
 #include "plumbline/optimization/check_problem.h"
 #include "plumbline/optimization/line_ends.h"
+#include "plumbline/optimization/robust_loss.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@
 namespace plumbline {
 namespace {
 
+// Of Levenberg and Marquardt, relative to the diagonal: small, since maps are nearly right.
+constexpr double kInitialLambda = 1e-4;
 constexpr double kMinLambda = 1e-9;
 constexpr double kMaxLambda = 1e10;
 // Below this damping a step is nearly that of Gauss-Newton, so that a small gain means convergence.
@@ -112,7 +115,6 @@ class BundleAdjuster {
   BaTermination Optimize(const HuberThresholds& huber, double function_tolerance);
   // True when this changed what is in use.
   bool Classify();
-  HuberThresholds Thresholds(int round) const;
 
   const LocalBaOptions& options_;
   const StopCheck& stop_;
@@ -159,7 +161,7 @@ void BundleAdjuster<LineKind>::Accept() {
 template <class LineKind>
 BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber,
                                                  double function_tolerance) {
-  double lambda = options_.initial_lambda;
+  double lambda = kInitialLambda;
   // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
   const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
   for (int i = 0; i < options_.max_iterations; ++i) {
@@ -193,15 +195,8 @@ BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber,
 
 template <class LineKind>
 bool BundleAdjuster<LineKind>::Classify() {
-  const bool points_changed = points_.Classify(poses_, options_.gate_scale);
-  return lines_.Classify(poses_, options_.gate_scale) || points_changed;
-}
-
-template <class LineKind>
-HuberThresholds BundleAdjuster<LineKind>::Thresholds(int round) const {
-  const bool last_of_several = options_.rounds > 1 && round == options_.rounds - 1;
-  if (!options_.robust || (last_of_several && !options_.robust_last_round)) return {};
-  return {options_.huber_point, options_.huber_disparity, options_.huber_line};
+  const bool points_changed = points_.Classify(poses_);
+  return lines_.Classify(poses_) || points_changed;
 }
 
 template <class LineKind>
@@ -209,13 +204,14 @@ BaResult BundleAdjuster<LineKind>::Solve() {
   BaResult result;
   points_.UseAll(poses_);
   lines_.UseAll(poses_);
+  const HuberThresholds huber = options_.robust ? kHuberThresholds : HuberThresholds{};
   const int last = options_.rounds - 1;
   for (int round = 0; round <= last && points_.used() + lines_.used() > 0; ++round) {
     const bool rejecting = options_.rejection_tolerance > 0 && round < last;
-    cost_ = Cost(Thresholds(round));
+    cost_ = Cost(huber);
     if (round == 0) result.initial_cost = cost_;
-    result.termination = Optimize(
-        Thresholds(round), rejecting ? options_.rejection_tolerance : options_.function_tolerance);
+    result.termination =
+        Optimize(huber, rejecting ? options_.rejection_tolerance : options_.function_tolerance);
     result.final_cost = cost_;
     if (result.termination == BaTermination::kStopped) {
       Classify();

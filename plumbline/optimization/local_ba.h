@@ -23,13 +23,7 @@ struct LocalBaOptions {
   // function_tolerance of the rounds before the last, which are there to tell outliers. Where one
   // of these changes none, the last is next. 0: all rounds are alike, and none is left out.
   double rejection_tolerance = 0;
-  bool robust = true;             // Huber loss; false: squares in every round
-  bool robust_last_round = true;  // false: squares in the last of several rounds
-  double huber_point = 2.4477;    // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
-  double huber_disparity = 2.7955;
-  double huber_line = 2.4477;
-  double gate_scale = 1;  // multiplies the 95 % limits of chi2 that part inliers from outliers
-  double initial_lambda = 1e-4;  // Levenberg-Marquardt damping, relative to the diagonal
+  bool robust = true;  // Huber loss (kHuberThresholds); false: squares
 };
 
 template <class Visitor>
@@ -46,18 +40,15 @@ void VisitFields(Visitor&& visit, LocalBaOptions& o) {
         "left out; 0: as function_tolerance, and none is left out",
         Range{0, 1});
   visit("robust", o.robust, "use the Huber loss");
-  visit("robust_last_round", o.robust_last_round, "use the Huber loss in the last round, too");
-  visit("huber_point", o.huber_point, "Huber threshold of a point [sigma]", Range{0.1, 100});
-  visit("huber_disparity",
-        o.huber_disparity,
-        "Huber threshold of a point with disparity [sigma]",
-        Range{0.1, 100});
-  visit("huber_line", o.huber_line, "Huber threshold of a line [sigma]", Range{0.1, 100});
-  visit("gate_scale", o.gate_scale, "factor on the 95 % chi2 limits of inliers", Range{0.1, 100});
-  visit("initial_lambda",
-        o.initial_lambda,
-        "initial damping relative to the diagonal",
-        Range{1e-12, 1e6});
+}
+
+constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
+  return std::array{FixedOption{"robust_last_round", "true"},
+                    FixedOption{"huber_point", "2.4477"},
+                    FixedOption{"huber_disparity", "2.7955"},
+                    FixedOption{"huber_line", "2.4477"},
+                    FixedOption{"gate_scale", "1"},
+                    FixedOption{"initial_lambda", "1e-04"}};
 }
 
 // Why the last round ended.

@@ -25,6 +25,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kInvalidChi2 = 1e8;
 constexpr double kMinLambda = 1e-8;
 constexpr double kMaxLambda = 1e8;
+// A step that lowers the cost by less than this part of it ends a round: what is left moves the
+// pose by far less than its deviation.
+constexpr double kCostTolerance = 1e-5;
 
 class PoseSolver {
  public:
@@ -58,10 +61,10 @@ class PoseSolver {
   // Sets the matches in use by chi2; true when any changed.
   bool Classify();
   double MedianNorm();
-  HuberThresholds Thresholds(double scale) const {
-    return {scale * options_.huber_point,
-            scale * options_.huber_disparity,
-            scale * options_.huber_line};
+  static HuberThresholds Thresholds(double scale) {
+    return {scale * kHuberThresholds.point,
+            scale * kHuberThresholds.disparity,
+            scale * kHuberThresholds.line};
   }
 
   const RectifiedCamera camera_;
@@ -123,7 +126,7 @@ void PoseSolver::Pack(const PoseProblem& problem) {
   group_used_.assign(names.size(), 1);
   group_limit_.reserve(names.size());
   for (const int n : measurements) {
-    group_limit_.push_back(options_.gate_scale * Chi2Limit95(2 * n));
+    group_limit_.push_back(Chi2Limit95(2 * n));
   }
   scratch_.reserve(points_.size() + lines_.size());
 }
@@ -270,7 +273,7 @@ bool PoseSolver::Optimize(const HuberThresholds& huber, int max_iterations) {
     chi2_is_current_ = next.cost <= eq.cost;
     if (chi2_is_current_) {
       const double gain = eq.cost - next.cost;
-      const double tolerance = options_.cost_tolerance * eq.cost;
+      const double tolerance = kCostTolerance * eq.cost;
       pose_ = trial;
       eq = next;
       lambda = std::max(kMinLambda, 0.1 * lambda);
@@ -307,7 +310,7 @@ bool PoseSolver::Classify() {
   bool changed = false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const int dof = points_[i].term.disparity_weight > 0 ? 3 : 2;
-    const char used = point_chi2_[i] <= options_.gate_scale * Chi2Limit95(dof) ? 1 : 0;
+    const char used = point_chi2_[i] <= Chi2Limit95(dof) ? 1 : 0;
     changed |= used != point_used_[i];
     point_used_[i] = used;
   }

@@ -6,6 +6,8 @@
 #include "plumbline/geometry/se3.h"
 #include "plumbline/optimization/problem.h"
 
+#include <array>
+#include <type_traits>
 #include <vector>
 
 namespace plumbline {
@@ -15,12 +17,7 @@ struct PoseOnlyOptions {
   int rounds = 4;                     // of solve, then classify inliers anew among all matches
   int robust_rounds = 2;              // the first of them use the Huber loss, the others squares
   int max_iterations = 10;            // per round
-  double decrement_tolerance = 1e-4;  // a round ends when a step would lower the cost by less ...
-  double cost_tolerance = 1e-5;       // ... or lowered it by less than this part of it
-  double huber_point = 2.4477;        // thresholds on the Mahalanobis norm; sqrt(chi2 at 95 %)
-  double huber_disparity = 2.7955;
-  double huber_line = 2.4477;
-  double gate_scale = 1;  // multiplies the 95 % limits of chi2 that part inliers from outliers
+  double decrement_tolerance = 1e-4;  // a round ends when a step would lower the cost by less
 };
 
 template <class Visitor>
@@ -32,14 +29,14 @@ void VisitFields(Visitor&& visit, PoseOnlyOptions& o) {
         o.decrement_tolerance,
         "decrease of the cost a step must promise [sigma^2]",
         Range{0, 1});
-  visit("cost_tolerance", o.cost_tolerance, "relative decrease that ends a round", Range{0, 1});
-  visit("huber_point", o.huber_point, "Huber threshold of a point [sigma]", Range{0.1, 100});
-  visit("huber_disparity",
-        o.huber_disparity,
-        "Huber threshold of a point with disparity [sigma]",
-        Range{0.1, 100});
-  visit("huber_line", o.huber_line, "Huber threshold of a line [sigma]", Range{0.1, 100});
-  visit("gate_scale", o.gate_scale, "factor on the 95 % chi2 limits of inliers", Range{0.1, 100});
+}
+
+constexpr auto FixedOptions(std::type_identity<PoseOnlyOptions>) {
+  return std::array{FixedOption{"cost_tolerance", "1e-05"},
+                    FixedOption{"huber_point", "2.4477"},
+                    FixedOption{"huber_disparity", "2.7955"},
+                    FixedOption{"huber_line", "2.4477"},
+                    FixedOption{"gate_scale", "1"}};
 }
 
 // What SolvePose found, in the order of the problem.

@@ -23,4 +23,10 @@ struct HuberThresholds {
   double line = std::numeric_limits<double>::infinity();
 };
 
+// Where the loss of bundle adjustment and of the pose leaves squares: the square roots of the
+// limits of chi2 at 95 % for two, three and two degrees of freedom, beyond which is what is not
+// noise.
+inline constexpr HuberThresholds kHuberThresholds{
+    .point = 2.4477, .disparity = 2.7955, .line = 2.4477};
+
 }  // namespace plumbline

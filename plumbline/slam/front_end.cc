@@ -13,11 +13,9 @@ ValidRegion RegionOf(const GrayImage& mask) {
 
 }  // namespace
 
-FrontEnd::FrontEnd(const Calibration& calibration,
-                   const RectifierOptions& rectification,
-                   const FeatureOptions& features)
+FrontEnd::FrontEnd(const Calibration& calibration, const FeatureOptions& features)
     : options_(features),
-      rectifier_(calibration, rectification),
+      rectifier_(calibration),
       left_valid_(RegionOf(rectifier_.left_mask())),
       right_valid_(RegionOf(rectifier_.right_mask())) {}
 

@@ -29,9 +29,7 @@ struct MeasuredFrame {
 class FrontEnd {
  public:
   // Throws InputError for a calibration that cannot be used.
-  FrontEnd(const Calibration& calibration,
-           const RectifierOptions& rectification,
-           const FeatureOptions& features);
+  FrontEnd(const Calibration& calibration, const FeatureOptions& features);
 
   // Rectifies the images and measures features. Throws InputError when an image has another size
   // than the calibration says. Thread-safe; same frame, same features. Of lines and points, `shed`

@@ -41,8 +41,7 @@ MappingStage::MappingStage(const ImagingModel& imaging,
       camera_(imaging.camera),
       mapping_options_(options.mapping),
       mapper_(imaging, options.lines, options.mapping),
-      relocalizer_(
-          imaging, options.tracking, options.lines, options.cutting, options.relocalization),
+      relocalizer_(imaging, options.tracking, options.lines, options.cutting),
       places_(imaging, options.loop),
       adjustment_(WholeMapAdjustment(imaging, options), AdjustmentWorker(mode_, execution)) {
   if (mode_ != RunMode::kInline && execution.threads) {

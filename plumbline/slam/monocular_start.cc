@@ -84,7 +84,7 @@ bool Belongs(const KeptFrame& frame, const Map* map) {
 
 MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& options)
     : imaging_(imaging),
-      tracking_(options.tracking),
+      max_pose_sigma_(options.tracking.max_pose_sigma),
       lines_(options.lines),
       cutting_(options.cutting),
       initializer_(MakeInitializer(
@@ -168,8 +168,13 @@ void MonocularStart::LocateFramesOf(const Start& start,
       prediction.Add(frame->stamp_ns, predicted);
       continue;
     }
-    const auto pose = LocateFrame(
-        imaging_, *frame->indexed, predicted, nearest.snapshot(), lines_, cutting_, tracking_);
+    const auto pose = LocateFrame(imaging_,
+                                  *frame->indexed,
+                                  predicted,
+                                  nearest.snapshot(),
+                                  lines_,
+                                  cutting_,
+                                  max_pose_sigma_);
     if (!pose) {
       if (tracked) prediction.Add(frame->stamp_ns, predicted);
       missed += !tracked;

@@ -98,7 +98,7 @@ class MonocularStart {
                       std::vector<EarlierFrame>& located) const;
 
   ImagingModel imaging_;
-  TrackingOptions tracking_;
+  double max_pose_sigma_;  // TrackingOptions::max_pose_sigma
   LineOptions lines_;
   CuttingOptions cutting_;
   std::unique_ptr<Initializer> initializer_;

@@ -6,7 +6,6 @@
 #include "plumbline/base/options.h"
 #include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/features/extractor.h"
-#include "plumbline/image/rectify.h"
 #include "plumbline/initialization/options.h"
 #include "plumbline/loop/options.h"
 #include "plumbline/mapping/options.h"
@@ -49,7 +48,6 @@ void VisitFields(Visitor&& visit, ExecutionOptions& o) {
 
 // All options of a run.
 struct SlamOptions {
-  RectifierOptions rectification;
   FeatureOptions features;
   LineOptions lines;
   CuttingOptions cutting;
@@ -68,7 +66,6 @@ void CheckOptions(const SlamOptions& options);
 template <class Visitor>
 void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("slam", o.slam, "how the stages run");
-  visit("rectification", o.rectification, "from raw to ideal images");
   visit("features", o.features, "what is measured in the images");
   visit("lines", o.lines, "how lines enter optimization");
   visit("cutting", o.cutting, "which piece of each line decides about the pose of a frame");
@@ -77,6 +74,10 @@ void VisitFields(Visitor&& visit, SlamOptions& o) {
   visit("relocalization", o.relocalization, "finding a lost camera in its map");
   visit("mapping", o.mapping, "keyframes, landmarks, local bundle adjustment");
   visit("loop", o.loop, "places that are seen again");
+}
+
+constexpr auto FixedOptions(std::type_identity<SlamOptions>) {
+  return std::array{FixedOption{"rectification.virtual_baseline", "0.08"}};
 }
 
 }  // namespace plumbline

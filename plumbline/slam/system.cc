@@ -43,7 +43,7 @@ System::System(const Calibration& calibration,
                const Execution& execution)
     : options_(options),
       execution_(execution),
-      front_end_(calibration, options.rectification, options.features),
+      front_end_(calibration, options.features),
       imaging_{front_end_.rectifier().camera(), options.features.orb.scale_factor},
       mapping_(imaging_, options_, execution_),
       tracker_(imaging_,

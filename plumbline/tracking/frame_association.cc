@@ -156,12 +156,12 @@ ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,
   const auto points = ProjectUnmatched(
       association.points,
       association.matches.point_of_feature,
-      [&](const PointModel& m) { return ProjectPoint(imaging, cam_from_world, m, options); },
+      [&](const PointModel& m) { return ProjectPoint(imaging, cam_from_world, m); },
       expected.points);
   const auto lines = ProjectUnmatched(
       association.lines,
       association.matches.line_of_feature,
-      [&](const LineModel& m) { return ProjectLine(imaging, cam_from_world, m, options); },
+      [&](const LineModel& m) { return ProjectLine(imaging, cam_from_world, m); },
       expected.lines);
   Record(MatchProjectedPoints(image, points, Taken(association.matches.point_of_feature), options),
          association.matches.point_of_feature);

@@ -25,27 +25,24 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const MapSnapshot& snapshot,
                                         const LineOptions& lines,
                                         const CuttingOptions& cutting,
-                                        const TrackingOptions& options) {
-  for (const double factor : {1.0, options.wide_factor}) {
+                                        double max_pose_sigma) {
+  for (const double factor : {1.0, kWideFactor}) {
     FrameAssociation association = WithLandmarksOf(snapshot, image.features);
-    ProjectionSearchOptions search = options.search;
-    search.point_radius_px = factor * options.first_radius_px;
-    search.line_offset_px = factor * options.first_radius_px;
     LocatedFrame located;
     const auto accepted = [&](const Rigid3& initial) {
       located.counts.matched_points = association.matches.Points();
       located.counts.matched_lines = association.matches.Lines();
-      const PoseEstimate pose = EstimatePose(
-          imaging.camera, image.features, initial, lines, cutting, options.pose, association);
+      const PoseEstimate pose =
+          EstimatePose(imaging.camera, image.features, initial, lines, cutting, association);
       located.cam_from_world = pose.cam_from_world;
       located.counts.inlier_points = pose.inlier_points;
       located.counts.inlier_lines = pose.inlier_lines;
-      return pose.Accepted(options.min_unpredicted_inliers, options.max_pose_sigma);
+      return pose.Accepted(kFewestUnpredictedInliers, max_pose_sigma);
     };
-    MatchCandidates(imaging, image, predicted, search, association);
+    MatchCandidates(imaging, image, predicted, FirstSearch(factor), association);
     if (!accepted(predicted)) continue;
     const Rigid3 first = located.cam_from_world;
-    MatchCandidates(imaging, image, first, options.search, association);
+    MatchCandidates(imaging, image, first, {}, association);
     if (accepted(first)) return located;
   }
   return std::nullopt;

@@ -20,13 +20,14 @@ struct LocatedFrame {
 // The pose of a frame in a map that is known already, for frames out of turn: landmarks of the
 // snapshot searched around their places from the predicted pose (with tracking's first radius, then
 // its wide one), pose, search again with the usual radius, pose. Both poses must be accepted as
-// tracking accepts one without prediction. nullopt where the frame is not found.
+// tracking accepts one without prediction (TrackingOptions::max_pose_sigma). nullopt where the
+// frame is not found.
 std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const IndexedFeatures& image,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
                                         const LineOptions& lines,
                                         const CuttingOptions& cutting,
-                                        const TrackingOptions& options);
+                                        double max_pose_sigma);
 
 }  // namespace plumbline

@@ -4,16 +4,14 @@
 
 #include "plumbline/base/options.h"
 
+#include <array>
+#include <type_traits>
+
 namespace plumbline {
 
 struct KeyFramePolicyOptions {
-  int max_frames = 20;              // a keyframe at the latest after so many frames
-  int min_frames = 2;               // and never sooner than this, unless tracking is about to fail
-  double min_landmark_ratio = 0.7;  // landmarks tracked of those the last keyframe shows
-  double monocular_landmark_ratio = 0.9;  // the same where new landmarks need a second view
-  double critical_ratio = 0.35;           // below this at once
-  int min_close = 100;                    // enough near landmarks to fix the translation
-  int min_new_close = 70;                 // near points without landmark that a keyframe would add
+  int max_frames = 20;  // a keyframe at the latest after so many frames
+  int min_frames = 2;   // and never sooner than this, unless tracking is about to fail
 };
 
 template <class Visitor>
@@ -25,17 +23,14 @@ void VisitFields(Visitor&& visit, KeyFramePolicyOptions& o) {
         "frames after a keyframe until the next may come, unless tracking is about to fail; 1: the "
         "very next",
         Range{1, 1000});
-  visit("min_landmark_ratio",
-        o.min_landmark_ratio,
-        "keyframe when a smaller share of the last keyframe's landmarks is tracked",
-        Range{0, 1});
-  visit("monocular_landmark_ratio",
-        o.monocular_landmark_ratio,
-        "the same for a single camera, whose new landmarks need a second keyframe",
-        Range{0, 1});
-  visit("critical_ratio", o.critical_ratio, "the same share, without waiting", Range{0, 1});
-  visit("min_close", o.min_close, "near points tracked that are enough", Range{0, 10000});
-  visit("min_new_close", o.min_new_close, "near points a keyframe would add", Range{0, 10000});
+}
+
+constexpr auto FixedOptions(std::type_identity<KeyFramePolicyOptions>) {
+  return std::array{FixedOption{"min_landmark_ratio", "0.7"},
+                    FixedOption{"monocular_landmark_ratio", "0.9"},
+                    FixedOption{"critical_ratio", "0.35"},
+                    FixedOption{"min_close", "100"},
+                    FixedOption{"min_new_close", "70"}};
 }
 
 enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints, kLongAgo };

@@ -120,15 +120,14 @@ void Keep(const std::vector<bool>& points,
 // The solution with cut lines and chosen features; inliers are all that fit it, lines whole.
 PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
                                  const LineOptions& lines,
-                                 const CuttingOptions& cutting,
-                                 const PoseOnlyOptions& options) {
+                                 const CuttingOptions& cutting) {
   PoseOnlyResult result =
-      SolvePose(WithCutLines(matched.problem, matched.cut_candidates, lines, cutting), options);
+      SolvePose(WithCutLines(matched.problem, matched.cut_candidates, lines, cutting));
   const Rigid3& pose = result.cam_from_world;
-  result.point_inliers = PointsThatFit(matched.problem, pose, options.gate_scale);
+  result.point_inliers = PointsThatFit(matched.problem, pose, 1);
   result.inlier_points =
       static_cast<int>(std::count(result.point_inliers.begin(), result.point_inliers.end(), true));
-  result.line_inliers = LinesThatFit(matched.problem, pose, options.gate_scale);
+  result.line_inliers = LinesThatFit(matched.problem, pose, 1);
   std::set<std::size_t> features;
   for (std::size_t k = 0; k < matched.line_feature.size(); ++k) {
     if (result.line_inliers[k]) features.insert(matched.line_feature[k]);
@@ -160,14 +159,13 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const Rigid3& initial,
                           const LineOptions& lines,
                           const CuttingOptions& cutting,
-                          const PoseOnlyOptions& options,
                           FrameAssociation& association,
                           const PosePrior& prior) {
   MatchedProblem matched = MakeProblem(camera, features, initial, lines, association);
   matched.problem.prior = prior;
   const bool all_whole = cutting.method == CuttingMethod::kNone && cutting.budget == 0;
-  const PoseOnlyResult result = all_whole ? SolvePose(matched.problem, options)
-                                          : SolveWithCutLines(matched, lines, cutting, options);
+  const PoseOnlyResult result =
+      all_whole ? SolvePose(matched.problem) : SolveWithCutLines(matched, lines, cutting);
   Keep(result.point_inliers, result.line_inliers, matched, association);
   const double depth = SceneDepth(association, result.cam_from_world);
   return {result.cam_from_world,

@@ -37,7 +37,6 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
                           const Rigid3& initial,
                           const LineOptions& lines,
                           const CuttingOptions& cutting,
-                          const PoseOnlyOptions& options,
                           FrameAssociation& association,
                           const PosePrior& prior = {});
 

@@ -16,6 +16,14 @@
 namespace plumbline {
 namespace {
 
+// Depth uncertainty of landmarks made from one frame, relative to depth: of points that count as
+// known, of the ends of lines, whose weights allow for it, and of both where these are too few.
+constexpr double kMaxDepthSigma = 0.05;
+constexpr double kMaxLineDepthSigma = 0.15;
+constexpr double kWorstDepthSigma = 0.3;
+// A pose that is known so well needs no lines at a guessed depth.
+constexpr double kGuessPoseSigma = 0.01;
+
 // Adds the snapshot's landmarks that are not among the candidates yet.
 template <class Candidate, class Landmark>
 void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& candidates) {
@@ -63,6 +71,14 @@ std::vector<PointInImage> MatchedPoints(const Frame& frame, const FrameAssociati
 
 }  // namespace
 
+ProjectionSearchOptions FirstSearch(double factor) {
+  constexpr double kRadiusPx = 12;
+  ProjectionSearchOptions search;
+  search.point_radius_px = factor * kRadiusPx;
+  search.line_offset_px = factor * kRadiusPx;
+  return search;
+}
+
 PoseSearch::PoseSearch(const ImagingModel& imaging,
                        const TrackingOptions& options,
                        const LineOptions& lines,
@@ -75,10 +91,9 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
                                            const MapSnapshot& snapshot,
                                            const Frame& frame,
                                            Depths depths) const {
-  const double worst = options_.worst_relative_depth_sigma;
   const bool known_only = depths == Depths::kKnown;
-  const double point_sigma = known_only ? options_.max_relative_depth_sigma : worst;
-  const double line_sigma = known_only ? options_.max_relative_line_depth_sigma : worst;
+  const double point_sigma = known_only ? kMaxDepthSigma : kWorstDepthSigma;
+  const double line_sigma = known_only ? kMaxLineDepthSigma : kWorstDepthSigma;
   FrameAssociation result(frame.points.size(), frame.lines.size());
   const FrameAssociation& before = last.association;
   for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
@@ -105,14 +120,8 @@ PoseEstimate PoseSearch::Estimate(const Frame& frame,
                                   const Rigid3& initial,
                                   const PosePrior& prior,
                                   FrameAssociation& association) const {
-  return EstimatePose(imaging_.camera,
-                      frame.features(),
-                      initial,
-                      lines_,
-                      cutting_,
-                      options_.pose,
-                      association,
-                      prior);
+  return EstimatePose(
+      imaging_.camera, frame.features(), initial, lines_, cutting_, association, prior);
 }
 
 std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
@@ -122,12 +131,10 @@ std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
                                                    const LastSearch& how,
                                                    FrameAssociation& association) const {
   association = LastLandmarks(last, snapshot, frame, how.depths);
-  ProjectionSearchOptions search = options_.search;
-  search.point_radius_px = how.factor * options_.first_radius_px;
-  search.line_offset_px = how.factor * options_.first_radius_px;
-  MatchCandidates(imaging_, *frame.indexed, predicted.cam_from_world, search, association);
+  MatchCandidates(
+      imaging_, *frame.indexed, predicted.cam_from_world, FirstSearch(how.factor), association);
   const int matches = association.matches.All();
-  if (matches < options_.min_inliers) return std::nullopt;
+  if (matches < kFewestInliers) return std::nullopt;
   const PoseEstimate estimate = Estimate(frame, predicted.cam_from_world, predicted, association);
   if (!Accepted(estimate) || estimate.Inliers() * 3 < matches) return std::nullopt;
   return estimate;
@@ -142,10 +149,10 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
   for (const LastSearch& how : {LastSearch{Depths::kKnown, 1},
                                 LastSearch{Depths::kUncertain, 1},
                                 LastSearch{Depths::kGuessed, 1},
-                                LastSearch{Depths::kGuessed, options_.wide_factor}}) {
+                                LastSearch{Depths::kGuessed, kWideFactor}}) {
     // Guesses may be wrong: only where needed.
     const double limit =
-        how.depths == Depths::kGuessed ? options_.guess_pose_sigma : options_.enough_pose_sigma;
+        how.depths == Depths::kGuessed ? kGuessPoseSigma : options_.enough_pose_sigma;
     const bool many =
         how.depths == Depths::kGuessed || (best && best->Inliers() >= options_.enough_inliers);
     if (best && best->sigma.AtMost(limit) && many) break;
@@ -185,13 +192,13 @@ std::optional<CandidateLine> PoseSearch::LineOf(const SnapshotLine* known,
 FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
                                              const Frame& reference,
                                              const MapSnapshot& snapshot) const {
-  const double sigma = options_.worst_relative_depth_sigma;
   FrameAssociation result(frame.points.size(), frame.lines.size());
   const auto point_matches = MatchPoints(
       reference.features().points, frame.features().points, {.max_distance = 60, .ratio = 0.8});
   for (const PointMatch& match : point_matches) {
     const auto a = static_cast<std::size_t>(match.a);
-    const auto point = PointOf(InSnapshot(reference.points[a], snapshot), reference, a, sigma);
+    const auto point =
+        PointOf(InSnapshot(reference.points[a], snapshot), reference, a, kWorstDepthSigma);
     if (!point) continue;
     result.matches.point_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(result.points.size());
@@ -201,7 +208,8 @@ FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
       MatchLines(reference.features().lines, frame.features().lines, LineMatchingOf(lines_));
   for (const LineMatch& match : line_matches) {
     const auto a = static_cast<std::size_t>(match.a);
-    const auto line = LineOf(InSnapshot(reference.lines[a], snapshot), reference, a, sigma);
+    const auto line =
+        LineOf(InSnapshot(reference.lines[a], snapshot), reference, a, kWorstDepthSigma);
     if (!line) continue;
     result.matches.line_of_feature[static_cast<std::size_t>(match.b)] =
         static_cast<int>(result.lines.size());
@@ -225,13 +233,11 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
       PoseFromPoints(imaging_.camera, MatchedPoints(frame, association), kMaxErrorPx);
   if (voted) {
     initial = *voted;
-    const double gate = kGate * options_.pose.gate_scale;
-    DropDisagreeing(imaging_.camera, frame.features(), initial, lines_, gate, association);
+    DropDisagreeing(imaging_.camera, frame.features(), initial, lines_, kGate, association);
   }
-  const int needed = options_.min_unpredicted_inliers;
-  if (association.matches.All() < needed) return std::nullopt;
+  if (association.matches.All() < kFewestUnpredictedInliers) return std::nullopt;
   const PoseEstimate estimate = Estimate(frame, initial, {}, association);
-  if (!estimate.Accepted(needed, options_.max_pose_sigma)) return std::nullopt;
+  if (!estimate.Accepted(kFewestUnpredictedInliers, options_.max_pose_sigma)) return std::nullopt;
   return estimate;
 }
 
@@ -241,7 +247,7 @@ PoseAttempt PoseSearch::WithLastFrame(const Frame& frame,
                                       FrameAssociation found) const {
   PoseAttempt attempt{std::move(found), {}, {}, {}};
   FrameAssociation& association = attempt.association;
-  MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+  MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, {}, association);
   attempt.counts = CountsOf(association.matches);
   attempt.pose = Estimate(frame, first.cam_from_world, prior, association);
   return attempt;
@@ -268,12 +274,8 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
     return of_all;
   }
   association.matches = young;
-  DropDisagreeing(imaging_.camera,
-                  frame.features(),
-                  of_established.cam_from_world,
-                  lines_,
-                  options_.pose.gate_scale,
-                  association);
+  DropDisagreeing(
+      imaging_.camera, frame.features(), of_established.cam_from_world, lines_, 1, association);
   PutBack(established, association.matches);
   return Estimate(frame, of_established.cam_from_world, prior, association);
 }
@@ -291,7 +293,7 @@ PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
   AddRest(snapshot.points, association.points);
   AddRest(snapshot.lines, association.lines);
   attempt.expected =
-      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, options_.search, association);
+      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, {}, association);
   CopyMatches(found, false, association);
   attempt.counts = CountsOf(association.matches);
   attempt.pose = EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);

@@ -40,6 +40,16 @@ struct PoseAttempt {
   PoseEstimate pose;
 };
 
+// Fewest points and lines that a pose needs: one near the predicted pose, and one without
+// prediction.
+inline constexpr int kFewestInliers = 4;
+inline constexpr int kFewestUnpredictedInliers = 10;
+// So much larger is the search when the first one finds too little.
+inline constexpr double kWideFactor = 3;
+
+// How far a prediction may be off, times `factor`.
+ProjectionSearchOptions FirstSearch(double factor = 1);
+
 // Finds what a frame shows and its pose from it: first the landmarks of the last frame near where a
 // prediction puts them, or without one by descriptor, then the rest of the local map. Keeps nothing
 // from frame to frame.
@@ -79,14 +89,16 @@ class PoseSearch {
                            const FrameAssociation& found) const;
 
   bool Accepted(const PoseEstimate& pose) const {
-    return pose.Accepted(options_.min_inliers, options_.max_pose_sigma);
+    return pose.Accepted(kFewestInliers, options_.max_pose_sigma);
   }
   // False when few agree with it and most points disagree. Of lines, which are easily taken for
   // their neighbours, many disagree with right poses, too.
   bool Agreed(const PoseEstimate& pose, const FrameCounts& counts) const {
-    constexpr int kFewPoints = 10;  // tell nothing
-    return pose.Inliers() >= options_.sure_inliers || counts.matched_points < kFewPoints ||
-           pose.inlier_points >= options_.min_inlier_ratio * counts.matched_points;
+    constexpr int kFewPoints = 10;           // tell nothing
+    constexpr int kSureInliers = 30;         // do not agree by chance, whatever else disagrees
+    constexpr double kMinInlierRatio = 0.4;  // of matched points, below which chance is likelier
+    return pose.Inliers() >= kSureInliers || counts.matched_points < kFewPoints ||
+           pose.inlier_points >= kMinInlierRatio * counts.matched_points;
   }
 
  private:

@@ -19,6 +19,7 @@ constexpr int kOfOnePlace = 2;        // candidates that are close neighbours of
 constexpr int kCloseNeighbours = 10;  // of a keyframe, those that share most landmarks with it
 // Another place that has this share of the inliers leaves it open which of the two it is.
 constexpr double kRival = 0.7;
+constexpr int kMinInliers = 30;  // points + lines that chance does not make agree with a wrong pose
 
 // The candidates that are tried, best first. What failed from one keyframe fails from its
 // neighbours most often, and what succeeded needs no second time.
@@ -57,9 +58,8 @@ bool Apart(const PlaceFound& one, const PlaceFound& other) {
 Relocalizer::Relocalizer(const ImagingModel& imaging,
                          const TrackingOptions& tracking,
                          const LineOptions& lines,
-                         const CuttingOptions& cutting,
-                         const RelocalizationOptions& options)
-    : options_(options), search_(imaging, tracking, lines, cutting) {}
+                         const CuttingOptions& cutting)
+    : search_(imaging, tracking, lines, cutting) {}
 
 std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
                                                    const Frame& frame) const {
@@ -73,7 +73,7 @@ std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
   if (!first) return std::nullopt;
   PoseAttempt attempt =
       search_.WithLocalMap(frame, *first, {first->cam_from_world}, *snapshot, found);
-  if (attempt.pose.Inliers() < options_.min_inliers || !search_.Accepted(attempt.pose) ||
+  if (attempt.pose.Inliers() < kMinInliers || !search_.Accepted(attempt.pose) ||
       !search_.Agreed(attempt.pose, attempt.counts)) {
     return std::nullopt;
   }

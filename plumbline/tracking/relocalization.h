@@ -11,29 +11,30 @@
 #include "plumbline/tracking/options.h"
 #include "plumbline/tracking/pose_search.h"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 namespace plumbline {
 
 struct RelocalizationOptions {
   bool enabled = true;
-  int min_inliers = 30;  // points + lines that must agree with the pose
-  int patience = 200;    // lost frames in a map of an earlier run after which a new one starts
+  int patience = 200;  // lost frames in a map of an earlier run after which a new one starts
 };
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, RelocalizationOptions& o) {
   visit("enabled", o.enabled, "look for a lost camera in the map by what it shows");
-  visit("min_inliers",
-        o.min_inliers,
-        "points + lines that must agree with a pose found this way",
-        Range{10, 100000});
   visit("patience",
         o.patience,
         "frames lost in the map of an earlier run after which a new map starts",
         Range{1, 1000000});
+}
+
+constexpr auto FixedOptions(std::type_identity<RelocalizationOptions>) {
+  return std::array{FixedOption{"min_inliers", "30"}};
 }
 
 // A frame whose place in the map was found by its looks.
@@ -66,8 +67,7 @@ class Relocalizer {
   Relocalizer(const ImagingModel& imaging,
               const TrackingOptions& tracking,
               const LineOptions& lines,
-              const CuttingOptions& cutting,
-              const RelocalizationOptions& options);
+              const CuttingOptions& cutting);
 
   // So many candidates are worth naming: not all of them are tried.
   static constexpr std::size_t kCandidates = 20;
@@ -84,7 +84,6 @@ class Relocalizer {
  private:
   std::optional<Relocalized> FindBeside(const PlaceToTry& place, const Frame& frame) const;
 
-  RelocalizationOptions options_;
   PoseSearch search_;
 };
 

@@ -17,6 +17,12 @@ constexpr int kWellObserved = 3;
 // With one camera a landmark has two views from its first day on; where few grow older, waiting for
 // a third would let all go before a keyframe is made.
 constexpr int kWellObservedByOne = 2;
+// Depth uncertainty below which a point counts as near, relative to depth: it fixes the
+// translation.
+constexpr double kCloseDepthSigma = 0.05;
+// Change of velocity that the prediction allows for, as hands and cars show it: rotation [rad/s^2]
+// and translation [scene depths/s^2].
+constexpr double kMotionSigma = 5;
 
 template <class LandmarkId, class Candidate>
 std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
@@ -248,15 +254,15 @@ Tracker::Finding Tracker::Judge(std::optional<PoseAttempt> attempt, FrameCounts 
   if (!attempt) {
     const int matches = counts.matched_points + counts.matched_lines;
     return {std::nullopt,
-            matches < options_.min_unpredicted_inliers ? TrackingFailure::kTooFewMatches
-                                                       : TrackingFailure::kTooFewInliers,
+            matches < kFewestUnpredictedInliers ? TrackingFailure::kTooFewMatches
+                                                : TrackingFailure::kTooFewInliers,
             counts};
   }
   const PoseEstimate& pose = attempt->pose;
   counts.inlier_points = pose.inlier_points;
   counts.inlier_lines = pose.inlier_lines;
   TrackingFailure failure = TrackingFailure::kNone;
-  if (pose.Inliers() < options_.min_inliers || !search_.Agreed(pose, counts)) {
+  if (pose.Inliers() < kFewestInliers || !search_.Agreed(pose, counts)) {
     failure = TrackingFailure::kTooFewInliers;
   } else if (!search_.Accepted(pose)) {
     failure = TrackingFailure::kPoseNotObservable;
@@ -375,12 +381,12 @@ void Tracker::ChangeUnit(double scale) {
   spread_->scene_depth *= scale;
 }
 
-// Constant velocity; it may change by motion_sigma a second, the translation in the unit of the
+// Constant velocity; it may change by kMotionSigma a second, the translation in the unit of the
 // scene's depth. The last pose adds its own covariance.
 PosePrior Tracker::Predict(const Rigid3& last_pose, double seconds) const {
   PosePrior prior{velocity_ ? RetractLeft(last_pose, seconds * *velocity_) : last_pose};
   if (!spread_) return prior;
-  Vector6d sigma = Vector6d::Constant(options_.motion_sigma * seconds * seconds);
+  Vector6d sigma = Vector6d::Constant(kMotionSigma * seconds * seconds);
   sigma.tail<3>() *= spread_->scene_depth;
   Matrix6d covariance = spread_->covariance;
   covariance.diagonal() += sigma.cwiseAbs2();
@@ -416,8 +422,7 @@ KeyFrameSituation Tracker::Situation(const Frame& frame,
   CountShared(reference.lines, frame.lines, snapshot, needed, situation);
   const auto& disparities = frame.features().point_disparity;
   for (std::size_t i = 0; i < disparities.size(); ++i) {
-    if (!disparities[i] ||
-        disparities[i]->sigma_px > options_.close_relative_depth_sigma * disparities[i]->px) {
+    if (!disparities[i] || disparities[i]->sigma_px > kCloseDepthSigma * disparities[i]->px) {
       continue;
     }
     const bool tracked = association.matches.point_of_feature[i] >= 0 && frame.points[i].valid();

@@ -127,12 +127,12 @@ TEST(Program, ConfigShowsWhatUsersSetAndWhatWasChanged) {
   };
   const std::string users = RunProgram("config").out, all = RunProgram("config --all").out;
   EXPECT_THAT(users, HasSubstr("point_count: 1000 "));
-  EXPECT_THAT(users, Not(HasSubstr("huber_point")));
-  EXPECT_THAT(all, HasSubstr("huber_point"));
+  EXPECT_THAT(users, Not(HasSubstr("max_iterations")));
+  EXPECT_THAT(all, HasSubstr("max_iterations"));
   EXPECT_GT(options(all), 2 * options(users));
-  const std::string changed = RunProgram("config --set mapping.ba.huber_point=3").out;
-  EXPECT_THAT(changed, HasSubstr("  ba:  # local bundle adjustment\n    huber_point: 3 "));
-  EXPECT_THAT(changed, Not(HasSubstr("huber_disparity")));
+  const std::string changed = RunProgram("config --set mapping.ba.rounds=3").out;
+  EXPECT_THAT(changed, HasSubstr("  ba:  # local bundle adjustment\n    rounds: 3 "));
+  EXPECT_THAT(changed, Not(HasSubstr("max_iterations")));
 }
 
 TEST(Program, InfoDescribesARealSequence) {

@@ -48,8 +48,7 @@ TrueMap TwoViews(const SyntheticWorld& world, bool doubled) {
 }
 
 MapEdit Fuse(const TrueMap& scene, const SyntheticWorld& world, KeyFrameId from, KeyFrameId to) {
-  const FusionOptions options;
-  return FusionInto(scene.map, world.Imaging(), to, options).Fuse(from);
+  return FusionInto(scene.map, world.Imaging(), to).Fuse(from);
 }
 
 // Landmarks of the first view that the second shows as well.
@@ -166,11 +165,10 @@ TEST(FusionInto, FindsTheSameForAllThatShowALandmark) {
   }
   scene.map.Apply(shown);
   Map at_once = scene.map, one_by_one = scene.map;
-  const FusionOptions options;
-  FusionInto second(at_once, world.Imaging(), kSecond, options);
+  FusionInto second(at_once, world.Imaging(), kSecond);
   for (const KeyFrameId from : {kFirst, third}) {
     at_once.Apply(second.Fuse(from));
-    one_by_one.Apply(FusionInto(one_by_one, world.Imaging(), kSecond, options).Fuse(from));
+    one_by_one.Apply(FusionInto(one_by_one, world.Imaging(), kSecond).Fuse(from));
   }
   ASSERT_LT(at_once.points().size(), scene.map.points().size());
   ASSERT_EQ(at_once.points().size(), one_by_one.points().size());

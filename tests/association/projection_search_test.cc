@@ -27,7 +27,7 @@ TEST(ProjectPoint, TellsPlaceDisparityAndScale) {
   point.reference_distance = point.position.norm();
   point.reference_octave = 2;
   point.descriptor = {1, 2, 3, 4};
-  const auto seen = ProjectPoint(Imaging(), {}, point, kOptions);
+  const auto seen = ProjectPoint(Imaging(), {}, point);
   ASSERT_TRUE(seen);
   EXPECT_LT((seen->px - Eigen::Vector2d(435 / 6.0 + 367, -420 * 0.5 / 6 + 252)).norm(), 1e-9);
   EXPECT_NEAR(seen->disparity, 435 * 0.11 / 6, 1e-9);
@@ -35,11 +35,11 @@ TEST(ProjectPoint, TellsPlaceDisparityAndScale) {
   EXPECT_NEAR(seen->scale, 1.44, 1e-12);
   EXPECT_EQ(seen->descriptor, point.descriptor);
   // Nearer it looks larger: half the distance is 3.8 octaves of 1.2.
-  const auto nearer = ProjectPoint(Imaging(), LookingFrom(0.5 * point.position), point, kOptions);
+  const auto nearer = ProjectPoint(Imaging(), LookingFrom(0.5 * point.position), point);
   ASSERT_TRUE(nearer);
   EXPECT_EQ(nearer->octave, 6);
   // And from afar never below octave 0.
-  const auto far = ProjectPoint(Imaging(), LookingFrom(-9 * point.position), point, kOptions);
+  const auto far = ProjectPoint(Imaging(), LookingFrom(-9 * point.position), point);
   ASSERT_TRUE(far);
   EXPECT_EQ(far->octave, 0);
   EXPECT_EQ(far->scale, 1);
@@ -48,17 +48,17 @@ TEST(ProjectPoint, TellsPlaceDisparityAndScale) {
 TEST(ProjectPoint, LeavesOutWhatIsBehindOutsideOrTurnedAway) {
   PointModel point;
   point.position = {0, 0, -3};
-  EXPECT_FALSE(ProjectPoint(Imaging(), {}, point, kOptions));
+  EXPECT_FALSE(ProjectPoint(Imaging(), {}, point));
   point.position = {0, 0, 0.0005};
-  EXPECT_FALSE(ProjectPoint(Imaging(), {}, point, kOptions));
+  EXPECT_FALSE(ProjectPoint(Imaging(), {}, point));
   point.position = {4, 0, 3};
-  EXPECT_FALSE(ProjectPoint(Imaging(), {}, point, kOptions));
+  EXPECT_FALSE(ProjectPoint(Imaging(), {}, point));
   point.position = {0, 0, 3};
-  EXPECT_TRUE(ProjectPoint(Imaging(), {}, point, kOptions));  // without a usual direction
+  EXPECT_TRUE(ProjectPoint(Imaging(), {}, point));  // without a usual direction
   const auto seen_at = [&](double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     point.view_direction = {std::sin(angle), 0, std::cos(angle)};
-    return ProjectPoint(Imaging(), {}, point, kOptions).has_value();
+    return ProjectPoint(Imaging(), {}, point).has_value();
   };
   EXPECT_TRUE(seen_at(59));
   EXPECT_FALSE(seen_at(61));
@@ -106,16 +106,16 @@ TEST(ProjectLine, GatesOnLengthAndView) {
   line.start = -0.5;
   line.end = 0.5;
   line.descriptor = {5, 6, 7, 8};
-  const auto seen = ProjectLine(Imaging(), {}, line, kOptions);
+  const auto seen = ProjectLine(Imaging(), {}, line);
   ASSERT_TRUE(seen);
   EXPECT_LT((seen->segment.start - TestCamera().Project({-0.5, 0, 5})).norm(), 1e-9);
   EXPECT_LT((seen->segment.end - TestCamera().Project({0.5, 0, 5})).norm(), 1e-9);
   EXPECT_EQ(seen->descriptor, line.descriptor);
   line.end = -0.5 + 19 * 5 / 435.0;  // 19 px
-  EXPECT_FALSE(ProjectLine(Imaging(), {}, line, kOptions));
+  EXPECT_FALSE(ProjectLine(Imaging(), {}, line));
   line.end = 0.5;
   line.view_direction = Eigen::Vector3d(0, 1, 0.3).normalized();
-  EXPECT_FALSE(ProjectLine(Imaging(), {}, line, kOptions));
+  EXPECT_FALSE(ProjectLine(Imaging(), {}, line));
 }
 
 // An image with points of octave 0 at the given places.
@@ -270,7 +270,7 @@ TEST(MatchProjectedPoints, FindsNearlyAllLandmarksOfAWorldAndNoWrongOnes) {
     model.position = p.position;
     model.descriptor = p.descriptor;
     model.reference_distance = 8;  // shows in octave 0 there
-    points.push_back(ProjectPoint(world.Imaging(), pose, model, kOptions));
+    points.push_back(ProjectPoint(world.Imaging(), pose, model));
   }
   const std::vector<bool> no_point(sensed.point_truth.size(), false);
   const auto matches = MatchProjectedPoints(*sensed.indexed, points, no_point, kOptions);
@@ -286,7 +286,7 @@ TEST(MatchProjectedPoints, FindsNearlyAllLandmarksOfAWorldAndNoWrongOnes) {
     model.start = model.line.ParameterOf(l.segment.start);
     model.end = model.line.ParameterOf(l.segment.end);
     model.descriptor = l.descriptor;
-    lines.push_back(ProjectLine(world.Imaging(), pose, model, kOptions));
+    lines.push_back(ProjectLine(world.Imaging(), pose, model));
   }
   const std::vector<bool> no_line(sensed.line_truth.size(), false);
   const auto line_matches = MatchProjectedLines(*sensed.indexed, lines, no_line, kOptions);

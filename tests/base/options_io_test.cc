@@ -40,6 +40,10 @@ void VisitFields(Visitor&& visit, InnerOptions& o) {
   visit("iterations", o.iterations, "iterations per solve", Range{1});
 }
 
+constexpr auto FixedOptions(std::type_identity<InnerOptions>) {
+  return std::array{FixedOption{"damping", "0.5"}, FixedOption{"loss.kind", "huber"}};
+}
+
 struct OuterOptions {
   bool lines = true;
   Shape shape = Shape::kRound;
@@ -226,6 +230,21 @@ TEST(OptionTable, BadSettingsOfTheCommandLineAreNamed) {
   EXPECT_EQ(ErrorOfSet("=1"), "--set: expected KEY=VALUE, found '=1'");
   EXPECT_THAT(ErrorOfSet("hubber_px=1"), HasSubstr("did you mean 'ba.huber_px'?"));
   EXPECT_EQ(ErrorOfSet("lines=1"), "--set lines=1: lines: expected true or false, found '1'");
+}
+
+TEST(OptionTable, ReadsWhatWasAnOptionAtItsValueOnly) {
+  EXPECT_EQ(ErrorOfYaml("ba: {damping: 0.50, iterations: 3, loss: {kind: huber}}"), "no error");
+  EXPECT_EQ(ErrorOfYaml("ba:\n  damping: 0.6"),
+            "my.yaml:2: ba.damping is no option any more: it is fixed at 0.5");
+  EXPECT_EQ(ErrorOfYaml("ba.loss.kind:"),
+            "my.yaml:1: ba.loss.kind is no option any more: it is fixed at huber");
+  EXPECT_EQ(ErrorOfSet("ba.damping=0.5"),
+            "--set ba.damping=0.5: ba.damping is no option any more: it is fixed at 0.5");
+  OuterOptions options;
+  const OptionTable table(options);
+  EXPECT_THAT(table.fixed(),
+              ElementsAre(std::pair("ba.damping", "0.5"), std::pair("ba.loss.kind", "huber")));
+  EXPECT_THAT(table.Dump(), Not(HasSubstr("damping")));
 }
 
 TEST(OptionTable, FaultySettingLeavesTheValue) {

@@ -154,17 +154,17 @@ TEST(BadInput, OptionsThatAreWrong) {
         " --stide 2"},
        {"an unknown option",
         nothing,
-        "--set tracking.min_inlier=5: unknown option 'tracking.min_inlier'; did you mean "
-        "'tracking.min_inliers'?",
-        " --set tracking.min_inlier=5"},
+        "--set tracking.min_initials=50: unknown option 'tracking.min_initials'; did you mean "
+        "'tracking.min_initial'?",
+        " --set tracking.min_initials=50"},
        {"a word for a number",
         nothing,
-        "tracking.min_inliers: expected a whole number",
-        " --set tracking.min_inliers=many"},
+        "tracking.min_initial: expected a whole number",
+        " --set tracking.min_initial=many"},
        {"a number out of range",
         nothing,
-        "tracking.min_inliers: expected a whole number",
-        " --set tracking.min_inliers=-3"},
+        "tracking.min_initial: expected a whole number",
+        " --set tracking.min_initial=-3"},
        {"a word that is no choice",
         nothing,
         "features.line_detector: expected one of drawing | lsd | edlines",
@@ -224,6 +224,19 @@ TEST(BadInput, OptionsThatAreWrong) {
         nothing,
         "expected data for rgbd, found data for stereo, mono only",
         " --sensor rgbd"}});
+}
+
+TEST(BadInput, OptionsOfEarlierVersions) {
+  ExpectRefused(
+      {{"what is fixed now, set",
+        [](const ScratchFolder&) {},
+        "--set tracking.pose.rounds=4: tracking.pose.rounds is no option any more: it is fixed at "
+        "4",
+        " --set tracking.pose.rounds=4"},
+       {"a file with another value",
+        Put("my.yaml", "mapping:\n  fusion: {max_chi2: 5.99}\n  ba:\n    gate_scale: 2\n"),
+        "my.yaml:4: mapping.ba.gate_scale is no option any more: it is fixed at 1",
+        " --config FOLDER/my.yaml"}});
 }
 
 std::string Pair(const std::string& intrinsics, const std::string& more) {

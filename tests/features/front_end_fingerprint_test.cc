@@ -34,6 +34,16 @@ TEST(FrontEndFingerprint, SaysWhatDiffers) {
                                       "features.lines: true in the map, no such option now"}));
 }
 
+// A map of an earlier version may have been measured with another value of what is a constant now.
+TEST(FrontEndFingerprint, HoldsWhatWasAnOption) {
+  const FrontEndFingerprint now = FingerprintOf({});
+  FrontEndFingerprint before = now;
+  EXPECT_EQ(before.settings.at("features.orb.levels"), "8");
+  before.settings["features.orb.levels"] = "4";
+  EXPECT_EQ(Differences(before, now),
+            std::vector<std::string>{"features.orb.levels: 4 in the map, 8 now"});
+}
+
 TEST(FrontEndFingerprint, KnowsNothingOfMapsThatDoNotSay) {
   EXPECT_TRUE(Differences({}, FingerprintOf({})).empty());
 }

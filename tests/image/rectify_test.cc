@@ -195,8 +195,8 @@ TEST(Rectifier, MasksWhatNoCameraSaw) {
 
 TEST(Rectifier, RemapsDepthByNearestNeighbour) {
   const Calibration calibration = TumCalibration();
-  const Rectifier rectifier(calibration, {.virtual_baseline = 0.1});
-  EXPECT_EQ(rectifier.camera().baseline, 0.1);
+  const Rectifier rectifier(calibration);
+  EXPECT_EQ(rectifier.camera().baseline, 0.08);
   SensorFrame raw;
   raw.left = GrayImage(640, 480, 9);
   raw.depth = DepthImage(640, 480);

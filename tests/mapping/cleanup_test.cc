@@ -12,12 +12,7 @@
 namespace plumbline {
 namespace {
 
-const CleanupOptions kOptions{.min_found_ratio = 0.25,
-                              .trial_keyframes = 3,
-                              .min_observations = 2,
-                              .redundant_share = 0.9,
-                              .redundant_views = 3,
-                              .revisited_share = 0.7};
+const CleanupOptions kOptions{.redundant_share = 0.9, .revisited_share = 0.7};
 
 MapPoint CreatedBy(std::int64_t keyframe, std::int64_t id, const Observations& observations) {
   MapPoint point = PointSeenBy(id, observations);
@@ -41,7 +36,7 @@ Verdict Judge(int visible, int found, std::int64_t newest, int views) {
              edit::ScorePoint{point.id, visible - 1, found - 1},
              edit::ScoreLine{line.id, visible - 1, found - 1}});
   YoungLandmarks young{{point.id}, {line.id}};
-  const MapEdit edit = RemoveWeakLandmarks(map, KeyFrameId{newest}, kOptions, young);
+  const MapEdit edit = RemoveWeakLandmarks(map, KeyFrameId{newest}, young);
   EXPECT_EQ(young.points.size(), young.lines.size());
   EXPECT_TRUE(edit.empty() || edit.size() == 2U);
   return {!edit.empty(), !young.points.empty()};
@@ -69,7 +64,7 @@ TEST(RemoveWeakLandmarks, ForgetsWhatIsGoneAndLeavesTheOldAlone) {
   map.Apply(
       {edit::AddPoint{CreatedBy(0, 0, SeenBy(0, 0, 0))}, edit::ScorePoint{PointId{0}, 100, 0}});
   YoungLandmarks young{{PointId{55}}, {LineId{55}}};
-  EXPECT_TRUE(RemoveWeakLandmarks(map, KeyFrameId{7}, kOptions, young).empty());
+  EXPECT_TRUE(RemoveWeakLandmarks(map, KeyFrameId{7}, young).empty());
   EXPECT_TRUE(young.points.empty());
   EXPECT_TRUE(young.lines.empty());
 }

@@ -11,7 +11,7 @@ namespace plumbline {
 namespace {
 
 TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
-  const FrontEnd front_end(MovingPoster::MakeCalibration(), {}, {});
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
   const MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(2));
   EXPECT_EQ(measured.stamp_ns, MovingPoster::StampNs(2));
   EXPECT_EQ(measured.images.left.width(), MovingPoster::kWidth);
@@ -25,7 +25,7 @@ TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
 }
 
 TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {
-  const FrontEnd front_end(MovingPoster::MakeCalibration(), {}, {});
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
   const MovingPoster poster;
   const auto measure = [&] { return front_end.Measure(poster.Frame(1)); };
   auto other = std::async(std::launch::async, measure);
@@ -41,7 +41,7 @@ TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {
 }
 
 TEST(FrontEnd, ItsClockGoesOn) {
-  const FrontEnd front_end(MovingPoster::MakeCalibration(), {}, {});
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
   StageClock clock;
   clock.Done("wait");
   MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(0), clock);

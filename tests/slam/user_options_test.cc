@@ -19,7 +19,7 @@ TEST(UserOptions, AreFewAndExist) {
   const auto users = std::count_if(
       keys.begin(), keys.end(), [](const std::string& key) { return IsUserOption(key); });
   EXPECT_EQ(users, 34);  // all that are named; at most 35 may be
-  EXPECT_FALSE(IsUserOption("mapping.ba.huber_point"));
+  EXPECT_FALSE(IsUserOption("mapping.ba.rounds"));
   EXPECT_FALSE(IsUserOption("slam"));
 }
 

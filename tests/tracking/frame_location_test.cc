@@ -15,7 +15,13 @@ struct KnownWorld {
   std::shared_ptr<const MapSnapshot> snapshot = TakeSnapshot(scene.map, KeyFrameId{0}, 10);
 
   std::optional<LocatedFrame> Locate(const IndexedFeatures& image, const Rigid3& predicted) const {
-    return LocateFrame(world.Imaging(), image, predicted, *snapshot, LineOptions{}, {}, {});
+    return LocateFrame(world.Imaging(),
+                       image,
+                       predicted,
+                       *snapshot,
+                       LineOptions{},
+                       {},
+                       TrackingOptions{}.max_pose_sigma);
   }
 };
 

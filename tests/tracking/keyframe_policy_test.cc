@@ -10,9 +10,7 @@ namespace plumbline {
 namespace {
 
 TEST(DecideKeyFrame, IsSoonerWithASingleCamera) {
-  KeyFramePolicyOptions options;
-  options.min_landmark_ratio = 0.75;
-  options.monocular_landmark_ratio = 0.9;
+  const KeyFramePolicyOptions options;
   KeyFrameSituation situation{
       .frames_since_keyframe = 5, .shared_landmarks = 170, .reference_landmarks = 200};
   EXPECT_EQ(DecideKeyFrame(situation, options), KeyFrameReason::kNone);
@@ -23,11 +21,7 @@ TEST(DecideKeyFrame, IsSoonerWithASingleCamera) {
 }
 
 TEST(DecideKeyFrame, ExpectsLessOfAFrameMeasuredWithFewerFeatures) {
-  KeyFramePolicyOptions options;
-  options.min_landmark_ratio = 0.7;
-  options.critical_ratio = 0.35;
-  options.min_close = 100;
-  options.min_new_close = 70;
+  const KeyFramePolicyOptions options;
   KeyFrameSituation situation{.frames_since_keyframe = 5,
                               .shared_landmarks = 80,
                               .reference_landmarks = 200,
@@ -48,20 +42,16 @@ TEST(DecideKeyFrame, FollowsTheTable) {
   KeyFramePolicyOptions options;
   options.max_frames = 20;
   options.min_frames = 2;
-  options.min_landmark_ratio = 0.75;
-  options.critical_ratio = 0.35;
-  options.min_close = 100;
-  options.min_new_close = 70;
   struct Row {
     KeyFrameSituation situation;  // frames, shared, reference, close tracked, close untracked
     KeyFrameReason expected;
   };
   const Row rows[] = {
       {{5, 200, 200, 150, 0}, KeyFrameReason::kNone},
-      {{5, 150, 200, 150, 0}, KeyFrameReason::kNone},
-      {{5, 149, 200, 150, 0}, KeyFrameReason::kFewLandmarks},
-      {{1, 149, 200, 150, 0}, KeyFrameReason::kNone},  // too soon
-      {{2, 149, 200, 150, 0}, KeyFrameReason::kFewLandmarks},
+      {{5, 140, 200, 150, 0}, KeyFrameReason::kNone},
+      {{5, 139, 200, 150, 0}, KeyFrameReason::kFewLandmarks},
+      {{1, 139, 200, 150, 0}, KeyFrameReason::kNone},  // too soon
+      {{2, 139, 200, 150, 0}, KeyFrameReason::kFewLandmarks},
       {{1, 69, 200, 150, 0}, KeyFrameReason::kAlmostLost},  // at once
       {{1, 70, 200, 150, 0}, KeyFrameReason::kNone},
       {{5, 69, 200, 150, 0}, KeyFrameReason::kAlmostLost},
@@ -71,7 +61,7 @@ TEST(DecideKeyFrame, FollowsTheTable) {
       {{5, 200, 200, 99, 70}, KeyFrameReason::kNone},
       {{19, 200, 200, 150, 0}, KeyFrameReason::kNone},
       {{20, 200, 200, 150, 0}, KeyFrameReason::kLongAgo},
-      {{20, 149, 200, 99, 71}, KeyFrameReason::kFewLandmarks},
+      {{20, 139, 200, 99, 71}, KeyFrameReason::kFewLandmarks},
       {{20, 200, 200, 99, 71}, KeyFrameReason::kNeedsClosePoints},
       {{5, 0, 0, 150, 0}, KeyFrameReason::kNone},  // nothing to compare with
       {{20, 0, 0, 150, 0}, KeyFrameReason::kLongAgo},

@@ -101,7 +101,6 @@ TEST_P(EstimatePoseBy, RecoversThePoseAndDropsWrongMatches) {
                                                Disturbed(frame.pose),
                                                options,
                                                {},
-                                               {},
                                                frame.association);
     EXPECT_TRUE(estimate.converged);
     ExpectNear(estimate.cam_from_world, frame.pose, 0.01, 0.1);
@@ -129,7 +128,6 @@ TEST(EstimatePose, WorksWithPointsOrLinesAlone) {
                                                 Disturbed(points.pose),
                                                 LineOptions{},
                                                 {},
-                                                {},
                                                 points.association);
   EXPECT_TRUE(from_points.converged);
   EXPECT_EQ(from_points.inlier_lines, 0);
@@ -143,7 +141,6 @@ TEST(EstimatePose, WorksWithPointsOrLinesAlone) {
                                                lines.sensed.indexed->features,
                                                Disturbed(lines.pose),
                                                LineOptions{},
-                                               {},
                                                {},
                                                lines.association);
   EXPECT_TRUE(from_lines.converged);
@@ -163,7 +160,6 @@ TEST(EstimatePose, TellsWhenThePoseIsNotDetermined) {
                                              frame.sensed.indexed->features,
                                              frame.pose,
                                              LineOptions{},
-                                             {},
                                              {},
                                              frame.association);
   EXPECT_FALSE(estimate.converged);

@@ -13,9 +13,8 @@
 namespace plumbline {
 namespace {
 
-Relocalizer MakeRelocalizer(const SyntheticWorld& world,
-                            const RelocalizationOptions& options = {}) {
-  return Relocalizer(world.Imaging(), {}, {}, {}, options);
+Relocalizer MakeRelocalizer(const SyntheticWorld& world) {
+  return Relocalizer(world.Imaging(), {}, {}, {});
 }
 
 // Keyframes along a walk.

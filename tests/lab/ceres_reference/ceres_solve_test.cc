@@ -48,18 +48,18 @@ TEST_P(SolveWithCeresTest, AndOurSolverReachTheSameCost) {
   const auto [lines, derivatives, robust, residual] = GetParam();
   const LocalBaOptions options{
       .rounds = 1, .max_iterations = 300, .function_tolerance = 1e-13, .robust = robust};
-  const HuberThresholds huber{options.huber_point, options.huber_disparity, options.huber_line};
   for (unsigned seed = 0; seed < 3; ++seed) {
     auto scene = MakeBaScene(
         seed, {.points = 150, .lines = 40, .sigma = 1, .outliers = robust ? 0.05 : 0.0});
     scene.problem.line_residual = residual;
     const BaResult ours = SolveLocalBa(scene.problem, options, lines);
-    const CeresBaResult reference = SolveWithCeres(scene.problem,
-                                                   {.huber = robust ? huber : HuberThresholds{},
-                                                    .derivatives = derivatives,
-                                                    .lines = lines,
-                                                    .max_iterations = 300,
-                                                    .function_tolerance = 1e-13});
+    const CeresBaResult reference =
+        SolveWithCeres(scene.problem,
+                       {.huber = robust ? kHuberThresholds : HuberThresholds{},
+                        .derivatives = derivatives,
+                        .lines = lines,
+                        .max_iterations = 300,
+                        .function_tolerance = 1e-13});
     EXPECT_NEAR(ours.initial_cost, reference.initial_cost, 1e-9 * reference.initial_cost);
     EXPECT_NEAR(ours.final_cost, reference.final_cost, 1e-6 * reference.final_cost)
         << "seed " << seed << " iterations " << ours.iterations << " and " << reference.iterations;
@@ -70,8 +70,6 @@ TEST_P(SolveWithCeresTest, AndOurSolverReachTheSameCost) {
 }
 
 TEST(SolvePoseWithCeres, FindsThePoseAndTheInliersOfOurSolver) {
-  const PoseOnlyOptions options;
-  const HuberThresholds huber{options.huber_point, options.huber_disparity, options.huber_line};
   for (unsigned seed = 0; seed < 3; ++seed) {
     const auto scene = MakePoseScene(seed,
                                      {.points = 300,
@@ -81,7 +79,8 @@ TEST(SolvePoseWithCeres, FindsThePoseAndTheInliersOfOurSolver) {
                                       .rotation_error = 0.005,
                                       .translation_error = 0.05});
     const PoseOnlyResult ours = SolvePose(scene.problem);
-    const CeresPoseResult reference = SolvePoseWithCeres(scene.problem, {.huber = huber});
+    const CeresPoseResult reference =
+        SolvePoseWithCeres(scene.problem, {.huber = kHuberThresholds});
     EXPECT_LT(LogSe3(ours.cam_from_world * Inverse(reference.cam_from_world)).norm(), 1e-3) << seed;
     EXPECT_NEAR(ours.inlier_points, reference.inlier_points, 3);
     EXPECT_NEAR(ours.inlier_line_groups, reference.inlier_line_groups, 2);
