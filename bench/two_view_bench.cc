@@ -4,7 +4,6 @@
 #include "plumbline/solvers/homography.h"
 #include "plumbline/solvers/pose_refinement.h"
 #include "plumbline/solvers/relative_pose.h"
-#include "plumbline/solvers/rotation.h"
 
 #include "tests/solvers/two_view_scene.h"
 #include <array>
@@ -72,15 +71,6 @@ void RelativePoses(benchmark::State& state) {
       static_cast<double>(hypotheses) / static_cast<double>(state.iterations());
 }
 
-void Rotation(benchmark::State& state) {
-  const auto scene = Scene(testing::SceneKind::kTurnOnly, static_cast<int>(state.range(0)), 0.2);
-  std::uint64_t seed = 0;
-  for (auto _ : state) {
-    Rng rng(1, "bench", seed++);
-    benchmark::DoNotOptimize(FitRotation(scene.matches, rng));
-  }
-}
-
 BENCHMARK(FivePoints)->Unit(benchmark::kMicrosecond);
 BENCHMARK(FourPoints)->Unit(benchmark::kMicrosecond);
 BENCHMARK(Refinement)->Arg(300)->Unit(benchmark::kMicrosecond);
@@ -88,7 +78,6 @@ BENCHMARK(RelativePoses)
     ->ArgsProduct({{0, 1, 2, 3, 4}, {300}, {20}})
     ->Args({0, 300, 0})
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK(Rotation)->Arg(300)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace plumbline

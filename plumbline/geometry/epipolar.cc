@@ -11,15 +11,4 @@ Eigen::Matrix3d FundamentalMatrix(const RectifiedCamera& camera, const Rigid3& b
   return K_inverse.transpose() * EssentialMatrix(b_from_a) * K_inverse;
 }
 
-std::optional<double> SquaredSampsonDistance(const Eigen::Matrix3d& fundamental,
-                                             const Eigen::Vector2d& px_a,
-                                             const Eigen::Vector2d& px_b) {
-  const Eigen::Vector3d line_in_b = fundamental * px_a.homogeneous();
-  const Eigen::Vector3d line_in_a = fundamental.transpose() * px_b.homogeneous();
-  const double error = px_b.homogeneous().dot(line_in_b);
-  const double gradient = line_in_b.head<2>().squaredNorm() + line_in_a.head<2>().squaredNorm();
-  if (!(gradient > 0)) return std::nullopt;
-  return error * error / gradient;
-}
-
 }  // namespace plumbline

@@ -5,8 +5,6 @@
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 
-#include <optional>
-
 #include <Eigen/Core>
 
 namespace plumbline {
@@ -19,13 +17,5 @@ inline Eigen::Matrix3d EssentialMatrix(const Rigid3& b_from_a) {
 
 // The matrix F with x_b . F x_a = 0 for pixels (x, y, 1) of two rectified images.
 Eigen::Matrix3d FundamentalMatrix(const RectifiedCamera& camera, const Rigid3& b_from_a);
-
-// Squared Sampson distance of a match, px^2: the squared distance to the nearest pair of pixels
-// that satisfies x_b . F x_a = 0, to first order. Over the variance of a coordinate it is
-// chi-square with one degree of freedom. 0 at exact matches; nullopt where it is undefined (both
-// pixels epipoles).
-std::optional<double> SquaredSampsonDistance(const Eigen::Matrix3d& fundamental,
-                                             const Eigen::Vector2d& px_a,
-                                             const Eigen::Vector2d& px_b);
 
 }  // namespace plumbline

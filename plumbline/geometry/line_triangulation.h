@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/options.h"
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
@@ -43,27 +42,11 @@ std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera
 
 // What TriangulateLine asks of the views.
 struct LineTriangulationOptions {
-  double min_plane_angle = 0.02;
+  double min_plane_angle = 0.02;  // smallest largest angle between two interpretation planes [rad]
+  // Largest distance of an end point from the reprojected line, in its sigmas, in every view.
   double max_residual_sigma = 3;
-  int max_iterations = 6;
+  int max_iterations = 6;  // Gauss-Newton steps after the linear solution; 0 leaves the linear one
 };
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, LineTriangulationOptions& o) {
-  visit("min_plane_angle",
-        o.min_plane_angle,
-        "smallest accepted largest angle between two interpretation planes [rad]",
-        Range{0, 1.57});
-  visit("max_residual_sigma",
-        o.max_residual_sigma,
-        "largest accepted distance of an end point from the reprojected line, in its sigmas; every "
-        "view must pass",
-        Range{0, 1e9});
-  visit("max_iterations",
-        o.max_iterations,
-        "Gauss-Newton steps after the linear solution; 0 leaves the linear one",
-        Range{0, 100});
-}
 
 // Why TriangulateLine gives no line.
 enum class LineTriangulationFailure {

@@ -80,50 +80,13 @@ Vector6d LogSe3(const Rigid3& motion) {
   return tangent;
 }
 
-namespace {
-
-// The block Q(w, v) of the left Jacobian of SE(3) (Barfoot, State Estimation for Robotics, 7.86).
-Eigen::Matrix3d TranslationBlock(const Eigen::Vector3d& w, const Eigen::Vector3d& v) {
-  const double t = w.norm();
-  const double t2 = t * t;
-  const double a = CoefficientsOf(t).cubic;
-  const double b =
-      t < 1e-2 ? 1.0 / 24 - t2 / 720 + t2 * t2 / 40320 : (t2 / 2 + math::Cos(t) - 1) / (t2 * t2);
-  const double c = t < 1e-2 ? 1.0 / 120 - t2 / 2520 + t2 * t2 / 120960
-                            : (t - 1.5 * math::Sin(t) + 0.5 * t * math::Cos(t)) / (t2 * t2 * t);
-  const Eigen::Matrix3d W = Skew(w);
-  const Eigen::Matrix3d V = Skew(v);
-  const Eigen::Matrix3d WV = W * V;
-  const Eigen::Matrix3d VW = V * W;
-  const Eigen::Matrix3d WV_w = WV * W;
-  return 0.5 * V + a * (WV + VW + WV_w) + b * (W * WV + VW * W - 3 * WV_w) +
-         c * (WV_w * W + W * WV_w);
-}
-
-Matrix6d BlockLowerTriangular(const Eigen::Matrix3d& diagonal, const Eigen::Matrix3d& lower) {
-  Matrix6d m = Matrix6d::Zero();
-  m.topLeftCorner<3, 3>() = diagonal;
-  m.bottomRightCorner<3, 3>() = diagonal;
-  m.bottomLeftCorner<3, 3>() = lower;
-  return m;
-}
-
-}  // namespace
-
-Matrix6d LeftJacobianSe3(const Vector6d& tangent) {
-  const Eigen::Vector3d w = tangent.head<3>();
-  return BlockLowerTriangular(LeftJacobianSo3(w), TranslationBlock(w, tangent.tail<3>()));
-}
-
-Matrix6d InverseLeftJacobianSe3(const Vector6d& tangent) {
-  const Eigen::Vector3d w = tangent.head<3>();
-  const Eigen::Matrix3d inverse = InverseLeftJacobianSo3(w);
-  return BlockLowerTriangular(inverse, -inverse * TranslationBlock(w, tangent.tail<3>()) * inverse);
-}
-
 Matrix6d Adjoint(const Rigid3& motion) {
   const Eigen::Matrix3d R = motion.rotation.toRotationMatrix();
-  return BlockLowerTriangular(R, Skew(motion.translation) * R);
+  Matrix6d m = Matrix6d::Zero();
+  m.topLeftCorner<3, 3>() = R;
+  m.bottomRightCorner<3, 3>() = R;
+  m.bottomLeftCorner<3, 3>() = Skew(motion.translation) * R;
+  return m;
 }
 
 Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s) {

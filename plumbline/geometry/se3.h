@@ -67,11 +67,6 @@ inline Rigid3 RetractLeft(const Rigid3& motion, const Vector6d& tangent) {
   return ExpSe3(tangent) * motion;
 }
 
-// Left Jacobian of SE(3) for tangent = [rotation, translation].
-Matrix6d LeftJacobianSe3(const Vector6d& tangent);
-// The inverse of LeftJacobianSe3(tangent).
-Matrix6d InverseLeftJacobianSe3(const Vector6d& tangent);
-
 // Adjoint: T exp(x) T^-1 = exp(Adjoint(T) x).
 Matrix6d Adjoint(const Rigid3& motion);
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/options.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 
@@ -31,18 +30,9 @@ struct PointView {
 };
 
 struct PointTriangulationOptions {
-  double min_parallax = 0.02;
-  int max_iterations = 6;
+  double min_parallax = 0.02;  // smallest largest angle between two viewing rays [rad]
+  int max_iterations = 6;      // Gauss-Newton steps
 };
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, PointTriangulationOptions& o) {
-  visit("min_parallax",
-        o.min_parallax,
-        "smallest accepted largest angle between two viewing rays [rad]",
-        Range{0, 3.1});
-  visit("max_iterations", o.max_iterations, "Gauss-Newton steps", Range{0, 100});
-}
 
 enum class PointTriangulationFailure {
   kTooFewViews,    // less than two rays; a view with a disparity has two

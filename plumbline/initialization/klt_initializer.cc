@@ -7,8 +7,8 @@
 #include "plumbline/base/random.h"
 #include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/structure.h"
+#include "plumbline/solvers/parallax.h"
 #include "plumbline/solvers/relative_pose.h"
-#include "plumbline/solvers/rotation.h"
 
 #include <cmath>
 #include <cstddef>

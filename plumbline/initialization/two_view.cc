@@ -8,9 +8,9 @@
 #include "plumbline/solvers/epipolar_cost.h"
 #include "plumbline/solvers/essential.h"
 #include "plumbline/solvers/homography.h"
+#include "plumbline/solvers/parallax.h"
 #include "plumbline/solvers/ransac.h"
 #include "plumbline/solvers/relative_pose_problems.h"
-#include "plumbline/solvers/rotation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -155,6 +155,8 @@ struct Solution {
   std::vector<PoseSigma> sigmas;  // of `result`; none where it failed
 };
 
+// SolveLocalBa with those poses held that are loose before it, or by what it leaves of their
+// observations; they are marked as fixed in the problem.
 Solution SolveHoldingLoosePoses(BaProblem& problem,
                                 const LocalBaOptions& options,
                                 LineParametrization lines,
@@ -181,14 +183,6 @@ bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
 
 bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem) {
   return HoldTornPoses(solution, SigmasOfPoses(problem, solution), limits, problem);
-}
-
-BaResult SolveWithLoosePosesHeld(BaProblem& problem,
-                                 const LocalBaOptions& options,
-                                 LineParametrization lines,
-                                 double limit,
-                                 const StopCheck& stop) {
-  return SolveHoldingLoosePoses(problem, options, lines, limit, stop).result;
 }
 
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,

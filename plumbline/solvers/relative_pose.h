@@ -40,20 +40,11 @@ constexpr auto EnumNames(std::type_identity<RelativePoseMethod>) {
 }
 
 struct RelativePoseOptions {
+  // Eight points as the paper has it; fails on planes.
   RelativePoseMethod method = RelativePoseMethod::kFivePoint;
-  double confidence = 0.999;
-  int max_iterations = 500;
+  double confidence = 0.999;  // of drawing a sample without outliers
+  int max_iterations = 500;   // samples drawn at most
 };
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, RelativePoseOptions& o) {
-  visit("method",
-        o.method,
-        "of relative poses: five_point (essential matrix and homography), eight_point (as the "
-        "paper has it; fails on planes)");
-  visit("confidence", o.confidence, "of drawing a sample without outliers", Range{0.5, 0.999999});
-  visit("max_iterations", o.max_iterations, "samples drawn at most", Range{1, 100000});
-}
 
 // All relative poses that explain the matches, the best first.
 //

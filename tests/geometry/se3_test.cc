@@ -134,24 +134,6 @@ TEST(Se3, ExpFollowsAOneParameterGroup) {
   }
 }
 
-TEST(Se3, JacobiansAreTheDerivativesOfExpAndLog) {
-  Rng rng(5);
-  for (const Eigen::Vector3d& w : RotationVectors(3.0)) {
-    Vector6d x;
-    x << w, RandomVector<3>(rng);
-    const Rigid3 motion = ExpSe3(x);
-    const Matrix6d left =
-        NumericJacobian([&](const Vector6d& y) { return LogSe3(ExpSe3(y) * Inverse(motion)); }, x);
-    EXPECT_LT((LeftJacobianSe3(x) - left).norm(), 1e-8) << x.transpose();
-    const Matrix6d of_log =
-        NumericJacobian([&](const Vector6d& d) { return LogSe3(RetractLeft(motion, d)); },
-                        Vector6d(Vector6d::Zero()));
-    // The logarithm bends sharply near pi.
-    const double tolerance = w.norm() > 2.5 ? 1e-6 : 1e-8;
-    EXPECT_LT((InverseLeftJacobianSe3(x) - of_log).norm(), tolerance) << x.transpose();
-  }
-}
-
 TEST(Se3, AdjointMovesAPerturbationToTheOtherSide) {
   Rng rng(6);
   for (int i = 0; i < 30; ++i) {

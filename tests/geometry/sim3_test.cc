@@ -70,8 +70,6 @@ TEST(Sim3, IsSe3AtScaleOne) {
     x(6) = 0;
     const Rigid3 rigid = ExpSe3(x.head<6>());
     EXPECT_LT((ExpSim3(x).Matrix() - rigid.Matrix()).norm(), 1e-13);
-    EXPECT_LT((LeftJacobianSim3(x).topLeftCorner<6, 6>() - LeftJacobianSe3(x.head<6>())).norm(),
-              1e-11);
     EXPECT_EQ((Adjoint(ToSimilarity(rigid)).topLeftCorner<6, 6>() - Adjoint(rigid)).norm(), 0);
   }
 }

@@ -106,13 +106,14 @@ TEST(HoldLoosePoses, CountsInliersOnly) {
   EXPECT_TRUE(problem.poses[1].fixed);
 }
 
-TEST(SolveWithLoosePosesHeld, MovesWhatIsFixedAndNothingElse) {
+TEST(SolveInOnePiece, MovesWhatIsFixedAndNothingElse) {
   const auto solve = [](int seen, BaProblem& problem) {
     problem = TwoViewsOfLines(seen);
     problem.poses[0].fixed = true;
     Rigid3& pose = problem.poses[1].cam_from_world;
     pose = ExpSe3(Vector6d::Constant(0.003)) * pose;
-    return SolveWithLoosePosesHeld(problem, {}, LineParametrization::kPlucker, 0.01);
+    constexpr PoseLimits kNoTears{.sigma = 0.01, .change = 1e3};
+    return SolveInOnePiece(problem, {}, LineParametrization::kPlucker, kNoTears).value();
   };
   BaProblem problem;
   const BaResult all = solve(24, problem);

@@ -19,11 +19,16 @@ using testing::TwoViewScene;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(SampsonChi2, IsThatOfTheGeometryModuleOverTheVariance) {
+// Over the variance of a coordinate, what the textbook has for matrices of any kind.
+TEST(SampsonChi2, IsTheSquaredSampsonDistanceOverTheVariance) {
   const TwoViewScene scene = MakeTwoViewScene(1, {.points = 20, .outliers = 0.5, .sigma = 0.01});
   const Eigen::Matrix3d E = EssentialMatrix(scene.b_from_a);
   for (const RayMatch& m : scene.matches) {
-    EXPECT_NEAR(SampsonChi2(E, m), *SquaredSampsonDistance(E, m.a, m.b) / 1e-4, 1e-6);
+    const Eigen::Vector3d in_b = E * m.a.homogeneous();
+    const Eigen::Vector3d in_a = E.transpose() * m.b.homogeneous();
+    const double error = m.b.homogeneous().dot(in_b);
+    const double gradient = in_b.head<2>().squaredNorm() + in_a.head<2>().squaredNorm();
+    EXPECT_NEAR(SampsonChi2(E, m), error * error / gradient / 1e-4, 1e-6);
   }
 }
 

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/solvers/ray_match.h"
+
+#include <span>
+
+#include <Eigen/Geometry>
+
+namespace plumbline {
+
+// Median angle between R x_a and x_b over the matches, radians: the parallax, where R is right.
+// 0 without matches.
+double MedianParallax(std::span<const RayMatch> matches, const Eigen::Quaterniond& b_from_a);
+
+}  // namespace plumbline

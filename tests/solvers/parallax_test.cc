@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/solvers/parallax.h"
+
+#include "plumbline/geometry/se3.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace {
+
+// A point 4 m ahead seen from 0.4 m to the side.
+TEST(MedianParallax, IsTheAngleAtThePoint) {
+  const Rigid3 pose{ExpSo3({0, 0.1, 0}), ExpSo3({0, 0.1, 0}) * Eigen::Vector3d(-0.4, 0, 0)};
+  const Eigen::Vector3d in_b = pose * Eigen::Vector3d(0, 0, 4);
+  const std::vector<RayMatch> matches{{{0, 0}, in_b.hnormalized()}};
+  EXPECT_NEAR(MedianParallax(matches, pose.rotation), std::atan(0.1), 1e-12);
+  EXPECT_EQ(MedianParallax({}, pose.rotation), 0);
+}
+
+}  // namespace
+}  // namespace plumbline
