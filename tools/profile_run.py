@@ -41,7 +41,7 @@ STAGES = [
     (0, FRAME, "tracking", r"plumbline::Tracker::Track"),
     (1, FRAME, "landmarks of the last frame", r"plumbline::PoseSearch::LastLandmarks"),
     (1, FRAME, "search of landmarks", r"plumbline::MatchCandidates"),
-    (1, FRAME, "pose", r"plumbline::EstimatePose"),
+    (1, FRAME, "pose", r"plumbline::PoseEstimator::Estimate"),
     (0, FRAME, "start of a monocular map", r"plumbline::MonocularStart::Offer"),
     (0, KEYFRAME, "mapping", r"plumbline::LocalMapper::Add"),
     (1, KEYFRAME, "taking in", r"plumbline::LocalMapper::TakeIn"),

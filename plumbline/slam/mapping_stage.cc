@@ -41,7 +41,8 @@ MappingStage::MappingStage(const ImagingModel& imaging,
       camera_(imaging.camera),
       mapping_options_(options.mapping),
       mapper_(imaging, options.lines, options.mapping),
-      relocalizer_(imaging, options.tracking, options.lines, options.cutting),
+      relocalizer_(
+          imaging, options.tracking, PoseEstimator(imaging.camera, options.lines, options.cutting)),
       places_(imaging, options.loop),
       adjustment_(WholeMapAdjustment(imaging, options), AdjustmentWorker(mode_, execution)) {
   if (mode_ != RunMode::kInline && execution.threads) {

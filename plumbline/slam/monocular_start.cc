@@ -85,8 +85,7 @@ bool Belongs(const KeptFrame& frame, const Map* map) {
 MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& options)
     : imaging_(imaging),
       max_pose_sigma_(options.tracking.max_pose_sigma),
-      lines_(options.lines),
-      cutting_(options.cutting),
+      estimator_(imaging.camera, options.lines, options.cutting),
       initializer_(MakeInitializer(
           imaging, options.initialization, static_cast<std::uint64_t>(options.slam.seed))) {}
 
@@ -168,13 +167,8 @@ void MonocularStart::LocateFramesOf(const Start& start,
       prediction.Add(frame->stamp_ns, predicted);
       continue;
     }
-    const auto pose = LocateFrame(imaging_,
-                                  *frame->indexed,
-                                  predicted,
-                                  nearest.snapshot(),
-                                  lines_,
-                                  cutting_,
-                                  max_pose_sigma_);
+    const auto pose = LocateFrame(
+        imaging_, estimator_, *frame->indexed, predicted, nearest.snapshot(), max_pose_sigma_);
     if (!pose) {
       if (tracked) prediction.Add(frame->stamp_ns, predicted);
       missed += !tracked;

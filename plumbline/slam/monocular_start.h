@@ -99,8 +99,7 @@ class MonocularStart {
 
   ImagingModel imaging_;
   double max_pose_sigma_;  // TrackingOptions::max_pose_sigma
-  LineOptions lines_;
-  CuttingOptions cutting_;
+  PoseEstimator estimator_;
   std::unique_ptr<Initializer> initializer_;
   std::deque<KeptFrame> waiting_;
   std::vector<Start> starts_;

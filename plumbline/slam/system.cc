@@ -48,8 +48,7 @@ System::System(const Calibration& calibration,
       mapping_(imaging_, options_, execution_),
       tracker_(imaging_,
                options_.tracking,
-               options_.lines,
-               options_.cutting,
+               PoseEstimator(imaging_.camera, options_.lines, options_.cutting),
                WorldFromFirstCamera(front_end_.rectifier()),
                options_.slam.mode == RunMode::kLive ? kLivePatienceSeconds : 0) {
   CheckOptions(options_);

@@ -3,6 +3,7 @@
 #include "plumbline/tracking/frame_association.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 namespace plumbline {
@@ -104,6 +105,35 @@ int CountOfMap(const std::vector<Candidate>& candidates, const std::vector<int>&
   }));
 }
 
+template <class LandmarkId, class Candidate>
+std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
+                                     const std::vector<Candidate>& candidates) {
+  std::vector<LandmarkId> ids(match_of_feature.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (match_of_feature[i] >= 0)
+      ids[i] = candidates[static_cast<std::size_t>(match_of_feature[i])].id;
+  }
+  return ids;
+}
+
+template <class Candidate, class LandmarkId>
+void CountSeenKind(const std::vector<int>& expected,
+                   const std::vector<int>& match_of_feature,
+                   const std::vector<Candidate>& candidates,
+                   std::map<LandmarkId, TrackingScore>& scores) {
+  const auto entry = [&](int candidate) -> TrackingScore* {
+    const LandmarkId id = candidates[static_cast<std::size_t>(candidate)].id;
+    return id.valid() ? &scores.try_emplace(id, TrackingScore{0, 0}).first->second : nullptr;
+  };
+  for (const int candidate : expected) {
+    if (TrackingScore* score = entry(candidate)) ++score->visible;
+  }
+  for (const int candidate : match_of_feature) {
+    if (candidate < 0) continue;
+    if (TrackingScore* score = entry(candidate)) ++score->found;
+  }
+}
+
 }  // namespace
 
 FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot) {
@@ -145,6 +175,20 @@ void PutBack(const FrameMatches& from, FrameMatches& to) {
 int CommonMatches(const FrameMatches& a, const FrameMatches& b) {
   return CountCommon(a.point_of_feature, b.point_of_feature) +
          CountCommon(a.line_of_feature, b.line_of_feature);
+}
+
+void SetLandmarks(const FrameAssociation& association, Frame& frame) {
+  const FrameMatches& matches = association.matches;
+  frame.points = IdsOfMatches<PointId>(matches.point_of_feature, association.points);
+  frame.lines = IdsOfMatches<LineId>(matches.line_of_feature, association.lines);
+}
+
+void CountSeen(const ExpectedLandmarks& expected,
+               const FrameAssociation& association,
+               TrackingScores& scores) {
+  const FrameMatches& matches = association.matches;
+  CountSeenKind(expected.points, matches.point_of_feature, association.points, scores.points);
+  CountSeenKind(expected.lines, matches.line_of_feature, association.lines, scores.lines);
 }
 
 ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,

@@ -77,6 +77,15 @@ struct ExpectedLandmarks {
   std::vector<int> lines;
 };
 
+// Writes down which landmarks of the map the features of a frame show; those without a match and
+// those made on the spot show none.
+void SetLandmarks(const FrameAssociation& association, Frame& frame);
+
+// Counts for each landmark of the map that it was to be seen, and that it was found.
+void CountSeen(const ExpectedLandmarks& expected,
+               const FrameAssociation& association,
+               TrackingScores& scores);
+
 // Projects the candidates with the given pose and matches those without a match with the features
 // without a match. Returns all candidates that should be visible, matched or not.
 ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,

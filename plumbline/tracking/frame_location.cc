@@ -3,7 +3,6 @@
 #include "plumbline/tracking/frame_location.h"
 
 #include "plumbline/tracking/frame_association.h"
-#include "plumbline/tracking/pose_estimation.h"
 
 namespace plumbline {
 namespace {
@@ -20,11 +19,10 @@ FrameAssociation WithLandmarksOf(const MapSnapshot& snapshot, const Features& fe
 }  // namespace
 
 std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
+                                        const PoseEstimator& estimator,
                                         const IndexedFeatures& image,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
-                                        const LineOptions& lines,
-                                        const CuttingOptions& cutting,
                                         double max_pose_sigma) {
   for (const double factor : {1.0, kWideFactor}) {
     FrameAssociation association = WithLandmarksOf(snapshot, image.features);
@@ -32,8 +30,7 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
     const auto accepted = [&](const Rigid3& initial) {
       located.counts.matched_points = association.matches.Points();
       located.counts.matched_lines = association.matches.Lines();
-      const PoseEstimate pose =
-          EstimatePose(imaging.camera, image.features, initial, lines, cutting, association);
+      const PoseEstimate pose = estimator.Estimate(image.features, initial, {}, association);
       located.cam_from_world = pose.cam_from_world;
       located.counts.inlier_points = pose.inlier_points;
       located.counts.inlier_lines = pose.inlier_lines;

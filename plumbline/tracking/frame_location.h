@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
-#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
-#include "plumbline/tracking/tracker.h"
+#include "plumbline/tracking/pose_estimation.h"
+#include "plumbline/tracking/pose_search.h"
 
 #include <optional>
 
@@ -23,11 +22,10 @@ struct LocatedFrame {
 // tracking accepts one without prediction (TrackingOptions::max_pose_sigma). nullopt where the
 // frame is not found.
 std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
+                                        const PoseEstimator& estimator,
                                         const IndexedFeatures& image,
                                         const Rigid3& predicted,
                                         const MapSnapshot& snapshot,
-                                        const LineOptions& lines,
-                                        const CuttingOptions& cutting,
                                         double max_pose_sigma);
 
 }  // namespace plumbline

@@ -154,18 +154,15 @@ double SceneDepth(const FrameAssociation& association, const Rigid3& cam_from_wo
 
 }  // namespace
 
-PoseEstimate EstimatePose(const RectifiedCamera& camera,
-                          const Features& features,
-                          const Rigid3& initial,
-                          const LineOptions& lines,
-                          const CuttingOptions& cutting,
-                          FrameAssociation& association,
-                          const PosePrior& prior) {
-  MatchedProblem matched = MakeProblem(camera, features, initial, lines, association);
+PoseEstimate PoseEstimator::Estimate(const Features& features,
+                                     const Rigid3& initial,
+                                     const PosePrior& prior,
+                                     FrameAssociation& association) const {
+  MatchedProblem matched = MakeProblem(camera_, features, initial, lines_, association);
   matched.problem.prior = prior;
-  const bool all_whole = cutting.method == CuttingMethod::kNone && cutting.budget == 0;
+  const bool all_whole = cutting_.method == CuttingMethod::kNone && cutting_.budget == 0;
   const PoseOnlyResult result =
-      all_whole ? SolvePose(matched.problem) : SolveWithCutLines(matched, lines, cutting);
+      all_whole ? SolvePose(matched.problem) : SolveWithCutLines(matched, lines_, cutting_);
   Keep(result.point_inliers, result.line_inliers, matched, association);
   const double depth = SceneDepth(association, result.cam_from_world);
   return {result.cam_from_world,
@@ -177,13 +174,12 @@ PoseEstimate EstimatePose(const RectifiedCamera& camera,
           result.converged};
 }
 
-void DropDisagreeing(const RectifiedCamera& camera,
-                     const Features& features,
-                     const Rigid3& cam_from_world,
-                     const LineOptions& lines,
-                     double gate_scale,
-                     FrameAssociation& association) {
-  const MatchedProblem matched = MakeProblem(camera, features, cam_from_world, lines, association);
+void PoseEstimator::DropDisagreeing(const Features& features,
+                                    const Rigid3& cam_from_world,
+                                    double gate_scale,
+                                    FrameAssociation& association) const {
+  const MatchedProblem matched =
+      MakeProblem(camera_, features, cam_from_world, lines_, association);
   Keep(PointsThatFit(matched.problem, cam_from_world, gate_scale),
        LinesThatFit(matched.problem, cam_from_world, gate_scale),
        matched,

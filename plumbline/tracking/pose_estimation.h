@@ -28,24 +28,39 @@ struct PoseEstimate {
   }
 };
 
-// The pose that best fits the matches, from `initial`; matches that turn out to be outliers are
-// taken out of the association. Each line counts once, however many images of the rig show it.
-// With a method in `cutting` pieces of the lines decide about the pose (line_cutting.h), but whole
-// lines about their matches.
-PoseEstimate EstimatePose(const RectifiedCamera& camera,
-                          const Features& features,
-                          const Rigid3& initial,
-                          const LineOptions& lines,
-                          const CuttingOptions& cutting,
-                          FrameAssociation& association,
-                          const PosePrior& prior = {});
+// Estimates poses of the frames of one camera (or rig) from matches with landmarks.
+//
+// Thread-safe: it holds the camera and its options, and nothing of the frames.
+class PoseEstimator {
+ public:
+  PoseEstimator(const RectifiedCamera& camera,
+                const LineOptions& lines,
+                const CuttingOptions& cutting)
+      : camera_(camera), lines_(lines), cutting_(cutting) {}
 
-// Undoes the matches that do not agree with a pose: chi2 above gate_scale times its limit of 95 %.
-void DropDisagreeing(const RectifiedCamera& camera,
-                     const Features& features,
-                     const Rigid3& cam_from_world,
-                     const LineOptions& lines,
-                     double gate_scale,
-                     FrameAssociation& association);
+  // The pose that best fits the matches and the prior, from `initial`; matches that turn out to be
+  // outliers are taken out of the association. Each line counts once, however many images of the
+  // rig show it. With a method in `cutting` pieces of the lines decide about the pose
+  // (line_cutting.h), but whole lines about their matches.
+  PoseEstimate Estimate(const Features& features,
+                        const Rigid3& initial,
+                        const PosePrior& prior,
+                        FrameAssociation& association) const;
+
+  // Undoes the matches that do not agree with a pose: chi2 above gate_scale times its limit of
+  // 95 %.
+  void DropDisagreeing(const Features& features,
+                       const Rigid3& cam_from_world,
+                       double gate_scale,
+                       FrameAssociation& association) const;
+
+  const RectifiedCamera& camera() const { return camera_; }
+  const LineOptions& lines() const { return lines_; }
+
+ private:
+  RectifiedCamera camera_;
+  LineOptions lines_;
+  CuttingOptions cutting_;
+};
 
 }  // namespace plumbline

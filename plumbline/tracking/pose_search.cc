@@ -81,9 +81,8 @@ ProjectionSearchOptions FirstSearch(double factor) {
 
 PoseSearch::PoseSearch(const ImagingModel& imaging,
                        const TrackingOptions& options,
-                       const LineOptions& lines,
-                       const CuttingOptions& cutting)
-    : imaging_(imaging), options_(options), lines_(lines), cutting_(cutting) {}
+                       const PoseEstimator& estimator)
+    : imaging_(imaging), options_(options), estimator_(estimator) {}
 
 // What the last frame showed: its landmarks as they are in the snapshot, and new ones from its
 // depths, at the places that go with its pose of today.
@@ -116,14 +115,6 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
   return result;
 }
 
-PoseEstimate PoseSearch::Estimate(const Frame& frame,
-                                  const Rigid3& initial,
-                                  const PosePrior& prior,
-                                  FrameAssociation& association) const {
-  return EstimatePose(
-      imaging_.camera, frame.features(), initial, lines_, cutting_, association, prior);
-}
-
 std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
                                                    const PosePrior& predicted,
                                                    const LastFrame& last,
@@ -135,7 +126,8 @@ std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
       imaging_, *frame.indexed, predicted.cam_from_world, FirstSearch(how.factor), association);
   const int matches = association.matches.All();
   if (matches < kFewestInliers) return std::nullopt;
-  const PoseEstimate estimate = Estimate(frame, predicted.cam_from_world, predicted, association);
+  const PoseEstimate estimate =
+      estimator_.Estimate(frame.features(), predicted.cam_from_world, predicted, association);
   if (!Accepted(estimate) || estimate.Inliers() * 3 < matches) return std::nullopt;
   return estimate;
 }
@@ -204,8 +196,8 @@ FrameAssociation PoseSearch::MatchAppearance(const Frame& frame,
         static_cast<int>(result.points.size());
     result.points.push_back(*point);
   }
-  const auto line_matches =
-      MatchLines(reference.features().lines, frame.features().lines, LineMatchingOf(lines_));
+  const auto line_matches = MatchLines(
+      reference.features().lines, frame.features().lines, LineMatchingOf(estimator_.lines()));
   for (const LineMatch& match : line_matches) {
     const auto a = static_cast<std::size_t>(match.a);
     const auto line =
@@ -233,10 +225,10 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
       PoseFromPoints(imaging_.camera, MatchedPoints(frame, association), kMaxErrorPx);
   if (voted) {
     initial = *voted;
-    DropDisagreeing(imaging_.camera, frame.features(), initial, lines_, kGate, association);
+    estimator_.DropDisagreeing(frame.features(), initial, kGate, association);
   }
   if (association.matches.All() < kFewestUnpredictedInliers) return std::nullopt;
-  const PoseEstimate estimate = Estimate(frame, initial, {}, association);
+  const PoseEstimate estimate = estimator_.Estimate(frame.features(), initial, {}, association);
   if (!estimate.Accepted(kFewestUnpredictedInliers, options_.max_pose_sigma)) return std::nullopt;
   return estimate;
 }
@@ -249,7 +241,7 @@ PoseAttempt PoseSearch::WithLastFrame(const Frame& frame,
   FrameAssociation& association = attempt.association;
   MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, {}, association);
   attempt.counts = CountsOf(association.matches);
-  attempt.pose = Estimate(frame, first.cam_from_world, prior, association);
+  attempt.pose = estimator_.Estimate(frame.features(), first.cam_from_world, prior, association);
   return attempt;
 }
 
@@ -263,21 +255,21 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
       std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
   const FrameMatches offered = association.matches;
   const FrameMatches young = TakeOutYoung(snapshot, views, association);
-  if (young.All() == 0) return Estimate(frame, initial, prior, association);
+  if (young.All() == 0) return estimator_.Estimate(frame.features(), initial, prior, association);
   const FrameMatches established = std::exchange(association.matches, offered);
-  PoseEstimate of_all = Estimate(frame, initial, prior, association);
+  PoseEstimate of_all = estimator_.Estimate(frame.features(), initial, prior, association);
   const FrameMatches all = std::exchange(association.matches, established);
-  const PoseEstimate of_established = Estimate(frame, initial, prior, association);
+  const PoseEstimate of_established =
+      estimator_.Estimate(frame.features(), initial, prior, association);
   if (!Accepted(of_established) || !of_established.sigma.AtMost(options_.enough_pose_sigma) ||
       CommonMatches(association.matches, all) >= kOutvoted * of_established.Inliers()) {
     association.matches = all;
     return of_all;
   }
   association.matches = young;
-  DropDisagreeing(
-      imaging_.camera, frame.features(), of_established.cam_from_world, lines_, 1, association);
+  estimator_.DropDisagreeing(frame.features(), of_established.cam_from_world, 1, association);
   PutBack(established, association.matches);
-  return Estimate(frame, of_established.cam_from_world, prior, association);
+  return estimator_.Estimate(frame.features(), of_established.cam_from_world, prior, association);
 }
 
 PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,

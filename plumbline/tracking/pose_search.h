@@ -4,7 +4,6 @@
 
 #include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
-#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/frame_association.h"
@@ -57,8 +56,7 @@ class PoseSearch {
  public:
   PoseSearch(const ImagingModel& imaging,
              const TrackingOptions& options,
-             const LineOptions& lines,
-             const CuttingOptions& cutting);
+             const PoseEstimator& estimator);
 
   // From the landmarks that the last frame showed, and points and lines of its depths, near where
   // `predicted` puts them; of more uncertain depths where the others do not fix the pose or are
@@ -140,17 +138,12 @@ class PoseSearch {
                                    const PosePrior& prior,
                                    const MapSnapshot& snapshot,
                                    FrameAssociation& association) const;
-  PoseEstimate Estimate(const Frame& frame,
-                        const Rigid3& initial,
-                        const PosePrior& prior,
-                        FrameAssociation& association) const;
 
   bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
 
   ImagingModel imaging_;
   TrackingOptions options_;
-  LineOptions lines_;
-  CuttingOptions cutting_;
+  PoseEstimator estimator_;
 };
 
 }  // namespace plumbline

@@ -57,9 +57,8 @@ bool Apart(const PlaceFound& one, const PlaceFound& other) {
 
 Relocalizer::Relocalizer(const ImagingModel& imaging,
                          const TrackingOptions& tracking,
-                         const LineOptions& lines,
-                         const CuttingOptions& cutting)
-    : search_(imaging, tracking, lines, cutting) {}
+                         const PoseEstimator& estimator)
+    : search_(imaging, tracking, estimator) {}
 
 std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
                                                    const Frame& frame) const {

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/options.h"
-#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/map.h"
 #include "plumbline/tracking/options.h"
@@ -66,8 +64,7 @@ class Relocalizer {
  public:
   Relocalizer(const ImagingModel& imaging,
               const TrackingOptions& tracking,
-              const LineOptions& lines,
-              const CuttingOptions& cutting);
+              const PoseEstimator& estimator);
 
   // So many candidates are worth naming: not all of them are tried.
   static constexpr std::size_t kCandidates = 20;

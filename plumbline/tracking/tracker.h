@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/placement.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/tracking/keyframe_policy.h"
+#include "plumbline/tracking/motion_model.h"
 #include "plumbline/tracking/options.h"
+#include "plumbline/tracking/pose_estimation.h"
 #include "plumbline/tracking/pose_search.h"
 #include "plumbline/tracking/relocalization.h"
 
@@ -106,8 +107,7 @@ class Tracker {
   // and but for a map that is on trial.
   Tracker(const ImagingModel& imaging,
           const TrackingOptions& options,
-          const LineOptions& lines,
-          const CuttingOptions& cutting,
+          const PoseEstimator& estimator,
           const Rigid3& world_from_first_cam,
           double min_lost_seconds = 0);
 
@@ -141,7 +141,7 @@ class Tracker {
   // All that it keeps from frame to frame (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.state_, self.last_, self.velocity_, self.spread_, self.scores_);
+    visit(self.state_, self.last_, self.motion_, self.scores_);
     visit(self.next_keyframe_, self.newest_keyframe_, self.frames_since_keyframe_);
     visit(self.lost_frames_, self.use_, self.trial_keyframes_);
   }
@@ -167,48 +167,46 @@ class Tracker {
     }
   };
 
-  TrackingResult StartMap(Frame frame);
   // A pose, or why there is none.
   struct Finding {
-    std::optional<PoseAttempt> attempt;  // its counts are those below
+    std::optional<PoseAttempt> attempt;  // its counts of matches are those below
     TrackingFailure failure = TrackingFailure::kNone;
     FrameCounts counts;
+
+    bool Succeeded() const { return failure == TrackingFailure::kNone; }
   };
 
+  // One frame against the map: predicts, searches and estimates, judges, decides about a keyframe.
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, const LiveConditions& live);
   Finding Find(const Frame& frame, const PosePrior& predicted, const MapSnapshot& snapshot) const;
-  Finding FindAgain(const Frame& frame, const MapSnapshot& earlier) const;
-  Finding Judge(std::optional<PoseAttempt> attempt, FrameCounts counts) const;
-  std::optional<PoseAttempt> FindPose(const Frame& frame,
-                                      const PosePrior& predicted,
-                                      const MapSnapshot& snapshot,
-                                      FrameCounts& counts) const;
-  bool IsWeak(const PoseAttempt& attempt) const;
+  Finding FindByAppearance(const Frame& frame, const MapSnapshot& snapshot) const;
+  std::optional<PoseAttempt> NearPrediction(const Frame& frame,
+                                            const PosePrior& predicted,
+                                            const MapSnapshot& snapshot) const;
+  std::optional<PoseAttempt> ByAppearance(const Frame& frame,
+                                          const MapSnapshot& snapshot,
+                                          FrameCounts& counts) const;
   PoseAttempt Settle(const Frame& frame,
                      const PoseEstimate& first,
                      const PosePrior& prior,
                      const MapSnapshot& snapshot,
                      FrameAssociation found) const;
-  TrackingResult Succeed(Frame frame,
-                         PoseAttempt attempt,
-                         const FrameCounts& counts,
-                         const MapSnapshot& snapshot,
-                         double feature_share);
+  bool IsWeak(const PoseAttempt& attempt) const;
+  // without_pose: what was matched where there is no attempt.
+  Finding Judge(std::optional<PoseAttempt> attempt, const FrameCounts& without_pose) const;
   bool WantsKeyFrame(const Frame& frame,
                      const FrameAssociation& association,
                      const MapSnapshot& snapshot,
                      double feature_share) const;
-  void FollowAnchor(const MapSnapshot& snapshot);
-  void ChangeUnit(double scale);
-  // No information where the velocity is not known.
-  PosePrior Predict(const Rigid3& last_pose, double seconds) const;
-  void Score(const ExpectedLandmarks& expected, const FrameAssociation& association);
-  KeyFrameSituation Situation(const Frame& frame,
-                              const FrameAssociation& association,
-                              const MapSnapshot& snapshot,
-                              double feature_share) const;
+
+  TrackingResult Succeed(Frame frame,
+                         Finding found,
+                         const MapSnapshot& snapshot,
+                         bool wants_keyframe);
   TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
+  TrackingResult StartMap(Frame frame);
   NewKeyFrame MakeKeyFrame(const Frame& frame, KeyFrameId parent, const RelativePose& from_parent);
+  void MoveWithMap(const MapSnapshot& snapshot);
 
   TrackingOptions options_;
   PoseSearch search_;
@@ -217,19 +215,7 @@ class Tracker {
   double min_lost_seconds_;
   TrackerState state_ = TrackerState::kInitializing;
   std::optional<Tracked> last_;
-  // Left tangent of the camera motion, per second; nullopt where it is not known.
-  std::optional<Vector6d> velocity_;
-  // How well the last pose is known, where the velocity is.
-  struct Spread {
-    Matrix6d covariance;
-    double scene_depth = 0;
-
-    template <class Self, class Visitor>
-    static void VisitState(Self& self, const Visitor& visit) {
-      visit(self.covariance, self.scene_depth);
-    }
-  };
-  std::optional<Spread> spread_;
+  MotionModel motion_;
   TrackingScores scores_;
   KeyFrameId next_keyframe_{0};
   KeyFrameId newest_keyframe_;

@@ -20,7 +20,10 @@ class SyntheticRun {
   SyntheticRun(const SyntheticWorld& world, const SlamOptions& options = InlineOptions())
       : world_(world),
         mapping_(world.Imaging(), options),
-        tracker_(world.Imaging(), options.tracking, options.lines, options.cutting, Rigid3{}) {}
+        tracker_(world.Imaging(),
+                 options.tracking,
+                 {world.camera, options.lines, options.cutting},
+                 Rigid3{}) {}
 
   static SlamOptions InlineOptions() {
     SlamOptions options;

@@ -16,11 +16,10 @@ struct KnownWorld {
 
   std::optional<LocatedFrame> Locate(const IndexedFeatures& image, const Rigid3& predicted) const {
     return LocateFrame(world.Imaging(),
+                       {world.camera, {}, {}},
                        image,
                        predicted,
                        *snapshot,
-                       LineOptions{},
-                       {},
                        TrackingOptions{}.max_pose_sigma);
   }
 };

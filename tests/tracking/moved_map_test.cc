@@ -28,7 +28,7 @@ class Follower {
     std::vector<Rigid3> poses;
     for (int k = 0; k < 9; ++k) poses.push_back(PoseOnPath(6 * k));
     map_ = MakeTrueMap(world_, poses, Sensor()).map;
-    const Relocalizer relocalizer(world_.Imaging(), {}, {}, {});
+    const Relocalizer relocalizer(world_.Imaging(), {}, {world_.camera, {}, {}});
     const Frame frame = MakeFrame(FrameId{0}, Rigid3{}, Sensed(kFirst));
     const auto found = relocalizer.Find(map_, frame, KeyFramesOf(map_));
     centre_ = found->keyframe;
@@ -64,7 +64,7 @@ class Follower {
 
   SyntheticWorld world_ = MakeSyntheticWorld(400, 80);
   Map map_;
-  Tracker tracker_{world_.Imaging(), {}, {}, {}, Rigid3{}};
+  Tracker tracker_{world_.Imaging(), {}, {world_.camera, {}, {}}, Rigid3{}};
   KeyFrameId centre_;
   std::vector<KeyFrameId> earlier_;
 };

@@ -96,12 +96,9 @@ TEST_P(EstimatePoseBy, RecoversThePoseAndDropsWrongMatches) {
     MatchedFrame frame(0.2);
     const int points = frame.association.matches.Points();
     const int lines = frame.association.matches.Lines();
-    const PoseEstimate estimate = EstimatePose(frame.world.camera,
-                                               frame.sensed.indexed->features,
-                                               Disturbed(frame.pose),
-                                               options,
-                                               {},
-                                               frame.association);
+    const PoseEstimate estimate =
+        PoseEstimator(frame.world.camera, options, {})
+            .Estimate(frame.sensed.indexed->features, Disturbed(frame.pose), {}, frame.association);
     EXPECT_TRUE(estimate.converged);
     ExpectNear(estimate.cam_from_world, frame.pose, 0.01, 0.1);
     EXPECT_EQ(estimate.inlier_points, frame.association.matches.Points());
@@ -123,12 +120,10 @@ TEST(EstimatePose, WorksWithPointsOrLinesAlone) {
   std::fill(points.association.matches.line_of_feature.begin(),
             points.association.matches.line_of_feature.end(),
             -1);
-  const PoseEstimate from_points = EstimatePose(points.world.camera,
-                                                points.sensed.indexed->features,
-                                                Disturbed(points.pose),
-                                                LineOptions{},
-                                                {},
-                                                points.association);
+  const PoseEstimate from_points =
+      PoseEstimator(points.world.camera, {}, {})
+          .Estimate(
+              points.sensed.indexed->features, Disturbed(points.pose), {}, points.association);
   EXPECT_TRUE(from_points.converged);
   EXPECT_EQ(from_points.inlier_lines, 0);
   ExpectNear(from_points.cam_from_world, points.pose, 0.01, 0.1);
@@ -137,12 +132,9 @@ TEST(EstimatePose, WorksWithPointsOrLinesAlone) {
   std::fill(lines.association.matches.point_of_feature.begin(),
             lines.association.matches.point_of_feature.end(),
             -1);
-  const PoseEstimate from_lines = EstimatePose(lines.world.camera,
-                                               lines.sensed.indexed->features,
-                                               Disturbed(lines.pose),
-                                               LineOptions{},
-                                               {},
-                                               lines.association);
+  const PoseEstimate from_lines =
+      PoseEstimator(lines.world.camera, {}, {})
+          .Estimate(lines.sensed.indexed->features, Disturbed(lines.pose), {}, lines.association);
   EXPECT_TRUE(from_lines.converged);
   EXPECT_EQ(from_lines.inlier_points, 0);
   ExpectNear(from_lines.cam_from_world, lines.pose, 0.03, 0.2);
@@ -156,12 +148,9 @@ TEST(EstimatePose, TellsWhenThePoseIsNotDetermined) {
   std::fill(frame.association.matches.point_of_feature.begin() + 1,
             frame.association.matches.point_of_feature.end(),
             -1);
-  const PoseEstimate estimate = EstimatePose(frame.world.camera,
-                                             frame.sensed.indexed->features,
-                                             frame.pose,
-                                             LineOptions{},
-                                             {},
-                                             frame.association);
+  const PoseEstimate estimate =
+      PoseEstimator(frame.world.camera, {}, {})
+          .Estimate(frame.sensed.indexed->features, frame.pose, {}, frame.association);
   EXPECT_FALSE(estimate.converged);
 }
 
@@ -169,8 +158,8 @@ TEST(DropDisagreeing, LeavesWhatAgreesWithThePose) {
   MatchedFrame frame(0.2);
   const int points = frame.association.matches.Points();
   const int lines = frame.association.matches.Lines();
-  DropDisagreeing(
-      frame.world.camera, frame.sensed.indexed->features, frame.pose, {}, 1, frame.association);
+  PoseEstimator(frame.world.camera, {}, {})
+      .DropDisagreeing(frame.sensed.indexed->features, frame.pose, 1, frame.association);
   EXPECT_LE(CountWrongLeft(frame.wrong_point, frame.association.matches.point_of_feature), 1);
   EXPECT_LE(CountWrongLeft(frame.wrong_line, frame.association.matches.line_of_feature), 2);
   EXPECT_GT(frame.association.matches.Points(), points * 7 / 10);

@@ -39,7 +39,7 @@ struct Scene {
     snapshot.cam_from_world[KeyFrameId{0}] = PoseOnPath(0);
   }
 
-  PoseSearch Search() const { return {world.Imaging(), options, {}, {}}; }
+  PoseSearch Search() const { return {world.Imaging(), options, {world.camera, {}, {}}}; }
 };
 
 void ExpectPose(const std::optional<PoseEstimate>& pose, const Rigid3& truth) {

@@ -14,7 +14,7 @@ namespace plumbline {
 namespace {
 
 Relocalizer MakeRelocalizer(const SyntheticWorld& world) {
-  return Relocalizer(world.Imaging(), {}, {}, {});
+  return Relocalizer(world.Imaging(), {}, {world.camera, {}, {}});
 }
 
 // Keyframes along a walk.

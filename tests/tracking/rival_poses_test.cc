@@ -49,7 +49,7 @@ class SceneAndLoad {
     }
     TrackingOptions options;
     options.reference = reference;
-    Tracker tracker(world_.Imaging(), options, LineOptions{}, {}, Rigid3{});
+    Tracker tracker(world_.Imaging(), options, {world_.camera, {}, {}}, Rigid3{});
     tracker.Track(FrameId{0}, 0, first.sensed.front().indexed, nullptr);
     const auto snapshot = TakeSnapshot(first.map, KeyFrameId{0}, 1);
     const SyntheticFrame second = Sense(today, Moved(), kExact, rng);

@@ -130,7 +130,7 @@ TEST(Tracker, ExactMeasurementsGiveExactPoses) {
 TEST(Tracker, TheFirstFrameIsTheFirstKeyFrameAtTheGivenPose) {
   const SyntheticWorld world = World();
   const Rigid3 world_from_cam{ExpSo3({0.1, 0.2, -0.3}), {1, 2, 3}};
-  Tracker tracker(world.Imaging(), {}, LineOptions{}, {}, world_from_cam);
+  Tracker tracker(world.Imaging(), {}, {world.camera, {}, {}}, world_from_cam);
   EXPECT_EQ(tracker.state(), TrackerState::kInitializing);
   Rng rng(1);
   const SyntheticFrame sensed = Sense(world, {}, {}, rng);
@@ -195,7 +195,8 @@ TEST(Tracker, LeavesAMapThatWasWithdrawnAtOnce) {
   stage.Submit(
       16, MakeMapStart(InitialMapOf(world, {0, 8, 16}), world.Imaging(), Rigid3{}, KeyFrameId{0}));
   const auto snapshot = stage.SnapshotFor(16);
-  Tracker tracker(world.Imaging(), options.tracking, options.lines, options.cutting, Rigid3{});
+  const PoseEstimator estimator(world.camera, options.lines, options.cutting);
+  Tracker tracker(world.Imaging(), options.tracking, estimator, Rigid3{});
   tracker.StartFrom(*snapshot, Vector6d::Zero());
   const auto track = [&](int frame, const MapSnapshot& seen) {
     Rng rng(1, "withdrawn", static_cast<std::uint64_t>(frame));
@@ -347,7 +348,7 @@ TEST(Tracker, ReportsWhenTooFewMatchesAgree) {
 // A tracker with one keyframe in a map whose contents the test may change.
 struct OneKeyFrame {
   SyntheticWorld world = World();
-  Tracker tracker{world.Imaging(), {}, LineOptions{}, {}, Rigid3{}};
+  Tracker tracker{world.Imaging(), {}, {world.camera, {}, {}}, Rigid3{}};
   Map map;
   Rng rng{2};
 
@@ -406,7 +407,7 @@ TEST(Tracker, LooksInAnEarlierSnapshotWhereTheNewestGivesNoPose) {
 TEST(Tracker, WaitsWithANewMapWhereItIsToldTo) {
   for (const double seconds : {0.0, 1.0}) {
     const SyntheticWorld world = World();
-    Tracker tracker(world.Imaging(), {}, LineOptions{}, {}, Rigid3{}, seconds);
+    Tracker tracker(world.Imaging(), {}, {world.camera, {}, {}}, Rigid3{}, seconds);
     Rng rng(1);
     Map map;
     const TrackingResult start =

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/keyframe_situation.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+// Keyframes' landmarks count as well observed from this many views on (fewer in a young map). Not
+// tracking.established_views, which is about trust, may be 0 for none, and is the same with one
+// camera.
+constexpr int kWellObserved = 3;
+// With one camera a landmark has two views from its first day on; where few grow older, waiting for
+// a third would let all go before a keyframe is made.
+constexpr int kWellObservedByOne = 2;
+// Depth uncertainty below which a point counts as near, relative to depth: it fixes the
+// translation.
+constexpr double kCloseDepthSigma = 0.05;
+
+// Counts the landmarks of a keyframe that `needed` keyframes show, and those that a frame shows
+// too.
+template <class LandmarkId>
+void CountShared(const std::vector<LandmarkId>& of_keyframe,
+                 const std::vector<LandmarkId>& of_frame,
+                 const MapSnapshot& snapshot,
+                 int needed,
+                 KeyFrameSituation& situation) {
+  std::vector<LandmarkId> known;
+  for (const LandmarkId id : of_keyframe) {
+    const auto* landmark = id.valid() ? snapshot.Find(id) : nullptr;
+    if (landmark != nullptr && landmark->observation_count >= needed) known.push_back(id);
+  }
+  std::sort(known.begin(), known.end());
+  situation.reference_landmarks += static_cast<int>(known.size());
+  situation.shared_landmarks +=
+      static_cast<int>(std::count_if(of_frame.begin(), of_frame.end(), [&](LandmarkId id) {
+        return std::binary_search(known.begin(), known.end(), id);
+      }));
+}
+
+}  // namespace
+
+KeyFrameSituation SituationOf(const Frame& frame,
+                              const FrameAssociation& association,
+                              const MapSnapshot& snapshot,
+                              double feature_share,
+                              bool monocular) {
+  KeyFrameSituation situation;
+  situation.monocular = monocular;
+  const Frame& reference = snapshot.reference->frame;
+  if (feature_share < 1) {
+    const auto features = [](const Frame& f) {
+      return static_cast<double>(f.points.size() + f.lines.size());
+    };
+    situation.share_of_usual = feature_share;
+    situation.share_of_reference =
+        std::min(1.0, features(frame) / std::max(1.0, features(reference)));
+  }
+  const int needed = std::min(situation.monocular ? kWellObservedByOne : kWellObserved,
+                              static_cast<int>(snapshot.cam_from_world.size()));
+  CountShared(reference.points, frame.points, snapshot, needed, situation);
+  CountShared(reference.lines, frame.lines, snapshot, needed, situation);
+  const auto& disparities = frame.features().point_disparity;
+  for (std::size_t i = 0; i < disparities.size(); ++i) {
+    if (!disparities[i] || disparities[i]->sigma_px > kCloseDepthSigma * disparities[i]->px) {
+      continue;
+    }
+    const bool tracked = association.matches.point_of_feature[i] >= 0 && frame.points[i].valid();
+    ++(tracked ? situation.close_tracked : situation.close_untracked);
+  }
+  return situation;
+}
+
+}  // namespace plumbline

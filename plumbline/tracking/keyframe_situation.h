@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/frame.h"
+#include "plumbline/map/snapshot.h"
+#include "plumbline/tracking/frame_association.h"
+#include "plumbline/tracking/keyframe_policy.h"
+
+namespace plumbline {
+
+// What the decision about a keyframe depends on, of a frame that was tracked against a snapshot:
+// how much it shows of what the snapshot's keyframe shows, and how many near points it has.
+//   association    what it was tracked by, with the frame's matches
+//   feature_share  of the usual number of features that the frame was measured with
+// The number of frames since the last keyframe is the caller's to fill in.
+KeyFrameSituation SituationOf(const Frame& frame,
+                              const FrameAssociation& association,
+                              const MapSnapshot& snapshot,
+                              double feature_share,
+                              bool monocular);
+
+}  // namespace plumbline

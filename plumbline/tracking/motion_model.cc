@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/tracking/motion_model.h"
+
+namespace plumbline {
+namespace {
+
+// Change of velocity that the prediction allows for, as hands and cars show it: rotation [rad/s^2]
+// and translation [scene depths/s^2].
+constexpr double kMotionSigma = 5;
+
+}  // namespace
+
+PosePrior MotionModel::Predict(const Rigid3& last_pose, double seconds) const {
+  PosePrior prior{velocity_ ? RetractLeft(last_pose, seconds * *velocity_) : last_pose};
+  if (!spread_) return prior;
+  Vector6d sigma = Vector6d::Constant(kMotionSigma * seconds * seconds);
+  sigma.tail<3>() *= spread_->scene_depth;
+  Matrix6d covariance = spread_->covariance;
+  covariance.diagonal() += sigma.cwiseAbs2();
+  prior.information = covariance.inverse();
+  return prior;
+}
+
+void MotionModel::Observe(const Rigid3& last_pose, const PoseEstimate& pose, double seconds) {
+  velocity_ = LogSe3(pose.cam_from_world * Inverse(last_pose)) / seconds;
+  spread_ = Spread{pose.information.inverse(), pose.scene_depth};
+}
+
+void MotionModel::Begin(const Vector6d& velocity) {
+  velocity_ = velocity;
+  spread_.reset();
+}
+
+void MotionModel::Forget() {
+  velocity_.reset();
+  spread_.reset();
+}
+
+void MotionModel::ChangeUnit(double scale) {
+  if (velocity_) velocity_->tail<3>() *= scale;
+  if (!spread_) return;
+  spread_->covariance.bottomRows<3>() *= scale;
+  spread_->covariance.rightCols<3>() *= scale;
+  spread_->scene_depth *= scale;
+}
+
+}  // namespace plumbline
