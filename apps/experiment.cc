@@ -3,6 +3,7 @@
 #include "lab/experiments/catalog.h"
 #include "lab/experiments/computed.h"
 #include "lab/experiments/metrics.h"
+#include "lab/experiments/paper_catalog.h"
 #include "plumbline/base/error.h"
 
 #include "apps/command_line.h"

@@ -5,9 +5,10 @@
 #include "lab/experiments/gate.h"
 #include "lab/experiments/group_report.h"
 #include "lab/experiments/job_runner.h"
+#include "lab/experiments/paper_catalog.h"
 #include "lab/experiments/plan.h"
-#include "lab/experiments/results.h"
 #include "lab/experiments/slurm_executor.h"
+#include "lab/experiments/write_results.h"
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
 

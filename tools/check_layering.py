@@ -2,8 +2,8 @@
 """Checks that the modules depend on each other only as the table LAYERS says.
 
 The product is plumbline/MODULE, the renderer worlds/, the laboratory lab/MODULE. Three things must agree: the row of a module in LAYERS, the DEPS in its CMakeLists.txt, and what its
-files include. Third-party headers may be included only where THIRD_PARTY says. Exit status: 0 clean,
-1 violations (one a line, file:line).
+files include. Third-party headers may be included only where THIRD_PARTY says. Nor do pairs of files (a.h with a.cc) of the
+product, worlds, laboratory, program and bindings go round in circles. Exit status: 0 clean, 1 violations (one a line, file:line).
 """
 import pathlib
 import re
@@ -173,7 +173,37 @@ def include_problems(path, where, module):
                 yield f"{place}: {target} is not allowed here"
 
 
+PAIRED = ("plumbline", RENDERER, "lab", "apps", "python")
+
+
+# The pairs of files that each pair includes: path without suffix -> paths without suffixes.
+def included_pairs(root):
+    pairs = {}
+    for path in (p for folder in PAIRED for p in (root / folder).rglob("*")):
+        if path.suffix not in (".h", ".cc"):
+            continue
+        pair = path.relative_to(root).with_suffix("").as_posix()
+        found = (INCLUDE.match(line) for line in path.read_text().splitlines())
+        others = {match[1].removesuffix(".h") for match in found if match}
+        pairs.setdefault(pair, set()).update(others - {pair})
+    return pairs
+
+
+# Takes away what includes nothing that is left, again and again: what remains is in a circle or above one.
+def pair_problems(root):
+    pairs = included_pairs(root)
+    while True:
+        ends = {pair for pair, others in pairs.items() if not others & pairs.keys()}
+        if not ends:
+            break
+        pairs = {pair: others for pair, others in pairs.items() if pair not in ends}
+    included = set().union(*pairs.values())
+    for pair in sorted(pairs.keys() & included):
+        yield f"{pair}: includes itself by way of {sorted(pairs[pair] & pairs.keys())}"
+
+
 def problems(root):
+    yield from pair_problems(root)
     yield from table_problems()
     yield from part_problems()
     folders = {module_of(path.relative_to(root).as_posix() + "/x")

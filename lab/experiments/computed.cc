@@ -5,6 +5,7 @@
 #include "lab/cutting_testbed/testbed.h"
 #include "lab/experiments/cutting_testbed_figures.h"
 #include "lab/experiments/cutting_timing.h"
+#include "lab/experiments/figure_page.h"
 #include "lab/experiments/initialization_timing.h"
 #include "lab/experiments/printed_figures.h"
 #include "plumbline/io/atomic_file.h"

@@ -2,37 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lab/experiments/figure_list.h"
+#include "lab/experiments/computed_experiment.h"
 
-#include <cstddef>
-#include <filesystem>
-#include <functional>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace plumbline {
-
-// An experiment that computes by itself, without sequences and runs of the program (those:
-// Experiment in catalog.h).
-struct ComputedExperiment {
-  std::string name;
-  std::string help;        // what it shows, one sentence
-  int repeats = 1;         // unless asked for otherwise
-  int full_repeats = 1;    // the same with --full
-  double repeat_s = 1;     // what a repeat takes, roughly
-  bool exclusive = false;  // measures times
-  std::span<const FigureMetric> metrics;
-  // Computes and writes results.json, timing.json, table.md, table.html and plots/*.svg into `out`,
-  // and timing.md where it measures times.
-  // `progress(done, total)` returns false to stop; no file is then written and false returned.
-  // Throws InputError when a file cannot be written.
-  using Progress = std::function<bool(std::size_t, std::size_t)>;
-  bool (*run)(const ComputedExperiment& self,
-              int repeats,
-              const std::filesystem::path& out,
-              const Progress& progress) = nullptr;
-};
 
 // Those there are. A new one is an entry here.
 std::span<const ComputedExperiment> ComputedExperiments();

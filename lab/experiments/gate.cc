@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/gate.h"
 
+#include "lab/experiments/catalog.h"
 #include "lab/experiments/metrics.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/yaml_document.h"

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lab/experiments/catalog.h"
+#include "lab/experiments/experiment.h"
 
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace plumbline {
@@ -17,5 +19,10 @@ std::vector<Experiment> PaperExperiments();
 // A few minutes on rendered worlds and on what recorded sequences there are, whose figures must
 // keep the limits of gate_limits.yaml (gate.h).
 Experiment GateExperiment();
+
+std::span<const ExperimentGroup> ExperimentGroups();
+
+// nullptr for an unknown name.
+const ExperimentGroup* FindExperimentGroup(std::string_view name);
 
 }  // namespace plumbline

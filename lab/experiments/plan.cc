@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/plan.h"
 
-#include "lab/experiments/computed.h"
 #include "lab/starts/start_bench.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
@@ -192,6 +191,7 @@ Plan MakePlan(const ComputedExperiment& experiment,
   Job job;
   job.folder = out;
   job.computed = true;
+  job.computing_s = experiment.repeat_s * repeats;
   job.key = fmt::format("program {}\ncomputes {}\nrepeats {}\n", program, experiment.name, repeats);
   job.command = {"experiment",
                  experiment.name,
@@ -208,9 +208,7 @@ double EstimatedSeconds(const Plan& plan, const Job& job) {
   // Measured on two cores, see docs/experiments.md.
   constexpr double kStart = 0.5, kFrame = 0.015, kMegapixel = 0.08, kOfUnknown = 300;
   constexpr double kStartsFactor = 6;
-  if (const auto* computed = FindComputedExperiment(plan.experiment.name)) {
-    return computed->repeat_s * std::stod(job.command[3]);
-  }
+  if (job.computed) return job.computing_s;
   const ExperimentSequence& sequence = plan.SequenceOf(job);
   const double frames = sequence.frames > 0 ? static_cast<double>(sequence.frames) : kOfUnknown;
   const bool starts = plan.experiment.command == RunCommandKind::kStarts;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lab/experiments/catalog.h"
+#include "lab/experiments/computed_experiment.h"
+#include "lab/experiments/experiment.h"
 #include "lab/experiments/metrics.h"
 #include "lab/experiments/sequences.h"
 
@@ -23,7 +24,8 @@ struct Job {
   // All that the result depends on, as text: program, sequence, arguments. A job is done while the
   // folder holds the result of the same key.
   std::string key;
-  bool computed = false;  // of an experiment that computes by itself: it writes its own tables
+  bool computed = false;   // of an experiment that computes by itself: it writes its own tables
+  double computing_s = 0;  // what that takes, roughly
 };
 
 // All that is to be done for an experiment.
@@ -59,7 +61,6 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request);
 
 // The plan of an experiment that computes by itself: one job, the program computing it, whose
 // folder is that of the experiment.
-struct ComputedExperiment;
 Plan MakePlan(const ComputedExperiment& experiment,
               const std::filesystem::path& out,
               int repeats,

@@ -36,10 +36,4 @@ std::vector<ResultRow> CollectResults(const Plan& plan,
 // "unit"}; where value is null, "reason".
 std::string FormatResults(const std::string& experiment, const std::vector<ResultRow>& rows);
 
-// Writes results.json, timing.json, table.md, timing.md, table.html and plots/<metric>.svg into the
-// folder of the plan; for starts also starts.csv, their plots, and the pools as further rows; where
-// a paper is reproduced its figures and plots. Plots of other metrics are removed. A computed
-// experiment wrote its files itself. Throws InputError when a file cannot be written.
-void WriteResults(const Plan& plan, const std::vector<JobResult>& results);
-
 }  // namespace plumbline

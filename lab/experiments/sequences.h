@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lab/experiments/catalog.h"
+#include "lab/experiments/experiment.h"
 #include "worlds/synth_options.h"
 
 #include <cstddef>

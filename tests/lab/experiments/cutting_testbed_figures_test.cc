@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/cutting_testbed_figures.h"
 
+#include "lab/experiments/figure_page.h"
+
 #include <algorithm>
 #include <cmath>
 

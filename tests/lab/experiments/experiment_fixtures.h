@@ -93,4 +93,16 @@ inline JobResult Success(double ate_mm, const std::string& trajectory, double co
 }
 inline JobResult NoResult(const std::string& reason) { return {std::nullopt, reason}; }
 
+// Of the runs of PlanOfTwo: one of them crashed.
+inline std::vector<JobResult> SomeResults() {
+  return {Success(4, "a"),
+          Success(5, "b"),
+          NoResult("ended by signal 11"),
+          Success(6, "c"),
+          Success(7, "d"),
+          Success(8, "e"),
+          Success(9, "f"),
+          Success(10, "g")};
+}
+
 }  // namespace plumbline

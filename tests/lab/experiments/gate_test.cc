@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/gate.h"
 
+#include "lab/experiments/catalog.h"
+
 #include "tests/io/scratch_folder.h"
 #include "tests/lab/experiments/experiment_fixtures.h"
 #include <string>

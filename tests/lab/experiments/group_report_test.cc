@@ -3,7 +3,7 @@
 #include "lab/experiments/group_report.h"
 
 #include "lab/experiments/computed.h"
-#include "lab/experiments/results.h"
+#include "lab/experiments/write_results.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/lab/experiments/experiment_fixtures.h"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/paper_catalog.h"
 
+#include "lab/experiments/catalog.h"
 #include "lab/experiments/computed.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"

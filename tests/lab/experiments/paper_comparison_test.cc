@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/paper_comparison.h"
 
+#include "lab/experiments/catalog.h"
 #include "lab/experiments/results.h"
 
 #include "tests/io/scratch_folder.h"

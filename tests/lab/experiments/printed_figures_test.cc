@@ -5,6 +5,7 @@
 #include "lab/experiments/catalog.h"
 #include "lab/experiments/computed.h"
 #include "lab/experiments/metrics.h"
+#include "lab/experiments/paper_catalog.h"
 
 #include "tests/io/scratch_folder.h"
 #include <algorithm>

@@ -16,19 +16,6 @@ namespace plumbline {
 namespace results_test {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
-
-std::vector<JobResult> SomeResults() {
-  return {Success(4, "a"),
-          Success(5, "b"),
-          NoResult("ended by signal 11"),
-          Success(6, "c"),
-          Success(7, "d"),
-          Success(8, "e"),
-          Success(9, "f"),
-          Success(10, "g")};
-}
 
 std::vector<std::string> NamesOf(const std::vector<const Metric*>& metrics) {
   std::vector<std::string> names;
@@ -80,38 +67,6 @@ TEST(Results, AMetricWithoutValueSaysWhy) {
   EXPECT_TRUE(json[0]["value"].is_null());
   EXPECT_EQ(json[0]["reason"], "no frame has a pose");
   EXPECT_EQ(json[1]["value"], 100.0);
-}
-
-TEST(Results, FilesAreAllThereAndTimesAreApart) {
-  const ScratchFolder folder;
-  const Plan plan = PlanOfTwo(folder);
-  folder.Write("out/plots/of_before.svg", "");
-  WriteResults(plan, SomeResults());
-  for (const char* name :
-       {"results.json", "timing.json", "table.md", "timing.md", "table.html", "plots/ate.svg"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
-  }
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/plots/of_before.svg"));
-  for (const char* name : {"out/results.json", "out/table.md"}) {
-    EXPECT_THAT(Contents(folder / name), Not(HasSubstr("fps"))) << name;
-  }
-  EXPECT_THAT(Contents(folder / "out/timing.json"), HasSubstr("fps"));
-  EXPECT_THAT(Contents(folder / "out/timing.md"), HasSubstr("fps"));
-}
-
-TEST(Results, ForTheSameRunsHaveTheSameBytesWhateverTheTimes) {
-  const ScratchFolder first, second;
-  std::vector<JobResult> results = SomeResults();
-  WriteResults(PlanOfTwo(first), results);
-  for (JobResult& result : results) {
-    if (result.figures) result.figures->values["fps"] = 31;
-  }
-  WriteResults(PlanOfTwo(second), results);
-  for (const char* name : {"out/results.json", "out/table.md", "out/plots/ate.svg"}) {
-    EXPECT_EQ(Contents(first / name), Contents(second / name)) << name;
-    EXPECT_GT(Contents(first / name).size(), 100U) << name;
-  }
-  EXPECT_NE(Contents(first / "out/timing.json"), Contents(second / "out/timing.json"));
 }
 
 }  // namespace results_test

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/start_pools.h"
 
-#include "lab/experiments/results.h"
+#include "lab/experiments/write_results.h"
 
 #include "tests/lab/experiments/start_fixtures.h"
 #include <string>
