@@ -3,9 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of the documents that come from what a command wrote.
 
-  tools/results.py record NAME OUT COMMAND   keeps OUT/ratios.json of an experiment as docs/results/NAME.json, and of
+  tools/results.py record NAME OUT COMMAND [COMMIT]
+                                             keeps OUT/ratios.json of an experiment as docs/results/NAME.json, and of
                                              monocular starts their numbers, with the command that made them,
-                                             today's date and the commit checked out
+                                             today's date and the commit that the program was built from (that
+                                             checked out)
   tools/results.py fill                      writes all tables anew
   tools/results.py check                     exit status 1 where a table is not what its file says
 
@@ -48,9 +50,9 @@ def starts_of(out):
             for (sequence, variant), row in figures.items() if "starts" in row]
 
 
-def record(name, out, command):
+def record(name, out, command, commit="HEAD"):
     ratios = json.loads((pathlib.Path(out) / "ratios.json").read_text())
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, check=True, text=True,
+    commit = subprocess.run(["git", "rev-parse", "--short", commit], cwd=ROOT, check=True, text=True,
                             capture_output=True).stdout.strip()
     kept = {"command": command, "commit": commit, "date": datetime.date.today().isoformat(),
             "ratios": ratios}
@@ -140,7 +142,7 @@ def filled(text):
 
 
 def main(arguments):
-    if arguments[:1] == ["record"] and len(arguments) == 4:
+    if arguments[:1] == ["record"] and len(arguments) in (4, 5):
         record(*arguments[1:])
         return 0
     if arguments not in (["fill"], ["check"]):
