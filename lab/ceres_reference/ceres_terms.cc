@@ -235,7 +235,7 @@ struct LineFunctor {
   template <class T>
   bool operator()(const T* pose, const T* line, T* r) const {
     const auto [start, end] = PointsOf(line, parametrization);
-    const Vector3<T> shift(T(m.in_right_camera ? -camera.baseline : 0.0), T(0), T(0));
+    const Vector3<T> shift(T(camera.ShiftInto(m.camera)), T(0), T(0));
     const Vector3<T> t(pose[4], pose[5], pose[6]);
     const Eigen::Quaternion<T> q = ReadQuaternion(pose);
     const Vector3<T> a = Homogeneous<T>(q * start + t + shift);
@@ -281,9 +281,8 @@ struct ProjectedEndsFunctor {
 
   template <class T>
   bool Distance(const T* pose, const Vector3<T>& point, T& distance) const {
-    const Vector3<T> p =
-        ReadQuaternion(pose) * point +
-        Vector3<T>(pose[4] - (m.in_right_camera ? camera.baseline : 0.0), pose[5], pose[6]);
+    const Vector3<T> p = ReadQuaternion(pose) * point +
+                         Vector3<T>(pose[4] + camera.ShiftInto(m.camera), pose[5], pose[6]);
     if (p.z() < T(kMinDepth)) return false;
     const Eigen::Vector2d along = m.segment.Direction();
     const T dx = camera.fx * p.x() / p.z() + camera.cx - m.segment.start.x();

@@ -46,7 +46,7 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
   const auto& right = features.line_right[i];
   if (!right) return std::nullopt;
   LineMeasurement measurement = Measure(right->segment, right->sigma_px, weights);
-  measurement.in_right_camera = true;
+  measurement.camera = 1;
   return measurement;
 }
 

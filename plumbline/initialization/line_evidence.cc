@@ -84,7 +84,7 @@ std::vector<WindowSolution> Probes(const WindowTracks& tracks,
 
 void AdjustWithLines(const WindowTracks& tracks, Explanation& e) {
   e.solution.lines = TriangulateLines(tracks, e.solution);
-  Adjust(tracks, e);
+  AdjustExplanation(tracks, e);
 }
 
 // Adds to the cost of explanations that of the lines which fit at least one of them.
@@ -131,7 +131,7 @@ std::vector<Explanation> ExplainWithLines(WindowTracks& tracks,
   }
   CountLines(tracks, explanations);
   std::vector<Explanation> distinct;
-  for (Explanation& e : explanations) Insert(std::move(e), distinct);
+  for (Explanation& e : explanations) InsertExplanation(std::move(e), distinct);
   return distinct;
 }
 

@@ -70,12 +70,12 @@ std::vector<Explanation> Explain(const WindowTracks& tracks,
         const WindowHypothesis& hypothesis = hypotheses[static_cast<std::size_t>(i)];
         auto solution = FactorizeWindow(tracks, hypothesis, options.factorization);
         if (!solution) return std::nullopt;
-        const WindowFit fit = Evaluate(tracks, *solution, kChi2TwoDof99);
+        const WindowFit fit = EvaluateWindow(tracks, *solution, kChi2TwoDof99);
         return Explanation{std::move(*solution), fit, fit.cost};
       });
   std::vector<Explanation> explanations;
   for (auto& explanation : explained) {
-    if (explanation) Insert(std::move(*explanation), explanations);
+    if (explanation) InsertExplanation(std::move(*explanation), explanations);
   }
   return explanations;
 }
@@ -86,10 +86,10 @@ void AdjustAll(const WindowTracks& tracks, std::vector<Explanation>& explanation
   const double limit = kHopeless * explanations.front().cost;
   std::erase_if(explanations, [limit](const Explanation& e) { return e.cost > limit; });
   ParallelFor(static_cast<int>(explanations.size()), kThreads, [&](int i) {
-    Adjust(tracks, explanations[static_cast<std::size_t>(i)]);
+    AdjustExplanation(tracks, explanations[static_cast<std::size_t>(i)]);
   });
   std::vector<Explanation> adjusted;
-  for (Explanation& e : explanations) Insert(std::move(e), adjusted);
+  for (Explanation& e : explanations) InsertExplanation(std::move(e), adjusted);
   explanations = std::move(adjusted);
   SortByCost(explanations);
 }

@@ -51,7 +51,7 @@ InitializationResult Rank1Initializer::Attempt() {
   }
   InitialMap map = BuildStructure(
       imaging_.camera, std::move(views), window_.PointTracks(frames), window_.LineTracks(frames));
-  if (!map.points.empty()) Scale(1 / MedianDepth(map), map);
+  if (!map.points.empty()) ScaleMap(1 / MedianDepth(map), map);
   if (static_cast<int>(map.points.size() + map.lines.size()) < kMinPoints) {
     result.wait = InitializationWait::kInaccurate;
     return result;

@@ -209,7 +209,7 @@ double MedianDepth(const InitialMap& map) {
   return UpperMedian(std::move(depths));
 }
 
-void Scale(double factor, InitialMap& map) {
+void ScaleMap(double factor, InitialMap& map) {
   for (InitialView& view : map.views) view.cam_from_world.translation *= factor;
   for (InitialPoint& point : map.points) point.position *= factor;
   for (InitialLine& line : map.lines) {
@@ -228,7 +228,7 @@ void AdjustStructure(const RectifiedCamera& camera, InitialMap& map) {
   const BaResult result = SolveLocalBa(problem, options);
   TakeOver(camera, result, map);
   const double depth = MedianDepth(map);
-  if (depth > 0) Scale(1 / depth, map);
+  if (depth > 0) ScaleMap(1 / depth, map);
 }
 
 }  // namespace plumbline

@@ -41,7 +41,7 @@ InitialMap BuildStructure(const RectifiedCamera& camera,
 double MedianDepth(const InitialMap& map);
 
 // Scales the map (poses, points, lines) by a factor about the world's origin.
-void Scale(double factor, InitialMap& map);
+void ScaleMap(double factor, InitialMap& map);
 
 // Adjusts all poses but the first, all points and lines to all observations, drops observations
 // that do not fit (chi2 at 95 %) and landmarks that are left with fewer than two, and makes the

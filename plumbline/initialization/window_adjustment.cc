@@ -56,7 +56,9 @@ bool IsSeen(const WindowTracks& tracks, std::size_t k) {
 
 }  // namespace
 
-WindowFit Evaluate(const WindowTracks& tracks, const WindowSolution& solution, double max_chi2) {
+WindowFit EvaluateWindow(const WindowTracks& tracks,
+                         const WindowSolution& solution,
+                         double max_chi2) {
   WindowFit fit;
   int parameters = static_cast<int>(6 * tracks.views.size()) - 1;
   const auto add = [&](double chi2) {

@@ -21,7 +21,9 @@ struct WindowFit {
 };
 
 //   max_chi2  in variances as assumed
-WindowFit Evaluate(const WindowTracks& tracks, const WindowSolution& solution, double max_chi2);
+WindowFit EvaluateWindow(const WindowTracks& tracks,
+                         const WindowSolution& solution,
+                         double max_chi2);
 
 // A short joint bundle adjustment of all frames, points and lines that have a place on the matches
 // alone (interpolated places are not measurements). The reference and, by damping, the unit stay.

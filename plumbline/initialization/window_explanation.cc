@@ -21,7 +21,7 @@ bool IsSame(const WindowSolution& a, const WindowSolution& b) {
          angle < kSameDirection;
 }
 
-void Insert(Explanation explanation, std::vector<Explanation>& explanations) {
+void InsertExplanation(Explanation explanation, std::vector<Explanation>& explanations) {
   const auto same =
       std::find_if(explanations.begin(), explanations.end(), [&](const Explanation& other) {
         return IsSame(other.solution, explanation.solution);
@@ -39,10 +39,10 @@ void SortByCost(std::vector<Explanation>& explanations) {
   });
 }
 
-void Adjust(const WindowTracks& tracks, Explanation& explanation) {
+void AdjustExplanation(const WindowTracks& tracks, Explanation& explanation) {
   constexpr int kIterations = 6;
   explanation.solution = AdjustWindow(tracks, explanation.solution, kIterations);
-  explanation.fit = Evaluate(tracks, explanation.solution, kChi2TwoDof99);
+  explanation.fit = EvaluateWindow(tracks, explanation.solution, kChi2TwoDof99);
   explanation.cost = explanation.fit.cost;
 }
 

@@ -27,11 +27,11 @@ struct Explanation {
 bool IsSame(const WindowSolution& a, const WindowSolution& b);
 
 // Adds an explanation; of two that are the same the cheaper stays.
-void Insert(Explanation explanation, std::vector<Explanation>& explanations);
+void InsertExplanation(Explanation explanation, std::vector<Explanation>& explanations);
 
 void SortByCost(std::vector<Explanation>& explanations);
 
 // Bundle adjustment of all that has a place; fit and cost are those of the points after it.
-void Adjust(const WindowTracks& tracks, Explanation& explanation);
+void AdjustExplanation(const WindowTracks& tracks, Explanation& explanation);
 
 }  // namespace plumbline

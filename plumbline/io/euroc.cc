@@ -81,7 +81,7 @@ CameraFile ReadCalibration(const fs::path& path,
                            SensorKind sensor) {
   const fs::path left_file = mav / "cam0" / "sensor.yaml";
   if (std::optional<CameraFile> camera = GivenCamera(path, options, sensor)) {
-    if (!camera->calibration.body_from_left && Exists(left_file)) {
+    if (!camera->calibration.body_from_left && PathExists(left_file)) {
       camera->calibration.body_from_left = ReadEurocSensor(left_file).body_from_camera;
     }
     return *camera;
@@ -108,12 +108,13 @@ CameraFile ReadCalibration(const fs::path& path,
 }  // namespace
 
 std::unique_ptr<Dataset> OpenEuroc(const fs::path& path, const DatasetOptions& options) {
-  const fs::path mav = Exists(path / "mav0") ? path / "mav0" : path;
-  if (!Exists(mav / "cam0")) {
+  const fs::path mav = PathExists(path / "mav0") ? path / "mav0" : path;
+  if (!PathExists(mav / "cam0")) {
     throw InputError(path.string() + ": expected a EuRoC folder, found no mav0/cam0 in it");
   }
   std::vector<SensorKind> available = {SensorKind::kMono};
-  if (Exists(mav / "cam1" / "data.csv")) available.insert(available.begin(), SensorKind::kStereo);
+  if (PathExists(mav / "cam1" / "data.csv"))
+    available.insert(available.begin(), SensorKind::kStereo);
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kEuroc, std::move(available), options);
   const bool stereo = info.sensor == SensorKind::kStereo;
   UseCamera(ReadCalibration(path, mav, options, info.sensor), info);
@@ -129,7 +130,7 @@ std::unique_ptr<Dataset> OpenEuroc(const fs::path& path, const DatasetOptions& o
     }
   }
   const fs::path truth = mav / "state_groundtruth_estimate0" / "data.csv";
-  if (Exists(truth)) {
+  if (PathExists(truth)) {
     info.ground_truth = GroundTruth{ReadTrajectory(truth).poses, GroundTruth::Frame::kBody, truth};
     if (!info.calibration.body_from_left) {
       info.ground_truth.reset();

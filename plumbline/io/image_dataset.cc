@@ -109,7 +109,7 @@ std::string NameOf(const fs::path& path) {
 
 }  // namespace
 
-bool Exists(const fs::path& path) {
+bool PathExists(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error);
 }
@@ -146,9 +146,9 @@ std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFil
   std::size_t missing_left = 0;
   std::size_t missing_other = 0;
   for (const FrameFiles& frame : files) {
-    missing_left += Exists(frame.left) ? 0 : 1;
-    missing_other += frame.right && !Exists(*frame.right) ? 1 : 0;
-    missing_other += frame.depth && !Exists(*frame.depth) ? 1 : 0;
+    missing_left += PathExists(frame.left) ? 0 : 1;
+    missing_other += frame.right && !PathExists(*frame.right) ? 1 : 0;
+    missing_other += frame.depth && !PathExists(*frame.depth) ? 1 : 0;
   }
   if (missing_left == files.size()) {
     throw InputError(

@@ -21,7 +21,7 @@ struct ListedImage {
 };
 
 // Whether there is such a file or folder; false also where that cannot be found out.
-bool Exists(const std::filesystem::path& path);
+bool PathExists(const std::filesystem::path& path);
 
 // The image files of one frame.
 struct FrameFiles {

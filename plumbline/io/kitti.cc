@@ -154,7 +154,7 @@ std::optional<GroundTruth> ReadGroundTruth(const fs::path& path,
   const std::string sequence = fs::absolute(path / ".").lexically_normal().parent_path().filename();
   for (const fs::path& file :
        {path / "poses.txt", path / ".." / ".." / "poses" / (sequence + ".txt")}) {
-    if (Exists(file)) {
+    if (PathExists(file)) {
       return GroundTruth{ReadKittiPoses(file, stamps_ns), GroundTruth::Frame::kCamera, file};
     }
   }
@@ -165,7 +165,7 @@ std::optional<GroundTruth> ReadGroundTruth(const fs::path& path,
 
 std::unique_ptr<Dataset> OpenKitti(const fs::path& path, const DatasetOptions& options) {
   std::vector<SensorKind> available = {SensorKind::kMono};
-  if (Exists(path / "image_1")) available.insert(available.begin(), SensorKind::kStereo);
+  if (PathExists(path / "image_1")) available.insert(available.begin(), SensorKind::kStereo);
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kKitti, std::move(available), options);
   const bool stereo = info.sensor == SensorKind::kStereo;
 

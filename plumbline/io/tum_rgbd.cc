@@ -93,7 +93,7 @@ std::optional<CameraFile> ReadCalibration(const fs::path& path, const DatasetOpt
 
 std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& options) {
   std::optional<CameraFile> camera = ReadCalibration(path, options);
-  const bool has_depth = Exists(path / "depth.txt");
+  const bool has_depth = PathExists(path / "depth.txt");
   const bool has_factor = !camera || camera->calibration.depth_factor.has_value();
   if (has_depth && !has_factor && options.sensor == SensorKind::kRgbd) {
     throw InputError(path.string() + ": expected depth_factor in the camera file, found none");
@@ -118,7 +118,7 @@ std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& opt
     }
   }
   const fs::path truth = path / "groundtruth.txt";
-  if (Exists(truth)) {
+  if (PathExists(truth)) {
     info.ground_truth =
         GroundTruth{ReadTrajectory(truth).poses, GroundTruth::Frame::kCamera, truth};
   }

@@ -106,7 +106,7 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
     o.measurement.px = correction.At(camera, o.measurement.px);
   }
   for (auto& o : problem.line_observations) {
-    if (o.measurement.in_right_camera) continue;
+    if (o.measurement.camera != 0) continue;
     Segment2& segment = o.measurement.segment;
     const double scale = correction.ScaleAt(camera, segment.Midpoint());
     o.measurement.covariance *= scale * scale;

@@ -18,7 +18,7 @@ constexpr double kMinRelativeLength = 1e-6;
 std::optional<Segment3> Trim(const BaProblem& problem, const BaProblem::LineObservation& o) {
   const PluckerLine line = ToPlucker(problem.lines[static_cast<std::size_t>(o.line)]);
   Rigid3 cam_from_world = problem.poses[static_cast<std::size_t>(o.pose)].cam_from_world;
-  if (o.measurement.in_right_camera) cam_from_world.translation.x() -= problem.camera.baseline;
+  cam_from_world.translation.x() += problem.camera.ShiftInto(o.measurement.camera);
   auto interval = TrimToSegment(problem.camera, cam_from_world, line, o.measurement.segment);
   if (!interval) return std::nullopt;
   if (interval->end < interval->start) std::swap(interval->start, interval->end);

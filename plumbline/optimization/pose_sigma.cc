@@ -56,7 +56,7 @@ void AddLines(const BaProblem& problem, const BaResult& state, std::vector<Sums>
     const auto residual = EvaluateLine(problem.camera, cam_from_world, *prepared, o.measurement);
     if (!residual) continue;
     sum.information.noalias() += residual->J_pose.transpose() * residual->J_pose;
-    if (o.measurement.in_right_camera) continue;
+    if (o.measurement.camera != 0) continue;
     const PluckerLine plucker = ToPlucker(orthonormal);
     const auto seen = TrimToSegment(problem.camera, cam_from_world, plucker, o.measurement.segment);
     if (!seen) continue;

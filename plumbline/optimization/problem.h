@@ -31,7 +31,7 @@ struct PointMeasurement {
 struct LineMeasurement {
   Segment2 segment;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
-  bool in_right_camera = false;
+  int camera = 0;  // of the pair that measured it: 0 the left (or only) one, 1 the right one
 };
 
 // Bundle adjustment as plain data: nothing here knows the map.

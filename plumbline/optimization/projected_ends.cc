@@ -117,7 +117,7 @@ Eigen::Matrix2d ProjectedEndsCovariance(const RectifiedCamera& camera,
                                         const Segment3& ends,
                                         const LineMeasurement& measurement) {
   constexpr double kFloor = 1e-4;  // of the mean variance: keeps coincident ends regular
-  const Eigen::Vector3d shift(measurement.in_right_camera ? -camera.baseline : 0.0, 0, 0);
+  const Eigen::Vector3d shift(camera.ShiftInto(measurement.camera), 0, 0);
   const Segment2& segment = measurement.segment;
   const double length = segment.Length();
   Eigen::Matrix2d A;

@@ -31,7 +31,7 @@ LineTerm MakeLineTerm(const RectifiedCamera& camera, const LineMeasurement& meas
           .w00 = 1 / l00,
           .w10 = -S(1, 0) / (l00 * l00 * l11),
           .w11 = 1 / l11,
-          .shift = measurement.in_right_camera ? -camera.baseline : 0.0};
+          .shift = camera.ShiftInto(measurement.camera)};
 }
 
 std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,

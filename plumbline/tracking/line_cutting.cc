@@ -60,7 +60,7 @@ std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
                                      const CuttingOptions& cutting) {
   const LineModel& model = *candidate.model;
   const Segment2& seen = match.measurement.segment;
-  if (match.measurement.in_right_camera || seen.Length() < kShortestPx) return std::nullopt;
+  if (match.measurement.camera != 0 || seen.Length() < kShortestPx) return std::nullopt;
   const auto interval = TrimToSegment(problem.camera, problem.cam_from_world, model.line, seen);
   if (!interval) return std::nullopt;
   Cuttable out;
@@ -100,10 +100,8 @@ CuttableLine SeenBy(const RectifiedCamera& camera,
                     const LineMeasurement& measurement,
                     double sigma_px) {
   CuttableLine seen = line;
-  if (measurement.in_right_camera) {
-    const Eigen::Vector3d shift(-camera.baseline, 0, 0);
-    seen.segment_in_cam = {line.segment_in_cam.start + shift, line.segment_in_cam.end + shift};
-  }
+  const Eigen::Vector3d shift(camera.ShiftInto(measurement.camera), 0, 0);
+  seen.segment_in_cam = {line.segment_in_cam.start + shift, line.segment_in_cam.end + shift};
   seen.image_line = LineThrough(measurement.segment);
   seen.sigma_px = sigma_px;
   return seen;

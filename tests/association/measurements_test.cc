@@ -54,11 +54,11 @@ TEST(Measurements, CarryTheFeaturesNoise) {
   EXPECT_EQ(point.disparity->px, 7);
   for (const LineWeighting weighting : {LineWeighting::kScalar, LineWeighting::kCovariance}) {
     const LineMeasurement left = MeasureLeftLine(features, 0, weighting);
-    EXPECT_FALSE(left.in_right_camera);
+    EXPECT_EQ(left.camera, 0);
     EXPECT_TRUE(left.covariance.isApprox(0.36 * Eigen::Matrix2d::Identity()));
     const auto right = MeasureRightLine(features, 0, weighting);
     ASSERT_TRUE(right);
-    EXPECT_TRUE(right->in_right_camera);
+    EXPECT_EQ(right->camera, 1);
     EXPECT_EQ(right->segment.end, Eigen::Vector2d(2, 4));
     EXPECT_TRUE(right->covariance.isApprox(0.81 * Eigen::Matrix2d::Identity()));
   }

@@ -24,7 +24,7 @@ Explanation ByPoints(const WindowScene& scene) {
   Explanation explanation;
   explanation.solution = scene.truth;
   explanation.solution.lines.clear();
-  Adjust(scene.tracks, explanation);
+  AdjustExplanation(scene.tracks, explanation);
   return explanation;
 }
 

@@ -135,7 +135,7 @@ TEST(Scale, KeepsImagesAndDividesDepths) {
   const Eigen::Vector3d on_line = map.lines.front().segment.start;
   const double depth = MedianDepth(map);
   EXPECT_NEAR(depth, 6, 1.5);
-  Scale(1 / depth, map);
+  ScaleMap(1 / depth, map);
   EXPECT_NEAR(MedianDepth(map), 1, 1e-12);
   const Eigen::Vector3d scaled = map.views[2].cam_from_world * map.points[3].position;
   EXPECT_LT((scaled * depth - in_camera).norm(), 1e-9);

@@ -19,13 +19,13 @@ constexpr double kMaxChi2 = 9.21;
 
 TEST(Evaluate, CountsWhatFits) {
   const WindowScene exact = MakeWindowScene(1, CurvedMotion(3), {.points = 100});
-  const WindowFit fit = Evaluate(exact.tracks, exact.truth, kMaxChi2);
+  const WindowFit fit = EvaluateWindow(exact.tracks, exact.truth, kMaxChi2);
   EXPECT_EQ(fit.measurements, 400);
   EXPECT_EQ(fit.inliers, 400);
   EXPECT_LT(fit.cost, 1e-12);
   WindowSolution unknown = exact.truth;
   unknown.is_known[7] = false;
-  const WindowFit without = Evaluate(exact.tracks, unknown, kMaxChi2);
+  const WindowFit without = EvaluateWindow(exact.tracks, unknown, kMaxChi2);
   EXPECT_NEAR(without.cost, 4 * kMaxChi2, 1e-9) << "a point without place costs in full";
   EXPECT_EQ(without.inliers, 396);
 }
@@ -39,8 +39,8 @@ TEST(AdjustWindow, EndsAtTheLeastSquaresAndMeasuresTheNoise) {
     for (double& sigma : view->sigmas) sigma *= 2;  // half the noise that is said
   }
   const WindowSolution adjusted = AdjustWindow(scene.tracks, scene.truth, 20);
-  const WindowFit fit = Evaluate(scene.tracks, adjusted, kMaxChi2);
-  EXPECT_LT(fit.cost, Evaluate(scene.tracks, scene.truth, kMaxChi2).cost);
+  const WindowFit fit = EvaluateWindow(scene.tracks, adjusted, kMaxChi2);
+  EXPECT_LT(fit.cost, EvaluateWindow(scene.tracks, scene.truth, kMaxChi2).cost);
   EXPECT_NEAR(fit.noise, 0.5, 0.05);
 }
 

@@ -26,10 +26,10 @@ TEST(Insert, KeepsTheCheaperOfTwoThatAreTheSame) {
   const Rigid3 larger{pose.rotation, 3 * pose.translation};
   const Rigid3 turned{ExpSo3({0, 0.006, 0}) * pose.rotation, pose.translation};
   std::vector<Explanation> explanations;
-  Insert(At(pose, 5), explanations);
-  Insert(At(larger, 4), explanations);  // the unit is free
-  Insert(At(pose, 6), explanations);
-  Insert(At(turned, 2), explanations);
+  InsertExplanation(At(pose, 5), explanations);
+  InsertExplanation(At(larger, 4), explanations);  // the unit is free
+  InsertExplanation(At(pose, 6), explanations);
+  InsertExplanation(At(turned, 2), explanations);
   SortByCost(explanations);
   ASSERT_EQ(explanations.size(), 2U);
   EXPECT_EQ(explanations[0].cost, 2);
@@ -43,7 +43,7 @@ TEST(Adjust, EndsAtTheTruth) {
   explanation.solution = scene.truth;
   Eigen::Quaterniond& turned = explanation.solution.cam_from_reference.back().rotation;
   turned = ExpSo3({0.003, 0, 0.002}) * turned;
-  Adjust(scene.tracks, explanation);
+  AdjustExplanation(scene.tracks, explanation);
   EXPECT_LT(RotationErrorDeg(explanation.solution.cam_from_reference.back(),
                              scene.truth.cam_from_reference.back()),
             1e-2);

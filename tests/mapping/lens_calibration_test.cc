@@ -131,7 +131,7 @@ TEST(CorrectLens, TakesPointsAndLinesOfTheLeftImagesToTheirPlaces) {
   problem.point_observations.push_back({0, 0, {{600, 90}, 0.5, {}}});
   LineMeasurement line{{{600, 90}, {0, 90}}, Eigen::Matrix2d::Identity(), false};
   problem.line_observations.push_back({0, 0, line});
-  line.in_right_camera = true;
+  line.camera = 1;
   problem.line_observations.push_back({0, 0, line});
   Correct(correction, problem);
   EXPECT_NEAR(problem.point_observations[0].measurement.px.x(), 598, 1e-12);

@@ -76,8 +76,8 @@ TEST_F(MapProblemTest, TakesLinesInBothImagesOrInOne) {
   builder_.AddLineView(line, views[1], true);
   const auto& observations = part_.problem.line_observations;
   ASSERT_EQ(observations.size(), 3U);
-  EXPECT_FALSE(observations[1].measurement.in_right_camera);
-  EXPECT_TRUE(observations[2].measurement.in_right_camera);
+  EXPECT_EQ(observations[1].measurement.camera, 0);
+  EXPECT_EQ(observations[2].measurement.camera, 1);
   const PluckerLine in_world =
       Transform(Inverse(part_.problem_from_world), ToPlucker(part_.problem.lines.front()));
   EXPECT_LT((in_world.Foot() - landmark.line.Foot()).norm(), 1e-9);

@@ -323,7 +323,7 @@ TEST(SolveLocalBa, ALineSeenFromOneViewIsHarmless) {
   auto& observations = scene.problem.line_observations;
   const int kept_pose = observations.front().pose;
   std::erase_if(observations, [&](const auto& o) {
-    return o.line == 0 && (o.pose != kept_pose || o.measurement.in_right_camera);
+    return o.line == 0 && (o.pose != kept_pose || o.measurement.camera == 1);
   });
   const BaResult result = SolveLocalBa(scene.problem);
   EXPECT_EQ(result.termination, BaTermination::kConverged);

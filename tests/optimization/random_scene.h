@@ -57,7 +57,7 @@ inline LineMeasurement MeasureLine(const RectifiedCamera& camera,
   out.segment = {camera.Project(cam_from_world * segment.start + shift),
                  camera.Project(cam_from_world * segment.end + shift)};
   out.covariance = Eigen::Vector2d::Constant(sigma * sigma).asDiagonal();
-  out.in_right_camera = right;
+  out.camera = right ? 1 : 0;
   return out;
 }
 

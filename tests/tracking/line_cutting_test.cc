@@ -66,7 +66,7 @@ struct Scene {
       match.measurement.segment = {problem.camera.Project(match.ends.start + shift),
                                    problem.camera.Project(match.ends.end + shift)};
       match.measurement.covariance = kSigmaPx * kSigmaPx * Eigen::Matrix2d::Identity();
-      match.measurement.in_right_camera = right;
+      match.measurement.camera = right ? 1 : 0;
       match.group = i;
       problem.lines.push_back(match);
       candidates.push_back({&model, kSigmaPx});
@@ -171,8 +171,7 @@ TEST(WithCutLines, MovesMeasuredEndsToWhereThePieceShows) {
   const PoseProblem pieces = projected.Cut(CuttingMethod::kGreedy);
   for (std::size_t i = 0; i < moved.lines.size(); ++i) {
     const LineMeasurement& measurement = moved.lines[i].measurement;
-    const Eigen::Vector3d shift(
-        measurement.in_right_camera ? -observed.problem.camera.baseline : 0.0, 0, 0);
+    const Eigen::Vector3d shift(observed.problem.camera.ShiftInto(measurement.camera), 0, 0);
     const Segment3& piece = pieces.lines[i].ends;
     const RectifiedCamera& camera = observed.problem.camera;
     EXPECT_LT((measurement.segment.start - camera.Project(piece.start + shift)).norm(), 1e-6);
