@@ -61,7 +61,7 @@ int SynthCommand(std::span<const std::string> arguments) {
     std::cout << HelpText(SynthSyntax());
     return 0;
   }
-  const std::string name = line.Positional(0);
+  const std::string& name = line.Positional(0);
   if (line.Has("--list")) {
     List(name);
     return 0;

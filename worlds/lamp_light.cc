@@ -86,7 +86,8 @@ double LightOfLamp(const Lamp& lamp,
   const double size = lamp.side_u.norm() + lamp.side_v.norm();
   const int side = (lamp.centre - point).squaredNorm() > 9 * size * size ? 2 : 4;
   for (int i = 0; i < side * side; ++i) {
-    const Eigen::Vector2d place((i % side + 0.5) / side - 0.5, (i / side + 0.5) / side - 0.5);
+    const int row = i / side;
+    const Eigen::Vector2d place((i % side + 0.5) / side - 0.5, (row + 0.5) / side - 0.5);
     sum += LightAt(lamp, At(lamp, place), point, normal).light / (side * side);
   }
   return sum;

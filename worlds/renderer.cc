@@ -46,8 +46,9 @@ std::vector<Vector2f> PixelPlaces(int count, bool in_time) {
   const int side = static_cast<int>(std::lround(std::sqrt(count)));
   if (!in_time && side * side == count) {
     for (int i = 0; i < count; ++i) {
+      const int row = i / side;
       places.emplace_back((static_cast<float>(i % side) + 0.5F) / static_cast<float>(side) - 0.5F,
-                          (static_cast<float>(i / side) + 0.5F) / static_cast<float>(side) - 0.5F);
+                          (static_cast<float>(row) + 0.5F) / static_cast<float>(side) - 0.5F);
     }
     return places;
   }

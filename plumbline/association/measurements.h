@@ -38,6 +38,7 @@ struct LineWeights {
   LineWeighting kind = LineWeighting::kCovariance;
   double constant_sigma_px = 1;  // of each end point, with none
 
+  // Also of a weighting alone. NOLINTNEXTLINE(google-explicit-constructor)
   LineWeights(LineWeighting of_kind, double sigma_px = 1)
       : kind(of_kind), constant_sigma_px(sigma_px) {}
 };

@@ -51,8 +51,15 @@ class [[nodiscard]] Expected {
     PLUMBLINE_CHECK(state_.index() == 0, "value of a failed Expected");
     return std::get<0>(state_);
   }
+  // The same, to be changed or moved from.
+  T& operator*() & {
+    PLUMBLINE_CHECK(state_.index() == 0, "value of a failed Expected");
+    return std::get<0>(state_);
+  }
   // A member of the value; BugError where there is none.
   const T* operator->() const { return &**this; }
+  // The same, to be changed or moved from.
+  T* operator->() { return &**this; }
   // Why there is no value; BugError where there is one.
   const E& error() const {
     PLUMBLINE_CHECK(state_.index() == 1, "error of a successful Expected");

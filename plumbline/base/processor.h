@@ -7,6 +7,7 @@
 
 #if defined(__x86_64__)
 #if defined(__clang__)
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 #define _Bool bool  // glibc's header has C's name, which GCC alone knows in C++
 #include <sys/platform/x86.h>
 #undef _Bool

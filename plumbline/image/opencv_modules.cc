@@ -17,8 +17,9 @@ const OpenCvModules& Load() {
   // stays until the process ends, since threads of its libraries may.
   void* library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
+    const char* reason = dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread, in glibc
     throw InputError(std::string("expected the library ") + kLibrary +
-                     ", which decodes videos and rare kinds of images, found: " + dlerror());
+                     ", which decodes videos and rare kinds of images, found: " + reason);
   }
   using Function = const OpenCvModules* (*)();
   const auto function = reinterpret_cast<Function>(dlsym(library, kFunction));

@@ -84,7 +84,7 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
   file.Commit();
 }
 
-AtomicFolder::AtomicFolder(std::filesystem::path path) : path_(path.lexically_normal()) {
+AtomicFolder::AtomicFolder(const std::filesystem::path& path) : path_(path.lexically_normal()) {
   if (!path_.has_filename()) path_ = path_.parent_path();  // "out/" is "out"
   std::error_code error;
   if (std::filesystem::exists(path_, error)) {

@@ -66,7 +66,7 @@ class AtomicFolder {
  public:
   // Makes the folders above it. Throws InputError where something is at `path` already, an empty
   // folder excepted, or the temporary folder cannot be made.
-  explicit AtomicFolder(std::filesystem::path path);
+  explicit AtomicFolder(const std::filesystem::path& path);
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
   ~AtomicFolder();

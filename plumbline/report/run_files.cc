@@ -31,7 +31,9 @@ FrameLog AsRecorded(FrameLog frames, TimeMirror mirror_ns) {
   return frames;
 }
 
-RunFile TumFile(const std::string& name, TimeMirror mirror_ns, std::function<Trajectory()> make) {
+RunFile TumFile(const std::string& name,
+                TimeMirror mirror_ns,
+                const std::function<Trajectory()>& make) {
   return {name, [=](const std::filesystem::path& path) {
             const Trajectory played = make();
             WriteTum(path, mirror_ns ? TimeReversed(played, *mirror_ns) : played);

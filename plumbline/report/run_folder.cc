@@ -141,7 +141,11 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), part_(folder
 }
 
 RunFolder::~RunFolder() {
-  if (!keep_) RemoveFolders();
+  if (keep_) return;
+  try {
+    RemoveFolders();
+  } catch (const std::exception&) {  // what cannot be removed stays
+  }
 }
 
 void RunFolder::Open() {

@@ -162,7 +162,7 @@ std::optional<RelocalizationOutcome> MappingStage::TakeRelocalization() {
   return outcome;
 }
 
-void MappingStage::Use(std::shared_ptr<const MapSnapshot> snapshot) {
+void MappingStage::Use(const std::shared_ptr<const MapSnapshot>& snapshot) {
   const std::lock_guard lock(mutex_);
   for (Version& version : versions_) version.snapshot = snapshot;
 }

@@ -133,7 +133,7 @@ class MappingStage {
   // The outcome of a relocalization that the frame of the last SnapshotFor() may know, once.
   std::optional<RelocalizationOutcome> TakeRelocalization();
   // From now on SnapshotFor() gives this one until a newer one is due.
-  void Use(std::shared_ptr<const MapSnapshot> snapshot);
+  void Use(const std::shared_ptr<const MapSnapshot>& snapshot);
 
   // The map around its newest keyframe as frame `frame` may know it; null before the first
   // keyframe. Rethrows what mapping threw.

@@ -89,7 +89,7 @@ double SquaredTransferError(const Eigen::Matrix3d& homography, const RayMatch& m
 std::vector<PlanarMotion> MotionsFromHomography(const Eigen::Matrix3d& homography) {
   // Ascending; columns of V are the right singular vectors.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(homography.transpose() * homography);
-  const Eigen::Vector3d squares = solver.eigenvalues();
+  const Eigen::Vector3d& squares = solver.eigenvalues();
   if (!(squares(0) > 1e-18 * squares(2))) return {};
   // R + t n^T / d has 1 as its middle singular value, and the ratio of the distances of the plane
   // from the two cameras, which is positive, as its determinant.

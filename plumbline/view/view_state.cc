@@ -132,7 +132,7 @@ std::string ViewState::EncodeOfFrame(Stream stream) {
 SharedBytes ViewState::NextPoints(ViewCursor& cursor, std::int64_t now_ns) {
   if (cursor.points == map_.points_version()) return nullptr;
   const bool due =
-      cursor.points == 0 || finished_ || now_ns - cursor.points_at_ns >= kBetweenClouds_ns;
+      cursor.points == 0 || finished_ || now_ns - cursor.points_at_ns >= kBetweenCloudsNs;
   if (!due) return nullptr;
   cursor.points = map_.points_version();
   cursor.points_at_ns = now_ns;

@@ -60,7 +60,7 @@ using SharedBytes = std::shared_ptr<const std::string>;
 class ViewState {
  public:
   static constexpr std::size_t kKeptBytes = std::size_t{64} << 20U;  // of pictures of keyframes
-  static constexpr std::int64_t kBetweenClouds_ns = 1'000'000'000;
+  static constexpr std::int64_t kBetweenCloudsNs = 1'000'000'000;
 
   explicit ViewState(ViewedRun run) : run_(std::move(run)) {}
 

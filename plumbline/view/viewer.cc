@@ -49,7 +49,7 @@ std::optional<ShownId> KeyFrameOf(std::string_view path) {
 }  // namespace
 
 Viewer::Viewer(const ViewerOptions& options,
-               ViewedRun run,
+               const ViewedRun& run,
                std::optional<SessionId> session,
                std::function<SharedBytes(ShownId)> picture)
     : state_(run),

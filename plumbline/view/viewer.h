@@ -48,7 +48,7 @@ class Viewer {
   // session: as of MapComparison.
   // `picture`: plumbline.Frame of keyframes that no frame was shown of, may be empty.
   Viewer(const ViewerOptions& options,
-         ViewedRun run,
+         const ViewedRun& run,
          std::optional<SessionId> session,
          std::function<SharedBytes(ShownId keyframe)> picture = {});
   // Ends all connections, completes the recording.

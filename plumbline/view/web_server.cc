@@ -335,7 +335,7 @@ void Listen(WebServerCore& core) {
 
 }  // namespace
 
-WebServer::WebServer(std::optional<WebAccess> access, WebEvents events)
+WebServer::WebServer(const std::optional<WebAccess>& access, WebEvents events)
     : loop_(std::make_unique<WebServerLoop>()),
       core_(std::make_shared<WebServerCore>(
           loop_->io, access.value_or(WebAccess()), std::move(events))) {

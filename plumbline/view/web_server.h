@@ -60,7 +60,7 @@ class WebServer {
 
   // Listens from now on; without `access` nowhere, and only does what is posted. InputError where
   // that is not possible: "127.0.0.1:80: ...".
-  WebServer(std::optional<WebAccess> access, WebEvents events);
+  WebServer(const std::optional<WebAccess>& access, WebEvents events);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
