@@ -15,7 +15,6 @@
 #include <span>
 #include <string>
 #include <thread>
-#include <utility>
 
 namespace plumbline {
 namespace {
@@ -71,9 +70,7 @@ int MapViewCommand(std::span<const std::string> arguments) {
   ViewedRun run;
   run.name = std::filesystem::path(path).filename().string();
   run.camera = saved.context.camera;
-  Viewer viewer(options, std::move(run), std::nullopt, [&](ShownId id) {
-    return PictureOf(saved.atlas, id);
-  });
+  Viewer viewer(options, run, std::nullopt, [&](ShownId id) { return PictureOf(saved.atlas, id); });
   std::cerr << "plumbline: view at " << viewer.url() << " (Ctrl-C ends it)\n";
   CatchStopSignals();
   while (!StopRequested()) {
