@@ -64,8 +64,7 @@ std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
                                                    const Frame& frame) const {
   const auto& [map, id] = place;
   const auto snapshot = TakeSnapshot(*map, id);
-  LastFrame keyframe;  // stands in for a frame before, of which only the place is known
-  keyframe.frame.cam_from_world = map->PoseOf(id);
+  const LastFrame keyframe{snapshot->reference->frame, {}};  // stands in for the frame before
   FrameAssociation found;
   FrameCounts counts;
   const auto first = search_.FromAppearance(frame, keyframe, *snapshot, found, counts);

@@ -88,6 +88,18 @@ TEST(Relocalizer, FindsAFrameBetweenKeyFrames) {
   }
 }
 
+// Odometry tracks against the frame before, which a lost camera has not.
+TEST(Relocalizer, FindsAFrameForOdometryInTheMapAllTheSame) {
+  const SyntheticWorld world = MakeSyntheticWorld(400, 80);
+  const TrueMap scene = MapOf(world, 10);
+  TrackingOptions odometry;
+  odometry.reference = TrackingReference::kLastFrame;
+  const Relocalizer relocalizer(world.Imaging(), odometry, {world.camera, {}, {}});
+  const auto found = Find(relocalizer, scene.map, UnplacedFrame(world, 27));
+  ASSERT_TRUE(found);
+  EXPECT_LT(CentreDistance(found->frame.cam_from_world, PoseOnPath(27)), 0.02);
+}
+
 TEST(Relocalizer, IsTheSameEveryTime) {
   const SyntheticWorld world = MakeSyntheticWorld(400, 80);
   const TrueMap scene = MapOf(world, 6);
