@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/options.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
@@ -31,14 +32,6 @@ CommandSyntax InfoSyntax() {
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
        {"--camera", "FILE", "camera file or name of a built-in camera"},
        {"--check", "", "decode every image and name those that cannot be used"}}};
-}
-
-template <class Enum>
-std::string EnumName(Enum value) {
-  for (const auto& [enumerator, name] : EnumNames(std::type_identity<Enum>{})) {
-    if (enumerator == value) return name;
-  }
-  return "?";
 }
 
 void Row(const std::string& name, const std::string& text) {
@@ -156,10 +149,10 @@ int InfoCommand(std::span<const std::string> arguments) {
   const std::unique_ptr<Dataset> dataset = OpenDataset(line.Positional(0), options);
   const DatasetInfo& info = dataset->info();
   Row("name", info.name);
-  Row("format", EnumName(info.format));
+  Row("format", NameOf(info.format));
   std::vector<std::string> sensors;
-  for (const SensorKind kind : info.available) sensors.push_back(EnumName(kind));
-  Row("sensors", fmt::format("{} (shown: {})", fmt::join(sensors, ", "), EnumName(info.sensor)));
+  for (const SensorKind kind : info.available) sensors.push_back(NameOf(kind));
+  Row("sensors", fmt::format("{} (shown: {})", fmt::join(sensors, ", "), NameOf(info.sensor)));
   PrintTimes(info);
   PrintCalibration(info);
   PrintGroundTruth(info);

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,9 @@ using Integers = py::array_t<std::int64_t, py::array::c_style>;
 // A side of any length in a shape.
 inline constexpr py::ssize_t kAny = -1;
 using Shape = std::vector<py::ssize_t>;
+
+// Stands in arrays for a number that is missing.
+inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Numbers { kFinite, kAnyValue };
 

@@ -9,7 +9,6 @@
 #include "bindings.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,8 +17,6 @@
 
 namespace plumbline::python {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Rank1Input {
   std::vector<Eigen::Vector2d> reference;
@@ -142,13 +139,13 @@ py::dict Interpolate(py::handle reference,
     }
   }
   const GeometricInterpolation interpolation(poses);
-  std::vector<Eigen::Vector2d> points(first.size(), Eigen::Vector2d(kNone, kNone));
-  std::vector<double> angles(first.size(), kNone);
+  std::vector<Eigen::Vector2d> points(first.size(), Eigen::Vector2d(kMissing, kMissing));
+  std::vector<double> angles(first.size(), kMissing);
   Doubles covariances({static_cast<py::ssize_t>(first.size()), py::ssize_t{2}, py::ssize_t{2}});
   for (std::size_t i = 0; i < first.size(); ++i) {
     const auto found = interpolation.Interpolate(first[i], sigma, last[i], sigma);
     Eigen::Map<Eigen::Matrix2d> out(covariances.mutable_data(static_cast<py::ssize_t>(i)));
-    out.setConstant(kNone);
+    out.setConstant(kMissing);
     if (!found) continue;
     points[i] = found->point;
     angles[i] = found->line_angle;
@@ -196,8 +193,8 @@ Doubles FollowPoints(const py::sequence& images, py::handle points) {
     for (std::size_t i = 0; i < sequence.size(); ++i) {
       if (i > 0) tracks.Follow(sequence[i]);
       for (const auto& place : tracks.places()) {
-        *out++ = place ? place->x() : kNone;
-        *out++ = place ? place->y() : kNone;
+        *out++ = place ? place->x() : kMissing;
+        *out++ = place ? place->y() : kMissing;
       }
     }
   }

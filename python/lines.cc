@@ -13,7 +13,6 @@
 #include "options.h"
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -213,7 +212,6 @@ py::tuple MatchPair(const RectifiedCamera& camera,
   }
   const auto lines = ReadLines(left, "left"), candidates = ReadLines(right, "right");
   const auto matches = MatchStereoLines(camera, lines, candidates, options);
-  constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
   Doubles segments({static_cast<py::ssize_t>(matches.size()), py::ssize_t{2}, py::ssize_t{2}});
   std::vector<double> sigmas;
   double* out = segments.mutable_data();

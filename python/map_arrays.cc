@@ -7,7 +7,6 @@
 #include "plumbline/tracking/line_cutting.h"
 
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -42,8 +41,6 @@ template <class Row>
 py::array RowsToArray(const std::vector<Row>& rows) {
   return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
 }
-
-constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 // What all observations of a point tell of its place in the world, the poses taken as known.
 Eigen::Matrix3d InformationOf(const PyMap& map, const MapPoint& point) {
@@ -111,7 +108,7 @@ Doubles PointCovariances(const PyMap& map) {
     if (information.info() == Eigen::Success && information.rcond() > kSmallest) {
       covariance = information.solve(Eigen::Matrix3d::Identity());
     } else {
-      covariance.setConstant(kNoValue);
+      covariance.setConstant(kMissing);
     }
   }
   return array;
@@ -161,8 +158,8 @@ py::array PointTracks(const PyMap& map) {
                       seen.octave,
                       {seen.px.x(), seen.px.y()},
                       seen.sigma_px,
-                      disparity ? disparity->px : kNoValue,
-                      disparity ? disparity->sigma_px : kNoValue});
+                      disparity ? disparity->px : kMissing,
+                      disparity ? disparity->sigma_px : kMissing});
     }
   }
   return RowsToArray(rows);

@@ -32,7 +32,6 @@ def findings_of(build, source):
 def main(build, *parts):
     commands = json.loads((pathlib.Path(build) / "compile_commands.json").read_text())
     sources = sorted({c["file"] for c in commands if not parts or any(p in c["file"] for p in parts)})
-    sources = [s for s in sources if not s.endswith((".pb.cc", ".c"))]
     found = set()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for lines in pool.map(lambda s: findings_of(build, s), sources):

@@ -13,7 +13,7 @@
 namespace plumbline {
 
 // An experiment that computes by itself, without sequences and runs of the program (those:
-// Experiment in catalog.h).
+// Experiment in experiment.h).
 struct ComputedExperiment {
   std::string name;
   std::string help;        // what it shows, one sentence

@@ -37,7 +37,7 @@ struct SequenceChoice {
   std::string source = {};
 };
 
-// Of rendered worlds. Recorded sequences are taken as they are.
+// How large worlds are rendered. Recorded sequences are taken as they are.
 enum class WorldSize {
   kTest,  // half as wide and high, at most 150 frames
   kFull,  // as the options of the world have it

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/starts/start_record.h"
 
+#include "plumbline/base/options.h"
 #include "plumbline/io/text_rows.h"
 
 #include <charconv>
@@ -52,13 +53,6 @@ std::vector<std::string> FieldsOf(const StartMap& map) {
           std::to_string(errors.compared),
           std::to_string(map.points),
           std::to_string(map.lines)};
-}
-
-std::string_view NameOf(StartOutcome outcome) {
-  for (const auto& [value, name] : EnumNames(std::type_identity<StartOutcome>{})) {
-    if (value == outcome) return name;
-  }
-  return "";
 }
 
 // The fields of one row, one after the other.
@@ -124,7 +118,7 @@ std::string FormatStarts(const std::vector<StartRecord>& records) {
   std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const StartRecord& record : records) {
     std::vector<std::string> fields = {std::to_string(record.frame),
-                                       std::string(NameOf(record.outcome)),
+                                       NameOf(record.outcome),
                                        record.reason,
                                        std::to_string(record.offered),
                                        Text(record.greatest_parallax_deg)};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/starts/start_trial.h"
 
+#include "plumbline/base/options.h"
+
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -12,13 +14,6 @@ namespace plumbline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::string_view NameOf(InitializationWait wait) {
-  for (const auto& [value, name] : EnumNames(std::type_identity<InitializationWait>{})) {
-    if (value == wait) return name;
-  }
-  return "";
-}
 
 std::optional<Rigid3> TrueMotion(const StartTruth& truth, int from, int to) {
   const auto world_from_a = truth.WorldFromCamera(from), world_from_b = truth.WorldFromCamera(to);

@@ -19,7 +19,7 @@ constexpr ProjectionSearchOptions kSearch{.point_radius_px = 3,
                                           .line_offset_px = 4,
                                           .line_angle_deg = 4,
                                           .line_max_distance = 60};
-// Of a landmark's reprojection: the limit at 95 % for two residuals.
+// A landmark whose reprojection has a larger chi2 is another one: 95 % for two residuals.
 constexpr double kMaxChi2 = 5.99;
 
 bool PointAgrees(const RectifiedCamera& camera,

@@ -51,14 +51,14 @@ class [[nodiscard]] Expected {
     PLUMBLINE_CHECK(state_.index() == 0, "value of a failed Expected");
     return std::get<0>(state_);
   }
-  // The same, to be changed or moved from.
+  // The value, to be changed or moved from; BugError where there is none.
   T& operator*() & {
     PLUMBLINE_CHECK(state_.index() == 0, "value of a failed Expected");
     return std::get<0>(state_);
   }
   // A member of the value; BugError where there is none.
   const T* operator->() const { return &**this; }
-  // The same, to be changed or moved from.
+  // A member of the value, to be changed or moved from; BugError where there is none.
   T* operator->() { return &**this; }
   // Why there is no value; BugError where there is one.
   const E& error() const {

@@ -25,7 +25,7 @@ class DepthModel {
   bool InRange(double z) const { return z >= options_.min_depth_m && z <= options_.max_depth_m; }
 
   double DisparitySigma(double z) const {
-    // Of structured light, as its paper measured it [m], [1/m].
+    // Depth noise of structured light as Nguyen, Izadi and Lovell measured it [m], [1/m].
     constexpr double kConstant = 0.0012, kQuadratic = 0.0019;
     const double sigma_z = kConstant + kQuadratic * (z - 0.4) * (z - 0.4);
     return camera_.fx * camera_.baseline / (z * z) * sigma_z;

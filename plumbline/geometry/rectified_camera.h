@@ -32,8 +32,8 @@ struct RectifiedCamera {
   Eigen::Vector3d Unproject(const Eigen::Vector2d& px) const {
     return {(px.x() - cx) / fx, (px.y() - cy) / fy, 1.0};
   }
-  // By how much x in the left camera's frame changes into that of a camera of the pair: 0 the left
-  // (or only) one, 1 the right one.
+  // Added to x in the left camera's frame, it gives x in the frame of a camera of the pair: index 0
+  // is the left (or only) camera, 1 the right one.
   double ShiftInto(int index) const { return index == 0 ? 0.0 : -baseline; }
   // Disparity in pixels of a point at depth z > 0.
   double DisparityFromDepth(double z) const { return fx * baseline / z; }

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-// Of the frames where a young landmark should be seen, the share that must find it.
+// A young landmark must be found in this share of the frames where it should be seen.
 constexpr double kMinFoundRatio = 0.25;
 // Keyframes until a landmark is no longer young, and how many must show it then: what only one
 // shows ties nothing together.

@@ -26,8 +26,9 @@ constexpr double kFarthestDepth = 1e4;  // the same
 constexpr double kEpipolarChi2 = 3.84;  // 95 %, one degree of freedom
 constexpr double kDepthSigmas = 3;      // of a measured but poor depth
 constexpr double kMaxScaleRatio = 1.8;  // of octave and distance between the views
-// Of the descriptors of the two views: Hamming distance, of 256 bits, and its ratio to that of the
-// second best. There is no pose that a wrong landmark would contradict: stricter than tracking.
+// The descriptors of the two views may differ by this Hamming distance, of 256 bits, and by this
+// ratio to the distance of the second best. Both are stricter than in tracking, since there is no
+// pose that a wrong landmark would contradict.
 constexpr int kMaxDistance = 50;
 constexpr double kMaxRatio = 0.8;
 // Between the two views of a new point: rays that are nearer to each other leave its depth open.

@@ -46,9 +46,11 @@ void CountShared(const std::vector<LandmarkId>& of_keyframe,
 KeyFrameSituation SituationOf(const Frame& frame,
                               const FrameAssociation& association,
                               const MapSnapshot& snapshot,
+                              int frames_since_keyframe,
                               double feature_share,
                               bool monocular) {
   KeyFrameSituation situation;
+  situation.frames_since_keyframe = frames_since_keyframe;
   situation.monocular = monocular;
   const Frame& reference = snapshot.reference->frame;
   if (feature_share < 1) {

@@ -13,10 +13,11 @@ namespace plumbline {
 // how much it shows of what the snapshot's keyframe shows, and how many near points it has.
 //   association    what it was tracked by, with the frame's matches
 //   feature_share  of the usual number of features that the frame was measured with
-// The number of frames since the last keyframe is the caller's to fill in.
+//   monocular      no depth is measured
 KeyFrameSituation SituationOf(const Frame& frame,
                               const FrameAssociation& association,
                               const MapSnapshot& snapshot,
+                              int frames_since_keyframe,
                               double feature_share,
                               bool monocular);
 

@@ -54,7 +54,6 @@ class PoseEstimator {
                        double gate_scale,
                        FrameAssociation& association) const;
 
-  const RectifiedCamera& camera() const { return camera_; }
   const LineOptions& lines() const { return lines_; }
 
  private:

@@ -182,9 +182,12 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
                             const MapSnapshot& snapshot,
                             double feature_share) const {
   if (options_.reference == TrackingReference::kLastFrame) return false;  // odometry has no map
-  KeyFrameSituation situation =
-      SituationOf(frame, association, snapshot, feature_share, monocular_);
-  situation.frames_since_keyframe = static_cast<int>(frames_since_keyframe_);
+  const KeyFrameSituation situation = SituationOf(frame,
+                                                  association,
+                                                  snapshot,
+                                                  static_cast<int>(frames_since_keyframe_),
+                                                  feature_share,
+                                                  monocular_);
   return DecideKeyFrame(situation, options_.keyframes) != KeyFrameReason::kNone;
 }
 

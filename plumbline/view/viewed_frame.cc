@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/view/viewed_frame.h"
 
+#include "plumbline/base/options.h"
 #include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/slam/load_shedding.h"
@@ -14,14 +15,6 @@ namespace {
 constexpr int kJpegQuality = 85;
 constexpr std::int32_t kNothing = -1;      // a feature that shows no landmark
 constexpr std::int32_t kNotYetInMap = -2;  // one that mapping has not come to
-
-template <class Enum>
-std::string_view NameOfEnum(Enum value) {
-  for (const auto& [candidate, name] : EnumNames(std::type_identity<Enum>{})) {
-    if (candidate == value) return name;
-  }
-  return {};
-}
 
 template <class Tag>
 std::int32_t NumberOf(Id<Tag> id) {
@@ -114,7 +107,7 @@ ProtobufWriter FrameMessage(const ViewedFrame& frame, std::string_view jpeg) {
   const FrameRecord& record = frame.record;
   ProtobufWriter message;
   message.Varint(1, static_cast<std::uint64_t>(record.id.value))
-      .Bytes(2, NameOfEnum(record.status))
+      .Bytes(2, NameOf(record.status))
       .Bytes(3, record.reason);
   if (record.map.valid()) message.Varint(4, static_cast<std::uint64_t>(record.map.value));
   if (frame.is_tracked()) message.Message(5, PoseMessage(frame.world_from_camera));
@@ -124,7 +117,7 @@ ProtobufWriter FrameMessage(const ViewedFrame& frame, std::string_view jpeg) {
   for (const StageTime& time : record.times) {
     message.Message(9, ProtobufWriter().Bytes(1, time.stage).Double(2, time.milliseconds));
   }
-  if (record.shed != Shed::kNothing) message.Bytes(10, NameOfEnum(record.shed));
+  if (record.shed != Shed::kNothing) message.Bytes(10, NameOf(record.shed));
   AddFeatures(frame, message);
   if (!jpeg.empty()) message.Bytes(15, jpeg);
   return message;

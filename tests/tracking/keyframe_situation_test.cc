@@ -13,6 +13,8 @@
 namespace plumbline {
 namespace {
 
+constexpr int kFramesSince = 5;
+
 // A map whose newest keyframe is the one asked about, and a frame that stands where it does.
 struct KnownKeyFrame {
   explicit KnownKeyFrame(int keyframes)
@@ -22,7 +24,7 @@ struct KnownKeyFrame {
         association(AssociationOf(frame, *snapshot)) {}
 
   KeyFrameSituation Situation(double feature_share = 1, bool monocular = false) const {
-    return SituationOf(frame, association, *snapshot, feature_share, monocular);
+    return SituationOf(frame, association, *snapshot, kFramesSince, feature_share, monocular);
   }
   int Landmarks() const {
     const auto valid = [](const auto& ids) {
@@ -44,6 +46,7 @@ TEST(KeyFrameSituation, OfTheKeyframeItselfSharesAll) {
   EXPECT_GT(situation.reference_landmarks, known.Landmarks() / 2);
   EXPECT_EQ(situation.shared_landmarks, situation.reference_landmarks);
   EXPECT_GT(situation.close_tracked, 0);
+  EXPECT_EQ(situation.frames_since_keyframe, kFramesSince);
   EXPECT_EQ(situation.share_of_usual, 1);
   EXPECT_EQ(situation.share_of_reference, 1);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lab/experiments/figure_list.h"
 #include "lab/experiments/job_runner.h"
 #include "lab/experiments/plan.h"
 #include "plumbline/io/png.h"
@@ -103,6 +104,14 @@ inline std::vector<JobResult> SomeResults() {
           Success(8, "e"),
           Success(9, "f"),
           Success(10, "g")};
+}
+
+// Figures of two groups of sequences; one of them has no value.
+inline std::vector<FigureRow> SomeFigures() {
+  return {{"one/a", "cut", {}, "gain", 1.234, ""},
+          {"one/a", "cut", {}, "time", 56.7, "us"},
+          {"one/b", "whole", 3, "gain", {}, "", "no lines"},
+          {"two/a", "cut", {}, "time", 8, "us"}};
 }
 
 }  // namespace plumbline

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/figure_list.h"
 
-#include <vector>
+#include "tests/lab/experiments/experiment_fixtures.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,15 +10,8 @@
 namespace plumbline {
 namespace figure_list_test {
 
-std::vector<FigureRow> Rows() {
-  return {{"one/a", "cut", {}, "gain", 1.234, ""},
-          {"one/a", "cut", {}, "time", 56.7, "us"},
-          {"one/b", "whole", 3, "gain", {}, "", "no lines"},
-          {"two/a", "cut", {}, "time", 8, "us"}};
-}
-
 TEST(FigureList, IsAListOfFiguresWithReasonsForWhatIsMissing) {
-  const auto json = nlohmann::json::parse(FormatFigureList("bed", Rows()));
+  const auto json = nlohmann::json::parse(FormatFigureList("bed", SomeFigures()));
   ASSERT_EQ(json.size(), 4U);
   EXPECT_EQ(json[0]["experiment"], "bed");
   EXPECT_EQ(json[0]["value"], 1.234);

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 
+#include "tests/lab/experiments/experiment_fixtures.h"
 #include <array>
 #include <string>
 #include <vector>
@@ -20,15 +21,8 @@ using ::testing::Not;
 constexpr std::array kMetrics = {FigureMetric{"gain", "", "how much", 2},
                                  FigureMetric{"time", "us", "how <long>", 0}};
 
-std::vector<FigureRow> Rows() {
-  return {{"one/a", "cut", {}, "gain", 1.234, ""},
-          {"one/a", "cut", {}, "time", 56.7, "us"},
-          {"one/b", "whole", 3, "gain", {}, "", "no lines"},
-          {"two/a", "cut", {}, "time", 8, "us"}};
-}
-
 TEST(FigurePage, TablesHaveARowForEachSequenceAndVariant) {
-  const std::string text = FormatFigureMarkdown("bed", "what it shows", Rows(), kMetrics);
+  const std::string text = FormatFigureMarkdown("bed", "what it shows", SomeFigures(), kMetrics);
   EXPECT_THAT(text,
               HasSubstr("## one\n\n| sequence | variant | gain | time [us] |\n|---|---|---|---|\n"
                         "| one/a | cut | 1.23 | 57 |\n| one/b | whole | - |  |\n"));
@@ -38,7 +32,7 @@ TEST(FigurePage, TablesHaveARowForEachSequenceAndVariant) {
 
 TEST(FigurePage, PageHoldsTablesAndPlotsAndNothingFromOutside) {
   const std::vector<PagePlot> plots = {{"shape", "<svg></svg>"}};
-  const std::string page = FormatFigurePage("bed", "what", Rows(), kMetrics, plots);
+  const std::string page = FormatFigurePage("bed", "what", SomeFigures(), kMetrics, plots);
   EXPECT_THAT(page, HasSubstr("<svg></svg>"));
   EXPECT_THAT(page, HasSubstr("<tr><th>one/a</th><td>cut</td><td>1.23</td><td>57</td></tr>"));
   EXPECT_THAT(page, HasSubstr("how &lt;long&gt;"));
