@@ -377,6 +377,26 @@ Experiment LineControlExperiment(bool mono) {
   return experiment;
 }
 
+// What lines bring where lamps are switched. One seed of a world is one draw of lamps, furniture
+// and path: what holds for the situation shows in the interval over several.
+Experiment SwitchedLampsExperiment() {
+  constexpr int kSeeds = 12;
+  Experiment experiment;
+  experiment.name = "lines_lights";
+  experiment.help = "points alone and with lines in `lights` of twelve seeds";
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const std::string number = std::to_string(seed);
+    experiment.sequences.push_back({"worlds/lights", {"seed=" + number}, "seed" + number});
+  }
+  experiment.variants = {{"points", {"features.lines=false"}}, {"both", {}}};
+  experiment.metrics = {"ate", "ate_causal", "rpe_rmse", "roe_rmse", "lost", "keyframes"};
+  experiment.plots = {"ate", "ate_causal"};
+  experiment.runs = 2;
+  experiment.reference = "points";
+  experiment.ratios = {"ate", "ate_causal", "rpe_rmse", "roe_rmse"};
+  return experiment;
+}
+
 // What the first paper's rules for line matches do: lengths alike, and no more turn in the image
 // than the cameras have.
 Experiment LineMatchingExperiment() {
@@ -452,6 +472,7 @@ std::vector<Experiment> OwnExperiments() {
       LineControlExperiment(false),
       LineControlExperiment(true),
       LineMatchingExperiment(),
+      SwitchedLampsExperiment(),
       CuttingExperiment(),
       CuttingControlExperiment(true),
       CuttingControlExperiment(false),
