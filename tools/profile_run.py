@@ -24,7 +24,7 @@ FRAME, KEYFRAME, RUN = "frame", "keyframe", "run"
 STAGES = [
     (0, FRAME, "reading and decoding images", r"plumbline::(ReadGrayImage|ReadDepthImage)"),
     (0, FRAME, "rectification", r"plumbline::Rectifier::Apply"),
-    (0, FRAME, "features", r"plumbline::ExtractFeatures"),
+    (0, FRAME, "features", r"plumbline::(ExtractFeatures|FindRightLines)"),
     (1, FRAME, "pyramids", r"plumbline::BuildPyramid"),
     (1, FRAME, "corners", r"plumbline::ExtractOrb"),
     (2, FRAME, "FAST", r"plumbline::FastCorners::(FastCorners|Collect)"),
@@ -36,7 +36,7 @@ STAGES = [
     (2, FRAME, "drawing", r"plumbline::DrawSegments"),
     (2, FRAME, "refinement", r"plumbline::RefineSegment"),
     (1, FRAME, "descriptors of lines", r"plumbline::DescribeLines"),
-    (1, FRAME, "lines of the right image", r"plumbline::MatchStereoLines"),
+    (1, FRAME, "of it for lines of the right image", r"plumbline::FindRightLines"),
     (0, FRAME, "index of features", r"plumbline::IndexFeatures"),
     (0, FRAME, "tracking", r"plumbline::Tracker::Track"),
     (1, FRAME, "landmarks of the last frame", r"plumbline::PoseSearch::LastLandmarks"),

@@ -48,12 +48,12 @@ void ExtractLines(const GrayImage& image,
   DescribeLines(gradient, &view.lines);
 }
 
-// The left view and, for stereo, the right one, whose points are not wanted.
+// The left view and, for stereo, what its points need of the right one.
 std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureOptions& options) {
   std::array<SingleView, 2> views;
   const ValidRegion whole(input.left->width(), input.left->height());
-  const std::array tasks{ExtractPoints, ExtractLines, BuildPyramidOnly, ExtractLines};
-  ParallelFor(input.right ? 4 : 2, options.parallel ? 2 : 1, [&](int task) {
+  const std::array tasks{ExtractPoints, ExtractLines, BuildPyramidOnly};
+  ParallelFor(input.right ? 3 : 2, options.parallel ? 2 : 1, [&](int task) {
     const bool left = task < 2;
     const GrayImage& image = left ? *input.left : *input.right;
     const ValidRegion* valid = left ? input.left_valid : input.right_valid;
@@ -63,20 +63,31 @@ std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureO
   return views;
 }
 
-void MatchRight(const RectifiedCamera& camera,
-                const FeatureInput& input,
-                const std::array<SingleView, 2>& views,
-                const FeatureOptions& options,
-                Features* features) {
+const ValidRegion& RightRegion(const FeatureInput& input, const ValidRegion& whole) {
+  return input.right_valid ? *input.right_valid : whole;
+}
+
+std::vector<std::optional<Disparity>> MatchRightPoints(const RectifiedCamera& camera,
+                                                       const FeatureInput& input,
+                                                       const std::array<SingleView, 2>& views,
+                                                       const FeatureOptions& options) {
   const auto& [left, right] = views;
   const ValidRegion whole(camera.width, camera.height);
-  features->point_disparity = MatchStereoPoints(
-      camera,
-      left.points,
-      {left.pyramid, right.pyramid, input.right_valid ? *input.right_valid : whole},
-      options.stereo_points,
-      options.parallel ? 2 : 1);
-  features->line_right = MatchStereoLines(camera, left.lines, right.lines, options.stereo_lines);
+  return MatchStereoPoints(camera,
+                           left.points,
+                           {left.pyramid, right.pyramid, RightRegion(input, whole)},
+                           options.stereo_points,
+                           options.parallel ? 2 : 1);
+}
+
+std::vector<std::optional<RightLine>> MatchRightLines(const RectifiedCamera& camera,
+                                                      const FeatureInput& input,
+                                                      const FeatureOptions& options,
+                                                      const std::vector<LineFeature>& lines) {
+  const ValidRegion whole(camera.width, camera.height);
+  SingleView right;
+  ExtractLines(*input.right, RightRegion(input, whole), options, right);
+  return MatchStereoLines(camera, lines, right.lines, options.stereo_lines);
 }
 
 void CheckInput(const RectifiedCamera& camera, const FeatureInput& input) {
@@ -98,10 +109,9 @@ Features ExtractFeatures(const RectifiedCamera& camera,
   SingleView& left = views[0];
   Features features;
   if (input.right) {
-    MatchRight(camera, input, views, options, &features);
+    features.point_disparity = MatchRightPoints(camera, input, views, options);
   } else if (input.depth) {
     features.point_disparity = PointDisparities(camera, *input.depth, left.points, options.depth);
-    features.line_right = VirtualRightLines(camera, *input.depth, left.lines, options.depth);
   }
   features.points = std::move(left.points);
   features.lines = std::move(left.lines);
@@ -109,6 +119,23 @@ Features ExtractFeatures(const RectifiedCamera& camera,
   features.line_right.resize(features.lines.size());
   RoundToSinglePrecision(features);
   return features;
+}
+
+std::vector<std::optional<RightLine>> FindRightLines(const RectifiedCamera& camera,
+                                                     const FeatureInput& input,
+                                                     const FeatureOptions& options,
+                                                     const std::vector<LineFeature>& lines) {
+  CheckInput(camera, input);
+  Features found;
+  if (lines.empty()) return {};
+  if (input.right) {
+    found.line_right = MatchRightLines(camera, input, options, lines);
+  } else if (input.depth) {
+    found.line_right = VirtualRightLines(camera, *input.depth, lines, options.depth);
+  }
+  found.line_right.resize(lines.size());
+  RoundToSinglePrecision(found);
+  return std::move(found.line_right);
 }
 
 }  // namespace plumbline

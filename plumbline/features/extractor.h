@@ -13,6 +13,9 @@
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/image/image.h"
 
+#include <optional>
+#include <vector>
+
 namespace plumbline {
 
 struct FeatureOptions {
@@ -39,12 +42,20 @@ struct FeatureInput {
   const ValidRegion* right_valid = nullptr;
 };
 
-// Everything measured in one frame: points and lines of the left image, and for stereo and RGB-D
-// their disparities and right lines (see Features), rounded to single precision. Images must have
-// the size of the camera (BugError otherwise). Same input, same bytes.
+// What the pose of a frame is found from: points and lines of the left image, and for stereo and
+// RGB-D the disparities of the points, rounded to single precision. No line has a right line.
+// Images must have the size of the camera (BugError otherwise). Same input, same bytes.
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
                          const FeatureOptions& options);
+
+// Where the lines that ExtractFeatures found are in the right image, or would be by the depth image
+// (see Features::line_right), rounded to single precision; one entry for each line. New landmarks
+// need it, and most frames make none. Costs as much as the lines of the left image.
+std::vector<std::optional<RightLine>> FindRightLines(const RectifiedCamera& camera,
+                                                     const FeatureInput& input,
+                                                     const FeatureOptions& options,
+                                                     const std::vector<LineFeature>& lines);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, FeatureOptions& o) {

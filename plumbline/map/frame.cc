@@ -15,6 +15,17 @@ std::shared_ptr<const IndexedFeatures> WithCorrection(
   return corrected;
 }
 
+std::shared_ptr<const IndexedFeatures> WithRightLines(
+    const std::shared_ptr<const IndexedFeatures>& indexed,
+    std::vector<std::optional<RightLine>> measured) {
+  auto whole = std::make_shared<IndexedFeatures>(*indexed);
+  Features lines;
+  lines.line_right = std::move(measured);
+  if (!(indexed->correction == StereoCorrection())) Correct({}, indexed->correction, lines);
+  whole->features.line_right = std::move(lines.line_right);
+  return whole;
+}
+
 std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
                                                      Features measured,
                                                      const StereoCorrection& correction) {

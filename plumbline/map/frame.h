@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -26,6 +27,11 @@ struct IndexedFeatures {
 // The features with another correction; the same where it is the one they have.
 std::shared_ptr<const IndexedFeatures> WithCorrection(
     const std::shared_ptr<const IndexedFeatures>& indexed, const StereoCorrection& correction);
+
+// The features with the places of their lines in the right image, as measured (FindRightLines).
+std::shared_ptr<const IndexedFeatures> WithRightLines(
+    const std::shared_ptr<const IndexedFeatures>& indexed,
+    std::vector<std::optional<RightLine>> measured);
 
 // Measured features with their index, for images of this size, given a correction.
 std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,

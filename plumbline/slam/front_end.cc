@@ -19,24 +19,36 @@ FrontEnd::FrontEnd(const Calibration& calibration, const FeatureOptions& feature
       left_valid_(RegionOf(rectifier_.left_mask())),
       right_valid_(RegionOf(rectifier_.right_mask())) {}
 
+FeatureInput FrontEnd::InputOf(const RectifiedFrame& images) const {
+  FeatureInput input;
+  input.left = &images.left;
+  input.left_valid = &left_valid_;
+  if (images.right) {
+    input.right = &*images.right;
+    input.right_valid = &right_valid_;
+  }
+  if (images.depth) input.depth = &*images.depth;
+  return input;
+}
+
+std::shared_ptr<const IndexedFeatures> FrontEnd::WithRightLines(
+    const MeasuredFrame& frame, const std::shared_ptr<const IndexedFeatures>& indexed) const {
+  return plumbline::WithRightLines(indexed,
+                                   FindRightLines(rectifier_.camera(),
+                                                  InputOf(frame.images),
+                                                  Lightened(options_, frame.shed),
+                                                  indexed->features.lines));
+}
+
 MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, Shed shed) const {
   MeasuredFrame measured;
   measured.shed = shed;
   measured.stamp_ns = frame.stamp_ns;
   measured.images = rectifier_.Apply(std::move(frame));
   clock.Done("rectify");
-
-  FeatureInput input;
-  input.left = &measured.images.left;
-  input.left_valid = &left_valid_;
-  if (measured.images.right) {
-    input.right = &*measured.images.right;
-    input.right_valid = &right_valid_;
-  }
-  if (measured.images.depth) input.depth = &*measured.images.depth;
   const RectifiedCamera& camera = rectifier_.camera();
-  measured.indexed =
-      IndexFeatures(camera, ExtractFeatures(camera, input, Lightened(options_, shed)));
+  measured.indexed = IndexFeatures(
+      camera, ExtractFeatures(camera, InputOf(measured.images), Lightened(options_, shed)));
   clock.Done("features");
   measured.clock = std::move(clock);
   return measured;

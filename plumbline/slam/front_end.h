@@ -16,7 +16,7 @@
 
 namespace plumbline {
 
-// A frame with all that the images by themselves give.
+// A frame with what the images by themselves give for its pose (ExtractFeatures).
 struct MeasuredFrame {
   std::int64_t stamp_ns = 0;
   RectifiedFrame images;
@@ -36,9 +36,16 @@ class FrontEnd {
   // measures fewer.
   MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
 
+  // Features of the frame, which may have been corrected since, with the places of its lines in the
+  // right image: what landmarks are made of, beside what a pose is found from.
+  std::shared_ptr<const IndexedFeatures> WithRightLines(
+      const MeasuredFrame& frame, const std::shared_ptr<const IndexedFeatures>& indexed) const;
+
   const Rectifier& rectifier() const { return rectifier_; }
 
  private:
+  FeatureInput InputOf(const RectifiedFrame& images) const;
+
   FeatureOptions options_;
   Rectifier rectifier_;
   ValidRegion left_valid_;

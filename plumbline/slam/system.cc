@@ -97,7 +97,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
 
   const bool start = monocular_start_ && tracker_.state() == TrackerState::kInitializing;
   TrackingResult result = start ? StartMap(measured, record) : FollowMap(measured, record, clock);
-  clock.Done(start ? "initialize" : "track");
+  clock.Done(start ? "initialize" : "keyframe");
   record.times = clock.Finish();
   view_ = {std::move(measured.images), std::move(result.frame)};
   return Keep(std::move(record));
@@ -112,11 +112,19 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
   const auto earlier =
       tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
   if (snapshot != nullptr) map_ = snapshot->map;
+  if (tracker_.NeedsRightLines()) {
+    measured.indexed = front_end_.WithRightLines(measured, measured.indexed);
+    clock.Done("right_lines");
+  }
   TrackingResult result = tracker_.Track(record.id,
                                          record.stamp_ns,
                                          std::move(measured.indexed),
                                          snapshot.get(),
                                          {earlier.get(), FeatureShare(measured.shed)});
+  clock.Done("track");
+  if (tracker_.WantsRightLines(result)) {
+    tracker_.Complete(front_end_.WithRightLines(measured, result.frame.indexed), result);
+  }
   if (result.keyframe) {
     result.keyframe->keyframe.session = session_id();
     const auto gone =

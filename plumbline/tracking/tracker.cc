@@ -144,9 +144,8 @@ PoseAttempt Tracker::Settle(const Frame& frame,
                             const PosePrior& prior,
                             const MapSnapshot& snapshot,
                             FrameAssociation found) const {
-  return options_.reference == TrackingReference::kLastFrame
-             ? search_.WithLastFrame(frame, first, prior, std::move(found))
-             : search_.WithLocalMap(frame, first, prior, snapshot, found);
+  return IsOdometry() ? search_.WithLastFrame(frame, first, prior, std::move(found))
+                      : search_.WithLocalMap(frame, first, prior, snapshot, found);
 }
 
 bool Tracker::IsWeak(const PoseAttempt& attempt) const {
@@ -181,7 +180,7 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
                             const FrameAssociation& association,
                             const MapSnapshot& snapshot,
                             double feature_share) const {
-  if (options_.reference == TrackingReference::kLastFrame) return false;  // odometry has no map
+  if (IsOdometry()) return false;  // there is no map
   const KeyFrameSituation situation = SituationOf(frame,
                                                   association,
                                                   snapshot,
@@ -295,6 +294,25 @@ TrackingResult Tracker::StartMap(Frame frame) {
   const std::size_t lines = frame.lines.size();
   last_ = Tracked{{std::move(frame), FrameAssociation(points, lines)}, {newest_keyframe_, {}}, {}};
   return result;
+}
+
+bool Tracker::NeedsRightLines() const {
+  return !monocular_ && (state_ == TrackerState::kInitializing || IsOdometry());
+}
+
+bool Tracker::WantsRightLines(const TrackingResult& result) const {
+  if (monocular_ || IsOdometry() || result.starts_map || !result.cam_from_world) {
+    return false;
+  }
+  const int inliers = result.counts.inlier_points + result.counts.inlier_lines;
+  return result.keyframe || inliers < options_.enough_inliers;
+}
+
+void Tracker::Complete(const std::shared_ptr<const IndexedFeatures>& whole,
+                       TrackingResult& result) {
+  last_->frame.indexed = whole;
+  result.frame.indexed = whole;
+  if (result.keyframe) result.keyframe->keyframe.frame.indexed = whole;
 }
 
 TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& velocity) {

@@ -119,6 +119,17 @@ class Tracker {
                        const MapSnapshot* snapshot,
                        const LiveConditions& live = {});
 
+  // Where lines are in the right image serves to make landmarks of them, and most frames make none:
+  // features come without (ExtractFeatures). Whether the next frame has to bring it all the same:
+  // it would start a map, or stand for the map (TrackingReference::kLastFrame).
+  bool NeedsRightLines() const;
+  // Whether landmarks are made of the lines of the last frame, whose result this is: it became a
+  // keyframe, or it agreed with so little of the map that the next one has to be found by its
+  // lines.
+  bool WantsRightLines(const TrackingResult& result) const;
+  // The features of the last frame, now with right lines, for it and for all that its result says.
+  void Complete(const std::shared_ptr<const IndexedFeatures>& whole, TrackingResult& result);
+
   // Begins to follow a map that was made of several frames: the snapshot is centred on its newest
   // keyframe, which is made of the frame of today.
   //   velocity  of the camera there, as a left tangent per second
@@ -147,6 +158,9 @@ class Tracker {
   }
 
  private:
+  // The last frame stands for the map.
+  bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
+
   // What the last pose hangs on.
   struct Anchor {
     KeyFrameId keyframe;

@@ -50,9 +50,19 @@ void ExpectSame(const Features& a, const Features& b) {
   }
 }
 
+// All that two steps measure in a frame.
+Features ExtractAll(const RectifiedCamera& camera,
+                    const FeatureInput& input,
+                    const FeatureOptions& options) {
+  Features features = ExtractFeatures(camera, input, options);
+  for (const auto& right : features.line_right) EXPECT_FALSE(right);
+  features.line_right = FindRightLines(camera, input, options, features.lines);
+  return features;
+}
+
 TEST(ExtractFeatures, MeasuresPointsAndLinesOfAStereoPair) {
   const Pair pair = ShiftedPair();
-  const Features f = ExtractFeatures(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, {});
+  const Features f = ExtractAll(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, {});
   EXPECT_EQ(f.points.size(), f.point_disparity.size());
   EXPECT_EQ(f.lines.size(), f.line_right.size());
   int with_depth = 0;
@@ -72,22 +82,22 @@ TEST(ExtractFeatures, GivesTheSameInOneThreadAndInTwo) {
   const Pair pair = ShiftedPair();
   FeatureOptions options;
   options.parallel = true;
-  const Features a =
-      ExtractFeatures(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options);
+  const Features a = ExtractAll(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options);
   options.parallel = false;
-  ExpectSame(a, ExtractFeatures(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options));
+  ExpectSame(a, ExtractAll(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options));
 }
 
 TEST(ExtractFeatures, LeavesOutWhatIsSwitchedOff) {
   const Pair pair = ShiftedPair();
   FeatureOptions options;
   options.lines = false;
-  Features f = ExtractFeatures(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options);
+  Features f = ExtractAll(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options);
   EXPECT_GT(f.points.size(), 50U);
   EXPECT_TRUE(f.lines.empty());
+  EXPECT_TRUE(f.line_right.empty());
   options.lines = true;
   options.points = false;
-  f = ExtractFeatures(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options);
+  f = ExtractAll(TestCamera(kWidth, kHeight), {&pair.left, &pair.right}, options);
   EXPECT_TRUE(f.points.empty());
   EXPECT_GT(f.lines.size(), 20U);
 }
@@ -96,28 +106,36 @@ TEST(ExtractFeatures, WorksOnASingleImageAndWithDepth) {
   const Pair pair = ShiftedPair();
   RectifiedCamera camera = TestCamera(kWidth, kHeight);
   const DepthImage depth(kWidth, kHeight, 2);
-  const Features rgbd = ExtractFeatures(camera, {.left = &pair.left, .depth = &depth}, {});
+  const Features rgbd = ExtractAll(camera, {.left = &pair.left, .depth = &depth}, {});
   ASSERT_FALSE(rgbd.points.empty());
   for (const std::optional<Disparity>& d : rgbd.point_disparity) {
     ASSERT_TRUE(d);
     EXPECT_NEAR(d->px, 15, 1e-6);
   }
+  ASSERT_FALSE(rgbd.lines.empty());
+  for (std::size_t i = 0; i < rgbd.lines.size(); ++i) {
+    ASSERT_TRUE(rgbd.line_right[i]);
+    const Eigen::Vector2d& left = rgbd.lines[i].segment.start;
+    EXPECT_NEAR((left - rgbd.line_right[i]->segment.start).x(), 15, 1e-4);
+  }
   camera.baseline = 0;
-  const Features mono = ExtractFeatures(camera, {.left = &pair.left}, {});
+  const Features mono = ExtractAll(camera, {.left = &pair.left}, {});
   EXPECT_EQ(mono.points.size(), rgbd.points.size());
   ASSERT_EQ(mono.point_disparity.size(), mono.points.size());
   for (const std::optional<Disparity>& d : mono.point_disparity) EXPECT_FALSE(d);
+  for (const std::optional<RightLine>& right : mono.line_right) EXPECT_FALSE(right);
 }
 
 TEST(ExtractFeatures, SurvivesFlatAndTinyImagesAndRefusesWrongSizes) {
   for (const auto& [width, height] : {std::pair{320, 240}, {20, 16}, {3, 2}, {1, 1}}) {
     const GrayImage flat(width, height, 90);
-    const Features f = ExtractFeatures(TestCamera(width, height), {&flat, &flat}, {});
+    const Features f = ExtractAll(TestCamera(width, height), {&flat, &flat}, {});
     EXPECT_TRUE(f.points.empty() && f.lines.empty()) << width;
   }
   const GrayImage image(320, 240, 90);
   EXPECT_THROW(ExtractFeatures(TestCamera(320, 241), {&image}, {}), BugError);
   EXPECT_THROW(ExtractFeatures(TestCamera(320, 240), {}, {}), BugError);
+  EXPECT_THROW(FindRightLines(TestCamera(320, 241), {&image, &image}, {}, {}), BugError);
 }
 
 TEST(ExtractFeatures, FindsDepthInARealStereoPair) {
@@ -135,7 +153,7 @@ TEST(ExtractFeatures, FindsDepthInARealStereoPair) {
   const ValidRegion left(rectifier.left_mask());
   const ValidRegion right(rectifier.right_mask());
   const FeatureInput input{&rectified.left, &*rectified.right, nullptr, &left, &right};
-  const Features f = ExtractFeatures(rectifier.camera(), input, {});
+  const Features f = ExtractAll(rectifier.camera(), input, {});
   const auto given = [](const auto& values) {
     return std::count_if(values.begin(), values.end(), [](const auto& v) { return v.has_value(); });
   };

@@ -29,6 +29,23 @@ TEST(WithCorrection, SharesFeaturesThatHaveTheCorrection) {
   EXPECT_EQ(WithCorrection(raw, {}), raw);
 }
 
+TEST(WithRightLines, GivesThemTheCorrectionOfTheRest) {
+  Features measured;
+  measured.lines.resize(2);
+  measured.line_right.resize(2);
+  const StereoCorrection half(TestCamera(), 0.5 * Vector6d::Unit(0));
+  const auto without = IndexFeatures(TestCamera(), measured, half);
+  RightLine right;
+  right.segment = {{100, 50}, {120, 90}};
+  const auto whole = WithRightLines(without, {right, std::nullopt});
+  EXPECT_FALSE(without->features.line_right[0]);
+  ASSERT_TRUE(whole->features.line_right[0]);
+  EXPECT_FALSE(whole->features.line_right[1]);
+  EXPECT_DOUBLE_EQ(whole->features.line_right[0]->segment.start.x(), 100.5);
+  EXPECT_DOUBLE_EQ(MeasuredFeatures(*whole).line_right[0]->segment.start.x(), 100);
+  EXPECT_EQ(whole->correction, half);
+}
+
 TEST(IndexFeatures, CorrectsWhatWasMeasuredAndFindsItAgain) {
   Features measured;
   measured.points.resize(2);

@@ -3,6 +3,7 @@
 #include "plumbline/slam/front_end.h"
 
 #include "tests/support/moving_poster.h"
+#include <algorithm>
 #include <future>
 
 #include <gtest/gtest.h>
@@ -22,6 +23,21 @@ TEST(FrontEnd, MeasuresPointsAndLinesWithDisparities) {
     near += disparity && std::abs(disparity->px - MovingPoster::kDisparityPx) < 0.5;
   }
   EXPECT_GT(near, 100);
+}
+
+TEST(FrontEnd, FindsLinesInTheRightImageWhenAsked) {
+  const FrontEnd front_end(MovingPoster::MakeCalibration(), {});
+  const MeasuredFrame measured = front_end.Measure(MovingPoster().Frame(2));
+  const auto found = [](const IndexedFeatures& indexed) {
+    const auto& right = indexed.features.line_right;
+    return std::count_if(right.begin(), right.end(), [](const auto& r) { return r.has_value(); });
+  };
+  EXPECT_EQ(found(*measured.indexed), 0);
+  const auto whole = front_end.WithRightLines(measured, measured.indexed);
+  EXPECT_EQ(found(*measured.indexed), 0);  // a copy
+  ASSERT_EQ(whole->features.line_right.size(), whole->features.lines.size());
+  EXPECT_GT(found(*whole), 15);
+  EXPECT_EQ(whole->features.points.size(), measured.indexed->features.points.size());
 }
 
 TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {

@@ -49,6 +49,19 @@ TEST(System, FollowsTheCamera) {
   system->maps().rbegin()->second.CheckInvariants();
 }
 
+// Every keyframe has to be able to make landmarks of its lines.
+TEST(System, FindsLinesInTheRightImageOfEveryKeyFrame) {
+  const auto system = RunPoster(10);
+  const auto& keyframes = system->maps().rbegin()->second.keyframes();
+  ASSERT_GE(keyframes.size(), 2U);
+  for (const auto& [id, keyframe] : keyframes) {
+    const auto& right = keyframe.frame.features().line_right;
+    const auto found =
+        std::count_if(right.begin(), right.end(), [](const auto& r) { return r.has_value(); });
+    EXPECT_GT(found, 15) << id.value;
+  }
+}
+
 TEST(System, RefusesFramesThatAreNoLaterThanTheLast) {
   const auto system = RunPoster(3);
   EXPECT_THROW(system->Process(MovingPoster().Frame(2)), InputError);

@@ -369,6 +369,46 @@ struct OneKeyFrame {
   }
 };
 
+TEST(Tracker, WantsRightLinesOfKeyFramesAndOfWhatAgreesWithLittle) {
+  OneKeyFrame scene;
+  EXPECT_FALSE(scene.tracker.NeedsRightLines());  // it has a map
+  TrackingResult result = scene.Step(1);
+  ASSERT_TRUE(result.cam_from_world);
+  ASSERT_FALSE(result.keyframe);
+  EXPECT_FALSE(scene.tracker.WantsRightLines(result));
+  result.counts.inlier_points = result.counts.inlier_lines = 10;
+  EXPECT_TRUE(scene.tracker.WantsRightLines(result));
+  result.cam_from_world.reset();
+  EXPECT_FALSE(scene.tracker.WantsRightLines(result));
+}
+
+TEST(Tracker, KeepsRightLinesThatComeLater) {
+  OneKeyFrame scene;
+  TrackingResult result = scene.Step(1);
+  result.keyframe.emplace();
+  const auto whole = std::make_shared<const IndexedFeatures>(*result.frame.indexed);
+  scene.tracker.Complete(whole, result);
+  EXPECT_EQ(result.frame.indexed, whole);
+  EXPECT_EQ(result.keyframe->keyframe.frame.indexed, whole);
+}
+
+TEST(Tracker, NeedsRightLinesToStartAMapAndForOdometry) {
+  const SyntheticWorld world = World();
+  const Tracker fresh(world.Imaging(), {}, {world.camera, {}, {}}, Rigid3{});
+  EXPECT_TRUE(fresh.NeedsRightLines());
+  ImagingModel one_camera = world.Imaging();
+  one_camera.camera.baseline = 0;
+  EXPECT_FALSE(Tracker(one_camera, {}, {one_camera.camera, {}, {}}, Rigid3{}).NeedsRightLines());
+  TrackingOptions odometry;
+  odometry.reference = TrackingReference::kLastFrame;
+  Tracker follows(world.Imaging(), odometry, {world.camera, {}, {}}, Rigid3{});
+  Rng rng(2);
+  const TrackingResult first =
+      follows.Track(FrameId{0}, 0, Sense(world, PoseOnPath(0), {}, rng).indexed, nullptr);
+  EXPECT_TRUE(follows.NeedsRightLines());
+  EXPECT_FALSE(follows.WantsRightLines(first));
+}
+
 // The newest snapshot shows nothing that the camera sees; one before it does.
 TEST(Tracker, LooksInAnEarlierSnapshotWhereTheNewestGivesNoPose) {
   OneKeyFrame scene;
