@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/optimization/ba_parallel_lines.h"
 #include "plumbline/optimization/ba_terms.h"
 #include "plumbline/optimization/schur_solver.h"
 
@@ -23,6 +24,12 @@ struct BaObservation {
   Term term;
 };
 
+// Kinds of landmarks that may be parallel to an axis.
+template <class Kind>
+concept HasDirection = requires(const typename Kind::Place& place) {
+  place.direction;
+};
+
 // All landmarks of one kind (BaPoint, BaLine or BaLineEnds) with their observations, stored
 // landmark by landmark and within each by pose: linearized, eliminated and moved in that order.
 // Internal to local_ba.cc.
@@ -35,12 +42,13 @@ class BaLandmarks {
   BaLandmarks(const RectifiedCamera& camera,
               std::vector<State> states,
               const std::vector<BaObservation<Term>>& observations,
-              const std::vector<BaPose>& poses);
+              const std::vector<BaPose>& poses,
+              BaParallelLines parallel = {});
 
   const std::vector<State>& states() const { return states_; }
-  // Half the loss over the observations in use; remembered per landmark.
+  // Half the loss over what is in use, observations and parallels; remembered per landmark.
   double Cost(const std::vector<BaPose>& poses, const HuberThresholds& huber);
-  // Adds the equations of the observations in use to `solver` and eliminates the landmarks.
+  // Adds the equations of what is in use to `solver` and eliminates the landmarks.
   void Eliminate(const std::vector<BaPose>& poses,
                  const HuberThresholds& huber,
                  double lambda,
@@ -54,13 +62,14 @@ class BaLandmarks {
   double expected_decrease() const { return expected_; }
   // Takes the trial states over.
   void Accept();
-  // Uses the observations with chi2 within the limit at 95 %; true when that
-  // changed any.
+  // Uses the observations and parallels with chi2 within the limit at 95 %; true when that changed
+  // any.
   bool Classify(const std::vector<BaPose>& poses);
-  // Uses all observations that have a residual.
+  // Uses all that have a residual.
   void UseAll(const std::vector<BaPose>& poses);
   std::size_t used() const {
-    return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), char{1}));
+    return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), char{1})) +
+           parallel_.used();
   }
   // What the landmarks, their observations and their parts of the equations take, room that is kept
   // for more included.
@@ -68,7 +77,7 @@ class BaLandmarks {
     return HeapBytes(states_) + HeapBytes(trial_) + HeapBytes(begin_) + HeapBytes(coupling_begin_) +
            HeapBytes(observations_) + HeapBytes(original_) + HeapBytes(used_) + HeapBytes(chi2_) +
            HeapBytes(couplings_) + HeapBytes(eliminated_) + HeapBytes(cost_) +
-           HeapBytes(trial_cost_) + HeapBytes(own_lambda_);
+           HeapBytes(trial_cost_) + HeapBytes(own_lambda_) + parallel_.Bytes();
   }
   // chi2 and use of each observation as of the last Classify() or UseAll(), in the order of the
   // caller.
@@ -117,6 +126,7 @@ class BaLandmarks {
   std::vector<std::size_t> coupling_begin_;  // the same for couplings
   std::vector<Packed> observations_;
   std::vector<std::size_t> original_;  // index in the caller's observations
+  BaParallelLines parallel_;
   std::vector<char> used_;
   std::vector<double> chi2_;
   std::vector<Coupling<Kind::kDof>> couplings_;
@@ -130,8 +140,9 @@ template <class Kind>
 BaLandmarks<Kind>::BaLandmarks(const RectifiedCamera& camera,
                                std::vector<State> states,
                                const std::vector<BaObservation<Term>>& observations,
-                               const std::vector<BaPose>& poses)
-    : camera_(camera), states_(std::move(states)), trial_(states_) {
+                               const std::vector<BaPose>& poses,
+                               BaParallelLines parallel)
+    : camera_(camera), states_(std::move(states)), trial_(states_), parallel_(std::move(parallel)) {
   const std::size_t n = states_.size();
   Sort(observations);
   coupling_begin_.assign(n + 1, 0);
@@ -196,6 +207,7 @@ double BaLandmarks<Kind>::CostOf(std::size_t landmark,
     const double chi2 = Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], place, o.term);
     sum += HuberLoss(chi2, Kind::Huber(o.term, huber));
   }
+  if constexpr (HasDirection<Kind>) sum += parallel_.Loss(landmark, place.direction, huber.line);
   return 0.5 * sum;
 }
 
@@ -227,6 +239,9 @@ LandmarkEquations<Kind::kDof> BaLandmarks<Kind>::Linearize(std::size_t i,
       target.W = &couplings_[static_cast<std::size_t>(o.coupling)].W;
     }
     Kind::Add(camera_, pose, view, o.term, Kind::Huber(o.term, huber), target);
+  }
+  if constexpr (HasDirection<Kind>) {
+    parallel_.Add(i, view.direction, view.J, huber.line, landmark);
   }
   Kind::HoldGauge(view, landmark);
   return landmark;
@@ -317,13 +332,14 @@ void BaLandmarks<Kind>::UpdateChi2(const std::vector<BaPose>& poses) {
       const Packed& o = observations_[k];
       chi2_[k] = Kind::Chi2(camera_, poses[static_cast<std::size_t>(o.pose)], place, o.term);
     }
+    if constexpr (HasDirection<Kind>) parallel_.UpdateChi2(i, place.direction);
   }
 }
 
 template <class Kind>
 bool BaLandmarks<Kind>::Classify(const std::vector<BaPose>& poses) {
   UpdateChi2(poses);
-  bool changed = false;
+  bool changed = parallel_.Classify();
   for (std::size_t k = 0; k < chi2_.size(); ++k) {
     const char used = chi2_[k] <= Chi2Limit95(Kind::Dof(observations_[k].term)) ? 1 : 0;
     changed |= used != used_[k];
@@ -335,6 +351,7 @@ bool BaLandmarks<Kind>::Classify(const std::vector<BaPose>& poses) {
 template <class Kind>
 void BaLandmarks<Kind>::UseAll(const std::vector<BaPose>& poses) {
   UpdateChi2(poses);
+  parallel_.UseAll();
   for (std::size_t k = 0; k < chi2_.size(); ++k) used_[k] = std::isfinite(chi2_[k]) ? 1 : 0;
 }
 

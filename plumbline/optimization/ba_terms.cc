@@ -28,27 +28,6 @@ inline LineInCamera ToCamera(const BaPose& pose, const BaLinePlace& line, double
   return out;
 }
 
-// The residuals weight x and weight y of the unit direction (x, y, z) in the frame of an axis,
-// which does not move.
-template <int kDof>
-void AddDirection(const BaPose& axis,
-                  const Eigen::Vector3d& direction,
-                  const Eigen::Matrix<double, 6, kDof>& J,
-                  double weight,
-                  double huber,
-                  LandmarkEquations<kDof>& landmark) {
-  const double scale = 1 / direction.norm();
-  const Eigen::Vector3d d = scale * (axis.R * direction);
-  const Eigen::Vector2d r = weight * d.head<2>();
-  const double w = HuberWeight(r.squaredNorm(), huber);
-  // A change along the direction does not turn it.
-  const Eigen::Matrix<double, 3, kDof> moved = scale * weight * axis.R * J.template bottomRows<3>();
-  const Eigen::Matrix<double, 2, kDof> J_r =
-      moved.template topRows<2>() - d.head<2>() * (d.transpose() * moved);
-  landmark.V.noalias() += w * J_r.transpose() * J_r;
-  landmark.g.noalias() += w * J_r.transpose() * r;
-}
-
 }  // namespace
 
 bool BaPoint::Add(const RectifiedCamera& camera,
@@ -93,10 +72,6 @@ double BaLineTerms<kParameters>::Chi2(const RectifiedCamera& camera,
                                       const BaPose& pose,
                                       const Place& place,
                                       const Term& term) {
-  if (term.axis_weight > 0) {
-    const Eigen::Vector3d d = pose.R * place.direction;
-    return term.axis_weight * term.axis_weight * d.head<2>().squaredNorm() / d.squaredNorm();
-  }
   Eigen::Vector2d r;
   const LineInCamera line = ToCamera(pose, place, term.shift);
   if (!WhitenedLineDistances(camera, term, line.moment, r)) {
@@ -112,10 +87,6 @@ bool BaLineTerms<kParameters>::Add(const RectifiedCamera& camera,
                                    const Term& term,
                                    double huber,
                                    const Target& target) {
-  if (term.axis_weight > 0) {
-    AddDirection<kDof>(pose, view.direction, view.J, term.axis_weight, huber, target.landmark);
-    return true;
-  }
   const LineInCamera line = ToCamera(pose, view, term.shift);
   LineLinearization a;
   if (!LinearizeLine(camera, term, line.moment, a)) return false;

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 namespace plumbline {
@@ -23,19 +22,12 @@ constexpr double kMaxLambda = 1e10;
 // Below this damping a step is nearly that of Gauss-Newton, so that a small gain means convergence.
 constexpr double kSmallLambda = 1;
 
-// Makes the poses of the problem, and behind them one fixed pose for each axis: a frame that has
-// the axis as its z.
 std::vector<BaPose> MakePoses(const BaProblem& problem) {
-  std::vector<BaPose> poses(problem.poses.size() + problem.axes.size());
+  std::vector<BaPose> poses(problem.poses.size());
   int free_index = 0;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     poses[i].Set(problem.poses[i].cam_from_world);
     if (!problem.poses[i].fixed) poses[i].free_index = free_index++;
-  }
-  for (std::size_t i = 0; i < problem.axes.size(); ++i) {
-    Rigid3 frame;
-    frame.rotation = Eigen::Quaterniond::FromTwoVectors(problem.axes[i], Eigen::Vector3d::UnitZ());
-    poses[problem.poses.size() + i].Set(frame);
   }
   return poses;
 }
@@ -55,13 +47,6 @@ std::vector<BaObservation<typename LineKind::Term>> LineObservations(const BaPro
   out.reserve(problem.line_observations.size());
   for (const auto& o : problem.line_observations) {
     out.push_back({o.pose, o.line, LineKind::MakeTerm(problem.camera, o.measurement)});
-  }
-  if constexpr (std::is_same_v<typename LineKind::Term, LineTerm>) {
-    for (const auto& o : problem.parallel_lines) {
-      out.push_back({static_cast<int>(problem.poses.size()) + o.axis,
-                     o.line,
-                     LineTerm{.axis_weight = 1 / o.sigma}});
-    }
   }
   return out;
 }
@@ -94,7 +79,11 @@ class BundleAdjuster {
         poses_(MakePoses(problem)),
         trial_poses_(poses_),
         points_(problem.camera, problem.points, PointObservations(problem), poses_),
-        lines_(problem.camera, std::move(lines), LineObservations<LineKind>(problem), poses_),
+        lines_(problem.camera,
+               std::move(lines),
+               LineObservations<LineKind>(problem),
+               poses_,
+               BaParallelLines(problem)),
         solver_(static_cast<int>(std::count_if(
             poses_.begin(), poses_.end(), [](const BaPose& p) { return p.free_index >= 0; }))) {}
 
@@ -228,13 +217,6 @@ BaResult BundleAdjuster<LineKind>::Solve() {
   return result;
 }
 
-// Leaves out what stands for axes and parallel lines.
-void TrimToObservations(const BaProblem& problem, BaResult& result) {
-  result.poses.resize(problem.poses.size());
-  result.line_chi2.resize(problem.line_observations.size());
-  result.line_inliers.resize(problem.line_observations.size());
-}
-
 BaResult Unchanged(const BaProblem& problem) {
   BaResult result = InitialState(problem);
   result.point_inliers.assign(problem.point_observations.size(), false);
@@ -253,7 +235,6 @@ BaResult SolveWithLines(const BaProblem& problem,
                         const StopCheck& stop) {
   BundleAdjuster<Line> adjuster(problem, problem.lines, options, stop);
   BaResult result = adjuster.Solve();
-  TrimToObservations(problem, result);
   result.lines = adjuster.lines();
   return result;
 }
@@ -284,7 +265,6 @@ BaResult SolveWithEnds(const BaProblem& problem,
   const std::vector<Segment3> ends = TrimmedEnds(problem);
   BundleAdjuster<Ends> adjuster(problem, ends, options, stop);
   BaResult result = adjuster.Solve();
-  TrimToObservations(problem, result);
   result.lines = LinesThroughEnds(problem.lines, ends, adjuster.lines());
   return result;
 }

@@ -131,9 +131,6 @@ struct LineTerm {
   // Lower triangle of the inverse Cholesky factor of the covariance: whitened residual = W r.
   double w00 = 1, w10 = 0, w11 = 1;
   double shift = 0;  // x of the left camera's centre in the camera that measured: 0 or -baseline
-  // Not zero: no measurement but the direction of an axis, that of z in the frame of the "camera";
-  // 1 / sigma of the components of the line's unit direction across it. The rest is not used then.
-  double axis_weight = 0;
 };
 LineTerm MakeLineTerm(const RectifiedCamera& camera, const LineMeasurement& measurement);
 

@@ -123,46 +123,6 @@ TEST(BaLineLeft, AddsTheProductsOfTheJacobiansByCentralDifferences) {
   }
 }
 
-// A line's direction beside an axis: derivatives by central differences of the residual
-// weight (x, y) / |d| of the direction in the frame of the axis.
-template <class Line>
-void ExpectProductsOfTheDirection(const typename Line::State& line, const BaPose& axis) {
-  constexpr double kWeight = 30;
-  constexpr double kStep = 1e-6;
-  constexpr double kHuber = 2;
-  using Step = Eigen::Matrix<double, Line::kDof, 1>;
-  const auto residual = [&](const Step& step) -> Eigen::Vector2d {
-    const Eigen::Vector3d d = axis.R * Line::MakePlace(Line::Retract(line, step)).direction;
-    return kWeight * d.head<2>() / d.norm();
-  };
-  Eigen::Matrix<double, 2, Line::kDof> J;
-  for (int k = 0; k < Line::kDof; ++k) {
-    const Step step = kStep * Step::Unit(k);
-    J.col(k) = (residual(step) - residual(-step)) / (2 * kStep);
-  }
-  const Eigen::Vector2d r = residual(Step::Zero());
-  const LineTerm term{.axis_weight = kWeight};
-  const auto view = Line::MakeView(line);
-  Blocks<Line::kDof> blocks;
-  const typename Line::Target target{blocks.landmark, nullptr, nullptr};
-  ASSERT_TRUE(Line::Add(StereoCamera(), axis, view, term, kHuber, target));
-  const Eigen::Matrix<double, 2, 6> none = Eigen::Matrix<double, 2, 6>::Zero();
-  ExpectBlocks(blocks, none, J, r, HuberWeight(r.squaredNorm(), kHuber), 1e-6);
-  EXPECT_NEAR(Line::Chi2(StereoCamera(), axis, view, term), r.squaredNorm(), 1e-9);
-}
-
-TEST(BaLine, AddsTheProductsOfItsDirectionBesideAnAxis) {
-  Random random(6);
-  for (int i = 0; i < 20; ++i) {
-    const BaPose axis = RandomPose(random);
-    const Segment3 ends{random.NormalVector(3), random.NormalVector(3)};
-    const OrthonormalLine line = ToOrthonormal(LineThroughPoints(ends.start, ends.end));
-    ExpectProductsOfTheDirection<BaLine>(line, axis);
-    ExpectProductsOfTheDirection<BaLineLeft>(line, axis);
-    ExpectProductsOfTheDirection<BaLineEnds>(ends, axis);
-  }
-}
-
 std::optional<LineResidual> EvaluateEnds(const RectifiedCamera& camera,
                                          const BaPose& pose,
                                          const Segment3& ends,
