@@ -9,6 +9,7 @@
 #include "plumbline/map/gathering.h"
 #include "plumbline/slam/options.h"
 
+#include "apps/line_method.h"
 #include <utility>
 
 #include <fmt/core.h>
@@ -46,12 +47,14 @@ std::string WhyNotMerged(MergeRefusal refusal) {
   throw BugError("a reason without words");
 }
 
-// The options that the first map was made with, as far as this program knows them.
+// The options that the first map was made with, as far as this program does what they say.
 SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const Remark& remark) {
   SlamOptions options;
   if (first.options_yaml.empty()) return options;
   try {
     OptionTable(options).LoadText(first.options_yaml, name);
+    ChooseLineMethod(options);
+    CheckOptions(options);
   } catch (const InputError& error) {
     remark(fmt::format("{}; merging with the default options", error.what()));
     return {};

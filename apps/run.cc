@@ -18,6 +18,7 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/line_method.h"
 #include "apps/run_frames.h"
 #include "apps/run_results.h"
 #include "apps/stop_signal.h"
@@ -162,6 +163,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
   if (const auto mode = line.Value("--mode")) table.Set("slam.mode=" + *mode);
   if (const auto seed = line.Value("--seed")) table.Set("slam.seed=" + *seed);
+  ChooseLineMethod(setup.options);
   CheckOptions(setup.options);
   setup.options_yaml = table.Dump();
   setup.folder = line.Value("--out").value_or("plumbline_run");

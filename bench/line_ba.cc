@@ -8,7 +8,7 @@
 //   line_ba OUT.csv [REPETITIONS] [MOST_LINES] [SHARE_OF_OUTLIERS]
 //
 // What the numbers mean and what they were: docs/benchmarks.md.
-#include "plumbline/optimization/local_ba.h"
+#include "lab/line_rivals/rival_ba.h"
 
 #include "tests/optimization/ba_scene.h"
 #include <algorithm>
@@ -26,24 +26,22 @@ namespace {
 
 struct Rival {
   const char* name;
-  LineParametrization lines;
-  LineResidualKind residual;
+  RivalLines lines;
   double correlation;  // of the two residuals; 0 lets the blocks of end points split
 };
 // The covariance has a small correlation where the blocks are not to split.
 constexpr double kWhole = 1e-6;
 constexpr std::array kRivals{
-    Rival{"plucker", LineParametrization::kPlucker, LineResidualKind::kObservedEnds, 0},
-    Rival{"plucker_left", LineParametrization::kPluckerLeft, LineResidualKind::kObservedEnds, 0},
-    Rival{"endpoints", LineParametrization::kEndpoints, LineResidualKind::kObservedEnds, 0},
-    Rival{"plucker, projected", LineParametrization::kPlucker, LineResidualKind::kProjectedEnds, 0},
+    Rival{"plucker", {LineParametrization::kPlucker, LineResidualKind::kObservedEnds}, 0},
+    Rival{"plucker_left", {LineParametrization::kPluckerLeft, LineResidualKind::kObservedEnds}, 0},
+    Rival{"endpoints", {LineParametrization::kEndpoints, LineResidualKind::kObservedEnds}, 0},
+    Rival{
+        "plucker, projected", {LineParametrization::kPlucker, LineResidualKind::kProjectedEnds}, 0},
     Rival{"endpoints, projected",
-          LineParametrization::kEndpoints,
-          LineResidualKind::kProjectedEnds,
+          {LineParametrization::kEndpoints, LineResidualKind::kProjectedEnds},
           kWhole},
     Rival{"endpoints, projected, split",
-          LineParametrization::kEndpoints,
-          LineResidualKind::kProjectedEnds,
+          {LineParametrization::kEndpoints, LineResidualKind::kProjectedEnds},
           0}};
 
 double CpuMilliseconds() {
@@ -62,7 +60,6 @@ BaProblem MakeProblem(int points, int lines, double outliers, const Rival& rival
                                             .outliers = outliers,
                                             .perturbation = 0.3})
                           .problem;
-  problem.line_residual = rival.residual;
   for (auto& o : problem.line_observations) {
     o.measurement.covariance(0, 1) = o.measurement.covariance(1, 0) = rival.correlation;
   }
@@ -92,7 +89,7 @@ std::vector<Figures> Measure(int points, int lines, double outliers, int repetit
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     for (std::size_t i = 0; i < kRivals.size(); ++i) {
       const double start = CpuMilliseconds();
-      const BaResult result = SolveLocalBa(problems[i], options, kRivals[i].lines);
+      const BaResult result = SolveRivalBa(problems[i], options, kRivals[i].lines);
       figures[i].milliseconds.push_back(CpuMilliseconds() - start);
       figures[i].iterations = result.iterations;
       figures[i].cost = result.final_cost;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/ceres_reference/ceres_solve.h"
-#include "plumbline/optimization/local_ba.h"
+#include "lab/line_rivals/rival_ba.h"
 
 #include "tests/optimization/ba_scene.h"
 
@@ -59,7 +59,7 @@ void RunOurs(benchmark::State& state,
              int max_iterations = kMaxIterations) {
   const LocalBaOptions options{
       .rounds = 1, .max_iterations = max_iterations, .function_tolerance = kTolerance};
-  Run(state, [&] { return SolveLocalBa(problem, options, lines); });
+  Run(state, [&] { return SolveRivalBa(problem, options, {lines}); });
 }
 
 void RunCeres(benchmark::State& state,
@@ -67,7 +67,7 @@ void RunCeres(benchmark::State& state,
               LineParametrization lines,
               int max_iterations = kMaxIterations) {
   const CeresBaOptions options{.huber = kHuberThresholds,
-                               .lines = lines,
+                               .lines = {lines},
                                .max_iterations = max_iterations,
                                .function_tolerance = kTolerance};
   Run(state, [&] { return SolveWithCeres(problem, options); });
@@ -102,7 +102,7 @@ void CeresWeakLines(benchmark::State& state, LineParametrization lines) {
 // Ceres without iterations: building its problem, its preprocessing, one evaluation.
 void CeresSetUp(benchmark::State& state, LineParametrization lines) {
   const BaProblem problem = MakeProblem(state);
-  const CeresBaOptions options{.huber = kHuberThresholds, .lines = lines, .max_iterations = 0};
+  const CeresBaOptions options{.huber = kHuberThresholds, .lines = {lines}, .max_iterations = 0};
   Run(state, [&] { return SolveWithCeres(problem, options); });
 }
 
@@ -123,7 +123,7 @@ void CeresMonocular(benchmark::State& state) {
 // As local mapping calls it: the default options, two rounds with rejection between.
 void OursDefault(benchmark::State& state, LineParametrization lines) {
   const BaProblem problem = MakeProblem(state);
-  Run(state, [&] { return SolveLocalBa(problem, {}, lines); });
+  Run(state, [&] { return SolveRivalBa(problem, {}, {lines}); });
 }
 
 void Sizes(benchmark::internal::Benchmark* benchmark) {

@@ -200,9 +200,7 @@ py::dict Adjust(const RectifiedCamera& camera,
   OptionTable table(options);
   SetOptions(given, table);
   BaResult result;
-  RunInterruptibly([&](const StopCheck& stop) {
-    result = SolveLocalBa(problem, options, LineParametrization::kPlucker, stop);
-  });
+  RunInterruptibly([&](const StopCheck& stop) { result = SolveLocalBa(problem, options, stop); });
   std::vector<PluckerLine> lines;
   for (const OrthonormalLine& line : result.lines) lines.push_back(ToPlucker(line));
   py::dict dict;

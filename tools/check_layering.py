@@ -39,7 +39,8 @@ LAYERS = {
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
     "view": ["base", "geometry", "image", "features", "map", "slam", "recording", "foxglove"],
     "worlds": ["base", "geometry", "image", "io"],
-    "ceres_reference": ["base", "geometry", "optimization"],
+    "line_rivals": ["base", "geometry", "map", "association", "optimization"],
+    "ceres_reference": ["base", "geometry", "optimization", "association", "line_rivals"],
     "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
                "slam"],
     "cutting_testbed": ["base", "geometry", "optimization", "cutting"],
@@ -50,7 +51,7 @@ LAYERS = {
 # The modules that are not in plumbline/, and where they are. The product includes none of them, and the
 # worlds include nothing of the laboratory.
 RENDERER = "worlds"
-LABORATORY = {"ceres_reference", "starts", "cutting_testbed", "experiments"}
+LABORATORY = {"line_rivals", "ceres_reference", "starts", "cutting_testbed", "experiments"}
 # third-party prefix -> the files that may include it (regular expression; those of the product without
 # plumbline/). Headers are left out but for three, so that nobody needs more than Eigen and fmt to include the library.
 THIRD_PARTY = {

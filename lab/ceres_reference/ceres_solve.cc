@@ -4,9 +4,9 @@
 
 #include "lab/ceres_reference/ceres_manifolds.h"
 #include "lab/ceres_reference/ceres_terms.h"
+#include "lab/line_rivals/line_ends.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/error.h"
-#include "plumbline/optimization/line_ends.h"
 
 #include <algorithm>
 #include <array>
@@ -86,9 +86,9 @@ class CeresBa {
   CeresBaResult Solve();
 
  private:
-  bool HasEnds() const { return options_.lines == LineParametrization::kEndpoints; }
+  bool HasEnds() const { return options_.lines.parametrization == LineParametrization::kEndpoints; }
   bool HasProjectedEnds() const {
-    return problem_.line_residual == LineResidualKind::kProjectedEnds;
+    return options_.lines.residual == LineResidualKind::kProjectedEnds;
   }
   std::unique_ptr<ceres::CostFunction> LineCost(const BaProblem::LineObservation& o) const;
   void MakeManifolds();
@@ -112,13 +112,13 @@ void CeresBa::MakeManifolds() {
   if (options_.derivatives == CeresDerivatives::kAnalytic) {
     pose_manifold_ = std::make_unique<TangentManifold<LeftRigid3Manifold>>();
     line_manifold_ = std::make_unique<StraightLineManifold>();
-    if (options_.lines == LineParametrization::kPluckerLeft) {
+    if (options_.lines.parametrization == LineParametrization::kPluckerLeft) {
       line_manifold_ = std::make_unique<TangentManifold<LeftOrthonormalLineManifold>>();
     }
   } else {
     pose_manifold_ = std::make_unique<LeftRigid3Manifold>();
     line_manifold_ = std::make_unique<OrthonormalLineManifold>();
-    if (options_.lines == LineParametrization::kPluckerLeft) {
+    if (options_.lines.parametrization == LineParametrization::kPluckerLeft) {
       line_manifold_ = std::make_unique<LeftOrthonormalLineManifold>();
     }
   }
@@ -171,13 +171,14 @@ void CeresBa::AddTerms() {
 
 std::unique_ptr<ceres::CostFunction> CeresBa::LineCost(const BaProblem::LineObservation& o) const {
   if (!HasProjectedEnds()) {
-    return MakeLineCost(problem_.camera, o.measurement, options_.derivatives, options_.lines);
+    return MakeLineCost(
+        problem_.camera, o.measurement, options_.derivatives, options_.lines.parametrization);
   }
   const auto i = static_cast<std::size_t>(o.line);
   const PluckerLine line = ToPlucker(problem_.lines[i]);
   return MakeProjectedEndsCost(problem_.camera,
                                o.measurement,
-                               options_.lines,
+                               options_.lines.parametrization,
                                {line.ParameterOf(ends_[i].start), line.ParameterOf(ends_[i].end)});
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/ceres_reference/ceres_derivatives.h"
-#include "plumbline/optimization/line_parametrization.h"
+#include "lab/line_rivals/rival_ba.h"
 #include "plumbline/optimization/problem.h"
 #include "plumbline/optimization/robust_loss.h"
 
@@ -14,7 +14,7 @@ namespace plumbline {
 struct CeresBaOptions {
   HuberThresholds huber;  // infinite: no loss function
   CeresDerivatives derivatives = CeresDerivatives::kAnalytic;
-  LineParametrization lines = LineParametrization::kPlucker;
+  RivalLines lines;
   int max_iterations = 50;
   double function_tolerance = 1e-6;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/ceres_reference/ceres_terms.h"
 
+#include "lab/line_rivals/ba_rival_lines.h"
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/ba_terms.h"
 #include "plumbline/optimization/residuals.h"

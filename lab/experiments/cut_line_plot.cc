@@ -29,7 +29,6 @@ struct LinesOfKeyFrame {
 LinesOfKeyFrame CollectLines(const SavedMap& saved, const KeyFrame& keyframe) {
   LinesOfKeyFrame lines;
   lines.problem.camera = saved.camera;
-  lines.problem.line_residual = LineResidualKind::kProjectedEnds;
   lines.problem.cam_from_world = keyframe.frame.cam_from_world;
   const Features& features = keyframe.frame.features();
   for (std::size_t i = 0; i < keyframe.frame.points.size(); ++i) {
@@ -53,7 +52,6 @@ LinesOfKeyFrame CollectLines(const SavedMap& saved, const KeyFrame& keyframe) {
 
 Overlay DrawCuts(const LinesOfKeyFrame& lines) {
   LineOptions options;
-  options.residual = LineResidualKind::kProjectedEnds;
   options.weighting = LineWeighting::kNone;
   CuttingOptions cutting;
   cutting.method = CuttingMethod::kGreedy;

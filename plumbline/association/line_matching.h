@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
+#include "plumbline/association/line_options.h"
 #include "plumbline/features/match_lines.h"
 
 #include <optional>

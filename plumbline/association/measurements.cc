@@ -3,7 +3,6 @@
 #include "plumbline/association/measurements.h"
 
 #include "plumbline/association/uncertain_line.h"
-#include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 
 #include <Eigen/Cholesky>
@@ -72,27 +71,6 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
   const auto residual = EvaluateLine(camera, cam_from_world, line.prepared, unit);
   if (!residual) return;
   measurement.covariance += SpreadOf(residual->J_line, line.information);
-  MakeScalar(weights, measurement.covariance);
-}
-
-void UseProjectedEnds(const RectifiedCamera& camera,
-                      const Rigid3& cam_from_world,
-                      const PluckerLine& line,
-                      const Segment3& ends,
-                      const std::optional<Eigen::Matrix4d>& information,
-                      const LineWeights& weights,
-                      LineMeasurement& measurement) {
-  if (weights.kind == LineWeighting::kNone) return;
-  LineMeasurement unit = measurement;
-  unit.covariance = Eigen::Matrix2d::Identity();
-  measurement.covariance = ProjectedEndsCovariance(camera, cam_from_world, ends, measurement);
-  const LineInterval interval{line.ParameterOf(ends.start), line.ParameterOf(ends.end)};
-  const auto residual =
-      EvaluateProjectedEnds(camera, cam_from_world, ToOrthonormal(line), interval, unit);
-  if (residual && information) {
-    measurement.covariance +=
-        SpreadOf(residual->J_line, RegularizedInformation(*information).llt());
-  }
   MakeScalar(weights, measurement.covariance);
 }
 

@@ -7,7 +7,6 @@
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/line_interval.h"
 #include "plumbline/mapping/parallel_lines.h"
-#include "plumbline/optimization/line_ends.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +32,7 @@ class WindowBuilder {
         line_options_(lines),
         options_(options),
         centre_(centre),
-        builder_(map, imaging, lines.weights(), centre, window_) {
-    window_.problem.line_residual = lines.residual;
-  }
+        builder_(map, imaging, lines.weights(), centre, window_) {}
 
   BaWindow Build() {
     ChooseFree();
@@ -45,7 +42,8 @@ class WindowBuilder {
     for (const MapPoint* point : points_) builder_.AddPoint(*point);
     for (const MapLine* line : lines_) AddLine(*line);
     AddParallelLines();
-    if (line_options_.residual == LineResidualKind::kProjectedEnds) WeighProjectedEnds();
+    const auto complete = line_options_.method.complete_window;
+    if (complete != nullptr) complete(line_options_.weights(), window_.problem);
     return std::move(window_);
   }
 
@@ -130,8 +128,7 @@ class WindowBuilder {
   // variance counts once for each of them: together they do not claim to know it better.
   void AddParallelLines() {
     BaProblem& problem = window_.problem;
-    if (!options_.parallel_lines || problem.line_residual != LineResidualKind::kObservedEnds)
-      return;
+    if (!options_.parallel_lines) return;
     const std::vector<CommonDirection> directions = CommonDirections(map_);
     std::vector<int> count(directions.size(), 0);
     for (std::size_t i = 0; i < window_.lines.size(); ++i) {
@@ -148,22 +145,6 @@ class WindowBuilder {
     }
     for (const CommonDirection& axis : directions) {
       problem.axes.push_back(window_.problem_from_world.rotation * axis.direction);
-    }
-  }
-
-  // The covariances of the measured ends become those of the ends that the solver will project.
-  void WeighProjectedEnds() {
-    BaProblem& problem = window_.problem;
-    const std::vector<Segment3> ends = TrimmedEnds(problem);
-    for (auto& o : problem.line_observations) {
-      const auto line = static_cast<std::size_t>(o.line);
-      UseProjectedEnds(problem.camera,
-                       problem.poses[static_cast<std::size_t>(o.pose)].cam_from_world,
-                       ToPlucker(problem.lines[line]),
-                       ends[line],
-                       std::nullopt,  // the lines are free to move
-                       line_options_.weights(),
-                       o.measurement);
     }
   }
 

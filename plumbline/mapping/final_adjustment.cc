@@ -133,8 +133,8 @@ bool BringToLens(const MappingOptions& options, const StopCheck& stop, BaProblem
   ba.rounds = 1;
   ba.max_iterations = 40;
   ba.function_tolerance = 1e-6;
-  const auto moved = SolveInOnePiece(
-      points, ba, LineParametrization::kPlucker, options.window.local_limits(), {}, stop);
+  const auto moved =
+      SolveInOnePiece(points, ba, SolveLocalBa, options.window.local_limits(), {}, stop);
   if (!moved) return false;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     problem.poses[i].cam_from_world = moved->poses[i];
@@ -190,7 +190,7 @@ Correction AdjustWholeMap(const Map& map,
   const std::optional<BaResult> result = SolveInOnePiece(
       problem,
       options.ba,
-      lines.parametrization,
+      lines.method.adjust_map,
       options.window.final_limits(),
       [&](BaResult& solution) { KeepUnitOfTheOldest(whole.problem, solution); },
       stop);

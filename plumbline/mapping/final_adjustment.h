@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
+#include "plumbline/association/line_options.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"

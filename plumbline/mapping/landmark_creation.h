@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
+#include "plumbline/association/line_options.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/options.h"
@@ -42,9 +42,8 @@ MapEdit CreatePointsFromViews(const Map& map,
 
 // New lines from line features without landmark in the keyframe and in up to three of its closest
 // neighbours (section 3.3), matched by their looks as `lines` says: n-view reconstruction, from two
-// views where the views disagree or where lines.reconstruction says so, kept where the end points
-// of every view lie on the projected line (3 sigmas, TriangulateLine) and the interpretation planes
-// meet at a large enough angle.
+// views where the views disagree, kept where the end points of every view lie on the projected line
+// (3 sigmas, TriangulateLine) and the interpretation planes meet at a large enough angle.
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,

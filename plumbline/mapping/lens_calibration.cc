@@ -37,7 +37,7 @@ class Profile {
     options.rounds = 1;  // the same observations for all, the robust loss alone
     options.max_iterations = 40;
     options.function_tolerance = 1e-6;
-    const BaResult result = SolveLocalBa(corrected, options, LineParametrization::kPlucker, stop_);
+    const BaResult result = SolveLocalBa(corrected, options, stop_);
     if (result.termination == BaTermination::kStopped ||
         result.termination == BaTermination::kNotFinite ||
         result.termination == BaTermination::kNothingToDo) {

@@ -236,8 +236,8 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed)
 void LocalMapper::Adjust(Map& map, KeyFrameId id) {
   BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
   BaProblem& problem = window.problem;
-  const std::optional<BaResult> result =
-      SolveInOnePiece(problem, options_.ba, lines_.parametrization, options_.window.local_limits());
+  const std::optional<BaResult> result = SolveInOnePiece(
+      problem, options_.ba, lines_.method.adjust_window, options_.window.local_limits());
   if (!result) return;
   adjusted_lines_.count += problem.lines.size();
   adjusted_lines_.bytes += result->line_bytes;

@@ -111,8 +111,7 @@ void VisitFields(Visitor&& visit, BaWindowOptions& o) {
         Range{1e-6, 10});
   visit("parallel_lines",
         o.parallel_lines,
-        "lines that are parallel to many others of the map by chi2 are held so (not with "
-        "lines.residual: projected_ends)");
+        "lines that are parallel to many others of the map by chi2 are held so");
 }
 
 constexpr auto FixedOptions(std::type_identity<BaWindowOptions>) {

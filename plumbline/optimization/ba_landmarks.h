@@ -30,9 +30,17 @@ concept HasDirection = requires(const typename Kind::Place& place) {
   place.direction;
 };
 
-// All landmarks of one kind (BaPoint, BaLine or BaLineEnds) with their observations, stored
-// landmark by landmark and within each by pose: linearized, eliminated and moved in that order.
-// Internal to local_ba.cc.
+// Kinds of landmarks whose parameters their observations cannot all fix, with what completes their
+// equations.
+template <class Kind>
+concept HoldsGauge = requires(const typename Kind::View& view,
+                              LandmarkEquations<Kind::kDof>& equations) {
+  Kind::HoldGauge(view, equations);
+};
+
+// All landmarks of one kind (BaPoint, BaLine) with their observations, stored landmark by landmark
+// and within each by pose: linearized, eliminated and moved in that order.
+// Internal to bundle_adjuster.h.
 template <class Kind>
 class BaLandmarks {
  public:
@@ -243,7 +251,7 @@ LandmarkEquations<Kind::kDof> BaLandmarks<Kind>::Linearize(std::size_t i,
   if constexpr (HasDirection<Kind>) {
     parallel_.Add(i, view.direction, view.J, huber.line, landmark);
   }
-  Kind::HoldGauge(view, landmark);
+  if constexpr (HoldsGauge<Kind>) Kind::HoldGauge(view, landmark);
   return landmark;
 }
 

@@ -13,7 +13,7 @@ namespace plumbline {
 
 // The residuals of the parallel lines of a problem: weight x and weight y of a line's unit
 // direction (x, y, z) in a frame with the axis as its z. The axes stay, so that each residual
-// concerns one line and no pose. Internal to local_ba.cc; declared here to be tested.
+// concerns one line and no pose. Internal to bundle_adjuster.h.
 class BaParallelLines {
  public:
   BaParallelLines() = default;  // none

@@ -14,20 +14,6 @@ inline Eigen::Matrix3d CrossColumns(const Eigen::Vector3d& p, const Eigen::Matri
   return out;
 }
 
-struct LineInCamera {
-  Eigen::Vector3d t;  // translation of the measuring camera
-  Eigen::Vector3d direction, moment;
-};
-
-inline LineInCamera ToCamera(const BaPose& pose, const BaLinePlace& line, double shift) {
-  LineInCamera out;
-  out.t = pose.cam_from_world.translation;
-  out.t.x() += shift;
-  out.direction = pose.R * line.direction;
-  out.moment = pose.R * line.moment + out.t.cross(out.direction);
-  return out;
-}
-
 }  // namespace
 
 bool BaPoint::Add(const RectifiedCamera& camera,
@@ -67,45 +53,25 @@ bool BaPoint::Add(const RectifiedCamera& camera,
   return true;
 }
 
-template <int kParameters>
-double BaLineTerms<kParameters>::Chi2(const RectifiedCamera& camera,
-                                      const BaPose& pose,
-                                      const Place& place,
-                                      const Term& term) {
+double LineChi2(const RectifiedCamera& camera,
+                const BaPose& pose,
+                const BaLinePlace& line,
+                const LineTerm& term) {
   Eigen::Vector2d r;
-  const LineInCamera line = ToCamera(pose, place, term.shift);
-  if (!WhitenedLineDistances(camera, term, line.moment, r)) {
+  const BaLineInCamera seen(pose, line, term.shift);
+  if (!WhitenedLineDistances(camera, term, seen.moment, r)) {
     return std::numeric_limits<double>::infinity();
   }
   return r.squaredNorm();
 }
 
-template <int kParameters>
-bool BaLineTerms<kParameters>::Add(const RectifiedCamera& camera,
-                                   const BaPose& pose,
-                                   const View& view,
-                                   const Term& term,
-                                   double huber,
-                                   const Target& target) {
-  const LineInCamera line = ToCamera(pose, view, term.shift);
-  LineLinearization a;
-  if (!LinearizeLine(camera, term, line.moment, a)) return false;
-  const double w = HuberWeight(a.r.squaredNorm(), huber);
-  Vector6d b0;
-  Vector6d b1;
-  b0 << pose.R.transpose() * a.h0, pose.R.transpose() * a.h0.cross(line.t);  // eq. 18
-  b1 << pose.R.transpose() * a.h1, pose.R.transpose() * a.h1.cross(line.t);
-  using Row = Eigen::Matrix<double, kDof, 1>;
-  const Row c0 = view.J.transpose() * b0;
-  const Row c1 = view.J.transpose() * b1;
-  AddTwoRows<kDof>(w, a.r, c0, c1, target, [&] {
-    return std::pair(LinePoseRow(a.h0, line.moment, line.direction, term.shift),
-                     LinePoseRow(a.h1, line.moment, line.direction, term.shift));
-  });
-  return true;
+bool BaLine::Add(const RectifiedCamera& camera,
+                 const BaPose& pose,
+                 const View& view,
+                 const Term& term,
+                 double huber,
+                 const Target& target) {
+  return AddMeasuredLine<kDof>(camera, pose, view, term, huber, target);
 }
-
-template struct BaLineTerms<4>;
-template struct BaLineTerms<6>;
 
 }  // namespace plumbline

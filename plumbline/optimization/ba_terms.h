@@ -8,11 +8,12 @@
 #include "plumbline/optimization/schur_solver.h"
 
 #include <limits>
+#include <utility>
 
 namespace plumbline {
 
 // What bundle adjustment needs to know about each kind of landmark: parameters, residual, its place
-// in the normal equations. Internal to local_ba.cc; declared here to be tested and benchmarked.
+// in the normal equations. Internal to bundle_adjuster.h.
 
 struct BaPose {
   Rigid3 cam_from_world;
@@ -41,9 +42,6 @@ struct BaPoint {
     return term.disparity_weight > 0 ? huber.disparity : huber.point;
   }
   static int Dof(const Term& term) { return term.disparity_weight > 0 ? 3 : 2; }
-  // Completes the equations of a landmark whose parameters its observations cannot all fix.
-  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
-
   // Squared norm of the whitened residual; infinite where there is none.
   static double Chi2(const RectifiedCamera& camera,
                      const BaPose& pose,
@@ -68,41 +66,28 @@ struct BaLinePlace {
   Eigen::Vector3d moment, direction;
 };
 
-// What lines have in common, whatever their parameters.
+// A line and how it moves with the parameters of its update.
 template <int kParameters>
-struct BaLineTerms {
-  static constexpr int kDof = kParameters;
+struct BaLineView : BaLinePlace {
+  Eigen::Matrix<double, 6, kParameters> J;  // of moment and direction
+};
+
+// Squared norm of the whitened distances of a line's measured ends; infinite where there is none.
+double LineChi2(const RectifiedCamera& camera,
+                const BaPose& pose,
+                const BaLinePlace& line,
+                const LineTerm& term);
+
+struct BaLine {
+  static constexpr int kDof = 4;
+  using State = OrthonormalLine;
   using Term = LineTerm;
   using Place = BaLinePlace;
-  struct View : BaLinePlace {
-    Eigen::Matrix<double, 6, kDof> J;  // of moment and direction with respect to the update
-  };
+  using View = BaLineView<kDof>;
 
   static Term MakeTerm(const RectifiedCamera& camera, const LineMeasurement& measurement) {
     return MakeLineTerm(camera, measurement);
   }
-  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
-  static int Dof(const Term&) { return 2; }
-
-  static double Chi2(const RectifiedCamera& camera,
-                     const BaPose& pose,
-                     const Place& place,
-                     const Term& term);
-
-  using Target = BaTarget<kDof>;
-  static bool Add(const RectifiedCamera& camera,
-                  const BaPose& pose,
-                  const View& view,
-                  const Term& term,
-                  double huber,
-                  const Target& target);
-};
-extern template struct BaLineTerms<4>;
-extern template struct BaLineTerms<6>;
-
-struct BaLine : BaLineTerms<4> {
-  using State = OrthonormalLine;
-
   static Place MakePlace(const State& state) {
     const Vector6d h = state.Homogeneous();
     return {h.head<3>(), h.tail<3>()};
@@ -113,55 +98,61 @@ struct BaLine : BaLineTerms<4> {
   static State Retract(const State& state, const Eigen::Vector4d& step) {
     return RetractStraight(state, step);
   }
-  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
+  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
+  static int Dof(const Term&) { return 2; }
+  static double Chi2(const RectifiedCamera& camera,
+                     const BaPose& pose,
+                     const Place& place,
+                     const Term& term) {
+    return LineChi2(camera, pose, place, term);
+  }
+
+  using Target = BaTarget<kDof>;
+  static bool Add(const RectifiedCamera& camera,
+                  const BaPose& pose,
+                  const View& view,
+                  const Term& term,
+                  double huber,
+                  const Target& target);
 };
 
-// A line by four parameters that turn it about the axes of the frame (PPL-SLAM). Undamped steps are
-// those of BaLine to first order; the damping looks at other diagonal entries, and the step is
-// taken along the arc.
-struct BaLineLeft : BaLineTerms<4> {
-  using State = OrthonormalLine;
+// A line in the camera that measured it.
+struct BaLineInCamera {
+  Eigen::Vector3d t;  // translation of the measuring camera
+  Eigen::Vector3d direction, moment;
 
-  static Place MakePlace(const State& state) { return BaLine::MakePlace(state); }
-  static View MakeView(const State& state) {
-    return {MakePlace(state), LeftHomogeneousJacobian(state)};
+  BaLineInCamera(const BaPose& pose, const BaLinePlace& line, double shift)
+      : t(pose.cam_from_world.translation) {
+    t.x() += shift;
+    direction = pose.R * line.direction;
+    moment = pose.R * line.moment + t.cross(direction);
   }
-  static State Retract(const State& state, const Eigen::Vector4d& step) {
-    return RetractLeft(state, step);
-  }
-  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
 };
 
-// A line as two of its points, each with its three coordinates in the world.
-struct BaLineEnds : BaLineTerms<6> {
-  using State = Segment3;
-
-  static Place MakePlace(const State& state) {
-    return {state.start.cross(state.end), state.end - state.start};
-  }
-  static View MakeView(const State& state) {
-    View view{MakePlace(state), {}};
-    view.J << -Skew(state.end), Skew(state.start), -Eigen::Matrix3d::Identity(),
-        Eigen::Matrix3d::Identity();
-    return view;
-  }
-  static State Retract(const State& state, const Vector6d& step) {
-    return {state.start + step.head<3>(), state.end + step.tail<3>()};
-  }
-  // No residual notices an end that slides along the line. Information of the size that the end has
-  // across the line is added along it: a slide then is no longer free, and the rest of the step is
-  // what it was, since the equations ask for no slide (their g has no part along it).
-  static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
-    HoldAlong(view.direction, equations);
-  }
-  static void HoldAlong(const Eigen::Vector3d& direction, LandmarkEquations<kDof>& equations) {
-    const Eigen::Matrix3d along = direction * direction.transpose() / (2 * direction.squaredNorm());
-    auto& V = equations.V;
-    const double start = V.diagonal().head<3>().sum();
-    const double end = V.diagonal().tail<3>().sum();
-    V.topLeftCorner<3, 3>() += start * along;
-    V.bottomRightCorner<3, 3>() += end * along;
-  }
-};
+// BaLine::Add for lines of any parameters.
+template <int kDof>
+bool AddMeasuredLine(const RectifiedCamera& camera,
+                     const BaPose& pose,
+                     const BaLineView<kDof>& view,
+                     const LineTerm& term,
+                     double huber,
+                     const BaTarget<kDof>& target) {
+  const BaLineInCamera line(pose, view, term.shift);
+  LineLinearization a;
+  if (!LinearizeLine(camera, term, line.moment, a)) return false;
+  const double w = HuberWeight(a.r.squaredNorm(), huber);
+  Vector6d b0;
+  Vector6d b1;
+  b0 << pose.R.transpose() * a.h0, pose.R.transpose() * a.h0.cross(line.t);  // eq. 18
+  b1 << pose.R.transpose() * a.h1, pose.R.transpose() * a.h1.cross(line.t);
+  using Row = Eigen::Matrix<double, kDof, 1>;
+  const Row c0 = view.J.transpose() * b0;
+  const Row c1 = view.J.transpose() * b1;
+  AddTwoRows<kDof>(w, a.r, c0, c1, target, [&] {
+    return std::pair(LinePoseRow(a.h0, line.moment, line.direction, term.shift),
+                     LinePoseRow(a.h1, line.moment, line.direction, term.shift));
+  });
+  return true;
+}
 
 }  // namespace plumbline

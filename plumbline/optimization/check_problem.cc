@@ -41,8 +41,6 @@ void CheckIndices(const BaProblem& problem) {
   for (const auto& o : problem.line_observations) {
     CheckIndices(o.pose, o.line, problem.poses.size(), problem.lines.size());
   }
-  PLUMBLINE_CHECK(problem.axes.empty() || problem.line_residual == LineResidualKind::kObservedEnds,
-                  "axes need the residual observed_ends");
   for (const auto& o : problem.parallel_lines) {
     CheckIndices(o.axis, o.line, problem.axes.size(), problem.lines.size());
     PLUMBLINE_CHECK(o.sigma > 0, "sigma of a parallel line must be positive");

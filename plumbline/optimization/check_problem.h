@@ -7,7 +7,7 @@
 namespace plumbline {
 
 // Throws BugError where an observation names a pose, landmark or axis that the problem does not
-// have, a parallel line has no positive sigma, or axes come with a residual that cannot use them.
+// have, or a parallel line has no positive sigma.
 void CheckIndices(const BaProblem& problem);
 
 // Whether all numbers of a problem are finite.

@@ -2,59 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/base/options.h"
-#include "plumbline/geometry/se3.h"
+#include "plumbline/optimization/pose_only_result.h"
 #include "plumbline/optimization/problem.h"
 
-#include <array>
-#include <type_traits>
-#include <vector>
-
 namespace plumbline {
-
-// Settings of SolvePose.
-struct PoseOnlyOptions {
-  int rounds = 4;                     // of solve, then classify inliers anew among all matches
-  int robust_rounds = 2;              // the first of them use the Huber loss, the others squares
-  int max_iterations = 10;            // per round
-  double decrement_tolerance = 1e-4;  // a round ends when a step would lower the cost by less
-};
-
-template <class Visitor>
-void VisitFields(Visitor&& visit, PoseOnlyOptions& o) {
-  visit("rounds", o.rounds, "rounds of solving and classifying the matches", Range{1, 20});
-  visit("robust_rounds", o.robust_rounds, "first rounds with the Huber loss", Range{0, 20});
-  visit("max_iterations", o.max_iterations, "iterations per round", Range{1, 1000});
-  visit("decrement_tolerance",
-        o.decrement_tolerance,
-        "decrease of the cost a step must promise [sigma^2]",
-        Range{0, 1});
-}
-
-constexpr auto FixedOptions(std::type_identity<PoseOnlyOptions>) {
-  return std::array{FixedOption{"cost_tolerance", "1e-05"},
-                    FixedOption{"huber_point", "2.4477"},
-                    FixedOption{"huber_disparity", "2.7955"},
-                    FixedOption{"huber_line", "2.4477"},
-                    FixedOption{"gate_scale", "1"}};
-}
-
-// What SolvePose found, in the order of the problem.
-struct PoseOnlyResult {
-  Rigid3 cam_from_world;
-  // J^T W J of the inliers and the prior at the solution, for the left perturbation [rotation,
-  // translation].
-  Matrix6d information = Matrix6d::Zero();
-  std::vector<bool> point_inliers;  // one per PoseProblem::points
-  std::vector<bool> line_inliers;   // one per PoseProblem::lines; equal within a group
-  int inlier_points = 0;
-  int inlier_line_groups = 0;
-  double cost = 0;     // half the sum of squared whitened residuals of inliers and prior
-  int iterations = 0;  // over all rounds
-  // The last round met a tolerance, and inliers and prior fix all six degrees of freedom. When
-  // false, the pose is the best one found; it is finite if the input is.
-  bool converged = false;
-};
 
 // Camera pose from matches of points and lines of a known map.
 //

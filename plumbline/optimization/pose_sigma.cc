@@ -155,16 +155,16 @@ struct Solution {
   std::vector<PoseSigma> sigmas;  // of `result`; none where it failed
 };
 
-// SolveLocalBa with those poses held that are loose before it, or by what it leaves of their
+// The solution with those poses held that are loose before it, or by what it leaves of their
 // observations; they are marked as fixed in the problem.
 Solution SolveHoldingLoosePoses(BaProblem& problem,
                                 const LocalBaOptions& options,
-                                LineParametrization lines,
+                                BaSolver solver,
                                 double limit,
                                 const StopCheck& stop) {
   HoldLoosePoses(SigmasOfFreePoses(problem, InitialState(problem)), limit, problem);
   const auto solve = [&] {
-    BaResult result = SolveLocalBa(problem, options, lines, stop);
+    BaResult result = solver(problem, options, stop);
     std::vector<PoseSigma> sigmas;
     if (!Failed(result)) sigmas = SigmasOfPoses(problem, result);
     return Solution{std::move(result), std::move(sigmas)};
@@ -187,13 +187,13 @@ bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem
 
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,
-                                        LineParametrization lines,
+                                        BaSolver solve,
                                         const PoseLimits& limits,
                                         const std::function<void(BaResult&)>& normalize,
                                         const StopCheck& stop) {
   constexpr int kAttempts = 4;
   for (int attempt = 1;; ++attempt) {
-    auto [result, sigmas] = SolveHoldingLoosePoses(problem, options, lines, limits.sigma, stop);
+    auto [result, sigmas] = SolveHoldingLoosePoses(problem, options, solve, limits.sigma, stop);
     if (Failed(result)) return std::nullopt;
     if (normalize) {
       normalize(result);

@@ -52,15 +52,15 @@ struct PoseLimits {
 // those before it there is no tear. Returns whether there were any that were not fixed yet.
 bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem);
 
-// SolveLocalBa with those poses held that are loose before it, or by what it leaves of their
-// observations (they are marked as fixed in the problem), again until no two that follow each other
-// are torn apart (HoldTornPoses), up to four times, the last time with all poses held. nullopt
-// where the numbers are not finite, and when stopped: a solution halfway is none. `normalize`, if
-// any, is applied to each solution before it is looked at. Cost: most often that of one
-// SolveLocalBa, at most eight.
+// The solution of `solve` with those poses held that are loose before it, or by what it leaves of
+// their observations (they are marked as fixed in the problem), again until no two that follow each
+// other are torn apart (HoldTornPoses), up to four times, the last time with all poses held.
+// nullopt where the numbers are not finite, and when stopped: a solution halfway is none.
+// `normalize`, if any, is applied to each solution before it is looked at. Cost: most often that of
+// one solution, at most eight.
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,
-                                        LineParametrization lines,
+                                        BaSolver solve,
                                         const PoseLimits& limits,
                                         const std::function<void(BaResult&)>& normalize = {},
                                         const StopCheck& stop = {});

@@ -3,17 +3,17 @@
 #pragma once
 
 #include "plumbline/geometry/se3.h"
-#include "plumbline/optimization/projected_ends.h"
+#include "plumbline/optimization/problem.h"
 #include "plumbline/optimization/residuals.h"
 #include "plumbline/optimization/robust_loss.h"
 
-#include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace plumbline {
 
 // Matches with landmarks that stay fixed, ready for use, and their part of the normal equations of
-// the pose. Internal to pose_only.cc.
+// the pose. Internal to pose_solver.h.
 
 struct PosePoint {
   Eigen::Vector3d in_world;
@@ -21,26 +21,51 @@ struct PosePoint {
   std::optional<Eigen::Matrix3d> whitening;  // of the residuals of an UncertainPointTerm
 };
 
-struct PoseLine {
-  Eigen::Vector3d moment, direction;  // in the world
-  LineTerm term;
-  std::size_t group = 0;  // dense index
-};
+// What PoseSolver asks of a match of a line.
+class PoseLine {
+ public:
+  // Of a residual in the measuring camera.
+  struct Linearization {
+    LineLinearization at;
+    Eigen::Vector3d direction, moment;
+  };
 
-// What a match needs beside PoseLine for residuals of projected ends.
-struct PoseLineEnds {
-  Segment3 ends;  // in the world
-  ProjectedEndsTerm term;
-};
+  PoseLine(const RectifiedCamera& camera, const PoseProblem::LineMatch& match)
+      : moment_(match.line_in_world.moment),
+        direction_(match.line_in_world.direction),
+        term_(MakeLineTerm(camera, match.measurement)) {}
 
-// A line in the camera that measured it.
-struct PoseLineInCamera {
-  Eigen::Vector3d direction, moment;
+  // At a pose with the rotation R; false where there is no residual.
+  bool Linearize(const RectifiedCamera& camera,
+                 const Rigid3& pose,
+                 const Eigen::Matrix3d& R,
+                 Linearization& out) const {
+    out.direction = R * direction_;
+    out.moment = MomentInCamera(R, pose.translation, out.direction);
+    return LinearizeLine(camera, term_, out.moment, out.at);
+  }
+  // The derivative of the two residuals by the left perturbation of the pose.
+  std::pair<Vector6d, Vector6d> PoseRows(const Linearization& lin) const {
+    return {LinePoseRow(lin.at.h0, lin.moment, lin.direction, term_.shift),
+            LinePoseRow(lin.at.h1, lin.moment, lin.direction, term_.shift)};
+  }
+  // The residuals alone, at the pose with rotation R and translation t.
+  bool Distances(const RectifiedCamera& camera,
+                 const Eigen::Matrix3d& R,
+                 const Eigen::Vector3d& t,
+                 Eigen::Vector2d& r) const {
+    return WhitenedLineDistances(camera, term_, MomentInCamera(R, t, R * direction_), r);
+  }
 
-  PoseLineInCamera(const PoseLine& line, const Eigen::Matrix3d& R, const Eigen::Vector3d& t)
-      : direction(R * line.direction),
-        moment(R * line.moment +
-               Eigen::Vector3d(t.x() + line.term.shift, t.y(), t.z()).cross(direction)) {}
+ private:
+  Eigen::Vector3d MomentInCamera(const Eigen::Matrix3d& R,
+                                 const Eigen::Vector3d& t,
+                                 const Eigen::Vector3d& direction) const {
+    return R * moment_ + Eigen::Vector3d(t.x() + term_.shift, t.y(), t.z()).cross(direction);
+  }
+
+  Eigen::Vector3d moment_, direction_;  // in the world
+  LineTerm term_;
 };
 
 // Normal equations at one pose. Of H only the lower triangle is set.

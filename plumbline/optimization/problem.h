@@ -6,7 +6,6 @@
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 #include "plumbline/geometry/segment.h"
-#include "plumbline/optimization/line_parametrization.h"
 
 #include <optional>
 #include <vector>
@@ -25,9 +24,8 @@ struct PointMeasurement {
 };
 
 // A segment measured in the left or right camera. Residual: signed distances of its two end points
-// from the projected infinite line (eq. 13) or those of LineResidualKind::kProjectedEnds, weighted
-// by the inverse of `covariance` (2 x 2, px^2), which is that of the two residuals in use. Two
-// measurements of one line in the two cameras of a pair are two LineMeasurements.
+// from the projected infinite line (eq. 13), weighted by the inverse of `covariance` (2 x 2, px^2).
+// Two measurements of one line in the two cameras of a pair are two LineMeasurements.
 struct LineMeasurement {
   Segment2 segment;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
@@ -63,14 +61,13 @@ struct BaProblem {
   };
 
   RectifiedCamera camera;
-  LineResidualKind line_residual = LineResidualKind::kObservedEnds;
   std::vector<Pose> poses;
   std::vector<Eigen::Vector3d> points;  // in the world
   std::vector<OrthonormalLine> lines;   // in the world
   std::vector<PointObservation> point_observations;
   std::vector<LineObservation> line_observations;
-  std::vector<Eigen::Vector3d> axes;         // unit vectors in the world; they stay as they are
-  std::vector<ParallelLine> parallel_lines;  // for LineResidualKind::kObservedEnds only
+  std::vector<Eigen::Vector3d> axes;  // unit vectors in the world; they stay as they are
+  std::vector<ParallelLine> parallel_lines;
 };
 
 // What is known of a pose beforehand: normally distributed about `cam_from_world`, with the
@@ -95,11 +92,10 @@ struct PoseProblem {
     PluckerLine line_in_world;
     LineMeasurement measurement;
     int group = 0;  // measurements of one landmark share a group and are kept or rejected together
-    Segment3 ends = {};  // in the world, on the line; for LineResidualKind::kProjectedEnds
+    Segment3 ends = {};  // of the part of the line that counts, in the world; eq. 13 needs none
   };
 
   RectifiedCamera camera;
-  LineResidualKind line_residual = LineResidualKind::kObservedEnds;
   Rigid3 cam_from_world;  // initial
   PosePrior prior;
   std::vector<PointMatch> points;

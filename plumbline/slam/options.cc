@@ -4,7 +4,22 @@
 
 #include "plumbline/base/error.h"
 
+#include <fmt/format.h>
+
 namespace plumbline {
+namespace {
+
+template <class Value>
+void CheckLineMethod(const char* option, Value asked, Value done) {
+  if (asked == done) return;
+  throw InputError(
+      fmt::format("lines.{}: {} needs a build of plumbline with the laboratory; configure with "
+                  "-DPLUMBLINE_LAB=ON",
+                  option,
+                  NameOf(asked)));
+}
+
+}  // namespace
 
 void CheckOptions(const SlamOptions& options) {
   const FeatureOptions& f = options.features;
@@ -13,6 +28,10 @@ void CheckOptions(const SlamOptions& options) {
         "features.points, features.lines: expected at least one of them, found both off (or a "
         "count of 0)");
   }
+  const LineOptions& lines = options.lines;
+  CheckLineMethod("parametrization", lines.parametrization, lines.method.parametrization);
+  CheckLineMethod("residual", lines.residual, lines.method.residual);
+  CheckLineMethod("reconstruction", lines.reconstruction, lines.method.reconstruction);
 }
 
 }  // namespace plumbline

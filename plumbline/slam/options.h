@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
+#include "plumbline/association/line_options.h"
 #include "plumbline/base/options.h"
 #include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/features/extractor.h"
@@ -60,7 +60,7 @@ struct SlamOptions {
 };
 
 // Throws InputError where options contradict each other, which the range of a single one does not
-// tell: neither points nor lines.
+// tell: neither points nor lines, or a kind of line that lines.method does not do.
 void CheckOptions(const SlamOptions& options);
 
 template <class Visitor>

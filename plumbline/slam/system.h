@@ -46,7 +46,9 @@ struct FrameView {
 // Measure.
 class System {
  public:
-  // Throws InputError for a calibration that cannot be used.
+  // Lines are made, adjusted and matched by options.lines.method (LineMethod), the one place where
+  // other kinds of lines than the product's come in. Throws InputError for a calibration or options
+  // that cannot be used.
   System(const Calibration& calibration,
          const SlamOptions& options,
          const Execution& execution = {});

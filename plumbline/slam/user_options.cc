@@ -8,7 +8,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::array<std::string_view, 34> kUserOptions = {"slam.mode",
+constexpr std::array<std::string_view, 31> kUserOptions = {"slam.mode",
                                                            "slam.seed",
                                                            "slam.lag",
                                                            "features.points",
@@ -20,9 +20,6 @@ constexpr std::array<std::string_view, 34> kUserOptions = {"slam.mode",
                                                            "features.line.min_length",
                                                            "features.depth.min_depth_m",
                                                            "features.depth.max_depth_m",
-                                                           "lines.parametrization",
-                                                           "lines.residual",
-                                                           "lines.reconstruction",
                                                            "lines.weighting",
                                                            "cutting.method",
                                                            "cutting.information",

@@ -3,13 +3,11 @@
 #include "plumbline/tracking/line_cutting.h"
 
 #include "plumbline/association/line_information.h"
-#include "plumbline/association/measurements.h"
 #include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/cutting/choose_features.h"
 #include "plumbline/cutting/cut_residuals.h"
 #include "plumbline/cutting/endpoint_covariance.h"
-#include "plumbline/optimization/projected_ends.h"
 #include "plumbline/optimization/residuals.h"
 #include "plumbline/optimization/uncertain_point.h"
 
@@ -107,18 +105,6 @@ CuttableLine SeenBy(const RectifiedCamera& camera,
   return seen;
 }
 
-// The part of a measured segment that shows a piece of the line.
-Segment2 MeasuredPiece(const RectifiedCamera& camera,
-                       const Segment2& measured,
-                       const Segment3& piece_in_cam) {
-  const Eigen::Vector2d along = measured.end - measured.start;
-  const auto place = [&](const Eigen::Vector3d& point) -> Eigen::Vector2d {
-    const double ratio = (camera.Project(point) - measured.start).dot(along) / along.squaredNorm();
-    return measured.start + std::clamp(ratio, 0.0, 1.0) * along;
-  };
-  return {place(piece_in_cam.start), place(piece_in_cam.end)};
-}
-
 Eigen::Matrix2d PieceCovariance(const RectifiedCamera& camera,
                                 const CuttableLine& line,
                                 const LineCut& cut,
@@ -147,25 +133,8 @@ void UsePiece(const RectifiedCamera& camera,
   const CuttableLine seen = SeenBy(camera, cuttable.line, measurement, sigma_px);
   measurement.covariance = PieceCovariance(camera, seen, cut, lines.weights(), cutting.information);
   match.ends = CutSegment(cuttable.in_world, cut);
-  if (lines.residual == LineResidualKind::kObservedEnds) {
-    measurement.segment =
-        MeasuredPiece(camera, measurement.segment, CutSegment(seen.segment_in_cam, cut));
-  }
-}
-
-double Chi2(const PoseProblem& problem, const Rigid3& pose, const PoseProblem::LineMatch& match) {
-  Eigen::Vector2d r;
-  bool valid = false;
-  if (problem.line_residual == LineResidualKind::kProjectedEnds) {
-    valid = WhitenedEndDistances(MakeProjectedEndsTerm(problem.camera, match.measurement),
-                                 {pose * match.ends.start, pose * match.ends.end},
-                                 r);
-  } else if (const auto residual = EvaluateLine(
-                 problem.camera, pose, ToOrthonormal(match.line_in_world), match.measurement)) {
-    valid = true;
-    r = residual->r;
-  }
-  return valid ? r.squaredNorm() : std::numeric_limits<double>::infinity();
+  const auto measure = lines.method.measure_piece;
+  if (measure != nullptr) measure(camera, CutSegment(seen.segment_in_cam, cut), match);
 }
 
 }  // namespace
@@ -235,6 +204,7 @@ std::vector<bool> PointsThatFit(const PoseProblem& problem,
 }
 
 std::vector<bool> LinesThatFit(const PoseProblem& problem,
+                               const LineMethod& method,
                                const Rigid3& cam_from_world,
                                double gate_scale) {
   struct Group {
@@ -244,7 +214,7 @@ std::vector<bool> LinesThatFit(const PoseProblem& problem,
   std::map<int, Group> groups;
   for (const auto& match : problem.lines) {
     Group& group = groups[match.group];
-    group.chi2 += Chi2(problem, cam_from_world, match);
+    group.chi2 += method.match_chi2(problem.camera, cam_from_world, match);
     group.dof += 2;
   }
   std::vector<bool> fits;

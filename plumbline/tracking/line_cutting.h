@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
+#include "plumbline/association/line_options.h"
 #include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/map/landmarks.h"
@@ -45,12 +45,12 @@ struct CutCandidate {
 // constant part of the objective (eq. 7), wrong matches included. The right image has no part in
 // the choice.
 //
-// The pieces are used in both images: projected_ends gets them for ends, observed_ends has the ends
-// of the measured segment moved to where they show, not beyond its ends. Weights of the pieces are
-// those of the cut points by lines.weighting: none 1 px, scalar the mean variance, covariance one
-// each (2 x 2 for correlated information). Lines left whole keep their measurement: those shorter
-// than 5 px, without a visible part, or whose best piece is all of them. Lines that drop leaves out
-// are not in the result.
+// The pieces are used in both images: a match gets them for its ends, and the ends of its measured
+// segment move to where they show, not beyond them (lines.method.measure_piece). Weights of the
+// pieces are those of the cut points by lines.weighting: none 1 px, scalar the mean variance,
+// covariance one each (2 x 2 for correlated information). Lines left whole keep their measurement:
+// those shorter than 5 px, without a visible part, or whose best piece is all of them. Lines that
+// drop leaves out are not in the result.
 //
 //   problem     initial pose, points, lines
 //   candidates  one for each entry of problem.lines
@@ -67,6 +67,7 @@ std::vector<bool> PointsThatFit(const PoseProblem& problem,
                                 const Rigid3& cam_from_world,
                                 double gate_scale);
 std::vector<bool> LinesThatFit(const PoseProblem& problem,
+                               const LineMethod& method,
                                const Rigid3& cam_from_world,
                                double gate_scale);
 

@@ -3,7 +3,6 @@
 #include "plumbline/tracking/pose_estimation.h"
 
 #include "plumbline/base/median.h"
-#include "plumbline/geometry/trimming.h"
 #include "plumbline/tracking/line_cutting.h"
 
 #include <algorithm>
@@ -33,43 +32,15 @@ void AddPoints(const Features& features, const FrameAssociation& association, Ma
   }
 }
 
-// The part of a line's interval that the camera can see from the initial pose, in the world: an end
-// behind the camera has no projection. All of it where no part is visible.
-Segment3 VisibleEnds(const PoseProblem& problem, const LineModel& line) {
-  const Segment3 world = line.Interval();
-  const Segment3 in_cam{problem.cam_from_world * world.start, problem.cam_from_world * world.end};
-  const auto segment = ProjectSegment(problem.camera, in_cam);
-  if (!segment) return world;
-  const auto interval = TrimToSegment(problem.camera, problem.cam_from_world, line.line, *segment);
-  return interval ? SegmentOf(line.line, *interval) : world;
-}
-
 void AddLine(const LineModel& line,
-             LineMeasurement measurement,
+             const LineMeasurement& measurement,
              double sigma_px,
              std::size_t feature,
              const LineOptions& options,
              MatchedProblem& out) {
-  PoseProblem& problem = out.problem;
-  Segment3 ends;
-  if (options.residual == LineResidualKind::kProjectedEnds) {
-    ends = VisibleEnds(problem, line);
-    UseProjectedEnds(problem.camera,
-                     problem.cam_from_world,
-                     line.line,
-                     ends,
-                     line.information,
-                     options.weights(),
-                     measurement);
-  } else {
-    AddLandmarkUncertainty(problem.camera,
-                           problem.cam_from_world,
-                           line.line,
-                           line.information,
-                           options.weights(),
-                           measurement);
-  }
-  problem.lines.push_back({line.line, measurement, static_cast<int>(feature), ends});
+  PoseProblem::LineMatch match{line.line, measurement, static_cast<int>(feature)};
+  options.method.weigh_match(out.problem, line, options.weights(), match);
+  out.problem.lines.push_back(match);
   out.line_feature.push_back(feature);
   out.cut_candidates.push_back({&line, sigma_px});
 }
@@ -98,7 +69,6 @@ MatchedProblem MakeProblem(const RectifiedCamera& camera,
   MatchedProblem matched;
   matched.problem.camera = camera;
   matched.problem.cam_from_world = cam_from_world;
-  matched.problem.line_residual = lines.residual;
   AddPoints(features, association, matched);
   AddLines(features, lines, association, matched);
   return matched;
@@ -121,13 +91,13 @@ void Keep(const std::vector<bool>& points,
 PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
                                  const LineOptions& lines,
                                  const CuttingOptions& cutting) {
-  PoseOnlyResult result =
-      SolvePose(WithCutLines(matched.problem, matched.cut_candidates, lines, cutting));
+  PoseOnlyResult result = lines.method.solve_pose(
+      WithCutLines(matched.problem, matched.cut_candidates, lines, cutting), {});
   const Rigid3& pose = result.cam_from_world;
   result.point_inliers = PointsThatFit(matched.problem, pose, 1);
   result.inlier_points =
       static_cast<int>(std::count(result.point_inliers.begin(), result.point_inliers.end(), true));
-  result.line_inliers = LinesThatFit(matched.problem, pose, 1);
+  result.line_inliers = LinesThatFit(matched.problem, lines.method, pose, 1);
   std::set<std::size_t> features;
   for (std::size_t k = 0; k < matched.line_feature.size(); ++k) {
     if (result.line_inliers[k]) features.insert(matched.line_feature[k]);
@@ -161,8 +131,8 @@ PoseEstimate PoseEstimator::Estimate(const Features& features,
   MatchedProblem matched = MakeProblem(camera_, features, initial, lines_, association);
   matched.problem.prior = prior;
   const bool all_whole = cutting_.method == CuttingMethod::kNone && cutting_.budget == 0;
-  const PoseOnlyResult result =
-      all_whole ? SolvePose(matched.problem) : SolveWithCutLines(matched, lines_, cutting_);
+  const PoseOnlyResult result = all_whole ? lines_.method.solve_pose(matched.problem, {})
+                                          : SolveWithCutLines(matched, lines_, cutting_);
   Keep(result.point_inliers, result.line_inliers, matched, association);
   const double depth = SceneDepth(association, result.cam_from_world);
   return {result.cam_from_world,
@@ -181,7 +151,7 @@ void PoseEstimator::DropDisagreeing(const Features& features,
   const MatchedProblem matched =
       MakeProblem(camera_, features, cam_from_world, lines_, association);
   Keep(PointsThatFit(matched.problem, cam_from_world, gate_scale),
-       LinesThatFit(matched.problem, cam_from_world, gate_scale),
+       LinesThatFit(matched.problem, lines_.method, cam_from_world, gate_scale),
        matched,
        association);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/association/measurements.h"
+#include "plumbline/association/line_options.h"
 #include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/optimization/pose_only.h"

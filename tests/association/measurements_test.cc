@@ -6,6 +6,7 @@
 #include "plumbline/association/line_information.h"
 #include "plumbline/optimization/residuals.h"
 
+#include "tests/association/line_scene.h"
 #include "tests/support/jacobian.h"
 #include "tests/support/synthetic_world.h"
 #include <cmath>
@@ -17,28 +18,10 @@
 namespace plumbline {
 namespace {
 
-// One stereo line, seen from the origin, with its features.
-struct LineScene {
-  SyntheticWorld world;
-  Segment3 segment;
-  Rigid3 cam_from_world;
-  SyntheticFrame sensed;
-  Frame frame;
-  PluckerLine line;
-
-  LineScene(const Segment3& s, const SensorModel& sensor, const Rigid3& pose = {})
-      : segment(s), cam_from_world(pose) {
-    world.lines.push_back({s, Descriptor{1, 2, 3, 4}});
-    Rng rng(3);
-    sensed = Sense(world, pose, sensor, rng);
-    frame = MakeFrame(FrameId{0}, pose, sensed);
-    line = LineThroughPoints(s.start, s.end);
-  }
-};
-
-const SensorModel kExact{.noise = 0, .flipped_bits = 0, .missed = 0};
-const Segment3 kSlanted{{-0.5, -0.8, 4}, {0.6, 0.9, 5}};
-const Segment3 kLevel{{-1, 0.4, 4}, {1, 0.4, 4}};
+using testing::kExact;
+using testing::kLevel;
+using testing::kSlanted;
+using testing::LineScene;
 
 Rigid3 SomePose() { return {ExpSo3({0.1, -0.15, 0.05}), {0.3, -0.2, 0.1}}; }
 
@@ -223,31 +206,6 @@ TEST(AddLandmarkUncertainty, FollowsTheWeighting) {
   const Eigen::Matrix2d scalar = with(LineWeighting::kScalar);
   EXPECT_NE(full(0, 1), 0);
   EXPECT_TRUE(scalar.isApprox(0.5 * full.trace() * Eigen::Matrix2d::Identity(), 1e-12));
-}
-
-TEST(UseProjectedEnds, FollowsTheWeighting) {
-  const LineScene scene(kSlanted, kExact);
-  const Eigen::Matrix4d information =
-      LineInformation(scene.world.camera, scene.frame, 0, scene.line);
-  const auto with = [&](LineWeighting weighting, const std::optional<Eigen::Matrix4d>& known) {
-    LineMeasurement m = MeasureLeftLine(scene.frame.features(), 0, weighting);
-    UseProjectedEnds(scene.world.camera,
-                     scene.cam_from_world,
-                     scene.line,
-                     {scene.line.PointAt(-0.3), scene.line.PointAt(1.5)},
-                     known,
-                     weighting,
-                     m);
-    return m.covariance;
-  };
-  EXPECT_TRUE(with(LineWeighting::kNone, information).isIdentity());
-  const Eigen::Matrix2d full = with(LineWeighting::kCovariance, information);
-  const Eigen::Matrix2d scalar = with(LineWeighting::kScalar, information);
-  const Eigen::Matrix2d exact = with(LineWeighting::kCovariance, std::nullopt);
-  EXPECT_NE(full(0, 1), 0);
-  EXPECT_TRUE(scalar.isApprox(0.5 * full.trace() * Eigen::Matrix2d::Identity(), 1e-12));
-  EXPECT_GT((full - exact).trace(), 0);
-  EXPECT_GT((full - exact).determinant(), -1e-9 * full.determinant());
 }
 
 TEST(AddLandmarkUncertainty, StaysFiniteWithoutInformation) {

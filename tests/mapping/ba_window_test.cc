@@ -110,14 +110,26 @@ TEST(BaWindow, HoldsTheUprightLinesParallel) {
 TEST(BaWindow, HoldsNoLinesParallelUnlessAskedTo) {
   const SyntheticWorld world = WorldWithUprightLines();
   const TrueMap scene = MakeTrueMap(world, Path(9, 12), kSensor);
-  const auto window = [&](const LineOptions& lines, bool parallel) {
-    return MakeBaWindow(
-        scene.map, world.Imaging(), KeyFrameId{8}, lines, {.parallel_lines = parallel});
+  for (const bool parallel : {true, false}) {
+    const BaWindow window =
+        MakeBaWindow(scene.map, world.Imaging(), KeyFrameId{8}, {}, {.parallel_lines = parallel});
+    EXPECT_EQ(window.problem.parallel_lines.empty(), !parallel);
+  }
+}
+
+TEST(BaWindow, IsCompletedByTheMethodOfItsLines) {
+  const SyntheticWorld world = MakeSyntheticWorld(100, 20);
+  const TrueMap scene = MakeTrueMap(world, Path(4, 5), kSensor);
+  LineOptions lines;
+  lines.weighting = LineWeighting::kNone;
+  lines.method.complete_window = [](const LineWeights& weights, BaProblem& problem) {
+    EXPECT_EQ(weights.kind, LineWeighting::kNone);
+    EXPECT_FALSE(problem.lines.empty());
+    problem.line_observations.front().measurement.covariance *= 7;
   };
-  EXPECT_FALSE(window({}, true).problem.parallel_lines.empty());
-  EXPECT_TRUE(window({}, false).problem.parallel_lines.empty());
-  const LineOptions projected{.residual = LineResidualKind::kProjectedEnds};
-  EXPECT_TRUE(window(projected, true).problem.axes.empty());
+  const BaWindow window = MakeBaWindow(scene.map, world.Imaging(), KeyFrameId{3}, lines, {});
+  const Eigen::Matrix2d seven = 7 * Eigen::Matrix2d::Identity();
+  EXPECT_EQ(window.problem.line_observations.front().measurement.covariance, seven);
 }
 
 TEST(BaWindow, FixesTheFirstKeyFrameOfTheMap) {

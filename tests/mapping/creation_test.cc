@@ -235,24 +235,6 @@ TEST(CreateLinesFromViews, ReconstructsFromAllViews) {
   scene.map.CheckInvariants();
 }
 
-TEST(CreateLinesFromViews, TakesPairsWhereTwoViewsAreAskedFor) {
-  const SyntheticWorld world = MakeSyntheticWorld(200, 300);
-  const TrueMap scene =
-      WithFreeFeatures(world, {PoseOnPath(0), PoseOnPath(15), PoseOnPath(30)}, kMono);
-  const auto most_views = [&](LineReconstruction reconstruction) {
-    LineOptions lines;
-    lines.reconstruction = reconstruction;
-    std::size_t most = 0;
-    for (const auto& add : Only<edit::AddLine>(
-             CreateLinesFromViews(scene.map, world.Imaging(), KeyFrameId{2}, lines))) {
-      most = std::max(most, add.line.observations.size());
-    }
-    return most;
-  };
-  EXPECT_EQ(most_views(LineReconstruction::kNView), 3U);
-  EXPECT_EQ(most_views(LineReconstruction::kTwoView), 2U);
-}
-
 // Where two cameras are not turned against each other, the gate on rotation leaves only lines that
 // are parallel to the image, for only these keep their direction in it.
 TEST(CreateLinesFromViews, MatchesAsTheLineOptionsSay) {

@@ -36,9 +36,6 @@ TEST(CheckIndices, RefusesAxesThatCannotBeUsed) {
   EXPECT_THROW(CheckIndices(problem), BugError);
   problem.parallel_lines = {{0, 0, 0}};
   EXPECT_THROW(CheckIndices(problem), BugError);
-  problem.parallel_lines = {{0, 0, 0.01}};
-  problem.line_residual = LineResidualKind::kProjectedEnds;
-  EXPECT_THROW(CheckIndices(problem), BugError);
 }
 
 TEST(IsFinite, LooksAtPosesLandmarksAndMeasurements) {

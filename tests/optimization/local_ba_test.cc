@@ -3,14 +3,12 @@
 #include "plumbline/optimization/local_ba.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/optimization/line_ends.h"
-#include "plumbline/optimization/projected_ends.h"
 
+#include "tests/optimization/ba_properties.h"
 #include "tests/optimization/ba_scene.h"
 #include <cmath>
 #include <limits>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -21,172 +19,39 @@ namespace {
 static_assert(OptionGroup<LocalBaOptions>);
 
 using testing::BaScene;
+using testing::Error;
+using testing::ExpectSame;
+using testing::LargestPoseError;
+using testing::LineAngle;
 using testing::MakeBaScene;
-
-double Error(const Rigid3& a, const Rigid3& b) { return LogSe3(a * Inverse(b)).norm(); }
-
-double LargestPoseError(const BaResult& result, const BaProblem& truth) {
-  double largest = 0;
-  for (std::size_t i = 0; i < truth.poses.size(); ++i) {
-    largest = std::max(largest, Error(result.poses[i], truth.poses[i].cam_from_world));
-  }
-  return largest;
-}
 
 // With 1 px of noise, the pose farthest from the fixed ones drifts by some centimetres; the start
 // is 15 cm off.
 constexpr double kDrift = 0.06;
 
-// Exactly the same numbers.
-void ExpectSame(const Rigid3& a, const Rigid3& b) {
-  EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs());
-  EXPECT_EQ(a.translation, b.translation);
+TEST(SolveLocalBa, RecoversTheExactSceneWithoutNoise) {
+  testing::ExpectExactSceneWithoutNoise(SolveLocalBa);
 }
 
-class SolveLocalBaWithLines
-    : public ::testing::TestWithParam<std::tuple<LineParametrization, LineResidualKind>> {
- protected:
-  static LineParametrization Lines() { return std::get<0>(GetParam()); }
-  static LineResidualKind Residual() { return std::get<1>(GetParam()); }
-};
-INSTANTIATE_TEST_SUITE_P(Parametrizations,
-                         SolveLocalBaWithLines,
-                         ::testing::Combine(::testing::Values(LineParametrization::kPlucker,
-                                                              LineParametrization::kPluckerLeft,
-                                                              LineParametrization::kEndpoints),
-                                            ::testing::Values(LineResidualKind::kObservedEnds,
-                                                              LineResidualKind::kProjectedEnds)));
+TEST(SolveLocalBa, GivesTheSameBytesEveryTime) { testing::ExpectSameBytesEveryTime(SolveLocalBa); }
 
-TEST_P(SolveLocalBaWithLines, RecoversTheExactSceneWithoutNoise) {
-  BaScene scene = MakeBaScene(1, {});
-  scene.problem.line_residual = Residual();
-  const BaResult result =
-      SolveLocalBa(scene.problem, {.max_iterations = 50, .function_tolerance = 1e-12}, Lines());
-  EXPECT_LT(LargestPoseError(result, scene.truth), 1e-9);
-  for (std::size_t i = 0; i < result.points.size(); ++i) {
-    EXPECT_LT((result.points[i] - scene.truth.points[i]).norm(), 1e-8) << i;
-  }
-  for (std::size_t i = 0; i < result.lines.size(); ++i) {
-    const PluckerLine line = ToPlucker(result.lines[i]);
-    const PluckerLine truth = ToPlucker(scene.truth.lines[i]);
-    EXPECT_LT((line.moment - truth.moment).norm(), 1e-7) << i;
-    EXPECT_LT((line.direction - truth.direction).norm(), 1e-8) << i;
-  }
-  EXPECT_EQ(std::count(result.point_inliers.begin(), result.point_inliers.end(), false), 0);
-  EXPECT_EQ(std::count(result.line_inliers.begin(), result.line_inliers.end(), false), 0);
+TEST(SolveLocalBa, EndsWhenItIsTold) { testing::ExpectEndWhenItIsTold(SolveLocalBa); }
+
+TEST(SolveLocalBa, LinesWithoutObservationsStayBitByBit) {
+  testing::ExpectUnseenLinesToStayBitByBit(SolveLocalBa);
 }
 
-TEST_P(SolveLocalBaWithLines, GivesTheSameBytesEveryTime) {
-  BaScene scene = MakeBaScene(15, {.weak_lines = 20, .sigma = 1, .outliers = 0.05});
-  scene.problem.line_residual = Residual();
-  const BaResult a = SolveLocalBa(scene.problem, {}, Lines());
-  const BaResult b = SolveLocalBa(scene.problem, {}, Lines());
-  for (std::size_t i = 0; i < a.poses.size(); ++i) ExpectSame(a.poses[i], b.poses[i]);
-  for (std::size_t i = 0; i < a.lines.size(); ++i) {
-    EXPECT_EQ(a.lines[i].U.coeffs(), b.lines[i].U.coeffs());
-    EXPECT_EQ(a.lines[i].w, b.lines[i].w);
-  }
-  EXPECT_EQ(a.final_cost, b.final_cost);
+TEST(SolveLocalBa, HoldsLinesParallelToTheirAxes) {
+  testing::ExpectLinesHeldParallel(SolveLocalBa);
 }
 
-// Told to end at its n-th question, it has the state of the steps until then.
-TEST_P(SolveLocalBaWithLines, EndsWhenItIsTold) {
-  BaScene scene = MakeBaScene(15, {.sigma = 1, .outliers = 0.05});
-  scene.problem.line_residual = Residual();
-  const BaResult whole = SolveLocalBa(scene.problem, {}, Lines(), [] { return false; });
-  EXPECT_NE(whole.termination, BaTermination::kStopped);
-  EXPECT_EQ(whole.final_cost, SolveLocalBa(scene.problem, {}, Lines()).final_cost);
-  for (const int questions : {0, 1, 2, 3}) {
-    int asked = 0;
-    const BaResult result =
-        SolveLocalBa(scene.problem, {}, Lines(), [&] { return asked++ >= questions; });
-    EXPECT_EQ(result.termination, BaTermination::kStopped) << questions;
-    EXPECT_LE(result.iterations, questions);
-    EXPECT_LE(result.final_cost, result.initial_cost);
-    ASSERT_EQ(result.poses.size(), scene.problem.poses.size());
-    EXPECT_EQ(result.point_inliers.size(), scene.problem.point_observations.size());
-    if (questions > 0) continue;
-    for (std::size_t i = 0; i < result.poses.size(); ++i) {
-      ExpectSame(result.poses[i], scene.problem.poses[i].cam_from_world);
-    }
-  }
-}
-
-TEST_P(SolveLocalBaWithLines, LinesWithoutObservationsStayBitByBit) {
-  BaScene scene = MakeBaScene(16, {.points = 100, .lines = 20, .sigma = 1});
-  scene.problem.lines.push_back(ToOrthonormal(LineThroughPoints({1, 1, 1}, {2, 1.5, 1})));
-  scene.problem.line_residual = Residual();
-  const BaResult result = SolveLocalBa(scene.problem, {}, Lines());
-  EXPECT_EQ(result.lines.back().U.coeffs(), scene.problem.lines.back().U.coeffs());
-  EXPECT_EQ(result.lines.back().w, scene.problem.lines.back().w);
-}
-
-TEST(SolveLocalBa, BothTurnsOfPluckerLinesReachTheSameMinimum) {
-  for (unsigned seed = 0; seed < 4; ++seed) {
-    const BaScene scene = MakeBaScene(seed, {.sigma = 1, .outliers = 0.05});
-    const LocalBaOptions options{.rounds = 1, .max_iterations = 200, .function_tolerance = 1e-13};
-    const BaResult own = SolveLocalBa(scene.problem, options, LineParametrization::kPlucker);
-    const BaResult left = SolveLocalBa(scene.problem, options, LineParametrization::kPluckerLeft);
-    EXPECT_NEAR(left.final_cost, own.final_cost, 1e-6 * own.final_cost) << seed;
-    for (std::size_t i = 0; i < left.poses.size(); ++i) {
-      EXPECT_LT(Error(left.poses[i], own.poses[i]), 1e-4) << seed;
-    }
-  }
-}
-
-// With the covariance that follows for them, the residuals of the projected ends are those of the
-// observed ends under an invertible linear map, to first order: the same answer.
-TEST(SolveLocalBa, ProjectedEndsWithTheirCovarianceFindTheSamePoses) {
-  for (unsigned seed = 0; seed < 4; ++seed) {
-    // The ends are placed once, at the start: near the answer they are where they should be.
-    const BaScene scene = MakeBaScene(seed, {.sigma = 0.05, .perturbation = 0.02});
-    const LocalBaOptions options{.rounds = 1, .max_iterations = 100, .function_tolerance = 1e-10};
-    BaProblem projected = scene.problem;
-    projected.line_residual = LineResidualKind::kProjectedEnds;
-    const std::vector<Segment3> ends = TrimmedEnds(scene.problem);
-    for (auto& o : projected.line_observations) {
-      o.measurement.covariance = ProjectedEndsCovariance(
-          projected.camera,
-          scene.truth.poses[static_cast<std::size_t>(o.pose)].cam_from_world,
-          ends[static_cast<std::size_t>(o.line)],
-          o.measurement);
-    }
-    const BaResult a = SolveLocalBa(scene.problem, options);
-    const BaResult b = SolveLocalBa(projected, options);
-    const double far = LargestPoseError(a, scene.truth);
-    for (std::size_t i = 0; i < a.poses.size(); ++i) {
-      EXPECT_LT(Error(a.poses[i], b.poses[i]), 0.15 * far) << seed;
-    }
-  }
-}
-
-TEST(SolveLocalBa, EndPointsReachTheMinimumOfPluckerLines) {
-  for (unsigned seed = 0; seed < 4; ++seed) {
-    const BaScene scene = MakeBaScene(seed, {.sigma = 1, .outliers = 0.05});
-    const LocalBaOptions options{.rounds = 1, .max_iterations = 200, .function_tolerance = 1e-13};
-    const BaResult plucker = SolveLocalBa(scene.problem, options, LineParametrization::kPlucker);
-    const BaResult ends = SolveLocalBa(scene.problem, options, LineParametrization::kEndpoints);
-    EXPECT_NEAR(ends.initial_cost, plucker.initial_cost, 1e-9 * plucker.initial_cost);
-    EXPECT_NEAR(ends.final_cost, plucker.final_cost, 1e-6 * plucker.final_cost) << seed;
-    for (std::size_t i = 0; i < ends.poses.size(); ++i) {
-      EXPECT_LT(Error(ends.poses[i], plucker.poses[i]), 1e-4) << seed;
-    }
-    for (std::size_t i = 0; i < ends.lines.size(); ++i) {  // also the same direction along the line
-      const PluckerLine a = ToPlucker(ends.lines[i]);
-      const PluckerLine b = ToPlucker(plucker.lines[i]);
-      EXPECT_GT(a.direction.dot(b.direction), 0.99) << seed << " " << i;
-    }
-  }
-}
-
-// Per line two states, its measurements, and a 6 x 4 or 6 x 6 block for each free pose that sees
-// it.
+// Per line two states, its measurements, and a 6 x 4 block for each free pose that sees it.
 TEST(SolveLocalBa, TellsTheMemoryOfLines) {
-  const auto bytes = [](int points, int lines, LineParametrization parametrization) {
+  const auto bytes = [](int points, int lines) {
     const BaScene scene = MakeBaScene(1, {.points = points, .lines = lines, .sigma = 1});
-    return SolveLocalBa(scene.problem, {.rounds = 1}, parametrization).line_bytes;
+    return SolveLocalBa(scene.problem, {.rounds = 1}).line_bytes;
   };
-  const std::size_t plucker = bytes(50, 80, LineParametrization::kPlucker);
+  const std::size_t all = bytes(50, 80);
   const BaProblem problem = MakeBaScene(1, {.points = 50, .lines = 80, .sigma = 1}).problem;
   const std::size_t measurements = problem.line_observations.size();
   const auto& poses = problem.poses;
@@ -195,25 +60,10 @@ TEST(SolveLocalBa, TellsTheMemoryOfLines) {
     if (!poses[static_cast<std::size_t>(o.pose)].fixed) free_views.insert({o.line, o.pose});
   }
   constexpr std::size_t kBlock = 6 * 4 * sizeof(double);
-  EXPECT_GT(plucker,
+  EXPECT_GT(all,
             80 * 2 * sizeof(OrthonormalLine) + measurements * sizeof(LineMeasurement) / 2 +
                 free_views.size() * kBlock);
-  EXPECT_GE(bytes(50, 80, LineParametrization::kEndpoints),
-            plucker + free_views.size() * kBlock / 2);
-  EXPECT_EQ(bytes(0, 80, LineParametrization::kPlucker), plucker);  // without those of points
-}
-
-// The free sliding of the ends must not cost iterations.
-TEST(SolveLocalBa, EndPointsConvergeInAboutAsManyIterationsAsPluckerLines) {
-  for (unsigned seed = 0; seed < 6; ++seed) {
-    const BaScene scene = MakeBaScene(seed, {.weak_lines = 80, .sigma = 1, .outliers = 0.05});
-    const LocalBaOptions options{.rounds = 1, .max_iterations = 100};
-    const BaResult plucker = SolveLocalBa(scene.problem, options, LineParametrization::kPlucker);
-    const BaResult ends = SolveLocalBa(scene.problem, options, LineParametrization::kEndpoints);
-    EXPECT_EQ(ends.termination, BaTermination::kConverged) << seed;
-    EXPECT_LE(ends.iterations, 2 * plucker.iterations) << seed;
-    EXPECT_LT(ends.final_cost, 1.01 * plucker.final_cost) << seed;
-  }
+  EXPECT_EQ(bytes(0, 80), all);  // without those of points
 }
 
 TEST(SolveLocalBa, LowersTheErrorOfANoisyScene) {
@@ -393,35 +243,6 @@ TEST(SolveLocalBa, AnIndexOutOfRangeIsABug) {
   BaProblem problem = MakeBaScene(14, {.points = 3, .lines = 0}).problem;
   problem.point_observations[0].point = 3;
   EXPECT_THROW(SolveLocalBa(problem), BugError);
-}
-
-double LineAngle(const OrthonormalLine& a, const OrthonormalLine& b) {
-  return ToPlucker(a).direction.cross(ToPlucker(b).direction).norm();
-}
-
-TEST(SolveLocalBa, HoldsLinesParallelToTheirAxes) {
-  for (const auto parametrization : {LineParametrization::kPlucker,
-                                     LineParametrization::kPluckerLeft,
-                                     LineParametrization::kEndpoints}) {
-    BaScene scene = MakeBaScene(31, {.sigma = 1});
-    const BaResult without = SolveLocalBa(scene.problem, {}, parametrization);
-    for (std::size_t i = 0; i < scene.truth.lines.size(); ++i) {
-      const double sense = i % 2 == 0 ? 1 : -1;
-      scene.problem.axes.push_back(sense * ToPlucker(scene.truth.lines[i]).direction);
-      scene.problem.parallel_lines.push_back({static_cast<int>(i), static_cast<int>(i), 2e-3});
-    }
-    const BaResult with = SolveLocalBa(scene.problem, {}, parametrization);
-    EXPECT_EQ(with.poses.size(), scene.problem.poses.size());
-    EXPECT_EQ(with.line_inliers.size(), scene.problem.line_observations.size());
-    EXPECT_EQ(with.line_chi2.size(), scene.problem.line_observations.size());
-    double error_without = 0;
-    double error_with = 0;
-    for (std::size_t i = 0; i < scene.truth.lines.size(); ++i) {
-      error_without += LineAngle(without.lines[i], scene.truth.lines[i]);
-      error_with += LineAngle(with.lines[i], scene.truth.lines[i]);
-    }
-    EXPECT_LT(error_with, 0.5 * error_without);
-  }
 }
 
 TEST(SolveLocalBa, LetsGoOfALineThatIsNotParallel) {

@@ -113,7 +113,7 @@ TEST(SolveInOnePiece, MovesWhatIsFixedAndNothingElse) {
     Rigid3& pose = problem.poses[1].cam_from_world;
     pose = ExpSe3(Vector6d::Constant(0.003)) * pose;
     constexpr PoseLimits kNoTears{.sigma = 0.01, .change = 1e3};
-    return SolveInOnePiece(problem, {}, LineParametrization::kPlucker, kNoTears).value();
+    return SolveInOnePiece(problem, {}, SolveLocalBa, kNoTears).value();
   };
   BaProblem problem;
   const BaResult all = solve(24, problem);
@@ -178,8 +178,8 @@ TEST(SolveInOnePiece, HoldsWhatASolutionTearsApart) {
     problem.poses[1].cam_from_world.rotation = ExpSo3(Eigen::Vector3d(0, turn, 0)) * truth.rotation;
     const Rigid3 before = problem.poses[1].cam_from_world;
     int solutions = 0;
-    const auto solution = SolveInOnePiece(
-        problem, {}, LineParametrization::kPlucker, kLimits, [&](BaResult&) { ++solutions; });
+    const auto solution =
+        SolveInOnePiece(problem, {}, SolveLocalBa, kLimits, [&](BaResult&) { ++solutions; });
     if (!solution) return std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(solutions, problem.poses[1].fixed ? 2 : 1);
     return LogSe3(solution->poses[1] * Inverse(before)).norm();
@@ -194,7 +194,7 @@ TEST(SolveInOnePiece, HasNoSolutionWhenItIsStopped) {
     problem.poses[0].fixed = true;
     problem.poses[1].cam_from_world.translation.x() += 0.01;
     int asked = 0;
-    EXPECT_FALSE(SolveInOnePiece(problem, {}, LineParametrization::kPlucker, kLimits, {}, [&] {
+    EXPECT_FALSE(SolveInOnePiece(problem, {}, SolveLocalBa, kLimits, {}, [&] {
       return asked++ >= questions;
     })) << questions;
   }
@@ -209,8 +209,7 @@ TEST(SolveInOnePiece, ComesToAnEnd) {
     result.poses[2 * solutions].translation.z() += 10;
     ++solutions;
   };
-  const auto solution =
-      SolveInOnePiece(problem, {}, LineParametrization::kPlucker, kLimits, tear_another);
+  const auto solution = SolveInOnePiece(problem, {}, SolveLocalBa, kLimits, tear_another);
   ASSERT_TRUE(solution.has_value());
   EXPECT_LE(solutions, 4U);
   EXPECT_GE(solutions, 3U);

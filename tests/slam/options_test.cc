@@ -40,6 +40,26 @@ TEST(CheckOptions, AsksForPointsOrLines) {
   EXPECT_TRUE(IsRefused(options));
 }
 
+// Kinds of lines to compare with are options in every build, so that files which name them can be
+// read, but a run that is to use one needs the build that has it.
+TEST(CheckOptions, NamesTheBuildThatHasAKindOfLine) {
+  const std::string needs =
+      " needs a build of plumbline with the laboratory; configure with -DPLUMBLINE_LAB=ON";
+  for (const std::string value : {"parametrization: plucker_left",
+                                  "parametrization: endpoints",
+                                  "residual: projected_ends",
+                                  "reconstruction: two_view"}) {
+    SlamOptions options;
+    OptionTable(options).LoadText("lines: {" + value + "}", "earlier");
+    try {
+      CheckOptions(options);
+      ADD_FAILURE() << value;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), "lines." + value + needs);
+    }
+  }
+}
+
 // Files of earlier versions, maps and checkpoints among them, have options that are constants now.
 TEST(SlamOptions, ReadFilesOfEarlierVersions) {
   SlamOptions options;

@@ -6,6 +6,7 @@
 #include "plumbline/geometry/plucker.h"
 #include "plumbline/optimization/pose_only.h"
 
+#include "tests/tracking/cut_scene.h"
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -16,75 +17,8 @@
 namespace plumbline {
 namespace {
 
-constexpr double kSigmaPx = 0.7;
-
-RectifiedCamera Camera() {
-  return {.fx = 450, .fy = 440, .cx = 370, .cy = 240, .baseline = 0.1, .width = 752, .height = 480};
-}
-
-// Lines in front of a camera at the origin of the world, seen without errors in both images; the
-// start of each is known far better than its end.
-struct Scene {
-  std::vector<LineModel> models;
-  std::vector<CutCandidate> candidates;
-  PoseProblem problem;
-
-  explicit Scene(LineResidualKind residual = LineResidualKind::kObservedEnds, int lines = 12) {
-    problem.camera = Camera();
-    problem.line_residual = residual;
-    Rng rng(5, "line_cutting");
-    for (int i = 0; i < lines; ++i) models.push_back(RandomLine(rng));
-    for (int i = 0; i < lines; ++i) AddMatches(i);
-  }
-
-  static LineModel RandomLine(Rng& rng) {
-    const auto point = [&] {
-      return Eigen::Vector3d(rng.Uniform(-2, 2), rng.Uniform(-1, 1), rng.Uniform(4, 7));
-    };
-    const Eigen::Vector3d start = point(), end = point();
-    LineModel model;
-    model.line = LineThroughPoints(start, end);
-    model.start = model.line.ParameterOf(start);
-    model.end = model.line.ParameterOf(end);
-    model.information = 1e4 * Eigen::Matrix4d::Identity();
-    // A point near the start is known to millimetres: the line turns about it.
-    const OrthonormalLine orthonormal = ToOrthonormal(model.line);
-    const Eigen::Matrix<double, 6, 4> J = HomogeneousJacobian(orthonormal);
-    const Eigen::Matrix<double, 3, 4> about =
-        (J.topRows<3>() - Skew(start) * J.bottomRows<3>()) / orthonormal.w.y();
-    model.information += 1e6 * about.transpose() * about;
-    return model;
-  }
-
-  void AddMatches(int i) {
-    const LineModel& model = models[static_cast<std::size_t>(i)];
-    for (const bool right : {false, true}) {
-      const Eigen::Vector3d shift(right ? -problem.camera.baseline : 0.0, 0, 0);
-      PoseProblem::LineMatch match;
-      match.line_in_world = model.line;
-      match.ends = model.Interval();
-      match.measurement.segment = {problem.camera.Project(match.ends.start + shift),
-                                   problem.camera.Project(match.ends.end + shift)};
-      match.measurement.covariance = kSigmaPx * kSigmaPx * Eigen::Matrix2d::Identity();
-      match.measurement.camera = right ? 1 : 0;
-      match.group = i;
-      problem.lines.push_back(match);
-      candidates.push_back({&model, kSigmaPx});
-    }
-  }
-
-  PoseProblem Cut(CuttingMethod method,
-                  LineWeighting weighting = LineWeighting::kNone,
-                  CuttingInformation information = CuttingInformation::kIndependent,
-                  int budget = 0) const {
-    LineOptions lines;
-    lines.residual = problem.line_residual;
-    lines.weighting = weighting;
-    CuttingOptions cutting{.method = method, .information = information};
-    cutting.budget = budget;
-    return WithCutLines(problem, candidates, lines, cutting);
-  }
-};
+using testing::kSigmaPx;
+using Scene = testing::CutScene;
 
 // Of the place across the line of a point at parameter t.
 Eigen::Vector3d AcrossAt(const PluckerLine& line, const PluckerLine& moved, double t) {
@@ -125,29 +59,10 @@ TEST(CovariancesOfEnds, AreThoseOfRandomLinesWithThatInformation) {
   EXPECT_LT(start.trace(), 0.1 * end.trace());  // as the scene says
 }
 
-TEST(WithCutLines, KeepsThePoseOfExactMeasurements) {
-  for (const auto residual : {LineResidualKind::kObservedEnds, LineResidualKind::kProjectedEnds}) {
-    const Scene scene(residual);
-    for (const auto method : {CuttingMethod::kGreedy,
-                              CuttingMethod::kGreedySweeps,
-                              CuttingMethod::kJoint,
-                              CuttingMethod::kDrop}) {
-      for (const auto weighting :
-           {LineWeighting::kNone, LineWeighting::kScalar, LineWeighting::kCovariance}) {
-        PoseProblem cut = scene.Cut(method, weighting);
-        cut.cam_from_world =
-            ExpSe3((Vector6d() << 0.004, -0.003, 0.002, 0.01, -0.02, 0.01).finished());
-        const PoseOnlyResult result = SolvePose(cut);
-        EXPECT_TRUE(result.converged);
-        EXPECT_LT(LogSe3(result.cam_from_world).norm(), 1e-4)
-            << NameOf(method) << " " << NameOf(weighting) << " " << NameOf(residual);
-      }
-    }
-  }
-}
+TEST(WithCutLines, KeepsThePoseOfExactMeasurements) { testing::ExpectPoseOfCutLines({}); }
 
 TEST(WithCutLines, CutsTowardsTheEndThatIsKnown) {
-  const Scene scene(LineResidualKind::kProjectedEnds);
+  const Scene scene;
   const PoseProblem cut = scene.Cut(CuttingMethod::kGreedySweeps);
   ASSERT_EQ(cut.lines.size(), scene.problem.lines.size());
   int shorter = 0;
@@ -165,22 +80,18 @@ TEST(WithCutLines, CutsTowardsTheEndThatIsKnown) {
 }
 
 TEST(WithCutLines, MovesMeasuredEndsToWhereThePieceShows) {
-  const Scene observed(LineResidualKind::kObservedEnds);
-  const Scene projected(LineResidualKind::kProjectedEnds);
-  const PoseProblem moved = observed.Cut(CuttingMethod::kGreedy);
-  const PoseProblem pieces = projected.Cut(CuttingMethod::kGreedy);
-  for (std::size_t i = 0; i < moved.lines.size(); ++i) {
-    const LineMeasurement& measurement = moved.lines[i].measurement;
-    const Eigen::Vector3d shift(observed.problem.camera.ShiftInto(measurement.camera), 0, 0);
-    const Segment3& piece = pieces.lines[i].ends;
-    const RectifiedCamera& camera = observed.problem.camera;
-    EXPECT_LT((measurement.segment.start - camera.Project(piece.start + shift)).norm(), 1e-6);
-    EXPECT_LT((measurement.segment.end - camera.Project(piece.end + shift)).norm(), 1e-6);
+  const Scene scene;
+  const RectifiedCamera& camera = scene.problem.camera;
+  for (const auto& match : scene.Cut(CuttingMethod::kGreedy).lines) {
+    const Eigen::Vector3d shift(camera.ShiftInto(match.measurement.camera), 0, 0);
+    const Segment2& segment = match.measurement.segment;
+    EXPECT_LT((segment.start - camera.Project(match.ends.start + shift)).norm(), 1e-6);
+    EXPECT_LT((segment.end - camera.Project(match.ends.end + shift)).norm(), 1e-6);
   }
 }
 
 TEST(WithCutLines, WeightsPiecesAsAsked) {
-  const Scene scene(LineResidualKind::kProjectedEnds);
+  const Scene scene;
   const PoseProblem none = scene.Cut(CuttingMethod::kGreedy);
   const PoseProblem scalar = scene.Cut(CuttingMethod::kGreedy, LineWeighting::kScalar);
   const PoseProblem full = scene.Cut(CuttingMethod::kGreedy, LineWeighting::kCovariance);
@@ -262,24 +173,7 @@ TEST(PointsThatFit, LeavesOutWhatIsFarOrBehind) {
             (std::vector<bool>{true, true, true, true, true, false}));
 }
 
-TEST(LinesThatFit, JudgesBothImagesTogether) {
-  for (const auto residual : {LineResidualKind::kObservedEnds, LineResidualKind::kProjectedEnds}) {
-    Scene scene(residual);
-    // Of 12 lines one is off by five sigmas in the right image.
-    for (Eigen::Vector2d* px : {&scene.problem.lines[5].measurement.segment.start,
-                                &scene.problem.lines[5].measurement.segment.end}) {
-      const Eigen::Vector2d along = scene.problem.lines[4].measurement.segment.Direction();
-      *px += 5 * kSigmaPx * Eigen::Vector2d(-along.y(), along.x());
-    }
-    const std::vector<bool> fits = LinesThatFit(scene.problem, Rigid3{}, 1);
-    EXPECT_EQ(std::count(fits.begin(), fits.end(), false), 2);
-    EXPECT_FALSE(fits[4]);
-    EXPECT_FALSE(fits[5]);
-    EXPECT_EQ(std::count(fits.begin(), fits.end(), true), 22);
-    const std::vector<bool> lax = LinesThatFit(scene.problem, Rigid3{}, 100);
-    EXPECT_EQ(std::count(lax.begin(), lax.end(), false), 0);
-  }
-}
+TEST(LinesThatFit, JudgesBothImagesTogether) { testing::ExpectBothImagesJudgedTogether({}); }
 
 }  // namespace
 }  // namespace plumbline

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/ceres_reference/ceres_solve.h"
 
-#include "plumbline/optimization/local_ba.h"
+#include "lab/line_rivals/rival_ba.h"
 #include "plumbline/optimization/pose_only.h"
 
 #include "tests/optimization/ba_scene.h"
@@ -49,15 +49,14 @@ TEST_P(SolveWithCeresTest, AndOurSolverReachTheSameCost) {
   const LocalBaOptions options{
       .rounds = 1, .max_iterations = 300, .function_tolerance = 1e-13, .robust = robust};
   for (unsigned seed = 0; seed < 3; ++seed) {
-    auto scene = MakeBaScene(
+    const auto scene = MakeBaScene(
         seed, {.points = 150, .lines = 40, .sigma = 1, .outliers = robust ? 0.05 : 0.0});
-    scene.problem.line_residual = residual;
-    const BaResult ours = SolveLocalBa(scene.problem, options, lines);
+    const BaResult ours = SolveRivalBa(scene.problem, options, {lines, residual});
     const CeresBaResult reference =
         SolveWithCeres(scene.problem,
                        {.huber = robust ? kHuberThresholds : HuberThresholds{},
                         .derivatives = derivatives,
-                        .lines = lines,
+                        .lines = {lines, residual},
                         .max_iterations = 300,
                         .function_tolerance = 1e-13});
     EXPECT_NEAR(ours.initial_cost, reference.initial_cost, 1e-9 * reference.initial_cost);

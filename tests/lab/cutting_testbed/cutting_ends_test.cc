@@ -25,7 +25,6 @@ struct TrackedScene {
     simulated = MakeCuttingScene({.noise = kNoise}, index).problem;
     simulated.other_information.setZero();
     problem.camera = simulated.camera;
-    problem.line_residual = LineResidualKind::kProjectedEnds;
     for (CuttableLine& line : simulated.lines) {
       const Segment3& segment = line.segment_in_cam;
       LineModel model;
@@ -51,7 +50,6 @@ struct TrackedScene {
       candidates.push_back({&models[i], simulated.lines[i].sigma_px});
     }
     LineOptions lines;
-    lines.residual = problem.line_residual;
     const CuttingOptions cutting{
         .method = CuttingMethod::kGreedy, .ends = ends, .end_sigma = kNoise};
     std::vector<Segment3> pieces;

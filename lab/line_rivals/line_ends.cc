@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/optimization/line_ends.h"
+#include "lab/line_rivals/line_ends.h"
 
 #include "plumbline/geometry/trimming.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/optimization/ba_projected_ends.h"
+#include "lab/line_rivals/ba_projected_ends.h"
 
 namespace plumbline {
 namespace {

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/optimization/ba_terms.h"
-#include "plumbline/optimization/projected_ends.h"
+#include "lab/line_rivals/ba_rival_lines.h"
+#include "lab/line_rivals/projected_ends.h"
 
 #include <array>
 
 namespace plumbline {
 
 // Lines in bundle adjustment under LineResidualKind::kProjectedEnds, for each parametrization.
-// Internal to local_ba.cc; declared here to be tested.
 
 // Ends of a line and how they move with two points' coordinates.
 struct PointEndsView {
@@ -88,7 +87,6 @@ struct BaProjectedLine : BaProjectedTerms<LineEndsView> {
   static State Retract(const State& state, const Eigen::Vector4d& step) {
     return {Line::Retract(state.line, step), state.interval};
   }
-  static void HoldGauge(const View&, LandmarkEquations<kDof>&) {}
 };
 
 struct BaProjectedEnds : BaProjectedTerms<PointEndsView> {

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/segment.h"
+#include "plumbline/optimization/ba_terms.h"
+
+namespace plumbline {
+
+// Other parameters of lines in bundle adjustment, under the residual of BaLine.
+
+// A line by four parameters that turn it about the axes of the frame (PPL-SLAM). Undamped steps are
+// those of BaLine to first order; the damping looks at other diagonal entries, and the step is
+// taken along the arc.
+struct BaLineLeft : BaLine {
+  static View MakeView(const State& state) {
+    return {MakePlace(state), LeftHomogeneousJacobian(state)};
+  }
+  static State Retract(const State& state, const Eigen::Vector4d& step) {
+    return RetractLeft(state, step);
+  }
+};
+
+// A line as two of its points, each with its three coordinates in the world.
+struct BaLineEnds {
+  static constexpr int kDof = 6;
+  using State = Segment3;
+  using Term = LineTerm;
+  using Place = BaLinePlace;
+  using View = BaLineView<kDof>;
+  using Target = BaTarget<kDof>;
+
+  static Term MakeTerm(const RectifiedCamera& camera, const LineMeasurement& measurement) {
+    return MakeLineTerm(camera, measurement);
+  }
+  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
+  static int Dof(const Term&) { return 2; }
+  static double Chi2(const RectifiedCamera& camera,
+                     const BaPose& pose,
+                     const Place& place,
+                     const Term& term) {
+    return LineChi2(camera, pose, place, term);
+  }
+  static bool Add(const RectifiedCamera& camera,
+                  const BaPose& pose,
+                  const View& view,
+                  const Term& term,
+                  double huber,
+                  const Target& target) {
+    return AddMeasuredLine<kDof>(camera, pose, view, term, huber, target);
+  }
+
+  static Place MakePlace(const State& state) {
+    return {state.start.cross(state.end), state.end - state.start};
+  }
+  static View MakeView(const State& state) {
+    View view{MakePlace(state), {}};
+    view.J << -Skew(state.end), Skew(state.start), -Eigen::Matrix3d::Identity(),
+        Eigen::Matrix3d::Identity();
+    return view;
+  }
+  static State Retract(const State& state, const Vector6d& step) {
+    return {state.start + step.head<3>(), state.end + step.tail<3>()};
+  }
+  // No residual notices an end that slides along the line. Information of the size that the end has
+  // across the line is added along it: a slide then is no longer free, and the rest of the step is
+  // what it was, since the equations ask for no slide (their g has no part along it).
+  static void HoldGauge(const View& view, LandmarkEquations<kDof>& equations) {
+    HoldAlong(view.direction, equations);
+  }
+  static void HoldAlong(const Eigen::Vector3d& direction, LandmarkEquations<kDof>& equations) {
+    const Eigen::Matrix3d along = direction * direction.transpose() / (2 * direction.squaredNorm());
+    auto& V = equations.V;
+    const double start = V.diagonal().head<3>().sum();
+    const double end = V.diagonal().tail<3>().sum();
+    V.topLeftCorner<3, 3>() += start * along;
+    V.bottomRightCorner<3, 3>() += end * along;
+  }
+};
+
+}  // namespace plumbline

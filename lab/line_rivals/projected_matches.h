@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/map/landmarks.h"
+#include "plumbline/optimization/pose_only.h"
+#include "plumbline/optimization/problem.h"
+
+#include <optional>
+
+namespace plumbline {
+
+// Tracking by the residual LineResidualKind::kProjectedEnds: members of a LineMethod.
+
+// A line and two points on it, in the world.
+struct LineAndEnds {
+  PluckerLine line;
+  Segment3 ends;
+};
+
+// Makes a measurement serve residuals that are the distances of the projected ends from the
+// measured line: first the covariance that the measured line gives them (ProjectedEndsCovariance),
+// then, with information, what the uncertainty of the 3D line adds. For scalar weighting the mean
+// of the two variances; for none nothing changes.
+void UseProjectedEnds(const RectifiedCamera& camera,
+                      const Rigid3& cam_from_world,
+                      const LineAndEnds& line,
+                      const std::optional<Eigen::Matrix4d>& information,
+                      const LineWeights& weights,
+                      LineMeasurement& measurement);
+
+// Gives a match the part of the line's interval for its ends that the camera can see from the
+// initial pose, since an end behind the camera has no projection, or all of it where no part is
+// visible; and the covariance that UseProjectedEnds makes of it.
+void WeighProjectedMatch(const PoseProblem& problem,
+                         const LineModel& line,
+                         const LineWeights& weights,
+                         PoseProblem::LineMatch& match);
+// SolvePose by the distances of the projected ends of each match.
+PoseOnlyResult SolvePoseByProjectedEnds(const PoseProblem& problem, const PoseOnlyOptions& options);
+// Squared norm of these distances, whitened; infinite where an end is not in front of the camera.
+double ProjectedMatchChi2(const RectifiedCamera& camera,
+                          const Rigid3& cam_from_world,
+                          const PoseProblem::LineMatch& match);
+
+}  // namespace plumbline

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/line_method.h"
+#include "plumbline/base/stop_check.h"
+#include "plumbline/optimization/local_ba.h"
+#include "plumbline/optimization/problem.h"
+
+namespace plumbline {
+
+// A kind of line in optimization. The residual decides about the cost at the minimum, the
+// parameters about the way there; docs/benchmarks.md compares their speed.
+struct RivalLines {
+  LineParametrization parametrization = LineParametrization::kPlucker;
+  LineResidualKind residual = LineResidualKind::kObservedEnds;
+};
+
+// SolveLocalBa with another kind of line, by the same solver; the result is the same form of line.
+// Where ends are needed (end points, projected ends), they are those of TrimmedEnds(); end points
+// are blocks of 6. End points under projected ends with diagonal covariances are two landmarks a
+// line, each with its own loss: their blocks share nothing then.
+//
+// BugError for axes under projected ends, which hold no lines parallel; otherwise as SolveLocalBa.
+BaResult SolveRivalBa(const BaProblem& problem,
+                      const LocalBaOptions& options,
+                      const RivalLines& lines,
+                      const StopCheck& stop = {});
+
+}  // namespace plumbline

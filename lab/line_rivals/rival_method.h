@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/association/line_options.h"
+
+namespace plumbline {
+
+// What does lines as the options say, by whatever values of lines.parametrization, lines.residual
+// and lines.reconstruction: for LineOptions::method. The adjustment at the end of a run has the
+// parameters, but always the residual observed_ends; under projected_ends no line is held parallel
+// to others.
+LineMethod MethodFor(const LineOptions& options);
+
+}  // namespace plumbline

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/association/line_from_views.h"
+
+#include "plumbline/association/line_information.h"
+#include "plumbline/geometry/line_triangulation.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/map/map.h"
+
+#include <numbers>
+
+namespace plumbline {
+namespace {
+
+// Between the interpretation planes of a new line: nearer ones leave its depth open.
+constexpr double kMinPlaneAngle = 2 * std::numbers::pi / 180;
+
+// All images of a line, left ones and right ones, as views of single cameras.
+std::vector<LineView> ImageViews(const Map& map,
+                                 const RectifiedCamera& camera,
+                                 const std::vector<LineViewOf>& views) {
+  std::vector<LineView> images;
+  for (const LineViewOf& view : views) {
+    const Frame& frame = map.Find(view.keyframe)->frame;
+    const LineFeature& feature = frame.features().lines[view.feature];
+    images.push_back({frame.cam_from_world, feature.segment, feature.sigma_px});
+    if (const auto& right = frame.features().line_right[view.feature]) {
+      images.push_back(
+          {RightCamera(camera, frame.cam_from_world), right->segment, right->sigma_px});
+    }
+  }
+  return images;
+}
+
+}  // namespace
+
+std::optional<MapLine> LineFromViews(const Map& map,
+                                     const RectifiedCamera& camera,
+                                     const std::vector<LineViewOf>& views) {
+  const auto triangulated =
+      TriangulateLine(camera, ImageViews(map, camera, views), {.min_plane_angle = kMinPlaneAngle});
+  if (!triangulated) return std::nullopt;
+  MapLine line;
+  line.line = triangulated->estimate.line;
+  const Frame& first = map.Find(views.front().keyframe)->frame;
+  const LineFeature& feature = first.features().lines[views.front().feature];
+  const auto interval = TrimToSegment(camera, first.cam_from_world, line.line, feature.segment);
+  if (!interval || interval->end <= interval->start) return std::nullopt;
+  line.start = interval->start;
+  line.end = interval->end;
+  line.descriptor = feature.descriptor;
+  line.view_direction =
+      (line.Interval().Midpoint() - Inverse(first.cam_from_world).translation).normalized();
+  for (const LineViewOf& view : views) {
+    line.observations.emplace(view.keyframe, static_cast<int>(view.feature));
+    line.information +=
+        LineInformation(camera, map.Find(view.keyframe)->frame, view.feature, line.line);
+  }
+  return line;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/ids.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/map/landmarks.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace plumbline {
+
+class Map;
+
+// A keyframe and the feature by which it shows a line.
+struct LineViewOf {
+  KeyFrameId keyframe;
+  std::size_t feature = 0;
+};
+
+// A line of at least two keyframes of a map that show it, in the left image and where they measured
+// one, in the right (TriangulateLine), with these observations and the interval that the first of
+// them shows. Neither id nor creator are set. nullopt where the views do not agree or see the line
+// from too near each other.
+std::optional<MapLine> LineFromViews(const Map& map,
+                                     const RectifiedCamera& camera,
+                                     const std::vector<LineViewOf>& views);
+
+}  // namespace plumbline

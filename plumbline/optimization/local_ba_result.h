@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/base/options.h"
+#include "plumbline/optimization/problem.h"
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+// Settings of SolveLocalBa.
+struct LocalBaOptions {
+  int rounds = 2;                    // of solve, then reject observations by chi2
+  int max_iterations = 10;           // per round, accepted and rejected steps
+  double function_tolerance = 1e-4;  // a round ends when the cost falls by less than this part
+  // function_tolerance of the rounds before the last, which are there to tell outliers. Where one
+  // of these changes none, the last is next. 0: all rounds are alike, and none is left out.
+  double rejection_tolerance = 0;
+  bool robust = true;  // Huber loss (kHuberThresholds); false: squares
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, LocalBaOptions& o) {
+  visit("rounds", o.rounds, "rounds of solving and rejecting observations", Range{1, 20});
+  visit("max_iterations", o.max_iterations, "iterations per round", Range{1, 1000});
+  visit("function_tolerance",
+        o.function_tolerance,
+        "relative decrease of the cost that ends a round",
+        Range{0, 1});
+  visit("rejection_tolerance",
+        o.rejection_tolerance,
+        "the same of the rounds before the last, of which those that would change no outlier are "
+        "left out; 0: as function_tolerance, and none is left out",
+        Range{0, 1});
+  visit("robust", o.robust, "use the Huber loss");
+}
+
+constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
+  return std::array{FixedOption{"robust_last_round", "true"},
+                    FixedOption{"huber_point", "2.4477"},
+                    FixedOption{"huber_disparity", "2.7955"},
+                    FixedOption{"huber_line", "2.4477"},
+                    FixedOption{"gate_scale", "1"},
+                    FixedOption{"initial_lambda", "1e-04"}};
+}
+
+// Why the last round ended.
+enum class BaTermination {
+  kConverged,      // the cost no longer falls
+  kMaxIterations,  // the budget of the last round is used up
+  kNoProgress,     // no step lowers the cost, whatever the damping
+  kNotFinite,      // the input has NaN or infinite numbers; the result repeats the input
+  kNothingToDo,    // no observation has a residual at the start
+  kStopped,        // told to end; the state is the one that the last accepted step led to
+};
+
+constexpr auto EnumNames(std::type_identity<BaTermination>) {
+  return std::array{std::pair{BaTermination::kConverged, "converged"},
+                    std::pair{BaTermination::kMaxIterations, "max_iterations"},
+                    std::pair{BaTermination::kNoProgress, "no_progress"},
+                    std::pair{BaTermination::kNotFinite, "not_finite"},
+                    std::pair{BaTermination::kNothingToDo, "nothing_to_do"},
+                    std::pair{BaTermination::kStopped, "stopped"}};
+}
+
+// What SolveLocalBa found, in the order of the problem.
+struct BaResult {
+  std::vector<Rigid3> poses;  // cam_from_world; fixed ones are copied bit by bit
+  std::vector<Eigen::Vector3d> points;
+  std::vector<OrthonormalLine> lines;
+  // One per observation: false when chi2 exceeds its limit at the end or the point lies behind the
+  // camera (its chi2 is then infinite).
+  std::vector<bool> point_inliers;
+  std::vector<bool> line_inliers;
+  std::vector<double> point_chi2;
+  std::vector<double> line_chi2;
+  // Half the sum of the loss over the observations in use: at the start of the first round, where
+  // all in front of the camera are, and at the end of the last.
+  double initial_cost = 0;
+  double final_cost = 0;
+  int iterations = 0;
+  std::size_t line_bytes = 0;  // of memory that the lines took, their observations included
+  BaTermination termination = BaTermination::kNothingToDo;
+};
+
+// A problem before anything is solved, with all observations as inliers and no chi2 known.
+BaResult InitialState(const BaProblem& problem);
+
+// A problem that is not solved because it has numbers that are not finite: the input, with no
+// observation as inlier and infinite chi2.
+BaResult NotFinite(const BaProblem& problem);
+
+}  // namespace plumbline
