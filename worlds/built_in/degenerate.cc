@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace degenerate {
 
 using Eigen::Vector3d;
 
@@ -77,9 +77,7 @@ void AddSparseThings(SceneBuilder& scene, const Place& wall) {
   }
 }
 
-}  // namespace
-
-World MakeDegenerate(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   ShellShape shell;
   shell.size = {kLength, kDepth, kHeight};
@@ -108,5 +106,9 @@ World MakeDegenerate(std::uint64_t seed) {
                                      {{5.0, away - 0.3, 1.45}, kAhead, 0}};
   return {scene.Take(), WithCarrier(SplinePath(way, {0.7, 0.5}), Carrier::kWheels, seed)};
 }
+
+}  // namespace degenerate
+
+World MakeDegenerate(std::uint64_t seed) { return degenerate::Make(seed); }
 
 }  // namespace plumbline

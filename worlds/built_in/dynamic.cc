@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace dynamic {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -184,9 +184,7 @@ void AddPeople(SceneBuilder& scene) {
   AddWalker(scene, {{10.0, 3.2}, {1.2, 0.9}, 0.5, 0.8, scene.Random(0, 6)});
 }
 
-}  // namespace
-
-World MakeDynamic(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   ShellShape shell;
   shell.size = {kWidth, kDepth, kHeight};
@@ -233,5 +231,9 @@ World MakeDynamic(std::uint64_t seed) {
   pass(2.0, 0, -0.3);
   return {scene.Take(), WithCarrier(SplinePath(way, {0.6, 0.6}), Carrier::kHand, seed)};
 }
+
+}  // namespace dynamic
+
+World MakeDynamic(std::uint64_t seed) { return dynamic::Make(seed); }
 
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace floors {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -346,9 +346,7 @@ CameraPath Walk(const Plan& plan, SceneBuilder& random, std::uint64_t seed) {
   return WithCarrier(SplinePath(waypoints, {1.0, 0.9}), Carrier::kHand, seed);
 }
 
-}  // namespace
-
-World MakeFloors(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   const Plan plan = MakePlan(scene);
   const Scene storey = MakeStorey(scene, plan);
@@ -364,5 +362,9 @@ World MakeFloors(std::uint64_t seed) {
   AddStorey(storey, kStorey, all);
   return {std::move(all), std::move(path)};
 }
+
+}  // namespace floors
+
+World MakeFloors(std::uint64_t seed) { return floors::Make(seed); }
 
 }  // namespace plumbline

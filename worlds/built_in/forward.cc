@@ -7,7 +7,7 @@
 #include <cstddef>
 
 namespace plumbline {
-namespace {
+namespace forward {
 
 using Eigen::Vector3d;
 
@@ -167,9 +167,7 @@ ShellShape Shell(SceneBuilder& scene) {
   return shell;
 }
 
-}  // namespace
-
-World MakeForward(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   const ShellShape shell = Shell(scene);
   AddShell(scene, shell);
@@ -188,5 +186,9 @@ World MakeForward(std::uint64_t seed) {
                  {0.6, 0.3});
   return {scene.Take(), WithCarrier(straight, Carrier::kWheels, seed)};
 }
+
+}  // namespace forward
+
+World MakeForward(std::uint64_t seed) { return forward::Make(seed); }
 
 }  // namespace plumbline

@@ -11,7 +11,7 @@
 #include <utility>
 
 namespace plumbline {
-namespace {
+namespace lateral {
 
 using Eigen::Vector3d;
 
@@ -136,9 +136,7 @@ void AddPillarsAndLamps(SceneBuilder& scene, const Place& wall) {
   }
 }
 
-}  // namespace
-
-World MakeLateral(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   // Every kind of module once or twice, in an order of the seed.
   std::array<std::size_t, kModules> kinds = {0, 1, 2, 3, 4, 5, 0, 1, 2, 4};
@@ -178,5 +176,9 @@ World MakeLateral(std::uint64_t seed) {
                                {{6.5, away, 1.25}, kAhead, 0}};
   return {scene.Take(), WithCarrier(SplinePath(way, {0.7, 0.5}), Carrier::kWheels, seed)};
 }
+
+}  // namespace lateral
+
+World MakeLateral(std::uint64_t seed) { return lateral::Make(seed); }
 
 }  // namespace plumbline

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace lights {
 
 using Eigen::Vector3d;
 
@@ -100,9 +100,7 @@ void Furnish(SceneBuilder& scene, const ShellShape& shell) {
   AddStack(scene, shell.Wall(0, 7.7));
 }
 
-}  // namespace
-
-World MakeLights(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   ShellShape shell;
   shell.size = {kWidth, kDepth, kHeight + 0.2};
@@ -140,5 +138,9 @@ World MakeLights(std::uint64_t seed) {
   way.push_back(way.front());
   return {scene.Take(), WithCarrier(SplinePath(way, {0.75, 0.7}), Carrier::kHand, seed)};
 }
+
+}  // namespace lights
+
+World MakeLights(std::uint64_t seed) { return lights::Make(seed); }
 
 }  // namespace plumbline

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace loop {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -316,9 +316,7 @@ CameraPath TwoRounds(SceneBuilder& random, std::uint64_t seed) {
       SplinePath(WalkAlong({4.9, 1.3}, legs, 1.55, 0.8), {1.15, 0.9}), Carrier::kHand, seed);
 }
 
-}  // namespace
-
-World MakeLoop(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   const Ring ring = MakeRing();
   AddBuilding(scene, ring.All(), MakePassages());
@@ -333,5 +331,9 @@ World MakeLoop(std::uint64_t seed) {
   CameraPath path = TwoRounds(scene, seed);
   return {scene.Take(), std::move(path)};
 }
+
+}  // namespace loop
+
+World MakeLoop(std::uint64_t seed) { return loop::Make(seed); }
 
 }  // namespace plumbline

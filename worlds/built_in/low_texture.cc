@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace low_texture {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -169,9 +169,7 @@ CameraPath SecondDrive(SceneBuilder& random, std::uint64_t seed) {
                      seed + 1000);
 }
 
-}  // namespace
-
-World MakeLowTexture(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   const double tone = scene.Random(0.66, 0.76);
   const std::vector<RoomPlan> rooms = {BlankRoom({0, 0}, {kLength, kWidth}, tone),
@@ -214,5 +212,9 @@ World MakeLowTexture(std::uint64_t seed) {
   CameraPath second = SecondDrive(scene, seed);
   return {scene.Take(), std::move(path), std::move(second)};
 }
+
+}  // namespace low_texture
+
+World MakeLowTexture(std::uint64_t seed) { return low_texture::Make(seed); }
 
 }  // namespace plumbline

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace office {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -216,9 +216,7 @@ CameraPath SecondWalk(SceneBuilder& random, std::uint64_t seed) {
       SplinePath(WalkAlong({5.9, 0.95}, legs, 1.45, 0.8), {0.9, 0.8}), Carrier::kHand, seed + 1000);
 }
 
-}  // namespace
-
-World MakeOffice(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   const std::vector<RoomPlan> rooms = Rooms();
   AddBuilding(scene, rooms, Passages());
@@ -233,5 +231,9 @@ World MakeOffice(std::uint64_t seed) {
   CameraPath second = SecondWalk(scene, seed);
   return {scene.Take(), std::move(path), std::move(second)};
 }
+
+}  // namespace office
+
+World MakeOffice(std::uint64_t seed) { return office::Make(seed); }
 
 }  // namespace plumbline

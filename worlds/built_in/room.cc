@@ -8,7 +8,7 @@
 #include <numbers>
 
 namespace plumbline {
-namespace {
+namespace room {
 
 using Eigen::Vector3d;
 
@@ -172,9 +172,7 @@ void AddStacks(SceneBuilder& scene) {
   }
 }
 
-}  // namespace
-
-World MakeRoom(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   scene.AddRoom({kWidth, kDepth, kHeight}, Material::kPlaster, Material::kPlanks);
   scene.AddBox({{3.2, 2.6, 0}, {2.6, 1.7, 0.012}, 0.1}, Material::kCarpet, 0.45);
@@ -194,5 +192,9 @@ World MakeRoom(std::uint64_t seed) {
   const HandHeldLoop loop({{0.5 * kWidth, 0.5 * kDepth, 1.5}, 1.1, 0.75, 10, seed});
   return {scene.Take(), loop.Path()};
 }
+
+}  // namespace room
+
+World MakeRoom(std::uint64_t seed) { return room::Make(seed); }
 
 }  // namespace plumbline

@@ -15,7 +15,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace town {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -271,9 +271,7 @@ void AddSun(SceneBuilder& scene) {
   scene.AddLamp(sun);
 }
 
-}  // namespace
-
-World MakeTown(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   constexpr double kCorner = 0.5;
   SceneBuilder scene(seed);
   const double middle = scene.Random(84, 96), north = scene.Random(66, 74);
@@ -295,5 +293,9 @@ World MakeTown(std::uint64_t seed) {
   AddTraffic(scene, plan, path);
   return {scene.Take(), path};
 }
+
+}  // namespace town
+
+World MakeTown(std::uint64_t seed) { return town::Make(seed); }
 
 }  // namespace plumbline

@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace tripod {
 
 using Eigen::Vector3d;
 
@@ -93,8 +93,6 @@ CameraPath Fade(CameraPath from, CameraPath to, double start, double span) {
           }};
 }
 
-}  // namespace
-
 // The camera turns on its tripod, exactly about its centre; then it is picked up and walked.
 World MakeRotation(std::uint64_t seed) {
   SceneBuilder scene(seed);
@@ -160,5 +158,10 @@ World MakeStatic(std::uint64_t seed) {
   };
   return {scene.Take(), {kDuration, at}};
 }
+
+}  // namespace tripod
+
+World MakeRotation(std::uint64_t seed) { return tripod::MakeRotation(seed); }
+World MakeStatic(std::uint64_t seed) { return tripod::MakeStatic(seed); }
 
 }  // namespace plumbline

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace vicon {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -182,8 +182,6 @@ CameraPath MakeFlight(const Flight& flight, std::uint64_t seed) {
   return WithCarrier(SplinePath(waypoints, flight.pace), Carrier::kDrone, seed);
 }
 
-}  // namespace
-
 World MakeViconEasy(std::uint64_t seed) {
   return {MakeHall(seed), MakeFlight({14, {0.5, 0.4}, 0.4, 1.0, 1.7, 0}, seed)};
 }
@@ -195,5 +193,11 @@ World MakeViconMedium(std::uint64_t seed) {
 World MakeViconDifficult(std::uint64_t seed) {
   return {MakeHall(seed), MakeFlight({38, {1.8, 1.8}, 1.3, 0.9, 2.5, 0.12}, seed)};
 }
+
+}  // namespace vicon
+
+World MakeViconEasy(std::uint64_t seed) { return vicon::MakeViconEasy(seed); }
+World MakeViconMedium(std::uint64_t seed) { return vicon::MakeViconMedium(seed); }
+World MakeViconDifficult(std::uint64_t seed) { return vicon::MakeViconDifficult(seed); }
 
 }  // namespace plumbline

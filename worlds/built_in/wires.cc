@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plumbline {
-namespace {
+namespace wires {
 
 using Eigen::Vector3d;
 
@@ -158,9 +158,7 @@ ShellShape Shell() {
   return shell;
 }
 
-}  // namespace
-
-World MakeWires(std::uint64_t seed) {
+World Make(std::uint64_t seed) {
   SceneBuilder scene(seed);
   const ShellShape shell = Shell();
   AddShell(scene, shell);
@@ -195,5 +193,9 @@ World MakeWires(std::uint64_t seed) {
   }
   return {scene.Take(), WithCarrier(SplinePath(way, {0.7, 0.6}), Carrier::kHand, seed)};
 }
+
+}  // namespace wires
+
+World MakeWires(std::uint64_t seed) { return wires::Make(seed); }
 
 }  // namespace plumbline
