@@ -18,7 +18,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kMinShared = 15;  // landmarks: fewer tie a keyframe to the window by chance
+constexpr int kMinShared = 15;  // landmarks; a keyframe that shares fewer is not worth adjusting
 
 // Builds a BaWindow step by step: keyframes, then landmarks with their observations.
 class WindowBuilder {
@@ -56,7 +56,7 @@ class WindowBuilder {
     }
   }
 
-  // The landmarks with at least two views that the keyframes of the window show, by id.
+  // Returns the landmarks that the free keyframes show and that have at least two views, by id.
   template <class Landmark, class LandmarkId>
   std::vector<const Landmark*> Shown(std::vector<LandmarkId> Frame::*matches) const {
     std::vector<LandmarkId> ids;
@@ -92,7 +92,7 @@ class WindowBuilder {
     for (const auto& other : others) fixed_.insert(other.id);
   }
 
-  // Ordered by time: HoldTornPoses looks at those that follow each other.
+  // Adds the poses ordered by time, since HoldTornPoses looks at those that follow each other.
   void AddPoses() {
     const KeyFrameId origin = map_.keyframes().begin()->first;
     std::set<KeyFrameId> all = free_;
@@ -101,9 +101,9 @@ class WindowBuilder {
     HoldGauge();
   }
 
-  // At least one pose is fixed; with a single camera at least two, since one leaves the scale of
-  // the window open against the rest of the map. Where the window is all of the map, its scale is
-  // arbitrary, and the damping holds it.
+  // Fixes the oldest poses if fewer are fixed than the gauge needs: one, or with a single camera
+  // two, since one alone leaves the scale of the window open against the rest of the map. Where the
+  // window is the whole map its scale is arbitrary, and the damping holds it.
   void HoldGauge() {
     auto& poses = window_.problem.poses;
     const bool depth = window_.problem.camera.baseline > 0;
@@ -112,7 +112,7 @@ class WindowBuilder {
     auto fixed = std::count_if(poses.begin(), poses.end(), [](const auto& p) { return p.fixed; });
     for (auto pose = poses.begin(); pose != poses.end() && fixed < needed; ++pose) {
       fixed += !pose->fixed;
-      pose->fixed = true;  // the oldest
+      pose->fixed = true;
     }
   }
 
@@ -124,8 +124,9 @@ class WindowBuilder {
     for (const auto& view : views) builder_.AddLineView(index, view, true);
   }
 
-  // Fixed directions from all of the map. The lines parallel to one share its error, so that its
-  // variance counts once for each of them: together they do not claim to know it better.
+  // Holds lines parallel to directions that come from the whole map and stay fixed. All lines that
+  // are parallel to a direction share its error, so that its variance counts once for each of them:
+  // together they must not claim to know the direction better.
   void AddParallelLines() {
     BaProblem& problem = window_.problem;
     if (!options_.parallel_lines) return;
@@ -192,7 +193,7 @@ BaWindow MakeBaWindow(const Map& map,
 
 namespace {
 
-// The window's lines with the observations that stay.
+// Returns the window's lines without the observations that turned out to be outliers.
 std::vector<MapLine> LinesWithoutOutliers(const Map& map,
                                           const BaWindow& window,
                                           const BaResult& result) {
@@ -214,7 +215,7 @@ MapEdit ToEdit(const Map& map,
                const BaWindow& window,
                const BaResult& result) {
   MapEdit edit = PosesAndPointsOf(window, result);
-  // Intervals and information follow from the poses and observations as they will be.
+  // The intervals and the information of lines follow from the new poses and the observations left.
   const std::map<KeyFrameId, Rigid3> poses = PosesByKeyFrame(window, result);
   const std::vector<MapLine> lines = LinesWithoutOutliers(map, window, result);
   const Rigid3 world_from_window = Inverse(window.problem_from_world);

@@ -12,24 +12,25 @@
 
 namespace plumbline {
 
-// A part of the map around a keyframe, which is the world of the problem.
+// Bundle adjustment of the part of the map around a keyframe, whose camera is the world of the
+// problem.
 struct BaWindow : MapProblem {
   std::vector<LineId> lines;  // by line index
 };
 
 // The window around a keyframe: it and its covisible keyframes are free (never the first of the
-// map), other keyframes that see the same landmarks are fixed. At least one is, with a single
-// camera two unless the window is the whole map: if need be the oldest of the window. Landmarks
-// need two views; lines in addition a wide enough angle between their interpretation planes or well
-// known ends.
+// map), other keyframes that see the same landmarks are fixed. At least one keyframe is fixed, with
+// a single camera two unless the window is the whole map; if need be, these are the oldest of the
+// window. Landmarks need two views; lines need in addition a wide enough angle between their
+// interpretation planes, or well known ends.
 BaWindow MakeBaWindow(const Map& map,
                       const ImagingModel& imaging,
                       KeyFrameId centre,
                       const LineOptions& lines,
                       const BaWindowOptions& options);
 
-// The result as changes of the map: poses, landmarks (lines with new intervals and information),
-// and the observations that turned out to be outliers.
+// Returns the result as changes of the map: poses, landmarks (lines with new intervals and
+// information), and the removal of observations that turned out to be outliers.
 MapEdit ToEdit(const Map& map,
                const ImagingModel& imaging,
                const BaWindow& window,

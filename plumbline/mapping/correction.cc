@@ -7,7 +7,8 @@
 namespace plumbline {
 namespace {
 
-// The similarity of the world that takes a camera with all around it from one place to the other.
+// Returns the similarity of the world that moves a keyframe, with all that is around it, from its
+// place before the correction to that after it.
 Similarity3 MotionOf(const Correction::KeyFramePlace& place) {
   const Rigid3 world_from_after = Inverse(place.after);
   const Similarity3 scaled{place.scale, Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero()};
@@ -18,7 +19,8 @@ bool SamePlace(const Rigid3& a, const Rigid3& b) {
   return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
 }
 
-// The place of the nearest ancestor that the correction knows; nullptr where it knows none.
+// Finds the place of the keyframe itself or of its nearest ancestor that the correction knows;
+// nullptr where it knows none.
 const Correction::KeyFramePlace* PlaceFor(const Correction& correction,
                                           const Map& today,
                                           KeyFrameId id) {

@@ -13,12 +13,13 @@
 
 namespace plumbline {
 
-// What a computation beside the map found: where its keyframes and points belong. The map may have
-// changed since the computation began; Rebased() says what to do with the map of today.
+// The result of a computation that ran beside mapping: the places of keyframes and points. The map
+// may have changed since the computation began; Rebased() applies the result to the map as it is
+// now.
 struct Correction {
   struct KeyFramePlace {
     Rigid3 before, after;  // cam_from_world
-    double scale = 1;      // lengths around it, after / before
+    double scale = 1;      // lengths around the keyframe, after / before
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {

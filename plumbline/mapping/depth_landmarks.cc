@@ -10,8 +10,8 @@
 namespace plumbline {
 namespace {
 
-// Relative depth uncertainty up to which points fill up what a keyframe should show: worse ones say
-// hardly more than their direction.
+// Points with a relative depth deviation up to this are made where a keyframe shows too few better
+// ones. Worse ones say hardly more than their direction.
 constexpr double kWorstDepthSigma = 0.3;
 
 struct DepthPoint {
@@ -19,7 +19,7 @@ struct DepthPoint {
   double relative_sigma;
 };
 
-// The features without landmark to make points of, the best known depth first.
+// Returns the features without landmark that points are made of, the best known depth first.
 std::vector<DepthPoint> ChooseDepthPoints(const Frame& frame,
                                           const LandmarkCreationOptions& options) {
   const auto& disparities = frame.features().point_disparity;

@@ -19,16 +19,16 @@
 namespace plumbline {
 namespace {
 
-// An adjustment gains from lines that are not good enough to be given out: what does not fit weighs
-// little there.
+// Limits for the lines that take part. They are looser than those for lines that are given out to
+// users, since an adjustment gains from more lines, and what does not fit has little weight in it.
 constexpr LineMapOptions kAdjustedLines{.min_keyframes = 4,
                                         .max_relative_sigma = 0.02,
                                         .min_found_ratio = 0.25,
                                         .max_mean_chi2 = std::numeric_limits<double>::infinity(),
                                         .min_mean_length_px = 0};
 
-// The whole map, with the lines that are well seen, as a problem in the frame of its first
-// keyframe.
+// Makes a problem of the whole map with the lines that are well seen. Its world is the camera of
+// the first keyframe.
 MapProblem MakeWholeMap(const Map& map,
                         const ImagingModel& imaging,
                         const LineWeights& weights,
@@ -48,7 +48,7 @@ MapProblem MakeWholeMap(const Map& map,
   return whole;
 }
 
-// Which poses share a landmark.
+// Returns for each pose the earlier poses that share a landmark with it.
 BlockPattern SharingPoses(const BaProblem& problem) {
   std::vector<std::vector<int>> of_point(problem.points.size()), of_line(problem.lines.size());
   const auto add = [](int index, int pose, std::vector<std::vector<int>>& poses) {
@@ -76,13 +76,14 @@ BlockPattern SharingPoses(const BaProblem& problem) {
   return pattern;
 }
 
-// Only a map of more keyframes than the limit can.
+// Whether solving the problem would take longer than solving one of `limit` keyframes that all
+// share landmarks. Only a problem of more keyframes can.
 bool TakesTooLong(const MapProblem& whole, int limit) {
   return FullSize(PlanElimination(SharingPoses(whole.problem))) > limit;
 }
 
-// How much deeper the points lie that a pose shows, after / before: the median over its points;
-// nullopt where it shows too few to tell.
+// Returns by which factor the depths of the points that a pose shows have changed, as the median
+// over these points; nullopt where there are too few of them.
 std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& depths) {
   constexpr std::size_t kFew = 10;
   std::vector<double> ratios;
@@ -93,8 +94,9 @@ std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& 
   return UpperMedian(ratios);
 }
 
-// The scale of each pose, 1 where lengths are measured. A pose that shows too few points has the
-// scale of the one before it, the first ones that of the first that tells.
+// Returns the change of scale around each pose, which is 1 where lengths are measured. A pose that
+// shows too few points gets the scale of the pose before it; the first ones get that of the first
+// pose that shows enough.
 std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
   std::vector<double> scales(problem.poses.size(), 1);
   if (problem.camera.baseline > 0) return scales;
@@ -114,8 +116,8 @@ std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
   return scales;
 }
 
-// A single camera leaves the unit of the whole open: it stays what it is around the oldest
-// keyframe.
+// Scales the result of a single camera, which leaves the unit of the whole open, so that the scale
+// around the oldest keyframe stays as it was.
 void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
   if (problem.camera.baseline > 0) return;
   const double scale = 1 / ScalesOf(problem, result).front();
@@ -123,8 +125,9 @@ void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
   for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
-// Another lens changes the scale from place to place by more than what is taken for a tear in the
-// end: poses and points go there first, by the points alone. False when stopped.
+// Adjusts poses and points, without lines, to a corrected lens. Another lens changes the scale from
+// place to place by more than the final adjustment would take for a tear in the map, so that poses
+// and points have to move there first. Returns false when stopped.
 bool BringToLens(const MappingOptions& options, const StopCheck& stop, BaProblem& problem) {
   BaProblem points = problem;
   points.lines.clear();
@@ -174,19 +177,20 @@ Correction AdjustWholeMap(const Map& map,
   const std::size_t count = map.keyframes().size();
   if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
   const bool large = count > static_cast<std::size_t>(limit);
-  // The points alone tell of many maps, before the search for lines.
+  // Of many maps the points alone show that it takes too long, before lines are searched.
   if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weights(), {}), limit)) return {};
   const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
   if (IsToStop(stop)) return {};
   MapProblem whole = MakeWholeMap(map, imaging, lines.weights(), well_seen);
-  // Long lines that are seen from far away tie everything to everything.
+  // Long lines that are seen from far away can tie so many keyframes together that it takes too
+  // long.
   if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weights(), {});
   const LensCorrection lens =
       options.lens_calibration ? LearnLens(whole.problem, stop) : LensCorrection{};
   Correct(lens, whole.problem);
   BaProblem problem = whole.problem;
   if (lens.border_px != 0 && !BringToLens(options, stop, problem)) return {};
-  // Poses that are held are free in `whole`: a new unit is for all.
+  // The unit is changed by `whole`, in which the poses that are held are free: it changes for all.
   const std::optional<BaResult> result = SolveInOnePiece(
       problem,
       options.ba,

@@ -14,19 +14,19 @@ namespace {
 
 // A young landmark must be found in this share of the frames where it should be seen.
 constexpr double kMinFoundRatio = 0.25;
-// Keyframes until a landmark is no longer young, and how many must show it then: what only one
-// shows ties nothing together.
+// After so many keyframes a landmark is no longer young, and so many must show it then: a landmark
+// that one keyframe shows ties nothing together.
 constexpr int kTrialKeyFrames = 3;
 constexpr int kMinObservations = 2;
-// Other keyframes that show the landmarks of a redundant one: with three, each of them keeps two
-// views when one of these goes in its turn.
+// A keyframe is redundant if so many others show its landmarks. With three, a landmark keeps two
+// views when one of these is removed later.
 constexpr int kRedundantViews = 3;
 
 enum class Verdict { kKeepWatching, kPassed, kRemove };
 
 template <class Landmark>
 Verdict Judge(const Map& map, const Landmark* landmark, KeyFrameId newest) {
-  if (landmark == nullptr) return Verdict::kPassed;  // gone already
+  if (landmark == nullptr) return Verdict::kPassed;  // it was removed before
   if (landmark->score.Ratio() < kMinFoundRatio) return Verdict::kRemove;
   if (map.NumberOf(newest) - map.NumberOf(landmark->created_by) < kTrialKeyFrames) {
     return Verdict::kKeepWatching;
@@ -48,7 +48,7 @@ int OctaveOf(const Map& map, KeyFrameId keyframe, int feature) {
   return map.Find(keyframe)->frame.features().points[static_cast<std::size_t>(feature)].octave;
 }
 
-// Whether at least `views` of the observations count; looks at no more than it needs.
+// Whether at least `views` of the observations count. Looks at no more of them than it needs to.
 template <class Counts>
 bool HasViews(const Observations& observations, int views, const Counts& counts) {
   for (auto o = observations.begin(); o != observations.end() && views > 0; ++o) {
@@ -57,10 +57,11 @@ bool HasViews(const Observations& observations, int views, const Counts& counts)
   return views <= 0;
 }
 
-// The landmarks that a keyframe shows together with at least one other.
+// Numbers of landmarks that a keyframe shares with at least one other.
 struct SharedLandmarks {
   int all = 0;
-  int of_few = 0;  // that fewer than so many others show, whichever these are
+  int of_few =
+      0;  // of these, the landmarks that too few others show to make the keyframe redundant
 };
 
 template <class LandmarkId>
@@ -76,13 +77,13 @@ void CountShared(const Map& map,
   }
 }
 
-// Keyframes so far apart in the order of taking in are of two visits to a place.
+// Two keyframes whose numbers differ by more belong to different visits to a place.
 constexpr std::int64_t kVisit = 20;
 
-// How a keyframe is judged by its landmarks.
+// The rule by which a keyframe is redundant.
 struct Redundancy {
-  double share = 0.9;  // of its landmarks that kRedundantViews others must show
-  bool again = false;  // one of which is of another visit
+  double share = 0.9;  // of its landmarks that at least kRedundantViews others must show
+  bool again = false;  // whether one of these others must be of another visit
 };
 
 bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe) {
@@ -90,8 +91,9 @@ bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe
   return apart > kVisit || apart < -kVisit;
 }
 
-// Whether other keyframes show the share of a keyframe's landmarks, points as sharply. Of most
-// keyframes the numbers of views tell that they do not.
+// Whether others show the share of a keyframe's landmarks that the rule asks for, points as sharply
+// as this keyframe does. For most keyframes the numbers of views alone show that they do not, which
+// is tested first.
 bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rule) {
   const Frame& frame = keyframe.frame;
   SharedLandmarks shared;
@@ -135,8 +137,9 @@ MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, YoungLandmarks& y
 
 namespace {
 
-// The first of the keyframes around `centre`, closest in covisibility, that is redundant; the first
-// keyframe of the map, `centre` and the newest before it are not. At most `most` are looked at.
+// Finds the first redundant one among the keyframes around `centre`, those closest in covisibility
+// first. The first keyframe of the map, `centre` and the newest before it are never redundant.
+// Looks at no more than `most` keyframes.
 const KeyFrame* FindRedundant(const Map& map,
                               KeyFrameId centre,
                               std::size_t most,
@@ -155,7 +158,8 @@ const KeyFrame* FindRedundant(const Map& map,
   return nullptr;
 }
 
-// The landmarks, past their trial, that too few keyframes show when this one is gone.
+// Removes the landmarks, past their trial, that too few keyframes show once the keyframe with these
+// matches is removed.
 template <class Remove, class LandmarkId>
 void RemoveForsaken(const Map& map,
                     KeyFrameId newest,
@@ -164,7 +168,7 @@ void RemoveForsaken(const Map& map,
   for (const LandmarkId id : matches) {
     if (!id.valid()) continue;
     const auto& landmark = *map.Find(id);
-    // Files of merged maps tell of landmarks whose first keyframe is not known any more.
+    // Files of merged maps have landmarks whose first keyframe is not known any more.
     const bool on_trial =
         map.Knows(landmark.created_by) &&
         map.NumberOf(newest) - map.NumberOf(landmark.created_by) < kTrialKeyFrames;
@@ -178,7 +182,7 @@ void RemoveForsaken(const Map& map,
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options) {
   const KeyFrame* redundant =
       FindRedundant(map, centre, map.keyframes().size(), {options.redundant_share, false});
-  // One at a time: what others show changes with each removal.
+  // One keyframe at a time is removed, since each removal changes what the others share.
   if (redundant == nullptr) return {};
   return {edit::RemoveKeyFrame{redundant->id}};
 }

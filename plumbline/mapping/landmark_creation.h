@@ -13,20 +13,20 @@
 
 namespace plumbline {
 
-// Points and lines that a frame shows by its depths, with the features that show them.
+// Points and lines made from the depths of one frame, with the features that show them.
 struct DepthLandmarks {
   std::vector<std::pair<std::size_t, PointModel>> points;  // the best known first
   std::vector<std::pair<std::size_t, LineModel>> lines;
 };
 
-// What CreateFromDepth makes landmarks of: the features of a frame that show none.
+// Returns the landmarks that CreateFromDepth makes of the features of a frame that show none yet.
 DepthLandmarks LandmarksFromDepth(const RectifiedCamera& camera,
                                   const Frame& frame,
                                   const LandmarkCreationOptions& options);
 
-// New points and lines from the depths of one keyframe: every feature without landmark whose depth
-// is known well enough, and where the keyframe shows few points with depth, the best known of the
-// others. Each gets one observation.
+// Creates points and lines from the depths of one keyframe: of every feature without landmark whose
+// depth is known well enough, and, where the keyframe shows few points with depth, of the others
+// with the best known depths. Each landmark gets one observation.
 MapEdit CreateFromDepth(const Map& map,
                         const ImagingModel& imaging,
                         KeyFrameId id,

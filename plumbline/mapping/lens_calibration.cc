@@ -12,8 +12,9 @@
 namespace plumbline {
 namespace {
 
-constexpr double kPriorSigma = 0.01;  // of the image's width
-constexpr double kAllowed = 5e-4;     // the same: what corners' deviations allow for already
+// Both relative to the width of the image.
+constexpr double kPriorSigma = 0.01;
+constexpr double kAllowed = 5e-4;  // mean shift that the deviations of corners allow for already
 
 Eigen::Vector2d InHalfWidths(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
   return (px - Eigen::Vector2d(camera.cx, camera.cy)) / (0.5 * camera.width);
@@ -29,12 +30,12 @@ class Profile {
     problem_.parallel_lines.clear();
   }
 
-  // nullopt where the numbers are not finite, and when stopped.
+  // Returns nullopt where the numbers are not finite, and when stopped.
   std::optional<double> At(double border_px) const {
     BaProblem corrected = problem_;
     Correct({border_px}, corrected);
     LocalBaOptions options;
-    options.rounds = 1;  // the same observations for all, the robust loss alone
+    options.rounds = 1;  // no observation is taken out, so that all costs are of the same ones
     options.max_iterations = 40;
     options.function_tolerance = 1e-6;
     const BaResult result = SolveLocalBa(corrected, options, stop_);
@@ -57,14 +58,15 @@ struct Parabola {
   double curvature = 0;  // second derivative
 };
 
-// Through the costs at `middle` and `step` before and after it.
+// Returns the parabola through the costs at `middle` and at `step` before and after it.
 Parabola Through(double middle, double step, const std::array<double, 3>& costs) {
   const double slope = (costs[2] - costs[0]) / (2 * step);
   const double curvature = (costs[0] - 2 * costs[1] + costs[2]) / (step * step);
   return {costs[1], middle - slope / curvature, curvature};
 }
 
-// Root mean square of what a correction of a pixel at the border moves the points of a problem by.
+// Returns by how much a correction of one pixel at the border moves the points of a problem: the
+// root mean square.
 double MeanSize(const BaProblem& problem) {
   double sum = 0;
   for (const auto& o : problem.point_observations) {
@@ -74,7 +76,7 @@ double MeanSize(const BaProblem& problem) {
   return std::sqrt(sum / static_cast<double>(problem.point_observations.size()));
 }
 
-// nullopt where the profile has no minimum near by.
+// Fits a parabola to the profile around `middle`; nullopt where it has no minimum near by.
 std::optional<Parabola> FitAround(const Profile& profile, double middle, double step, double most) {
   std::array<double, 3> costs{};
   for (std::size_t i = 0; i < costs.size(); ++i) {
@@ -96,7 +98,9 @@ Eigen::Vector2d LensCorrection::At(const RectifiedCamera& camera, const Eigen::V
 
 double LensCorrection::ScaleAt(const RectifiedCamera& camera, const Eigen::Vector2d& px) const {
   const double part = border_px / (0.5 * camera.width) * InHalfWidths(camera, px).squaredNorm();
-  return std::sqrt((1 - part) * (1 - 3 * part));  // along the circle, along the radius
+  // The first factor is the scale along the circle around the principal point, the second along the
+  // radius.
+  return std::sqrt((1 - part) * (1 - 3 * part));
 }
 
 void Correct(const LensCorrection& correction, BaProblem& problem) {
@@ -115,10 +119,11 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
 }
 
 LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop) {
-  constexpr double kStep = 0.002;  // of the width
-  constexpr double kMost = 3;      // deviations of the prior
-  // A map that goes straight on has spoken for 4.6 where there was nothing to correct: what is
-  // wrong with a corner is wrong in all its views, and the cost takes them for independent.
+  constexpr double kStep = 0.002;  // relative to the width of the image
+  constexpr double kMost = 3;      // largest correction, in deviations of the prior
+  // In a map of a camera that goes straight on, 4.6 deviations spoke for a correction where there
+  // was nothing to correct: an error of a corner is the same in all its views, but the cost takes
+  // the views for independent.
   constexpr double kSigmas = 6;
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
   const double sigma = kPriorSigma * problem.camera.width;
@@ -128,7 +133,8 @@ LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop) {
   if (!fit) return {};
   const double uncorrected = fit->middle_cost;
   double corrected = uncorrected - 0.5 * fit->curvature * fit->minimum * fit->minimum;
-  if (std::abs(fit->minimum) > step) {  // the profile is a parabola near its minimum only
+  // The profile is a parabola near its minimum only, so that a distant one is fitted again.
+  if (std::abs(fit->minimum) > step) {
     fit = FitAround(profile, fit->minimum, step, kMost * sigma);
     if (!fit) return {};
     corrected = fit->middle_cost;

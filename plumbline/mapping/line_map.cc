@@ -18,18 +18,20 @@
 namespace plumbline {
 namespace {
 
-// The share of the supporting keyframes with a point of the line in their image that must show it:
-// where fewer do, the line was prolonged over something that happens to lie in line with it.
+// Of the supporting keyframes that have a point of the line in their image, at least this share
+// must show it. Where fewer do, the line was prolonged over something that happens to lie in line
+// with it.
 constexpr double kMinShownShare = 0.4;
 
 struct SupportedLine {
   LineHypothesis hypothesis;
   std::vector<LineSupport> supports;
-  std::vector<LineInterval> parts;  // that are shown
+  std::vector<LineInterval> parts;  // of the line, shown by enough keyframes
 };
 
-// The line that the supports of a hypothesis give, after three rounds, or fewer where the supports
-// stay what they were, as further rounds would then find the same; nullopt where there are too few.
+// Finds the supports of a hypothesis and the line through them, three times in turn, or fewer times
+// where the supports stay the same, as further rounds would then change nothing. Returns nullopt
+// where there are too few supports.
 std::optional<SupportedLine> Support(const LineSupportSearch& search,
                                      const RectifiedCamera& camera,
                                      const LineHypothesis& hypothesis,
@@ -61,8 +63,8 @@ double DistanceFromNearest(std::span<const LineSupport> supports, const Eigen::V
   return nearest;
 }
 
-// The longest stretch of an interval whose points are known well enough, to a twentieth of its
-// length; nullopt where there is none.
+// Finds the longest stretch of an interval whose points are known well enough, in steps of a
+// twentieth of its length; nullopt where there is none.
 std::optional<LineInterval> KnownPart(const SupportedLine& line,
                                       const LineInterval& part,
                                       double max_relative_sigma) {
@@ -83,19 +85,20 @@ std::optional<LineInterval> KnownPart(const SupportedLine& line,
   return best;
 }
 
-// What shows a part of a line.
+// The keyframes and segments that show a part of a line.
 struct Sightings {
   std::set<KeyFrameId> keyframes;
-  double furthest = 0;        // of the keyframes from the middle of the part
+  double furthest = 0;        // largest distance of a keyframe from the middle of the part
   double mean_chi2 = 0;       // of the segments in the left images, by their own deviations
-  double mean_length_px = 0;  // of the same
+  double mean_length_px = 0;  // of the segments in the left images
 };
 
 double MiddleDistance(const Frame& frame, const Segment3& segment) {
   return (frame.cam_from_world * (0.5 * (segment.start + segment.end))).norm();
 }
 
-// Infinite where the line is no line of the image.
+// Returns the squared distances of a support's ends from the line, over their variances; infinity
+// where the line has no image.
 double Chi2(const RectifiedCamera& camera,
             const OrthonormalLine& line,
             const LineSupport& support) {
@@ -134,8 +137,9 @@ Sightings FindSightings(const RectifiedCamera& camera,
   return found;
 }
 
-// The share of keyframes that show a part of a line, among those that have it in their image from
-// no further than the furthest that shows it: those beyond are likely to stand behind a wall.
+// Returns which share of the keyframes that have a part of a line in their image show it. Keyframes
+// further away than the furthest that shows it do not count: they are likely to stand behind a
+// wall.
 double FoundRatio(const ViewTree& views,
                   const RectifiedCamera& camera,
                   const Segment3& segment,
@@ -157,7 +161,7 @@ double FoundRatio(const ViewTree& views,
              : 0;
 }
 
-// The pieces of a line that are good enough for the map.
+// Returns the pieces of a line that are good enough to be given out.
 std::vector<MappedLine> GoodPieces(const ViewTree& views,
                                    const RectifiedCamera& camera,
                                    const SupportedLine& line,
@@ -182,7 +186,7 @@ std::vector<MappedLine> GoodPieces(const ViewTree& views,
   return pieces;
 }
 
-// The best observed first; ties by id.
+// Orders the lines by their number of observations, most first, and then by id.
 std::vector<const MapLine*> ByObservations(const Map& map) {
   std::vector<const MapLine*> landmarks;
   for (const auto& [id, line] : map.lines()) {

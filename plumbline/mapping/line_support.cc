@@ -20,11 +20,12 @@
 namespace plumbline {
 namespace {
 
-// What the error of a keyframe's pose adds to the deviation of a segment.
+// The error of a keyframe's pose adds so much to the deviation of a segment.
 constexpr double kPoseSigmaPx = 0.3;
 constexpr double kMinOverlap = 0.25;
 
-// Ends of a measured segment near the projected line, chi2 99 % of two residuals.
+// Whether both ends of a measured segment are near the projected line: 99 % of chi2 with two
+// degrees of freedom.
 bool Agrees(const RectifiedCamera& camera,
             const Rigid3& cam_from_world,
             const UncertainLine& line,
@@ -35,7 +36,8 @@ bool Agrees(const RectifiedCamera& camera,
   return distances && distances->squaredNorm() <= kChi2TwoDof99;
 }
 
-// Where a segment lies along a line; nullopt where it runs against it.
+// Returns the interval of a line that a segment shows; nullopt where the segment runs against the
+// direction of the line.
 std::optional<LineInterval> Trimmed(const RectifiedCamera& camera,
                                     const PluckerLine& line,
                                     const Frame& frame,
@@ -48,7 +50,8 @@ std::optional<LineInterval> Trimmed(const RectifiedCamera& camera,
 
 constexpr double kLoosePx = 10;
 
-// Before the exact test: which segments are near the projected line and nearly parallel to it.
+// A quick test before the exact one: whether a segment is near the projected line and nearly
+// parallel to it.
 class LooseTest {
  public:
   explicit LooseTest(const Segment2& projected)
@@ -68,9 +71,10 @@ class LooseTest {
   Eigen::Vector2d direction_;
 };
 
-// Before that: where the segments are that have some of the line beside them. A segment that
-// overlaps the line has a point of it no further than MayShow allows; the pixel is for rounding.
-// All of the image where the line passes the camera.
+// Returns the box in which segments are searched, before they are tested: the image of the line,
+// with a margin. A segment that overlaps the line has a point no further from it than MayShow
+// allows; one pixel more is for rounding. The box is the whole image where the line passes the
+// camera.
 Eigen::AlignedBox2d Surroundings(const RectifiedCamera& camera, const Segment3& in_camera) {
   constexpr double kNear = 1e-3, kMargin = kLoosePx + 1;
   const double most = std::numeric_limits<double>::max();
@@ -153,7 +157,7 @@ int CountKeyFrames(std::span<const LineSupport> supports) {
 
 std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
                                                   std::span<const LineSupport> supports) {
-  // Every support was tested against the line before: none is refused by its reprojection here.
+  // All supports were tested against the line before, so that none is refused by its reprojection.
   constexpr double kMinPlaneAngle = 0.002;
   const LineTriangulationOptions options{
       .min_plane_angle = kMinPlaneAngle,
@@ -183,7 +187,7 @@ std::vector<LineInterval> ShownParts(const RectifiedCamera& camera,
   std::vector<Stretch> shown, expected;
   for (std::size_t k = 0; k < supports.size();) {
     const KeyFrame& keyframe = *supports[k].keyframe;
-    std::vector<Stretch> own;  // its segments count once where they overlap
+    std::vector<Stretch> own;  // overlapping segments of one keyframe count once
     for (; k < supports.size() && supports[k].keyframe == &keyframe; ++k) {
       const auto interval = Trimmed(camera, line, keyframe.frame, supports[k].feature);
       if (interval) own.push_back({interval->start, interval->end});

@@ -20,7 +20,7 @@
 
 namespace plumbline {
 
-// A line of the world as far as it is known.
+// A line of the world, with the interval and the information that are known of it.
 struct LineHypothesis {
   PluckerLine line;
   LineInterval interval;                                  // start < end
@@ -31,7 +31,7 @@ struct LineHypothesis {
 struct LineSupport {
   const KeyFrame* keyframe = nullptr;
   std::size_t feature = 0;
-  bool right = false;  // its segment in the right image does so, too
+  bool right = false;  // whether its segment in the right image lies there as well
 
   friend bool operator==(const LineSupport&, const LineSupport&) = default;
 };
@@ -40,7 +40,7 @@ struct LineSupport {
 // Each segment shows one line: those that were claimed for another are not found again.
 class LineSupportSearch {
  public:
-  // Both must outlive the search.
+  // The map and the imaging model must outlive the search.
   LineSupportSearch(const Map& map, const ImagingModel& imaging);
 
   // Segments that run as the line does (bright side on the same side), both ends within chi2 99 %
@@ -63,14 +63,14 @@ class LineSupportSearch {
 
   const ImagingModel& imaging_;
   ViewTree views_;
-  std::vector<SegmentIndex> segments_;  // not claimed, by keyframe of views_
+  std::vector<SegmentIndex> segments_;  // those not claimed yet, by keyframe of views_
 };
 
-// Keyframes among supports as Find returns them.
+// Counts the keyframes among supports that are ordered as Find returns them.
 int CountKeyFrames(std::span<const LineSupport> supports);
 
-// The line through all its supports, left and right segments alike, from scratch (TriangulateLine).
-// nullopt where that fails. The interval is left at zero.
+// Triangulates the line through all supports, left and right segments alike (TriangulateLine).
+// Returns nullopt where that fails. The interval of the line is not set.
 std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
                                                   std::span<const LineSupport> supports);
 
@@ -88,7 +88,7 @@ std::optional<Stretch> PartInImage(const RectifiedCamera& camera,
                                    const Rigid3& cam_from_world,
                                    const PluckerLine& line);
 
-// Common length of two intervals over that of the shorter one.
+// Returns the length that two intervals have in common, over that of the shorter one.
 double OverlapRatio(const LineInterval& a, const LineInterval& b);
 
 }  // namespace plumbline

@@ -28,10 +28,11 @@ void Timed(const char* name, std::vector<MappingStep>& times, const Step& step) 
   times.push_back({name, taken.count()});
 }
 
-// A correction that moves no place of the image by more is not worth touching all keyframes for.
+// A correction that changes no disparity of the image by more is not worth changing all keyframes
+// for.
 constexpr double kMinChangePx = 0.02;
 
-// Over a grid of places of the image.
+// Returns the largest difference of two corrections over a grid of places of the image.
 double MaxDifference(const RectifiedCamera& camera,
                      const StereoCorrection& a,
                      const StereoCorrection& b) {
@@ -46,7 +47,7 @@ double MaxDifference(const RectifiedCamera& camera,
   return largest;
 }
 
-// The keyframe of this number near the newest end of the map; nullptr where it was removed.
+// Finds the keyframe of a number, beginning at the newest; nullptr where it was removed.
 const KeyFrame* WithNumber(const Map& map, std::int64_t number) {
   const auto& keyframes = map.keyframes();
   auto keyframe = keyframes.rbegin();
@@ -65,7 +66,7 @@ std::vector<ShownLandmark<LandmarkId>> ShownBy(const Map& map,
   return shown;
 }
 
-// New looks for the landmarks of one kind but those that are as they were.
+// Refreshes the appearance of the landmarks of one kind, but for those that have not changed.
 template <class Refresh, class LandmarkId>
 void RefreshChanged(const std::vector<ShownLandmark<LandmarkId>>& before,
                     const std::vector<ShownLandmark<LandmarkId>>& now,
@@ -157,7 +158,7 @@ std::vector<MappingStep> LocalMapper::Tie(Map& map, KeyFrameId newest, KeyFrameI
 }
 
 std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) const {
-  constexpr int kRounds = 2;  // with better poses, lines find more of what shows them
+  constexpr int kRounds = 2;  // after the first, better poses find more segments of each line
   std::vector<MappingStep> times;
   if (stereo_change_.Running(map)) {
     map.Apply({edit::CorrectStereo{stereo_change_.state()->correction}});
@@ -170,7 +171,8 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   return times;
 }
 
-// Returns what the keyframe shows, with looks that are up to date.
+// Puts a keyframe into the map and updates scores and appearance of the landmarks that it shows,
+// which are returned.
 LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
                                                 const KeyFrame& keyframe,
                                                 const TrackingScores& scores) {
@@ -187,8 +189,8 @@ LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
   return refreshed;
 }
 
-// New looks for all landmarks that the keyframe shows, but for those that have not changed since
-// they had some: the same features show them. (Nothing moves meanwhile.)
+// Refreshes the appearance of all landmarks that a keyframe shows, but for those that the same
+// features show as before (nothing moves in between). Returns the landmarks that it shows now.
 LocalMapper::ShownLandmarks LocalMapper::Refresh(Map& map,
                                                  KeyFrameId id,
                                                  const ShownLandmarks& before) {
@@ -211,7 +213,7 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   create(CreateLinesFromViews(map, imaging_, id, lines_));
 }
 
-// Counts the landmarks that an edit adds among the young ones, which have to prove themselves.
+// Adds the landmarks that an edit creates to the young ones, which are on trial.
 void LocalMapper::Watch(MapId map, const MapEdit& edit) {
   YoungLandmarks& young = young_[map];
   for (const MapChange& change : edit) {
@@ -244,7 +246,8 @@ void LocalMapper::Adjust(Map& map, KeyFrameId id) {
   map.Apply(ToEdit(map, imaging_, window, *result));
 }
 
-// The keyframe kDelay ago is one that others after it have shown the landmarks of.
+// Learns the correction from the keyframe kDelay before this one, since by now later keyframes show
+// its landmarks as well.
 void LocalMapper::CalibrateStereo(Map& map, KeyFrameId id) {
   constexpr std::int64_t kDelay = 3;
   const KeyFrame* keyframe = WithNumber(map, map.NumberOf(id) - kDelay);

@@ -33,7 +33,7 @@ struct AdjustedLines {
   std::size_t bytes = 0;
 };
 
-// A landmark that a feature shows, and how many keyframes show it.
+// A landmark that a feature shows, and the number of keyframes that show it.
 template <class LandmarkId>
 struct ShownLandmark {
   LandmarkId id = {};
@@ -44,45 +44,45 @@ struct ShownLandmark {
 
 // Takes keyframes into the map, one after the other: observations, landmarks from depth and from
 // several views, duplicates, local bundle adjustment, calibration of the stereo pair, clean-up.
-// Each step reads the map and returns a MapEdit, applied here.
+// Each step reads the map and returns a MapEdit, which is applied here.
 class LocalMapper {
  public:
   LocalMapper(const ImagingModel& imaging, const LineOptions& lines, const MappingOptions& options);
 
-  // For what is done from now on.
+  // Sets the options for all that is done from now on.
   void SetOptions(const MappingOptions& options) { options_ = options; }
 
-  // Returns the time of each step, in order.
+  // Takes in a keyframe, with the scores that tracking counted since the last one. Returns the time
+  // of each step, in order.
   std::vector<MappingStep> Add(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
 
-  // Begins a map with several keyframes and their landmarks (an edit of the empty map), of which
-  // `newest` is the last: bundle adjustment of all of it, then new landmarks of `newest`. Times as
-  // Add's.
+  // Begins a map with several keyframes, of which `newest` is the last, and their landmarks; `edit`
+  // makes these from the empty map. Adjusts all of it, then creates new landmarks of `newest`.
+  // Returns times as Add does.
   std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
 
-  // Two keyframes that were far apart in the map were found to see the same place, and what both
-  // show is fused: looks for more of it around both, and adjusts the surroundings of both. Times as
-  // Add's.
+  // Ties two keyframes that were far apart in the map and were found to see the same place. What
+  // both show is fused already: this looks for more of it around both, and adjusts the surroundings
+  // of both. Returns times as Add does.
   std::vector<MappingStep> Tie(Map& map, KeyFrameId newest, KeyFrameId older);
 
   // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap), with the
-  // stereo correction that it was about to get. When
-  // stopped, what is not done is left out: the map is that of the last adjustment that was
-  // completed. Times as Add's.
+  // stereo correction that it was about to get. When stopped, the map is that of the last
+  // adjustment that was completed. Returns times as Add does.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
-  // A new, empty map begins with what was learned of the camera.
+  // Gives a new, empty map what was learned of the camera.
   void StartNewMap(Map& map);
-  // What follows is about another map than what came before.
+  // From now on keyframes of another map are taken in.
   void GoOnInAnotherMap();
-  // Some maps of the atlas may have taken others in since the last call.
+  // To be called when maps of the atlas may have been joined since the last call.
   void FollowJoins(const Atlas& atlas);
 
-  // The lines that took part in the adjustment of all maps so far.
+  // Counts the lines that took part in local adjustments so far, of all maps.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
 
-  // What is remembered from keyframe to keyframe. A mapper of the same options that is given the
-  // state of another one, and its map, does what the other would do.
+  // All that is kept from keyframe to keyframe. A mapper of the same options that is given the
+  // state and the map of another one does what the other would do.
   struct State {
     std::map<MapId, YoungLandmarks> young;
     StereoEvidence stereo_evidence;
@@ -93,7 +93,7 @@ class LocalMapper {
   void SetState(const State& state);
 
  private:
-  // Of a keyframe, by feature.
+  // The landmarks that a keyframe shows, by feature.
   struct ShownLandmarks {
     std::vector<ShownLandmark<PointId>> points;
     std::vector<ShownLandmark<LineId>> lines;

@@ -24,7 +24,7 @@ struct MapProblem {
   std::vector<PointId> points;        // by point index
 };
 
-// Fills a MapProblem: first the poses, then what they show.
+// Fills a MapProblem. All poses have to be added before the landmarks that they show.
 class MapProblemBuilder {
  public:
   // A feature of a keyframe that has a pose in the problem.
@@ -46,11 +46,12 @@ class MapProblemBuilder {
   // The views of a landmark, ordered by keyframe. Valid until the next call.
   const std::vector<View>& ViewsOf(const Observations& observations);
 
-  // With its views, where there are two.
+  // Adds a point with its views; a point with fewer than two views is left out.
   void AddPoint(const MapPoint& point);
-  // Without views; returns its index.
+  // Adds a line without views and returns its index.
   int AddLine(const PluckerLine& in_world);
-  // The segment in the left image, and with_right also that in the right one where there is one.
+  // Adds the segment in the left image to a line, and with `with_right` also that in the right
+  // image where there is one.
   void AddLineView(int line, const View& view, bool with_right);
 
   // Index of the pose of a keyframe of the map; kNoPose where it has none.
@@ -69,14 +70,14 @@ class MapProblemBuilder {
   Rigid3 world_from_problem_;
   std::vector<int> pose_of_;          // by keyframe
   std::vector<const Frame*> frames_;  // by pose
-  std::vector<View> views_;           // last asked for
+  std::vector<View> views_;           // the result of the last ViewsOf
 };
 
-// The observations of points that turned out to be outliers.
+// Returns the removals of the observations of points that turned out to be outliers.
 std::vector<edit::RemovePointObservation> OutliersOf(const MapProblem& part,
                                                      const BaResult& result);
 
-// Poses of the result in the world of the map, the fixed ones included.
+// Returns the poses of the result in the world of the map, with those that were fixed.
 std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaResult& result);
 
 // The result as changes of the map: poses that were free, points, and the observations of points

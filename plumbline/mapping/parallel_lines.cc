@@ -23,23 +23,24 @@ constexpr double kWellKnown = 1 * kRadians;
 constexpr double kNear = 2 * kRadians;
 constexpr std::size_t kMinLines = 5;
 constexpr std::size_t kMinViews = 3;
-// So many keyframes of a larger map tell its directions to a hundredth of a degree.
+// Of a larger map so many keyframes are looked at: they fix its directions to a hundredth of a
+// degree.
 constexpr std::size_t kMostKeyFrames = 200;
 constexpr std::size_t kMostLines = 1500;
 constexpr double kMaxChance = 0.005;
-// Further away the angle is not small, and chi2 of its sine says nothing.
+// At larger angles the sine is not the angle, and its chi2 says nothing.
 constexpr double kMinCosine = 0.9;
 
 using Basis = Eigen::Matrix<double, 3, 2>;
 
-// How far a line's direction is from another one, in a basis across the latter.
+// The difference of a line's direction from an axis, in a basis across the axis.
 struct Deviation {
   Eigen::Vector2d angle = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   bool agrees = false;
 };
 
-// sigma: of the difference beyond the line's covariance.
+// sigma: deviation of the difference in addition to the line's covariance.
 Deviation DeviationFrom(const Eigen::Vector3d& axis,
                         const Basis& across,
                         const LineDirection& line,
@@ -56,8 +57,9 @@ Deviation DeviationFrom(const Eigen::Vector3d& axis,
 
 using Lines = std::vector<const LineDirection*>;
 
-// For each line, how many are near it, itself included. Kept up to date while lines are taken away:
-// O(lines) for each, after O(lines squared).
+// Counts for each line how many lines are near it in direction, itself included, and keeps the
+// counts up to date while lines are taken away. O(lines squared) once, then O(lines) for each line
+// taken.
 class Votes {
  public:
   explicit Votes(const std::vector<LineDirection>& lines)
@@ -76,7 +78,7 @@ class Votes {
     for (std::size_t i = 0; i < lines_.size(); ++i) votes_[i] -= Near(lines_[i], line) ? 1 : 0;
   }
 
-  // The first of those with most; nullptr when there are not enough anywhere.
+  // The first of the lines with most others near them; nullptr when no line has enough.
   const LineDirection* Most() const {
     std::ptrdiff_t most = kMinLines - 1;
     const LineDirection* line = nullptr;
@@ -99,8 +101,8 @@ class Votes {
   double near_ = math::Cos(kNear);
 };
 
-// Gauss-Newton on the deviations of the lines that agree, chosen anew in each step. Those that do
-// not agree in the last one are left in `others`.
+// Finds the mean direction by Gauss-Newton on the deviations of the lines that agree with it, which
+// are chosen anew in each step. The lines that do not agree in the last step are left in `others`.
 CommonDirection WeightedMean(const Eigen::Vector3d& start, const Lines& lines, Lines& others) {
   constexpr int kSteps = 4;
   CommonDirection mean{start, 0};
@@ -162,7 +164,7 @@ std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& 
       others = left;
       others.erase(std::find(others.begin(), others.end(), seed));
     }
-    // Both are in the same order.
+    // `left` and `others` are in the same order.
     auto kept = others.begin();
     for (const LineDirection* line : left) {
       if (kept != others.end() && *kept == line) {
@@ -178,12 +180,12 @@ std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& 
 
 namespace {
 
-// Up to `most` of some things, evenly spread over them: is the one at `place` of `count` chosen?
+// Whether the item at `place` is chosen when up to `most` of `count` items are, evenly spread.
 bool Chosen(std::size_t place, std::size_t count, std::size_t most) {
   return place * most / count != (place + 1) * most / count;
 }
 
-// The lines that enough keyframes show and one of those chosen does, by id.
+// Returns by id the lines that enough keyframes show, among them one of those chosen.
 std::vector<const MapLine*> SpreadLines(const Map& map) {
   std::vector<LineId> ids;
   std::size_t place = 0;
@@ -225,7 +227,8 @@ std::optional<std::size_t> ParallelTo(const LineDirection& line,
     const Deviation d =
         DeviationFrom(axis, BasisAcross(axis), line, math::Hypot(kSigma, directions[i].sigma));
     if (!d.agrees) continue;
-    // The ellipse that passes, as a share of the hemisphere of all directions.
+    // The area of the ellipse of directions that pass, as a share of the hemisphere of all
+    // directions.
     const double chance = 0.5 * Chi2Limit95(2) * std::sqrt(d.covariance.determinant());
     if (out || chance > kMaxChance) return std::nullopt;
     out = i;

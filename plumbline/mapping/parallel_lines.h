@@ -13,8 +13,8 @@
 
 namespace plumbline {
 
-// What is known of the direction of a line: a unit vector of either sense and its covariance
-// (rad^2; nothing along it).
+// The direction of a line as far as it is known: a unit vector of either sense, and its covariance
+// across the direction (rad^2).
 struct LineDirection {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -47,9 +47,9 @@ std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& 
 // show, evenly spread over it, and 1500 of these. Cost: that of CommonDirections of so many.
 std::vector<CommonDirection> CommonDirections(const Map& map);
 
-// The one of the directions that a line is parallel to by chi2 at 95 %. nullopt also where the test
-// means little: several pass, or the line is so badly known that one direction in 200 would pass by
-// chance.
+// Returns the index of the direction that a line is parallel to by chi2 at 95 %. Returns nullopt
+// where none is, and where the test means little: several directions pass, or the line is known so
+// badly that one direction in 200 would pass by chance.
 std::optional<std::size_t> ParallelTo(const LineDirection& line,
                                       const std::vector<CommonDirection>& directions);
 

@@ -46,7 +46,7 @@ SegmentIndex::Range SegmentIndex::DirectionsAround(const Eigen::Vector2d& direct
           static_cast<int>(std::floor((turns + spread) * kDirections))};
 }
 
-// What is outside the image counts to the cells at its border.
+// Places outside the image belong to the cells at its border.
 SegmentIndex::Range SegmentIndex::Cells(double first, double last, double cell, int count) {
   const auto at = [&](double px) {
     return static_cast<int>(std::clamp(px / cell, 0.0, count - 1.0));

@@ -14,15 +14,15 @@
 
 namespace plumbline {
 
-// Finds segments of an image by where they are and where they point to. For each cell of a coarse
-// grid, and for each range of directions, one bit a segment.
+// Finds segments of an image by place and direction. For each cell of a coarse grid, and for each
+// range of directions, it keeps a set of segments as one bit for each.
 class SegmentIndex {
  public:
   // An empty index of an image of width x height pixels, to which `count` segments will be added.
   SegmentIndex(int width, int height, std::size_t count);
 
   void Add(std::size_t index, const Segment2& segment);
-  // Is not found any more.
+  // Removes a segment, so that it is not found any more.
   void Remove(std::size_t index) { At(open_, 0, index / kBits) &= ~Bit(index); }
 
   // Calls visit(index), ascending, for all segments whose bounding box meets `box` and whose
@@ -69,7 +69,7 @@ class SegmentIndex {
   Range Columns(const Eigen::AlignedBox2d& box) const;
   Range Rows(const Eigen::AlignedBox2d& box) const;
 
-  Eigen::Vector2d cell_;                           // size, pixels
+  Eigen::Vector2d cell_;                           // size of a cell, pixels
   std::size_t words_ = 0;                          // of each set
   std::vector<std::uint64_t> cells_, directions_;  // sets of segments
   std::vector<std::uint64_t> open_;                // one set: those not removed

@@ -17,23 +17,25 @@ namespace {
 // Prior deviation of each coefficient, relative to the width of the image: a rig's angles and
 // lenses are off by so much whatever the number of pixels.
 constexpr double kPriorSigma = 4e-4;
-// Deviation of a single displacement, beside the error of its prediction: noise of the disparity,
-// and what a landmark's looks do to all its disparities alike.
+// Deviation of a single displacement in addition to the error of its prediction: the noise of the
+// disparity, and the error that the appearance of a landmark causes in all its disparities alike.
 constexpr double kNoisePx = 0.5;
-constexpr double kHuber = 1.345;               // sigma
-constexpr double kMaxPredictionSigmaPx = 0.3;  // worse predictions tell nothing
-constexpr double kMaxDisplacementPx = 3;       // more is a wrong match
+constexpr double kHuber = 1.345;               // threshold of the loss, in deviations
+constexpr double kMaxPredictionSigmaPx = 0.3;  // less certain predictions are not used
+constexpr double kMaxDisplacementPx = 3;       // a larger displacement is a wrong match
 constexpr std::size_t kMinViews = 3;
-// Root of the mean square that a correction must exceed: what is smaller may be the biases of
-// corners whose correlation windows show an edge in depth.
+// A correction counts as far as its root mean square exceeds this: smaller ones may come from the
+// biases of corners whose correlation windows show an edge in depth.
 constexpr double kBiasPx = 0.04;
 
-// Normal equations of the coefficients and, last, the error of the scale around one keyframe.
+// Normal equations of the coefficients of the correction and, as the last unknown, the error of the
+// scale around one keyframe.
 struct KeyFrameEvidence {
   Eigen::Matrix<double, 7, 7> information = Eigen::Matrix<double, 7, 7>::Zero();
   Eigen::Matrix<double, 7, 1> weighted = Eigen::Matrix<double, 7, 1>::Zero();
 
-  // A displacement measured at a place with these terms, where `surprise` of it is new.
+  // Adds a displacement that was measured at a place with these terms. `surprise` is the part of it
+  // that the correction so far does not explain; where it is too large, the match is wrong.
   void Add(const Vector6d& terms,
            double predicted,
            double displacement,

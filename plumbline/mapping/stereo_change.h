@@ -18,16 +18,17 @@ namespace plumbline {
 // takes them at once. Until then the whole map has the correction of before. A map of no more than
 // kSlice keyframes gets it with the first step.
 //
-// When it takes effect depends on the map alone. Not thread-safe.
+// The keyframe at which it takes effect depends on the map alone. Not thread-safe.
 class StereoChange {
  public:
-  static constexpr std::size_t kSlice = 256;  // keyframes a step; some microseconds for each
+  static constexpr std::size_t kSlice = 256;  // keyframes a step, some microseconds each
 
-  // What is under way. Another one that is given this and the same map ends with the same step.
+  // The change that is under way. An object that is given this state and the same map completes the
+  // change with the same step as this one.
   struct State {
     MapId map;
     StereoCorrection correction;
-    KeyFrameId next{0};  // those before are ready
+    KeyFrameId next{0};  // the keyframes before this one are ready
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -36,9 +37,9 @@ class StereoChange {
   };
 
   bool Running(const Map& map) const { return state_ && state_->map == map.id(); }
-  // Begins anew for this map; what was under way is given up.
+  // Begins a change of this map and gives up one that is under way.
   void Begin(const Map& map, const StereoCorrection& correction);
-  // Goes on with what is under way for this map.
+  // Does one step of the change that is under way for this map, if there is one.
   void Step(Map& map);
   void GiveUp();
 
@@ -48,7 +49,8 @@ class StereoChange {
  private:
   std::optional<State> state_;
   edit::CorrectStereo change_;
-  // Features that no keyframe has any more: to free them takes time, too.
+  // Features that no keyframe has any more. They are freed step by step, since that takes time,
+  // too.
   std::deque<std::shared_ptr<const IndexedFeatures>> retired_;
 };
 

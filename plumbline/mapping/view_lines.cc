@@ -14,9 +14,9 @@
 namespace plumbline {
 namespace {
 
-constexpr int kClosest = 3;  // keyframes that section 3.3 takes
+constexpr int kClosest = 3;  // keyframes that lines are made with, as in section 3.3
 
-// The line features of a frame that show no landmark, and their indices in the frame.
+// Holds the line features of a frame that show no landmark, with their indices in the frame.
 struct FreeLines {
   std::vector<LineFeature> features;
   std::vector<std::size_t> index;
@@ -56,7 +56,8 @@ MapEdit CreateLinesFromViews(const Map& map,
     std::optional<MapLine> line;
     const auto reconstruct = lines.method.line_from_views;
     if (views.size() > 2) line = reconstruct(map, imaging.camera, views);
-    // Two-view fallback: one wrong match spoils three views, but not those of the right pair.
+    // Where three views disagree, two are tried: one wrong match spoils the three, but not the pair
+    // without it.
     for (std::size_t k = 1; !line && k < views.size(); ++k) {
       line = reconstruct(map, imaging.camera, {views.front(), views[k]});
     }

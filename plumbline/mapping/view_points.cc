@@ -19,22 +19,22 @@
 namespace plumbline {
 namespace {
 
-// The search along the epipolar line starts at this part of the median depth, in both views: in no
-// unit, since a single camera knows none.
+// The search along the epipolar line covers depths between these two factors on the median depth,
+// in both views. They have no unit, since a single camera knows none.
 constexpr double kNearestDepth = 0.05;
-constexpr double kFarthestDepth = 1e4;  // the same
+constexpr double kFarthestDepth = 1e4;
 constexpr double kEpipolarChi2 = 3.84;  // 95 %, one degree of freedom
-constexpr double kDepthSigmas = 3;      // of a measured but poor depth
-constexpr double kMaxScaleRatio = 1.8;  // of octave and distance between the views
+constexpr double kDepthSigmas = 3;      // around a measured but poor depth
+constexpr double kMaxScaleRatio = 1.8;  // between the sizes by octave and by distance of two views
 // The descriptors of the two views may differ by this Hamming distance, of 256 bits, and by this
 // ratio to the distance of the second best. Both are stricter than in tracking, since there is no
 // pose that a wrong landmark would contradict.
 constexpr int kMaxDistance = 50;
 constexpr double kMaxRatio = 0.8;
-// Between the two views of a new point: rays that are nearer to each other leave its depth open.
+// Least angle between the two rays of a new point; a smaller one leaves its depth open.
 constexpr double kMinParallax = 0.3 * std::numbers::pi / 180;
 
-// Piece of the epipolar line in the second image on which a point of the first must lie.
+// The piece of the epipolar line in the second image that a point of the first image must lie on.
 struct SearchWindow {
   Eigen::Vector2d centre;
   Eigen::Vector2d radius;
@@ -56,7 +56,7 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
     near = std::max(near, camera.DepthFromDisparity(high));
     if (low > 0) far = std::max(near, camera.DepthFromDisparity(low));
   }
-  // In the second view the depth is slope * depth + offset; there, too, it must be large enough.
+  // In the second view the depth is slope * depth + offset; it must be large enough there as well.
   const double slope = (b_from_a.rotation * ray).z();
   const double offset = b_from_a.translation.z();
   if (slope > 0) near = std::max(near, (nearest - offset) / slope);
@@ -70,7 +70,7 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
   return SearchWindow{0.5 * (a + b), 0.5 * (a - b).cwiseAbs() + slack};
 }
 
-// The features of a frame that show no landmark, by image cell.
+// The point features of a frame that show no landmark, ordered by image cell.
 class FreePoints {
  public:
   FreePoints(const RectifiedCamera& camera, const Frame& frame) {
@@ -98,7 +98,7 @@ class FreePoints {
   std::vector<std::size_t> found_;
 };
 
-// Features without landmark of one keyframe against those of another.
+// Matches the features without landmark of one keyframe with those of another.
 class PairSearch {
  public:
   PairSearch(const RectifiedCamera& camera, const Frame& a, const Frame& b, double median_depth)
@@ -110,7 +110,7 @@ class PairSearch {
         F_ba_(FundamentalMatrix(camera, b_from_a_)),
         free_in_b_(camera, b) {}
 
-  // Index of the match in b, for feature i of a.
+  // Returns the index of the feature of b that matches feature i of a.
   std::optional<std::size_t> Find(std::size_t i, const std::vector<bool>& taken_in_b) {
     const PointFeature& feature = a_.features().points[i];
     const auto window = EpipolarWindow(camera_,
@@ -171,8 +171,8 @@ class PairSearch {
   FreePoints free_in_b_;
 };
 
-// The median depth of the points that a keyframe shows; nullopt where it shows none, or most lie
-// behind it.
+// Returns the median depth of the points that a keyframe shows; nullopt where it shows none, or
+// where most of them lie behind it.
 std::optional<double> MedianDepth(const Map& map, const Frame& frame) {
   std::vector<double> depths;
   for (const PointId id : frame.points) {

@@ -16,7 +16,7 @@ namespace plumbline {
 namespace {
 
 constexpr int kLeaf = 4;
-// Rounding must not leave out what an exact test would take.
+// A margin, so that rounding does not leave out what an exact test would take.
 constexpr double kMargin = 1e-6;
 
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -26,7 +26,7 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }  // namespace
 
 ViewTree::ViewTree(const Map& map, const RectifiedCamera& camera) {
-  // A pixel beyond the border on all sides.
+  // The image with a margin of one pixel on all sides.
   for (const double u : {-1.0, static_cast<double>(camera.width)}) {
     for (const double v : {-1.0, static_cast<double>(camera.height)}) {
       half_view_ =
@@ -122,7 +122,8 @@ bool ViewTree::MaySee(const Node& node,
   // The cone widens by the angle `by` under which both balls together are seen.
   const double sin_by = both / distance;
   const double cos_by = std::sqrt((1 - sin_by) * (1 + sin_by));
-  if (node.sin_open * cos_by + node.cos_open * sin_by <= 0) return true;  // to all sides
+  // The cone is so wide then that it covers all directions.
+  if (node.sin_open * cos_by + node.cos_open * sin_by <= 0) return true;
   const double cos_widened = node.cos_open * cos_by - node.sin_open * sin_by;
   return !(node.axis.dot(to_target) < distance * (cos_widened - kMargin));
 }
@@ -133,8 +134,8 @@ std::vector<int> ViewTree::MayShow(const Wanted& wanted) const {
   const Eigen::Vector3d middle = wanted.segment.Midpoint();
   const double length = wanted.segment.Length();
   const double radius = 0.5 * length * (1 + kMargin);
-  // All of the segment is at least `distance - radius` away, and takes no larger angle than this
-  // allows.
+  // The whole segment is at least `distance - radius` away, which limits the angle that it can
+  // take.
   double reach = wanted.max_distance;
   if (wanted.min_length_px > 0) {
     reach = std::min(reach, radius + length * px_per_radian_ / wanted.min_length_px);

@@ -14,11 +14,12 @@
 
 namespace plumbline {
 
-// Finds the keyframes of a map that may have something in their image, without going through all
-// of them: a tree in which each node knows where its cameras stand and which way they look.
+// Finds the keyframes of a map that may have a given segment in their image, without going through
+// all of them. It is a tree in which each node knows where its cameras stand and which way they
+// look.
 class ViewTree {
  public:
-  // What is looked for, and how it must be seen.
+  // The segment that is looked for, and how large and near it must be seen.
   struct Wanted {
     Segment3 segment;                                               // world
     double min_length_px = 0;                                       // of its image, more than this
@@ -29,14 +30,14 @@ class ViewTree {
   ViewTree(const Map& map, const RectifiedCamera& camera);
 
   std::size_t size() const { return keyframes_.size(); }
-  // Indices are by id.
+  // Returns the index of a keyframe; indices are ordered by id.
   int IndexOf(KeyFrameId id) const;
   const KeyFrame& keyframe(int index) const { return *keyframes_[static_cast<std::size_t>(index)]; }
 
-  // Indices, ascending, of keyframes: all that show the segment as wanted, and some that may not:
-  // those whose field of view, taken as a cone, meets the ball around the segment, no further than
-  // where even a segment across the line of sight would be shorter. O(log n + found) for cameras
-  // that are spread evenly.
+  // Returns the indices, ascending, of all keyframes that show the segment as wanted, and of some
+  // that do not: of all whose field of view, taken as a cone, meets the ball around the segment, no
+  // further away than where even a segment across the line of sight would be too short. O(log n +
+  // found) for cameras that are spread evenly.
   std::vector<int> MayShow(const Wanted& wanted) const;
 
  private:
@@ -54,7 +55,7 @@ class ViewTree {
   void Build(int begin, int end);
   void Enclose(Node& node) const;
   static void Open(double angle, Node& node);
-  // Can a camera of the ball and cone see something of the ball around the target?
+  // Whether a camera of the node may see something of the ball around the target, within `reach`.
   bool MaySee(const Node& node, const Eigen::Vector3d& target, double radius, double reach) const;
 
   std::vector<const KeyFrame*> keyframes_;

@@ -42,6 +42,8 @@ void RemoveFile(const fs::path& path) {
   if (error) throw InputError("cannot remove " + path.string() + ": " + error.message());
 }
 
+// Whether there is something of this name. A link counts as itself, also where it leads nowhere (so
+// that this is not PathExists): what somebody else put there is not to be replaced.
 bool Exists(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));

@@ -27,7 +27,7 @@ void Transfer(Archive& archive, T& matches) {
   TransferAll(archive, matches.point_of_feature, matches.line_of_feature);
 }
 
-// Whether each is -1 or an index into so many candidates.
+// Whether each match is -1 (none) or an index into a list of so many candidates.
 inline bool AreIndices(const std::vector<int>& matches, std::size_t candidates) {
   return std::all_of(matches.begin(), matches.end(), [&](int index) {
     return index >= -1 && (index < 0 || static_cast<std::size_t>(index) < candidates);

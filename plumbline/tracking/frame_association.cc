@@ -20,7 +20,8 @@ int CountMatches(const std::vector<int>& match_of_feature) {
       match_of_feature.begin(), match_of_feature.end(), [](int match) { return match >= 0; }));
 }
 
-// Projects the candidates, writes down which are visible, and leaves those without a match.
+// Projects the candidates, writes down which of them are visible, and returns those that have no
+// match yet.
 template <class Candidate, class Project>
 auto ProjectUnmatched(const std::vector<Candidate>& candidates,
                       const std::vector<int>& match_of_feature,

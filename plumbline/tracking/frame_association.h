@@ -13,12 +13,13 @@
 
 namespace plumbline {
 
-// A landmark that a frame may show: of the map, or (invalid id) made on the spot from one frame.
+// A landmark that a frame may show. It is one of the map, or, with an invalid id, one that was made
+// on the spot from the depths of one frame.
 struct CandidatePoint {
   PointId id;
   PointModel model;
-  // Covariance of the position, in the world; zero where it counts as known. (A line's is in its
-  // model.)
+  // Covariance of the position in the world; zero where the position counts as known. A line has
+  // its covariance in its model.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 struct CandidateLine {
@@ -26,7 +27,8 @@ struct CandidateLine {
   LineModel model;
 };
 
-// Which feature of a frame shows which of some candidates: -1 or an index into them.
+// Which of some candidates each feature of a frame shows: an index into the candidates, or -1 for
+// none.
 struct FrameMatches {
   std::vector<int> point_of_feature;
   std::vector<int> line_of_feature;
@@ -43,45 +45,47 @@ struct FrameMatches {
 struct FrameAssociation {
   std::vector<CandidatePoint> points;
   std::vector<CandidateLine> lines;
-  FrameMatches matches;  // of these
+  FrameMatches matches;  // with these points and lines
 
   FrameAssociation() = default;
-  // No candidates and no matches.
+  // An association without candidates and matches.
   FrameAssociation(std::size_t point_features, std::size_t line_features)
       : matches(point_features, line_features) {}
 };
 
-// The matches of a frame of the map, with landmarks that are in the snapshot.
+// Returns the matches that a frame of the map has with landmarks in the snapshot.
 FrameAssociation AssociationOf(const Frame& frame, const MapSnapshot& snapshot);
 
-// Matches with landmarks of the map.
+// Counts the matches with landmarks of the map.
 int MatchesOfMap(const FrameAssociation& association);
 
-// Copies the matches with landmarks of the map (or only the others) of features that have none in
-// `to` yet.
+// Copies matches of features that have none in `to` yet: with `of_map` those with landmarks of the
+// map, without it those with landmarks made on the spot.
 void CopyMatches(const FrameAssociation& from, bool of_map, FrameAssociation& to);
 
-// Takes the matches with landmarks that fewer than `views` keyframes show out of an association
-// (none shows those made on the spot) and returns them.
+// Takes the matches with young landmarks out of an association and returns them. A landmark is
+// young if fewer than `views` keyframes show it; no keyframe shows one that was made on the spot.
 FrameMatches TakeOutYoung(const MapSnapshot& snapshot, int views, FrameAssociation& association);
 
-// Matches of `from`, with the same candidates, for the features that have none in `to`.
+// Copies the matches of `from` for those features that have none in `to`. The candidates of both
+// must be the same.
 void PutBack(const FrameMatches& from, FrameMatches& to);
 
-// Features that have a match in both.
+// Counts the features that have a match in both.
 int CommonMatches(const FrameMatches& a, const FrameMatches& b);
 
-// Indices of the candidates that were projected into the image (expected to be seen).
+// Indices of the candidates that were projected into the image, and so are expected to be seen.
 struct ExpectedLandmarks {
   std::vector<int> points;
   std::vector<int> lines;
 };
 
-// Writes down which landmarks of the map the features of a frame show; those without a match and
-// those made on the spot show none.
+// Writes into a frame which landmarks of the map its features show. Features without a match, or
+// matched with a landmark that was made on the spot, show none.
 void SetLandmarks(const FrameAssociation& association, Frame& frame);
 
-// Counts for each landmark of the map that it was to be seen, and that it was found.
+// Adds to the scores of the map's landmarks: one for each that was expected to be seen, and one for
+// each that was found.
 void CountSeen(const ExpectedLandmarks& expected,
                const FrameAssociation& association,
                TrackingScores& scores);

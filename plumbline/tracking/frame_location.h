@@ -16,11 +16,12 @@ struct LocatedFrame {
   FrameCounts counts;
 };
 
-// The pose of a frame in a map that is known already, for frames out of turn: landmarks of the
-// snapshot searched around their places from the predicted pose (with tracking's first radius, then
-// its wide one), pose, search again with the usual radius, pose. Both poses must be accepted as
-// tracking accepts one without prediction (TrackingOptions::max_pose_sigma). nullopt where the
-// frame is not found.
+// Finds the pose of a frame, which may come out of turn, in a map that is known already. Landmarks
+// of the snapshot are searched around the places where the predicted pose puts them (with
+// tracking's first radius, then with its wide one) and a pose is estimated; with this pose they are
+// searched again with the usual radius, and the pose is estimated again. Both poses must be
+// accepted as tracking accepts one without prediction (TrackingOptions::max_pose_sigma). Returns
+// nullopt where the frame is not found.
 std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const PoseEstimator& estimator,
                                         const IndexedFeatures& image,

@@ -5,13 +5,15 @@
 namespace plumbline {
 namespace {
 
-// A keyframe comes when a smaller share of the landmarks that the last one shows is tracked, and at
-// once where tracking is about to fail.
+// A keyframe is made when a smaller share of the landmarks of the last keyframe than the first
+// limit is tracked, and at once when it is smaller than the second: tracking is about to fail then.
 constexpr double kMinLandmarkRatio = 0.7;
 constexpr double kCriticalRatio = 0.35;
-// One camera needs a second keyframe to know where new landmarks are.
+// With one camera the limit is higher, since it needs a second keyframe to know where new landmarks
+// are.
 constexpr double kMinMonocularRatio = 0.9;
-// Near points fix the translation: so many are enough, and so many a keyframe must bring.
+// Near points fix the translation. A frame that tracks `kMinClose` of them needs no keyframe for
+// them; otherwise a keyframe must bring at least `kMinNewClose` new ones.
 constexpr int kMinClose = 100;
 constexpr int kMinNewClose = 70;
 

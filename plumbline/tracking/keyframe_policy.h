@@ -11,7 +11,7 @@ namespace plumbline {
 
 struct KeyFramePolicyOptions {
   int max_frames = 20;  // a keyframe at the latest after so many frames
-  int min_frames = 2;   // and never sooner than this, unless tracking is about to fail
+  int min_frames = 2;   // none sooner than after so many, unless tracking is about to fail
 };
 
 template <class Visitor>
@@ -35,23 +35,24 @@ constexpr auto FixedOptions(std::type_identity<KeyFramePolicyOptions>) {
 
 enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints, kLongAgo };
 
-// What the decision depends on, of the frame just tracked.
+// What the decision about a keyframe depends on: how the frame that was just tracked compares with
+// the last keyframe.
 struct KeyFrameSituation {
   int frames_since_keyframe = 0;
-  int shared_landmarks = 0;     // of the following, those that it shows, too
+  int shared_landmarks = 0;     // of `reference_landmarks`, those that the frame shows as well
   int reference_landmarks = 0;  // well observed points and lines that the last keyframe shows
   int close_tracked = 0;        // points with good disparity that show a map point
-  int close_untracked = 0;      // and that show none
+  int close_untracked = 0;      // points with good disparity that show no map point
   bool monocular = false;       // no depth is measured
-  // Features that the frame was measured with: of those that it would be measured with usually, and
-  // of those of the last keyframe. Less than 1 only where a live run sheds features; what is
-  // counted above is then held against as much less.
+  // How many features the frame was measured with, relative to the usual number and to that of the
+  // last keyframe. Both are less than 1 only where a live run sheds features; the counts above are
+  // then compared with limits that are lower by the same share.
   double share_of_usual = 1;
   double share_of_reference = 1;
 };
 
-// Whether a tracked frame should become a keyframe, and why. A pure function, and one of what the
-// camera sees alone: how busy the machine is does not count.
+// Decides whether a tracked frame becomes a keyframe, and why. The decision depends only on what
+// the camera sees, not on how busy the machine is.
 KeyFrameReason DecideKeyFrame(const KeyFrameSituation& situation,
                               const KeyFramePolicyOptions& options);
 

@@ -9,19 +9,19 @@
 namespace plumbline {
 namespace {
 
-// Keyframes' landmarks count as well observed from this many views on (fewer in a young map). Not
-// tracking.established_views, which is about trust, may be 0 for none, and is the same with one
-// camera.
+// A landmark counts as well observed if so many keyframes show it (fewer in a young map). This is
+// not tracking.established_views, which says which landmarks are trusted, may be 0, and is the same
+// with one camera.
 constexpr int kWellObserved = 3;
-// With one camera a landmark has two views from its first day on; where few grow older, waiting for
-// a third would let all go before a keyframe is made.
+// With one camera a landmark has two views as soon as it is made. Where few landmarks live longer,
+// a limit of three views would lose all of them before a keyframe is made.
 constexpr int kWellObservedByOne = 2;
-// Depth uncertainty below which a point counts as near, relative to depth: it fixes the
-// translation.
+// A point counts as near if the deviation of its depth, relative to the depth, is below this: such
+// points fix the translation.
 constexpr double kCloseDepthSigma = 0.05;
 
-// Counts the landmarks of a keyframe that `needed` keyframes show, and those that a frame shows
-// too.
+// Counts the landmarks of a keyframe that at least `needed` keyframes show, and how many of these
+// the frame shows as well.
 template <class LandmarkId>
 void CountShared(const std::vector<LandmarkId>& of_keyframe,
                  const std::vector<LandmarkId>& of_frame,

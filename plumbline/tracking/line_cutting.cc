@@ -43,7 +43,8 @@ Eigen::Matrix3d CovarianceAt(const Rigid3& cam_from_world,
   return R * covariance * R.transpose();
 }
 
-// Column, row and inverse depth of both ends known alike in the present camera.
+// Covariances of the ends when column, row and inverse depth of both are known equally well in the
+// present camera.
 EndCovariances AlikeInInverseDepth(const RectifiedCamera& camera,
                                    const Segment3& in_cam,
                                    double sigma) {
@@ -79,8 +80,8 @@ std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
   return out;
 }
 
-// Derivatives of the whitened residuals of the points at the problem's pose; none for points that
-// have no projection.
+// Returns the derivatives of the whitened residuals of the points at the problem's pose. Points
+// that have no projection are left out.
 std::vector<PointRows> RowsOfPoints(const PoseProblem& problem) {
   std::vector<PointRows> rows;
   rows.reserve(problem.points.size());
@@ -113,7 +114,7 @@ Eigen::Matrix2d PieceCovariance(const RectifiedCamera& camera,
   if (weights.kind == LineWeighting::kNone) {
     return weights.constant_sigma_px * weights.constant_sigma_px * Eigen::Matrix2d::Identity();
   }
-  // The printed information is none that a solver could weight with.
+  // The information as printed in the paper is no weight that a solver could use.
   const CuttingInformation counted = information == CuttingInformation::kCorrelated
                                          ? CuttingInformation::kCorrelated
                                          : CuttingInformation::kIndependent;
@@ -176,7 +177,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
     PoseProblem::LineMatch match = problem.lines[i];
     const auto at = place.find(match.group);
-    if (at == place.end()) {  // where all the others stay, it does, too
+    if (at == place.end()) {  // stays whole unless features are left out
       if (budget >= offered) out.lines.push_back(match);
       continue;
     }

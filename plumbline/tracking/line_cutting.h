@@ -27,8 +27,8 @@ EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
                                  const LineModel& line,
                                  const LineInterval& interval);
 
-// What cutting asks of a line match beside the problem: its landmark, and the noise of the measured
-// segment by itself (sigma_px of the feature), greater than 0.
+// What cutting needs to know of a line match in addition to the problem: its landmark, and the
+// deviation of the measured segment alone (sigma_px of the feature), which is greater than 0.
 struct CutCandidate {
   const LineModel* model = nullptr;
   double sigma_px = 1;
@@ -60,9 +60,9 @@ PoseProblem WithCutLines(const PoseProblem& problem,
                          const LineOptions& lines,
                          const CuttingOptions& cutting);
 
-// Which points and which whole lines of a problem fit a pose: chi2, of all measurements of a group
-// of lines together, at 95 % times gate_scale. A piece of a wrong line may fit where the line does
-// not.
+// Finds which points and which whole lines of a problem fit a pose. The limit is chi2 at 95 % times
+// gate_scale; for lines it applies to all measurements of a group together. Whole lines are tested,
+// since a piece of a wrong line may fit where the line does not.
 std::vector<bool> PointsThatFit(const PoseProblem& problem,
                                 const Rigid3& cam_from_world,
                                 double gate_scale);

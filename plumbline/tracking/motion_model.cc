@@ -5,8 +5,8 @@
 namespace plumbline {
 namespace {
 
-// Change of velocity that the prediction allows for, as hands and cars show it: rotation [rad/s^2]
-// and translation [scene depths/s^2].
+// Standard deviations of the acceleration that the prediction allows for, as measured of hands and
+// cars: rotation [rad/s^2] and translation [scene depths/s^2].
 constexpr double kMotionSigma = 5;
 
 }  // namespace

@@ -10,20 +10,22 @@
 
 namespace plumbline {
 
-// The motion of the camera between the frames: constant velocity, with what it may change by.
+// Predicts the pose of the next frame by a constant velocity, with a covariance for the changes of
+// velocity that are to be expected.
 class MotionModel {
  public:
-  // Where the next frame is, `seconds` after the last one: its pose with a covariance, that of the
-  // last pose and of a velocity that changes as hands and cars change it. The last pose and no
-  // information where the motion is not known.
+  // Predicts the pose of the frame `seconds` after the last one. The covariance is that of the last
+  // pose and of a velocity that changes as hands and cars change it. Where the motion is not known,
+  // the prediction is the last pose without information.
   PosePrior Predict(const Rigid3& last_pose, double seconds) const;
 
-  // Takes in the motion from the last pose to that of the frame `seconds` later.
+  // Learns the velocity from the last pose and that of the frame `seconds` later.
   void Observe(const Rigid3& last_pose, const PoseEstimate& pose, double seconds);
-  // Begins from a velocity [left tangent per second] alone, of a last pose that counts as unknown.
+  // Begins from a velocity alone (left tangent per second); how well the last pose is known is then
+  // unknown.
   void Begin(const Vector6d& velocity);
   void Forget();
-  // Goes over into a unit in which lengths are `scale` times what they were.
+  // Changes the unit of length: all lengths are `scale` times what they were.
   void ChangeUnit(double scale);
 
   bool IsKnown() const { return velocity_.has_value(); }
@@ -35,7 +37,7 @@ class MotionModel {
   }
 
  private:
-  // How well the last pose is known.
+  // The covariance of the last pose, and the depth of the scene there.
   struct Spread {
     Matrix6d covariance;
     double scene_depth = 0;

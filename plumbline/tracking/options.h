@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// What a frame is tracked against.
+// Whether a frame is tracked against the map or against the last frame alone.
 enum class TrackingReference { kLocalMap, kLastFrame };
 constexpr auto EnumNames(std::type_identity<TrackingReference>) {
   return std::array{std::pair{TrackingReference::kLocalMap, "local_map"},
@@ -22,10 +22,10 @@ struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
   // A pose is accepted when its deviations (PoseSigma) are at most this.
   double max_pose_sigma = 0.02;
-  // No landmarks of uncertain depth are searched for a pose that is known so well by so many.
+  // A pose that is known so well, by so many inliers, needs no landmarks of uncertain depth.
   double enough_pose_sigma = 0.002;
   int enough_inliers = 60;
-  // Landmarks that so many keyframes show are not outvoted by others.
+  // Landmarks that so many keyframes show are established: younger ones cannot outvote them.
   int established_views = 3;
   int min_initial = 60;          // points with depth + lines with depth that can start a map
   bool point_covariance = true;  // what depths from one frame leave open counts in the pose

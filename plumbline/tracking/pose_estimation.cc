@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-// A pose problem and the feature each of its matches came from.
+// A pose problem, and for each of its matches the feature that it came from.
 struct MatchedProblem {
   PoseProblem problem;
   std::vector<std::size_t> point_feature;
@@ -74,7 +74,7 @@ MatchedProblem MakeProblem(const RectifiedCamera& camera,
   return matched;
 }
 
-// Takes the matches that are not among those to keep out of the association.
+// Removes from the association all matches that are not among those to keep.
 void Keep(const std::vector<bool>& points,
           const std::vector<bool>& lines,
           const MatchedProblem& matched,
@@ -87,7 +87,8 @@ void Keep(const std::vector<bool>& points,
   }
 }
 
-// The solution with cut lines and chosen features; inliers are all that fit it, lines whole.
+// Solves with cut lines and chosen features. Inliers are all points and whole lines that fit the
+// solution.
 PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
                                  const LineOptions& lines,
                                  const CuttingOptions& cutting) {
@@ -106,7 +107,7 @@ PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
   return result;
 }
 
-// Median depth of what is matched, at points and in the middle of the lines.
+// Returns the median depth of all matched points and of the middles of all matched lines.
 double SceneDepth(const FrameAssociation& association, const Rigid3& cam_from_world) {
   std::vector<double> depths;
   for (const int match : association.matches.point_of_feature) {

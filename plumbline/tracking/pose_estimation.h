@@ -15,14 +15,14 @@ struct PoseEstimate {
   Rigid3 cam_from_world;
   // Information of the inliers and the prior about the left perturbation [rotation, translation].
   Matrix6d information = Matrix6d::Zero();
-  double scene_depth = 0;  // median of the inliers
-  PoseSigma sigma;         // of the two; infinite where they do not fix the pose
+  double scene_depth = 0;  // median depth of the inliers
+  PoseSigma sigma;  // of inliers and prior together; infinite where these do not fix the pose
   int inlier_points = 0;
   int inlier_lines = 0;
   bool converged = false;
 
   int Inliers() const { return inlier_points + inlier_lines; }
-  // Enough inliers agree, and they and the prior fix all six degrees of freedom.
+  // Whether there are enough inliers, and these and the prior fix all six degrees of freedom.
   bool Accepted(int min_inliers, double max_sigma) const {
     return Inliers() >= min_inliers && converged && sigma.AtMost(max_sigma);
   }
@@ -30,7 +30,7 @@ struct PoseEstimate {
 
 // Estimates poses of the frames of one camera (or rig) from matches with landmarks.
 //
-// Thread-safe: it holds the camera and its options, and nothing of the frames.
+// Thread-safe, since it keeps nothing but the camera and its options.
 class PoseEstimator {
  public:
   PoseEstimator(const RectifiedCamera& camera,
@@ -47,8 +47,8 @@ class PoseEstimator {
                         const PosePrior& prior,
                         FrameAssociation& association) const;
 
-  // Undoes the matches that do not agree with a pose: chi2 above gate_scale times its limit of
-  // 95 %.
+  // Removes the matches that do not agree with a pose: those with a chi2 above gate_scale times its
+  // limit of 95 %.
   void DropDisagreeing(const Features& features,
                        const Rigid3& cam_from_world,
                        double gate_scale,

@@ -16,12 +16,13 @@
 namespace plumbline {
 namespace {
 
-// Depth uncertainty of landmarks made from one frame, relative to depth: of points that count as
-// known, of the ends of lines, whose weights allow for it, and of both where these are too few.
+// Largest deviation of the depth, relative to the depth, of landmarks made from one frame: of
+// points that count as known, of the ends of lines (their weights allow for more), and of both
+// where these are too few.
 constexpr double kMaxDepthSigma = 0.05;
 constexpr double kMaxLineDepthSigma = 0.15;
 constexpr double kWorstDepthSigma = 0.3;
-// A pose that is known so well needs no lines at a guessed depth.
+// Lines at a guessed depth are searched only where the pose is known less well than this.
 constexpr double kGuessPoseSigma = 0.01;
 
 // Adds the snapshot's landmarks that are not among the candidates yet.
@@ -38,22 +39,22 @@ void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& can
   }
 }
 
-// The landmark of the map; nullptr for an invalid id and one that is not in the snapshot (any
-// more).
+// Finds a landmark of the map; nullptr for an invalid id, and for a landmark that is not in the
+// snapshot or is so no longer.
 template <class Id>
 auto InSnapshot(Id id, const MapSnapshot& snapshot) -> decltype(snapshot.Find(id)) {
   return id.valid() ? snapshot.Find(id) : nullptr;
 }
 
-// The landmark of the map that a feature of the last frame showed; nullptr when it is not in the
-// snapshot (any more): removed, merged into another, or never in the map.
+// Finds the landmark of the map that a feature of the last frame showed; nullptr when it is not in
+// the snapshot, because it was removed, merged into another, or never in the map.
 template <class Candidate>
 auto InSnapshot(const std::vector<Candidate>& candidates, int match, const MapSnapshot& snapshot)
     -> decltype(snapshot.Find(Candidate{}.id)) {
   return match < 0 ? nullptr : InSnapshot(candidates[static_cast<std::size_t>(match)].id, snapshot);
 }
 
-// Counts the matches; inliers are not known yet.
+// Counts the matches. The counts of inliers stay zero, as these are not known yet.
 FrameCounts CountsOf(const FrameMatches& matches) {
   return {.matched_points = matches.Points(), .matched_lines = matches.Lines()};
 }
@@ -84,8 +85,8 @@ PoseSearch::PoseSearch(const ImagingModel& imaging,
                        const PoseEstimator& estimator)
     : imaging_(imaging), options_(options), estimator_(estimator) {}
 
-// What the last frame showed: its landmarks as they are in the snapshot, and new ones from its
-// depths, at the places that go with its pose of today.
+// Collects what the last frame showed: its landmarks as they are in the snapshot, and new ones from
+// its depths, placed by the pose that the frame has in the snapshot.
 FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
                                            const MapSnapshot& snapshot,
                                            const Frame& frame,
@@ -99,7 +100,8 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
     const auto* known = InSnapshot(before.points, before.matches.point_of_feature[i], snapshot);
     auto point = PointOf(known, last.frame, i, point_sigma);
     if (!point) continue;
-    // Beside the map's, whose own deviations do not count, well-known ones are as good as exact.
+    // The deviations of the map's landmarks do not count; next to them, points with well known
+    // depths are as good as exact.
     if (known_only && !IsOdometry()) point->covariance.setZero();
     result.points.push_back(*point);
   }
@@ -142,7 +144,7 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
                                 LastSearch{Depths::kUncertain, 1},
                                 LastSearch{Depths::kGuessed, 1},
                                 LastSearch{Depths::kGuessed, kWideFactor}}) {
-    // Guesses may be wrong: only where needed.
+    // Guessed depths may be wrong, so that they are used only where they are needed.
     const double limit =
         how.depths == Depths::kGuessed ? kGuessPoseSigma : options_.enough_pose_sigma;
     const bool many =
@@ -216,7 +218,7 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
                                                        FrameAssociation& association,
                                                        FrameCounts& counts) const {
   constexpr double kMaxErrorPx = 4;
-  constexpr double kGate = 3;  // the pose that the vote gives is not the final one
+  constexpr double kGate = 3;  // wide, since the pose of the vote is not the final one
   association =
       MatchAppearance(frame, IsOdometry() ? last.frame : snapshot.reference->frame, snapshot);
   counts = CountsOf(association.matches);
@@ -250,7 +252,7 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
                                              const PosePrior& prior,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association) const {
-  constexpr double kOutvoted = 0.95;  // of the established that agree by themselves
+  constexpr double kOutvoted = 0.95;  // least share of the established landmarks that is kept
   const int views =
       std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
   const FrameMatches offered = association.matches;

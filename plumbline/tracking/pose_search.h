@@ -14,12 +14,12 @@
 
 namespace plumbline {
 
-// The last frame with a pose, that of today's map, and what it showed.
+// The last frame that had a pose, moved with the map as that is now, and the landmarks it showed.
 struct LastFrame {
   Frame frame;
   FrameAssociation association;
 
-  // Whether what it showed is told of its own features.
+  // Whether the matches are those of the frame's own features.
   bool IsConsistent() const {
     return frame.points.size() == association.matches.point_of_feature.size() &&
            frame.lines.size() == association.matches.line_of_feature.size();
@@ -31,22 +31,23 @@ struct FrameCounts {
   int inlier_points = 0, inlier_lines = 0;
 };
 
-// A pose of a frame and what it was found with.
+// A pose that was found for a frame, with the matches that it was found by.
 struct PoseAttempt {
   FrameAssociation association;
-  ExpectedLandmarks expected;  // of the map; nothing where that was not searched
-  FrameCounts counts;          // of matches
+  ExpectedLandmarks expected;  // of the map; empty where the map was not searched
+  FrameCounts counts;          // of the matches
   PoseEstimate pose;
 };
 
-// Fewest points and lines that a pose needs: one near the predicted pose, and one without
-// prediction.
+// A pose needs at least so many points and lines: the first number if it is near the predicted
+// pose, the second without a prediction.
 inline constexpr int kFewestInliers = 4;
 inline constexpr int kFewestUnpredictedInliers = 10;
-// So much larger is the search when the first one finds too little.
+// By this factor the search is larger when the first one found too little.
 inline constexpr double kWideFactor = 3;
 
-// How far a prediction may be off, times `factor`.
+// The search around predicted places: its radius is how far a prediction may be off, times
+// `factor`.
 ProjectionSearchOptions FirstSearch(double factor = 1);
 
 // Finds what a frame shows and its pose from it: first the landmarks of the last frame near where a
@@ -89,23 +90,24 @@ class PoseSearch {
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(kFewestInliers, options_.max_pose_sigma);
   }
-  // False when few agree with it and most points disagree. Of lines, which are easily taken for
-  // their neighbours, many disagree with right poses, too.
+  // Whether enough matches agree with a pose; false when few do and most points disagree. Lines do
+  // not count against it: they are easily taken for their neighbours, so that many disagree with
+  // right poses as well.
   bool Agreed(const PoseEstimate& pose, const FrameCounts& counts) const {
-    constexpr int kFewPoints = 10;           // tell nothing
-    constexpr int kSureInliers = 30;         // do not agree by chance, whatever else disagrees
-    constexpr double kMinInlierRatio = 0.4;  // of matched points, below which chance is likelier
+    constexpr int kFewPoints = 10;           // fewer matched points say nothing about the pose
+    constexpr int kSureInliers = 30;         // so many do not agree by chance
+    constexpr double kMinInlierRatio = 0.4;  // of the matched points; fewer may agree by chance
     return pose.Inliers() >= kSureInliers || counts.matched_points < kFewPoints ||
            pose.inlier_points >= kMinInlierRatio * counts.matched_points;
   }
 
  private:
-  // Which new landmarks are made from the last frame's depths: those that it knows well, also those
-  // that it hardly knows, also lines at the depth of the scene.
+  // Which landmarks are made from the last frame's depths: those with a well known depth; those
+  // with an uncertain depth as well; lines without depth, put at the depth of the scene, as well.
   enum class Depths { kKnown, kUncertain, kGuessed };
   struct LastSearch {
     Depths depths = Depths::kKnown;
-    double factor = 1;  // of the usual distance from the predicted places
+    double factor = 1;  // on the usual radius around the predicted places
   };
   FrameAssociation LastLandmarks(const LastFrame& last,
                                  const MapSnapshot& snapshot,
@@ -117,7 +119,8 @@ class PoseSearch {
                                          const MapSnapshot& snapshot,
                                          const LastSearch& how,
                                          FrameAssociation& association) const;
-  // What a feature of an earlier frame shows: of the map (not nullptr), or made from its depth.
+  // The landmark that a feature of an earlier frame shows: `known` of the map, or, where that is
+  // nullptr, one made from the feature's depth.
   std::optional<CandidatePoint> PointOf(const SnapshotPoint* known,
                                         const Frame& frame,
                                         std::size_t feature,
@@ -129,10 +132,11 @@ class PoseSearch {
   FrameAssociation MatchAppearance(const Frame& frame,
                                    const Frame& reference,
                                    const MapSnapshot& snapshot) const;
-  // Things that move make new landmarks all the time; near the camera, whose disparities say most,
-  // they outvote walls that have been known for long. Where the pose from all matches loses some of
-  // the established landmarks, which fix the pose without the others and agree among themselves,
-  // they decide, and the others count as far as they agree.
+  // Estimates a pose that young landmarks cannot take from the established ones. Things that move
+  // make new landmarks all the time, and near the camera, where disparities say most, these outvote
+  // walls that have been known for long. Where the pose from all matches loses some of the
+  // established landmarks, although these fix a pose without the others and agree among themselves,
+  // the established ones decide, and the others count as far as they agree with them.
   PoseEstimate EstimateNotOutvoted(const Frame& frame,
                                    const Rigid3& initial,
                                    const PosePrior& prior,

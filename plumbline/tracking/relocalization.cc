@@ -14,18 +14,18 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kTried = 6;     // candidates
-constexpr int kOfOnePlace = 2;        // candidates that are close neighbours of each other
-constexpr int kCloseNeighbours = 10;  // of a keyframe, those that share most landmarks with it
-// Another place that has this share of the inliers leaves it open which of the two it is.
+constexpr std::size_t kTried = 6;     // candidates that are tried at most
+constexpr int kOfOnePlace = 2;        // of these, close neighbours of each other at most
+constexpr int kCloseNeighbours = 10;  // keyframes that share most landmarks with another one
+// Where another place has at least this share of the inliers, neither place is believed.
 constexpr double kRival = 0.7;
 constexpr int kMinInliers = 30;  // points + lines that chance does not make agree with a wrong pose
 
-// The candidates that are tried, best first. What failed from one keyframe fails from its
-// neighbours most often, and what succeeded needs no second time.
+// Chooses the candidates that are tried, best first, few of them near each other: what failed from
+// one keyframe most often fails from its neighbours, and what succeeded needs no second attempt.
 std::vector<PlaceToTry> OfDifferentPlaces(std::span<const PlaceToTry> candidates) {
   std::vector<PlaceToTry> tried;
-  std::map<KeyFrameId, int> neighbours;  // of those tried: of how many
+  std::map<KeyFrameId, int> neighbours;  // how many of those tried have it as a neighbour
   for (const PlaceToTry& place : candidates) {
     const auto& [map, id] = place;
     if (tried.size() == kTried) break;
@@ -36,19 +36,19 @@ std::vector<PlaceToTry> OfDifferentPlaces(std::span<const PlaceToTry> candidates
   return tried;
 }
 
-// A frame with the pose that it has in one of the maps.
+// A frame that was found in one of the maps.
 struct PlaceFound {
   const Map* map = nullptr;
   Relocalized frame;
 };
 
-// Whether two poses cannot be the same within what tracking can mend.
+// Whether two poses are so far apart that tracking could not get from one to the other.
 bool Apart(const PlaceFound& one, const PlaceFound& other) {
   if (one.map != other.map) return true;
   const Relocalized& a = one.frame;
   const Relocalized& b = other.frame;
   constexpr double kAngle = 5 * kDegree;
-  constexpr double kDistance = 0.1;  // of the scene's depth
+  constexpr double kDistance = 0.1;  // relative to the depth of the scene
   const Vector6d motion = LogSe3(a.frame.cam_from_world * Inverse(b.frame.cam_from_world));
   return motion.head<3>().norm() > kAngle || motion.tail<3>().norm() > kDistance * a.scene_depth;
 }

@@ -35,18 +35,18 @@ constexpr auto FixedOptions(std::type_identity<RelocalizationOptions>) {
   return std::array{FixedOption{"min_inliers", "30"}};
 }
 
-// A frame whose place in the map was found by its looks.
+// A frame whose pose in the map was found by appearance.
 struct Relocalized {
   Frame frame;  // with its pose
   FrameAssociation association;
-  KeyFrameId keyframe;  // that showed the way
+  KeyFrameId keyframe;  // the candidate that it was found from
   FrameCounts counts;
-  double scene_depth = 0;  // median depth of what agrees with the pose
+  double scene_depth = 0;  // median depth of the inliers
 
   int Inliers() const { return counts.inlier_points + counts.inlier_lines; }
 };
 
-// A keyframe that may show the place of a frame, and the map that has it; not owned.
+// A keyframe that may show the place of a frame, and the map that has this keyframe (not owned).
 struct PlaceToTry {
   const Map* map = nullptr;
   KeyFrameId keyframe;
@@ -66,14 +66,14 @@ class Relocalizer {
               const TrackingOptions& tracking,
               const PoseEstimator& estimator);
 
-  // So many candidates are worth naming: not all of them are tried.
+  // More candidates than this are of no use, since not all of them are tried.
   static constexpr std::size_t kCandidates = 20;
 
   // `candidates`: the most alike first, of whatever maps of one atlas; those that their map does
   // not have are passed over. The frame's pose and matches are not looked at. Two maps are two
   // places, also where nobody knows yet that they show the same.
   std::optional<Relocalized> Find(const Frame& frame, std::span<const PlaceToTry> candidates) const;
-  // Candidates of one map.
+  // The same with all candidates of one map.
   std::optional<Relocalized> Find(const Map& map,
                                   const Frame& frame,
                                   std::span<const KeyFrameId> candidates) const;

@@ -11,15 +11,15 @@
 namespace plumbline {
 namespace {
 
-// What shows more of the map is right, unless the other shows twice as much in all: things that
-// move have many landmarks made on the spot, too, and after a fast motion little of the map is
-// left.
+// Whether association a is to be preferred. The one that shows more of the map is, unless the other
+// shows twice as much in all: things that move have many landmarks made on the spot, but after a
+// fast motion little of the map is left in the image.
 bool ShowsMore(const FrameAssociation& a, const FrameAssociation& b) {
   const int all_a = a.matches.All();
   const int all_b = b.matches.All();
   const int map_a = MatchesOfMap(a);
   const int map_b = MatchesOfMap(b);
-  const bool no_map = map_a + map_b == 0;  // odometry
+  const bool no_map = map_a + map_b == 0;  // as in odometry
   if (no_map || all_a > 2 * all_b || all_b > 2 * all_a) return all_a > all_b;
   return map_a > map_b;
 }
@@ -59,7 +59,7 @@ TrackingResult Tracker::Track(FrameId id,
   if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
   if (snapshot->withdrawn && !use_) {
-    trial_keyframes_ = std::max(trial_keyframes_, 1);  // it did not stand its trial
+    trial_keyframes_ = std::max(trial_keyframes_, 1);  // the map failed its trial
     return Fail(std::move(frame), TrackingFailure::kMapWithdrawn, {});
   }
   return Follow(std::move(frame), *snapshot, live);
@@ -97,9 +97,9 @@ TrackingResult Tracker::Follow(Frame frame,
   return Succeed(std::move(frame), std::move(found), *seen, wanted);
 }
 
-// Near where the frame is predicted. By appearance, too, where that finds no pose, or the motion is
-// not known (a guess of no motion finds what happens to lie there), or much less is found than in
-// the frame before (an unexpected motion).
+// Searches near the predicted pose. It searches by appearance as well where that finds no pose,
+// where the motion is not known (a guess of no motion finds whatever happens to lie there), and
+// where much less is found than in the frame before (the motion was unexpected).
 Tracker::Finding Tracker::Find(const Frame& frame,
                                const PosePrior& predicted,
                                const MapSnapshot& snapshot) const {
@@ -138,7 +138,7 @@ std::optional<PoseAttempt> Tracker::ByAppearance(const Frame& frame,
   return Settle(frame, *first, free, snapshot, std::move(found));
 }
 
-// With all that the map, or the last frame, has for the frame.
+// Estimates the final pose from all that the map, or in odometry the last frame, has in the image.
 PoseAttempt Tracker::Settle(const Frame& frame,
                             const PoseEstimate& first,
                             const PosePrior& prior,
@@ -222,7 +222,7 @@ TrackingResult Tracker::Succeed(Frame frame,
 
 TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
   ++lost_frames_;
-  // A map that loses the camera right after its start was a bad one more often than not.
+  // A map that loses the camera right after its start was usually a bad one.
   const bool trial = trial_keyframes_ > 0;
   const double lost_seconds =
       last_ ? 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) : 0;
@@ -254,7 +254,7 @@ void Tracker::MoveWithMap(const MapSnapshot& snapshot) {
   const bool arrived = snapshot.places.contains(last_->anchor.keyframe);
   Anchor& anchor = arrived ? last_->anchor : last_->parent;
   const auto place = snapshot.places.find(anchor.keyframe);
-  if (place == snapshot.places.end()) return;  // the first keyframe of a map, on its way
+  if (place == snapshot.places.end()) return;  // a first keyframe that is not in the map yet
   last_->frame.cam_from_world = PoseBeside(place->second, anchor.relative);
   const double scale = place->second.unit / anchor.relative.unit;
   if (scale == 1) return;

@@ -49,27 +49,28 @@ constexpr auto EnumNames(std::type_identity<TrackingFailure>) {
                     std::pair{TrackingFailure::kMapWithdrawn, "map_withdrawn"}};
 }
 
-// The next state after a frame. With too many lost frames in a row a new map is to be started.
+// Returns the state after a frame. After too many lost frames in a row a new map is to be started.
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after);
 
-// A keyframe as the tracker made it: its pose is that beside the parent in the snapshot it was
-// tracked against, wherever the parent is when the keyframe comes into the map.
+// A keyframe as the tracker made it. Its pose is relative to its parent in the snapshot that it was
+// tracked against; mapping may have moved the parent when the keyframe comes into the map.
 struct NewKeyFrame {
   KeyFrame keyframe;
   TrackingScores scores;
-  RelativePose from_parent = {};  // where there is a parent
+  RelativePose from_parent = {};  // of use only where there is a parent
 };
 
-// How a tracker uses a map that was there before it.
+// How a tracker uses a map that an earlier run made.
 struct MapUse {
   KeyFrameId next_keyframe;  // the first id that no keyframe of the map has
-  bool read_only = false;    // makes no keyframes and starts no map, however long it is lost
-  int patience = 200;        // frames without a place in the map after which another one starts
+  bool read_only = false;    // make no keyframes and start no map, however long the camera is lost
+  int patience = 200;        // lost frames after which another map starts
 };
 
-// What a live run tells the tracker beside the frame and the map.
+// What a live run tells the tracker in addition to the frame and the map.
 struct LiveConditions {
-  // The map around an earlier keyframe, tried by appearance where the map gives no pose; or null.
+  // The map around an earlier keyframe, which is tried by appearance where the map gives no pose.
+  // May be null.
   const MapSnapshot* earlier = nullptr;
   double feature_share = 1;  // of the usual number of features that the frame was measured with
 };
@@ -83,8 +84,8 @@ struct TrackingResult {
   RelativePose from_reference;
   std::optional<NewKeyFrame> keyframe;
   bool starts_map = false;  // the keyframe is the first of a new map
-  // In a map that is only read, where there would be a keyframe: what surrounds the camera is to be
-  // chosen anew.
+  // In a map that is only read, set where there would be a keyframe otherwise: the snapshot is to
+  // be taken anew around the camera.
   bool leaves_surroundings = false;
   Frame frame;  // as tracked: features, and matches where it has a pose
 };
@@ -140,13 +141,13 @@ class Tracker {
   // Goes on, lost as it is, from a frame whose place was found in the map; `snapshot` is taken
   // around the keyframe that showed the way.
   void Resume(const Relocalized& found, const MapSnapshot& snapshot);
-  // A keyframe that tracking made is none any more; what it tracked by it hangs on the parent.
+  // A keyframe was removed from the map: poses that refer to it refer to its parent from now on.
   void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
 
   TrackerState state() const { return state_; }
   // The id that the next keyframe will get.
   KeyFrameId next_keyframe() const { return next_keyframe_; }
-  // Whether it has a last pose, and a snapshot is needed for the next frame.
+  // Whether there is a last pose, so that a snapshot is needed for the next frame.
   bool follows() const { return last_.has_value(); }
 
   // All that it keeps from frame to frame (base/byte_format.h).
@@ -161,7 +162,7 @@ class Tracker {
   // The last frame stands for the map.
   bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
 
-  // What the last pose hangs on.
+  // The keyframe that the last pose refers to.
   struct Anchor {
     KeyFrameId keyframe;
     RelativePose relative;
@@ -173,7 +174,7 @@ class Tracker {
   };
   struct Tracked : LastFrame {
     Anchor anchor;
-    Anchor parent;  // where the frame became the keyframe itself, until it is in the map
+    Anchor parent;  // of use while the frame itself is a keyframe that is not in the map yet
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -190,7 +191,8 @@ class Tracker {
     bool Succeeded() const { return failure == TrackingFailure::kNone; }
   };
 
-  // One frame against the map: predicts, searches and estimates, judges, decides about a keyframe.
+  // Tracks one frame against the map: predicts, searches and estimates, judges the pose, decides
+  // about a keyframe.
   TrackingResult Follow(Frame frame, const MapSnapshot& snapshot, const LiveConditions& live);
   Finding Find(const Frame& frame, const PosePrior& predicted, const MapSnapshot& snapshot) const;
   Finding FindByAppearance(const Frame& frame, const MapSnapshot& snapshot) const;
@@ -206,7 +208,7 @@ class Tracker {
                      const MapSnapshot& snapshot,
                      FrameAssociation found) const;
   bool IsWeak(const PoseAttempt& attempt) const;
-  // without_pose: what was matched where there is no attempt.
+  // without_pose: the counts of matches where there is no attempt.
   Finding Judge(std::optional<PoseAttempt> attempt, const FrameCounts& without_pose) const;
   bool WantsKeyFrame(const Frame& frame,
                      const FrameAssociation& association,
@@ -235,8 +237,8 @@ class Tracker {
   KeyFrameId newest_keyframe_;
   std::int64_t frames_since_keyframe_ = 0;
   int lost_frames_ = 0;
-  std::optional<MapUse> use_;  // of a map that was there before
-  int trial_keyframes_ = 0;    // still to come until the map is trusted
+  std::optional<MapUse> use_;  // of a map of an earlier run
+  int trial_keyframes_ = 0;    // keyframes still to come until the map is trusted
 };
 
 }  // namespace plumbline
