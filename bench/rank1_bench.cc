@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/geometric_interpolation.h"
-#include "plumbline/initialization/multi_view.h"
+#include "plumbline/initialization/model_selection.h"
 #include "plumbline/initialization/rank1_factorization.h"
-#include "plumbline/initialization/window_adjustment.h"
-#include "plumbline/initialization/window_covariance.h"
+#include "plumbline/initialization/reconstruction.h"
+#include "plumbline/initialization/reconstruction_covariance.h"
 
-#include "tests/initialization/window_scene.h"
+#include "tests/initialization/track_scene.h"
 
 #include <benchmark/benchmark.h>
 
@@ -15,17 +15,17 @@
 namespace plumbline {
 namespace {
 
-testing::WindowScene Scene(const benchmark::State& state, bool plane = false) {
-  return testing::MakeWindowScene(1,
-                                  testing::CurvedMotion(static_cast<int>(state.range(0))),
-                                  {.points = static_cast<int>(state.range(1)),
-                                   .plane = plane,
-                                   .sigma = 1e-3,
-                                   .missed = 0.2,
-                                   .outliers = 0.1});
+testing::TrackScene Scene(const benchmark::State& state, bool plane = false) {
+  return testing::MakeTrackScene(1,
+                                 testing::CurvedMotion(static_cast<int>(state.range(0))),
+                                 {.points = static_cast<int>(state.range(1)),
+                                  .plane = plane,
+                                  .sigma = 1e-3,
+                                  .missed = 0.2,
+                                  .outliers = 0.1});
 }
 
-std::vector<Rank1View> ViewsOf(const testing::WindowScene& scene) {
+std::vector<Rank1View> ViewsOf(const testing::TrackScene& scene) {
   std::vector<Rank1View> views;
   for (std::size_t i = 0; i < scene.tracks.views.size(); ++i) {
     const Rigid3 reference_from_cam = Inverse(scene.truth.cam_from_reference[i]);
@@ -38,14 +38,14 @@ std::vector<Rank1View> ViewsOf(const testing::WindowScene& scene) {
 }
 
 void LeadingPairOfMatrix(benchmark::State& state) {
-  const testing::WindowScene scene = Scene(state);
+  const testing::TrackScene scene = Scene(state);
   const Rank1Matrix matrix(scene.tracks.reference.points, ViewsOf(scene), 0.02);
   for (auto _ : state) benchmark::DoNotOptimize(LeadingPair(matrix.entries()));
 }
 
 // The matrix and its factorization.
 void Factorize(benchmark::State& state, int reweighting) {
-  const testing::WindowScene scene = Scene(state);
+  const testing::TrackScene scene = Scene(state);
   const std::vector<Rank1View> views = ViewsOf(scene);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
@@ -55,12 +55,12 @@ void Factorize(benchmark::State& state, int reweighting) {
 
 // All points into one frame between.
 void InterpolateFrame(benchmark::State& state) {
-  const testing::WindowScene scene = Scene(state);
+  const testing::TrackScene scene = Scene(state);
   const auto& poses = scene.truth.cam_from_reference;
   InterpolationPoses pair{poses.front(), poses.back()};
   pair.covariance.setIdentity();
   pair.covariance *= 1e-8;
-  const WindowTracks& tracks = scene.tracks;
+  const Tracks& tracks = scene.tracks;
   for (auto _ : state) {
     const GeometricInterpolation interpolation(pair);
     for (std::size_t k = 0; k < tracks.size(); ++k) {
@@ -71,30 +71,30 @@ void InterpolateFrame(benchmark::State& state) {
 }
 
 void Covariance(benchmark::State& state) {
-  const testing::WindowScene scene = Scene(state);
+  const testing::TrackScene scene = Scene(state);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(ComputeWindowCovariance(scene.tracks, scene.truth, 1, 9.21));
+    benchmark::DoNotOptimize(ComputeCovariance(scene.tracks, scene.truth, 1, 9.21));
   }
 }
 
 void Factorization(benchmark::State& state) {
-  const testing::WindowScene scene = Scene(state);
-  const WindowHypothesis hypothesis{scene.truth.cam_from_reference.back(), {}};
-  for (auto _ : state) benchmark::DoNotOptimize(FactorizeWindow(scene.tracks, hypothesis, {}));
+  const testing::TrackScene scene = Scene(state);
+  const MotionHypothesis hypothesis{scene.truth.cam_from_reference.back(), {}};
+  for (auto _ : state) benchmark::DoNotOptimize(FactorizeTracks(scene.tracks, hypothesis, {}));
 }
 
 void Adjustment(benchmark::State& state) {
-  const testing::WindowScene scene = Scene(state);
-  for (auto _ : state) benchmark::DoNotOptimize(AdjustWindow(scene.tracks, scene.truth, 6));
+  const testing::TrackScene scene = Scene(state);
+  for (auto _ : state) benchmark::DoNotOptimize(BundleAdjust(scene.tracks, scene.truth, 6));
 }
 
-// The whole attempt: hypotheses, factorization, adjustment, decision.
+// The whole attempt: motions, factorization, adjustment, decision.
 void Decision(benchmark::State& state, bool plane) {
-  const testing::WindowScene scene = Scene(state, plane);
+  const testing::TrackScene scene = Scene(state, plane);
   for (auto _ : state) {
-    WindowMemory memory;
+    PriorHypotheses prior;
     Rng rng(1);
-    benchmark::DoNotOptimize(DecideWindow(scene.tracks, {}, memory, rng));
+    benchmark::DoNotOptimize(SelectModel(scene.tracks, {}, prior, rng));
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/starts/start_trial.h"
+#include "plumbline/association/projection_search.h"
 #include "plumbline/base/options.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/initialization/initializer.h"

@@ -6,7 +6,8 @@
 #include "plumbline/base/index.h"
 #include "plumbline/base/random.h"
 #include "plumbline/initialization/byte_format.h"
-#include "plumbline/initialization/structure.h"
+#include "plumbline/initialization/initial_map.h"
+#include "plumbline/initialization/track_factorization.h"
 #include "plumbline/solvers/parallax.h"
 #include "plumbline/solvers/relative_pose.h"
 
@@ -20,20 +21,12 @@ namespace {
 
 constexpr int kMinFeatures = 60;
 constexpr int kMinTracks = 50;
-constexpr int kMinPoints = 30;  // of a map
+constexpr std::size_t kMinPoints = 30;  // of a map
 constexpr std::size_t kMaxFrames = 80;
 constexpr double kTrackSigmaPx = 0.5;
 constexpr double kMinShareInFront = 0.9;
 constexpr double kMaxSpread = 2;  // of the residuals, in standard deviations
 constexpr double kMinParallaxDeg = 1;
-
-std::vector<RayMatch> Matches(const TrackedPoints& a, const TrackedPoints& b) {
-  std::vector<RayMatch> matches;
-  for (std::size_t k = 0; k < a.points.size(); ++k) {
-    matches.push_back({a.points[k], b.points[k], a.sigmas[k], b.sigmas[k]});
-  }
-  return matches;
-}
 
 struct Poses {
   std::vector<Rigid3> cam_from_reference;  // |translation| = 1
@@ -41,10 +34,10 @@ struct Poses {
 };
 
 // The best relative pose of each frame by itself; nullopt where one has none.
-std::optional<Poses> RelativePoses(const WindowTracks& tracks, Rng& rng) {
+std::optional<Poses> RelativePoses(const Tracks& tracks, Rng& rng) {
   Poses poses;
   for (const TrackedPoints& view : tracks.views) {
-    const std::vector<RayMatch> matches = Matches(tracks.reference, view);
+    const std::vector<RayMatch> matches = MatchesBetween(tracks.reference, view);
     const auto hypotheses = EstimateRelativePoses(matches, {}, rng);
     if (hypotheses.empty()) return std::nullopt;
     const Rigid3& pose = hypotheses.front().b_from_a;
@@ -54,24 +47,20 @@ std::optional<Poses> RelativePoses(const WindowTracks& tracks, Rng& rng) {
   return poses;
 }
 
-std::optional<Rank1Solution> Factorize(const WindowTracks& tracks, const Poses& poses) {
+std::optional<Rank1Solution> Factorize(const Tracks& tracks, const Poses& poses) {
   std::vector<Rank1View> views;
   for (std::size_t i = 0; i < tracks.views.size(); ++i) {
-    const Rigid3 reference_from_cam = Inverse(poses.cam_from_reference[i]);
-    views.push_back({reference_from_cam.rotation,
-                     reference_from_cam.translation.normalized(),
-                     tracks.views[i].points,
-                     tracks.views[i].sigmas});
+    views.push_back(Rank1ViewOf(tracks.views[i], poses.cam_from_reference[i]));
   }
   return FactorizeRank1(tracks.reference.points, views);
 }
 
 }  // namespace
 
-KltInitializer::KltInitializer(const ImagingModel& imaging,
+KltInitializer::KltInitializer(const RectifiedCamera& camera,
                                const InitializationOptions& options,
                                std::uint64_t seed)
-    : imaging_(imaging), options_(options), seed_(seed) {}
+    : camera_(camera), frame_count_(options.frames), seed_(seed) {}
 
 void KltInitializer::Reset() {
   reference_.reset();
@@ -81,7 +70,7 @@ void KltInitializer::Reset() {
 void KltInitializer::Start(const InitializationFrame& frame) {
   reference_ = frame;
   frames_.clear();
-  std::vector<std::optional<Eigen::Vector2d>> points;
+  TrackedPixels points;
   for (const PointFeature& feature : frame.indexed->features.points)
     points.emplace_back(feature.px);
   tracks_ = KltTracks(frame.image, std::move(points));
@@ -92,9 +81,9 @@ InitializationResult KltInitializer::Add(const InitializationFrame& frame) {
   PLUMBLINE_CHECK(frame.image != nullptr, "optical flow needs the image");
   const bool enough = static_cast<int>(frame.indexed->features.points.size()) >= kMinFeatures;
   if (!reference_) {
-    if (!enough) return InitializationResult::Wait(kTooFewFeatures);
+    if (!enough) return {.wait = kTooFewFeatures};
     Start(frame);
-    return InitializationResult::Wait(kTooFewFrames);
+    return {.wait = kTooFewFrames};
   }
   tracks_.Follow(frame.image);
   InitializationResult result;
@@ -104,26 +93,26 @@ InitializationResult KltInitializer::Add(const InitializationFrame& frame) {
   } else {
     if (frames_.size() == kMaxFrames) frames_.erase(frames_.begin());
     frames_.push_back({frame, tracks_.places()});
-    const bool window = static_cast<int>(frames_.size()) >= options_.frames;
-    result = window ? Attempt() : InitializationResult::Wait(kTooFewFrames);
+    const bool window = static_cast<int>(frames_.size()) >= frame_count_;
+    result = window ? Attempt() : InitializationResult{.wait = kTooFewFrames};
   }
   result.matches = tracks_.alive();
   return result;
 }
 
-std::vector<int> KltInitializer::Spread() const {
+std::vector<int> KltInitializer::SelectFrames() const {
   const int size = static_cast<int>(frames_.size());
   std::vector<int> frames;
-  for (int j = 1; j <= options_.frames; ++j) frames.push_back(j * size / options_.frames - 1);
+  for (int j = 1; j <= frame_count_; ++j) frames.push_back(j * size / frame_count_ - 1);
   return frames;
 }
 
-WindowTracks KltInitializer::TracksOf(const std::vector<int>& frames) const {
-  WindowTracks tracks;
+Tracks KltInitializer::CollectTracks(const std::vector<int>& frames) const {
+  Tracks tracks;
   tracks.views.resize(frames.size());
-  const double sigma = kTrackSigmaPx / imaging_.camera.fx;
+  const double sigma = kTrackSigmaPx / camera_.fx;
   const auto add = [&](const Eigen::Vector2d& px, TrackedPoints& points) {
-    points.points.emplace_back(imaging_.camera.Unproject(px).hnormalized());
+    points.points.emplace_back(camera_.Unproject(px).hnormalized());
     points.sigmas.push_back(sigma);
   };
   const std::vector<PointFeature>& features = reference_->indexed->features.points;
@@ -140,14 +129,12 @@ WindowTracks KltInitializer::TracksOf(const std::vector<int>& frames) const {
 
 InitializationResult KltInitializer::Attempt() {
   using enum InitializationWait;
-  const std::vector<int> frames = Spread();
-  const WindowTracks tracks = TracksOf(frames);
+  const std::vector<int> frames = SelectFrames();
+  const Tracks tracks = CollectTracks(frames);
   Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frames_.back().frame.id.value));
   const auto poses = RelativePoses(tracks, rng);
-  if (!poses) return InitializationResult::Wait(kInaccurate);
-  InitializationResult result;
-  result.parallax_deg = poses->parallax_deg;
-  result.wait = kTooLittleParallax;
+  if (!poses) return {.wait = kInaccurate};
+  InitializationResult result{.wait = kTooLittleParallax, .parallax_deg = poses->parallax_deg};
   if (poses->parallax_deg < kMinParallaxDeg) return result;
   const auto factors = Factorize(tracks, *poses);
   result.wait = kInaccurate;
@@ -180,18 +167,13 @@ std::optional<InitialMap> KltInitializer::BuildMap(const std::vector<int>& frame
     }
   }
   std::erase_if(by_feature, [](const FeatureTrack& track) { return track.empty(); });
-  InitialMap map = BuildStructure(imaging_.camera, std::move(views), by_feature, {});
-  if (static_cast<int>(map.points.size()) < kMinPoints) return std::nullopt;
-  AdjustStructure(imaging_.camera, map);
-  if (static_cast<int>(map.points.size()) < kMinPoints) return std::nullopt;
-  return map;
+  return TriangulateAndAdjustMap(camera_, std::move(views), by_feature, {}, kMinPoints);
 }
 
 bool KltInitializer::IsConsistent() const {
   if (!reference_) return frames_.empty();
   const std::size_t size = reference_->indexed->features.points.size();
-  const RectifiedCamera& camera = imaging_.camera;
-  if (!tracks_.Fits(size, camera.width, camera.height)) return false;
+  if (!tracks_.Fits(size, camera_.width, camera_.height)) return false;
   for (const Followed& followed : frames_) {
     if (followed.places.size() != size) return false;
     // What is alive in the newest frame is alive in all.

@@ -4,8 +4,7 @@
 
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/klt_tracks.h"
-#include "plumbline/initialization/rank1_factorization.h"
-#include "plumbline/initialization/window_tracks.h"
+#include "plumbline/initialization/tracks.h"
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +21,7 @@ namespace plumbline {
 // frame when too few tracks are left.
 class KltInitializer : public Initializer {
  public:
-  KltInitializer(const ImagingModel& imaging,
+  KltInitializer(const RectifiedCamera& camera,
                  const InitializationOptions& options,
                  std::uint64_t seed);
 
@@ -43,7 +42,7 @@ class KltInitializer : public Initializer {
  private:
   struct Followed {
     InitializationFrame frame;
-    std::vector<std::optional<Eigen::Vector2d>> places;  // where the reference's features are
+    TrackedPixels places;  // where the reference's features are
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -53,15 +52,15 @@ class KltInitializer : public Initializer {
 
   void Start(const InitializationFrame& frame);
   // Frames spread evenly since the reference, the newest last.
-  std::vector<int> Spread() const;
+  std::vector<int> SelectFrames() const;
   // The points alive in the newest frame, in the chosen frames.
-  WindowTracks TracksOf(const std::vector<int>& frames) const;
+  Tracks CollectTracks(const std::vector<int>& frames) const;
   InitializationResult Attempt();
   std::optional<InitialMap> BuildMap(const std::vector<int>& frames,
                                      const std::vector<Rigid3>& poses) const;
 
-  ImagingModel imaging_;
-  InitializationOptions options_;
+  RectifiedCamera camera_;
+  int frame_count_;  // that are factorized together
   std::uint64_t seed_;
   std::optional<InitializationFrame> reference_;
   KltTracks tracks_;

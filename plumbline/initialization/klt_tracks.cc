@@ -42,11 +42,12 @@ Flow OpticalFlow(const GrayImage& a,
   return flow;
 }
 
-std::vector<std::optional<Eigen::Vector2d>> FollowThereAndBack(
-    const GrayImage& a, const GrayImage& b, const std::vector<cv::Point2f>& from) {
+TrackedPixels FollowThereAndBack(const GrayImage& a,
+                                 const GrayImage& b,
+                                 const std::vector<cv::Point2f>& from) {
   const Flow there = OpticalFlow(a, b, from, from);
   const Flow back = OpticalFlow(b, a, there.to, from);
-  std::vector<std::optional<Eigen::Vector2d>> places(from.size());
+  TrackedPixels places(from.size());
   for (std::size_t j = 0; j < from.size(); ++j) {
     const cv::Point2f& to = there.to[j];
     const bool inside = to.x >= 0 && to.y >= 0 && to.x <= static_cast<float>(b.width() - 1) &&
@@ -60,8 +61,7 @@ std::vector<std::optional<Eigen::Vector2d>> FollowThereAndBack(
 
 }  // namespace
 
-KltTracks::KltTracks(std::shared_ptr<const GrayImage> image,
-                     std::vector<std::optional<Eigen::Vector2d>> places)
+KltTracks::KltTracks(std::shared_ptr<const GrayImage> image, TrackedPixels places)
     : image_(std::move(image)), places_(std::move(places)) {}
 
 int KltTracks::alive() const {
@@ -83,15 +83,14 @@ void KltTracks::Follow(std::shared_ptr<const GrayImage> image) {
     from.emplace_back(static_cast<float>(places_[k]->x()), static_cast<float>(places_[k]->y()));
   }
   if (!followed.empty()) {
-    const std::vector<std::optional<Eigen::Vector2d>> to =
-        FollowThereAndBack(*image_, *image, from);
+    const TrackedPixels to = FollowThereAndBack(*image_, *image, from);
     for (std::size_t j = 0; j < followed.size(); ++j) places_[followed[j]] = to[j];
   }
   image_ = std::move(image);
 }
 
 std::vector<int> NearestFeatures(const IndexedFeatures& features,
-                                 const std::vector<std::optional<Eigen::Vector2d>>& places,
+                                 const TrackedPixels& places,
                                  double radius_px) {
   struct Pair {
     double squared_distance = 0;

@@ -15,14 +15,16 @@
 
 namespace plumbline {
 
+// By point, the pixel where an image shows it; nullopt: it does not.
+using TrackedPixels = std::vector<std::optional<Eigen::Vector2d>>;
+
 // Points followed from image to image by the optical flow of Lucas and Kanade on pyramids (OpenCV),
 // each step checked by following it back.
 class KltTracks {
  public:
   KltTracks() = default;
-  // By point, where it is in the image; nullopt: not followed.
-  KltTracks(std::shared_ptr<const GrayImage> image,
-            std::vector<std::optional<Eigen::Vector2d>> places);
+  // Follows the points that have a place in the image.
+  KltTracks(std::shared_ptr<const GrayImage> image, TrackedPixels places);
 
   // Follows the points that are left into the next image, of the same size. Those that leave it,
   // are not found or do not come back are lost for good. Cost: about 2 ms for 500 points in VGA.
@@ -31,8 +33,8 @@ class KltTracks {
   // Puts a point where it was found in the newest image by other means.
   void Correct(std::size_t point, const Eigen::Vector2d& place) { places_[point] = place; }
 
-  // By point, where it is in the newest image; nullopt: lost.
-  const std::vector<std::optional<Eigen::Vector2d>>& places() const { return places_; }
+  // Where the newest image shows the points.
+  const TrackedPixels& places() const { return places_; }
   int alive() const;
   // Whether it can follow so many points on images of this size.
   bool Fits(std::size_t points, int width, int height) const;
@@ -45,7 +47,7 @@ class KltTracks {
 
  private:
   std::shared_ptr<const GrayImage> image_;
-  std::vector<std::optional<Eigen::Vector2d>> places_;
+  TrackedPixels places_;
 };
 
 // How far a feature may lie from the place of the point that it is taken for.
@@ -54,7 +56,7 @@ inline constexpr double kAttachRadiusPx = 1.5;
 // The feature nearest to each place, no further than `radius_px` and each feature at most once (the
 // nearer place has it); -1 where there is none.
 std::vector<int> NearestFeatures(const IndexedFeatures& features,
-                                 const std::vector<std::optional<Eigen::Vector2d>>& places,
+                                 const TrackedPixels& places,
                                  double radius_px);
 
 }  // namespace plumbline

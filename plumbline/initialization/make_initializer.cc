@@ -6,7 +6,6 @@
 #include "plumbline/initialization/klt_initializer.h"
 #include "plumbline/initialization/rank1_initializer.h"
 #include "plumbline/initialization/two_view.h"
-#include "plumbline/initialization/two_view_images_initializer.h"
 
 namespace plumbline {
 
@@ -15,13 +14,13 @@ std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
                                              std::uint64_t seed) {
   switch (options.method) {
     case InitializationMethod::kRank1:
-      return std::make_unique<Rank1Initializer>(imaging, options, seed);
+      return std::make_unique<Rank1Initializer>(imaging.camera, options, seed);
     case InitializationMethod::kRank1Klt:
-      return std::make_unique<KltInitializer>(imaging, options, seed);
+      return std::make_unique<KltInitializer>(imaging.camera, options, seed);
     case InitializationMethod::kTwoView:
-      return std::make_unique<TwoViewInitializer>(imaging, seed);
+      return std::make_unique<TwoViewInitializer>(imaging.camera, seed);
     case InitializationMethod::kTwoViewImages:
-      return std::make_unique<TwoViewImagesInitializer>(imaging, seed);
+      return std::make_unique<TwoViewImagesInitializer>(imaging.camera, seed);
   }
   throw BugError("unknown initialization method");
 }

@@ -2,18 +2,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/matching.h"
 
+#include "plumbline/base/index.h"
+#include "plumbline/base/median.h"
 #include "plumbline/base/units.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
 
 namespace plumbline {
 namespace {
 
-constexpr int kMaxOctaveStep = 2;  // of the scale: 1.44 with the usual 1.2 an octave
+constexpr std::size_t kNearest = 7;
+// Scale of the robust loss: from what turns and changes of scale do to a mere shift down to what is
+// larger than the parallax that an affine map leaves, and smaller than the error of a wrong match.
+constexpr std::array<double, 8> kScalesPx{160, 80, 40, 20, 10, 10, 10, 10};
+
+Eigen::Vector2d MedianShift(std::span<const PixelPair> matches) {
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const PixelPair& m : matches) {
+    x.push_back(m.to.x() - m.from.x());
+    y.push_back(m.to.y() - m.from.y());
+  }
+  return {UpperMedian(std::move(x)), UpperMedian(std::move(y))};
+}
+
+constexpr double kFirstWindowPx = 100;   // half width around a place, where no motion is known
+constexpr double kGuessedWindowPx = 50;  // around that of a guessed motion
+constexpr double kWindowPx = 25;         // around that which the first matches predict
+constexpr int kFirstMaxDistance = 60;    // Hamming, of 256 bits
+constexpr int kMaxDistance = 70;
+constexpr double kFirstRatio = 0.8;  // best over second best in the window
+constexpr double kRatio = 0.9;
+constexpr int kMaxOctaveStep = 2;        // of the scale: 1.44 with the usual 1.2 an octave
+constexpr double kMaxRollErrorDeg = 15;  // of an orientation, against the roll of the camera
+constexpr double kMaxLineOffsetPx = 15;  // across, of a line's midpoint from its predicted place
 
 std::vector<PointFeature> Moved(std::vector<PointFeature> points, const ImageMotion& motion) {
   for (PointFeature& point : points) point.px = motion(point.px);
@@ -21,8 +53,7 @@ std::vector<PointFeature> Moved(std::vector<PointFeature> points, const ImageMot
 }
 
 double Turn(const Features& a, const Features& b, const PointMatch& match) {
-  return b.points[static_cast<std::size_t>(match.b)].angle -
-         a.points[static_cast<std::size_t>(match.a)].angle;
+  return b.points[Index(match.b)].angle - a.points[Index(match.a)].angle;
 }
 
 // The turn of the camera about its axis: the centre of the window that holds most turns of matches.
@@ -36,15 +67,14 @@ double CameraRoll(const Features& a,
     return static_cast<int>((part - std::floor(part)) * kBins) % kBins;
   };
   std::vector<int> count(kBins, 0);
-  for (const PointMatch& match : matches)
-    ++count[static_cast<std::size_t>(bin_of(Turn(a, b, match)))];
+  for (const PointMatch& match : matches) ++count[Index(bin_of(Turn(a, b, match)))];
   const int reach = static_cast<int>(half_width / (2 * std::numbers::pi) * kBins);
   int best = -1;
   int best_bin = 0;
   for (int bin = 0; bin < kBins; ++bin) {
     int sum = 0;
     for (int k = -reach; k <= reach; ++k) {
-      sum += count[static_cast<std::size_t>((bin + k + kBins) % kBins)];
+      sum += count[Index((bin + k + kBins) % kBins)];
     }
     if (sum <= best) continue;
     best = sum;
@@ -66,8 +96,7 @@ void DropOtherTurns(const Features& a,
 ImageMotion MotionOf(const Features& a, const Features& b, std::span<const PointMatch> matches) {
   std::vector<PixelPair> pairs;
   for (const PointMatch& match : matches) {
-    pairs.push_back({a.points[static_cast<std::size_t>(match.a)].px,
-                     b.points[static_cast<std::size_t>(match.b)].px});
+    pairs.push_back({a.points[Index(match.a)].px, b.points[Index(match.b)].px});
   }
   return ImageMotion(pairs);
 }
@@ -78,50 +107,99 @@ void DropFarFromPrediction(const Features& a,
                            double limit_px,
                            std::vector<PointMatch>& matches) {
   std::erase_if(matches, [&](const PointMatch& match) {
-    const Eigen::Vector2d expected = motion(a.points[static_cast<std::size_t>(match.a)].px);
-    return (b.points[static_cast<std::size_t>(match.b)].px - expected).norm() > limit_px;
+    const Eigen::Vector2d expected = motion(a.points[Index(match.a)].px);
+    return (b.points[Index(match.b)].px - expected).norm() > limit_px;
   });
 }
 
 std::vector<LineMatch> MatchMovedLines(const Features& reference,
                                        const Features& frame,
-                                       const ImageMotion& motion,
-                                       const ReferenceMatchOptions& options) {
+                                       const ImageMotion& motion) {
   std::vector<LineFeature> moved = reference.lines;
   for (LineFeature& line : moved) line.segment = motion(line.segment);
   LineMatchOptions search;
-  search.max_angle_deg = options.max_roll_error_deg;
-  search.max_offset_px = options.max_line_offset_px;
-  search.max_shift_px = options.window_px;
+  search.max_angle_deg = kMaxRollErrorDeg;
+  search.max_offset_px = kMaxLineOffsetPx;
+  search.max_shift_px = kWindowPx;
   return MatchLines(moved, frame.lines, search);
 }
 
 }  // namespace
 
+ImageMotion::ImageMotion(std::span<const PixelPair> matches) {
+  if (matches.empty()) return;
+  for (const PixelPair& m : matches) origin_ += m.from / static_cast<double>(matches.size());
+  shift_ = origin_ + MedianShift(matches);
+  for (const double scale : kScalesPx) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+    for (const PixelPair& m : matches) {
+      const double error = (Affine(m.from) - m.to).squaredNorm() / (scale * scale);
+      const double weight = 1 / ((1 + error) * (1 + error));  // Geman-McClure
+      const Eigen::Vector3d row = (m.from - origin_).homogeneous();
+      normal += weight * row * row.transpose();
+      right += weight * row * m.to.transpose();
+    }
+    const Eigen::LLT<Eigen::Matrix3d> factor(normal);
+    if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-9)) break;
+    const Eigen::Matrix<double, 3, 2> solution = factor.solve(right);
+    linear_ = solution.topRows<2>().transpose();
+    shift_ = solution.row(2).transpose();
+  }
+  for (const PixelPair& m : matches) {
+    places_.push_back(m.from);
+    leftovers_.emplace_back(m.to - Affine(m.from));
+  }
+}
+
+Eigen::Vector2d ImageMotion::operator()(const Eigen::Vector2d& px) const {
+  if (places_.size() < kNearest) return Affine(px);
+  std::array<double, kNearest> distances;
+  std::array<std::size_t, kNearest> nearest{};
+  distances.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < places_.size(); ++i) {  // kept in order by insertion
+    const double distance = (places_[i] - px).squaredNorm();
+    if (!(distance < distances.back())) continue;
+    std::size_t k = kNearest - 1;
+    for (; k > 0 && distances[k - 1] > distance; --k) {
+      distances[k] = distances[k - 1];
+      nearest[k] = nearest[k - 1];
+    }
+    distances[k] = distance;
+    nearest[k] = i;
+  }
+  std::array<double, kNearest> x;
+  std::array<double, kNearest> y;
+  for (std::size_t k = 0; k < kNearest; ++k) {
+    x[k] = leftovers_[nearest[k]].x();
+    y[k] = leftovers_[nearest[k]].y();
+  }
+  return Affine(px) + Eigen::Vector2d(UpperMedian(x), UpperMedian(y));
+}
+
 ReferenceMatches MatchToReference(const Features& reference,
                                   const Features& frame,
-                                  const ImageMotion& guess,
-                                  const ReferenceMatchOptions& options) {
-  const double max_turn = options.max_roll_error_deg * kDegree;
+                                  const ImageMotion& guess) {
+  const double max_turn = kMaxRollErrorDeg * kDegree;
   PointMatchOptions search;
-  search.max_distance = options.first_max_distance;
-  search.ratio = options.first_ratio;
+  search.max_distance = kFirstMaxDistance;
+  search.ratio = kFirstRatio;
   search.max_octave_step = kMaxOctaveStep;
-  search.radius_px = guess.known() ? options.guessed_window_px : options.first_window_px;
+  search.radius_px = guess.known() ? kGuessedWindowPx : kFirstWindowPx;
   ReferenceMatches result;
   result.points = MatchPoints(Moved(reference.points, guess), frame.points, search);
   DropOtherTurns(reference, frame, max_turn, result.points);
   const ImageMotion rough = MotionOf(reference, frame, result.points);
-  DropFarFromPrediction(reference, frame, rough, options.window_px, result.points);
+  DropFarFromPrediction(reference, frame, rough, kWindowPx, result.points);
   const ImageMotion motion = MotionOf(reference, frame, result.points);
 
-  search.radius_px = options.window_px;
-  search.max_distance = options.max_distance;
-  search.ratio = options.ratio;
+  search.radius_px = kWindowPx;
+  search.max_distance = kMaxDistance;
+  search.ratio = kRatio;
   result.points = MatchPoints(Moved(reference.points, motion), frame.points, search);
   DropOtherTurns(reference, frame, max_turn, result.points);
   result.motion = MotionOf(reference, frame, result.points);
-  result.lines = MatchMovedLines(reference, frame, result.motion, options);
+  result.lines = MatchMovedLines(reference, frame, result.motion);
   return result;
 }
 
@@ -133,8 +211,8 @@ std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
   std::vector<RayMatch> rays;
   rays.reserve(matches.size());
   for (const PointMatch& match : matches) {
-    const PointFeature& in_a = a.points[static_cast<std::size_t>(match.a)];
-    const PointFeature& in_b = b.points[static_cast<std::size_t>(match.b)];
+    const PointFeature& in_a = a.points[Index(match.a)];
+    const PointFeature& in_b = b.points[Index(match.b)];
     rays.push_back({camera.Unproject(in_a.px).head<2>(),
                     camera.Unproject(in_b.px).head<2>(),
                     in_a.sigma_px / focal,

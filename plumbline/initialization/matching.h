@@ -6,24 +6,63 @@
 #include "plumbline/features/match_points.h"
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/rectified_camera.h"
-#include "plumbline/initialization/image_motion.h"
+#include "plumbline/geometry/segment.h"
 #include "plumbline/solvers/relative_pose.h"
 
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace plumbline {
 
-struct ReferenceMatchOptions {
-  double first_window_px = 100;   // half width around the guess, where the motion is not yet known
-  double guessed_window_px = 50;  // half width around `guess`, where it is known
-  int first_max_distance = 60;    // Hamming, of 256 bits
-  double first_ratio = 0.8;       // best / second best in the window
-  double window_px = 25;          // half width around the place that other matches predict
-  int max_distance = 70;
-  double ratio = 0.9;
-  double max_roll_error_deg = 15;  // orientation against the roll of the camera
-  double max_line_offset_px = 15;  // across, of a line's midpoint from its predicted place
+// A pixel of one image and the pixel of another that shows the same.
+struct PixelPair {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+};
+
+// Where the pixels of one image are in another, from some matches: an affine map fitted robustly
+// to all of them, and on top of it the median of what the nearest of them leave over, since
+// parallax moves near things further than far ones.
+class ImageMotion {
+ public:
+  ImageMotion() = default;  // nothing moves
+  // With fewer than three pairs (or all on one line) nothing but their median shift. Cost: O(n).
+  explicit ImageMotion(std::span<const PixelPair> matches);
+
+  // Whether it was made from matches.
+  bool known() const { return !places_.empty(); }
+
+  // The derivative of the affine map.
+  const Eigen::Matrix2d& linear() const { return linear_; }
+
+  // Cost: O(n).
+  Eigen::Vector2d operator()(const Eigen::Vector2d& px) const;
+  Segment2 operator()(const Segment2& segment) const {
+    return {(*this)(segment.start), (*this)(segment.end)};
+  }
+
+  // False for what was read and no ImageMotion can be.
+  bool IsConsistent() const { return places_.size() == leftovers_.size(); }
+
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.linear_, self.origin_, self.shift_, self.places_, self.leftovers_);
+  }
+
+ private:
+  Eigen::Vector2d Affine(const Eigen::Vector2d& px) const {
+    return linear_ * (px - origin_) + shift_;
+  }
+
+  // px -> linear (px - origin) + shift
+  Eigen::Matrix2d linear_ = Eigen::Matrix2d::Identity();
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> places_;     // places of the matches, in the first image
+  std::vector<Eigen::Vector2d> leftovers_;  // what the affine map leaves of the motion there
 };
 
 // Features of a reference frame (a) found again in a later frame (b).
@@ -35,18 +74,18 @@ struct ReferenceMatches {
 
 // Matches the points and lines of a reference frame with those of a later frame by descriptor.
 //
-// Points twice: first in a wide window around the place that `guess` gives, and of these only
-// matches whose orientation goes with the roll of the camera and whose place goes with that of
-// their neighbours; then all points in a narrow window around the place that those predict. Lines
-// after that, warped by the same motion.
+// Points twice: first in a wide window around the place that `guess` gives (50 px to each side; 100
+// px where nothing is guessed), and of these only matches whose orientation goes with the roll of
+// the camera (15 degrees) and whose place goes with that of their neighbours; then all points in a
+// narrow window (25 px) around the place that those predict. Lines after that, warped by the same
+// motion.
 //
 //   guess    the motion to an earlier frame near to this one; a default one for the first
 //   returns  at most one match for each feature
 //   cost     about 5 ms for 1000 points and 200 lines, less with a guess
 ReferenceMatches MatchToReference(const Features& reference,
                                   const Features& frame,
-                                  const ImageMotion& guess = {},
-                                  const ReferenceMatchOptions& options = {});
+                                  const ImageMotion& guess = {});
 
 // Matches as rays, for the solvers of two views: one for each pair, in order.
 std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,

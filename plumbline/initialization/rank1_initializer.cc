@@ -2,62 +2,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/rank1_initializer.h"
 
+#include "plumbline/base/units.h"
 #include "plumbline/initialization/byte_format.h"
 
-#include <numbers>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace plumbline {
 namespace {
 
-constexpr int kDecisionPoints = 200;
-constexpr int kMinPoints = 30;  // of a map
+constexpr int kMaxTracks = 200;            // that the decision is made from
+constexpr std::size_t kMinLandmarks = 30;  // of a map
 // Largest standard deviation of an interpolated place that is used; corners have 0.2 to 1 pixel.
 constexpr double kMaxInterpolationPx = 2;
 
 }  // namespace
 
-Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
+Rank1Initializer::Rank1Initializer(const RectifiedCamera& camera,
                                    const InitializationOptions& options,
                                    std::uint64_t seed)
-    : WindowInitializer(imaging.camera, options.matching, options.frames),
-      imaging_(imaging),
-      options_(options),
-      seed_(seed) {
-  const double focal = 0.5 * (imaging.camera.fx + imaging.camera.fy);
-  WindowFactorizationOptions& factorization = decision_.factorization;
-  factorization.factorize = options.factorize;
-  factorization.interpolate = options.interpolate;
-  factorization.max_interpolation_sigma = kMaxInterpolationPx / focal;
-  factorization.min_line_angle = options.min_line_angle_deg * std::numbers::pi / 180;
-  factorization.reweighting = options.reweighting;
-  decision_.relative_pose.method = options.relative_pose;
-}
+    : camera_(camera),
+      frames_(options.frames),
+      selection_{{.factorize = options.factorize,
+                  .interpolate = options.interpolate,
+                  .max_interpolation_sigma = kMaxInterpolationPx / (0.5 * (camera.fx + camera.fy)),
+                  .min_line_angle = options.min_line_angle_deg * kDegree,
+                  .reweighting = options.reweighting},
+                 options.relative_pose},
+      seed_(seed),
+      window_(camera, options.matching) {}
 
-InitializationResult Rank1Initializer::Attempt() {
-  const std::vector<int> frames = window_.Spread(options_.frames);
-  const WindowTracks tracks = window_.TracksOf(frames, kDecisionPoints);
-  Rng rng(
-      seed_, "initialization", static_cast<std::uint64_t>(window_.frame(frames.back()).id.value));
-  const WindowDecision decision = DecideWindow(tracks, decision_, memory_, rng);
-  InitializationResult result;
-  result.wait = decision.wait;
-  result.parallax_deg = decision.parallax_deg;
-  if (!decision.solution) return result;
+InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
+  InitializationResult result = window_.Offer(frame, frames_);
+  if (result.wait == InitializationWait::kTooFewMatches) prior_.Clear();  // another reference
+  if (result.wait != InitializationWait::kNone) return result;
+  const std::vector<int> frames = window_.SelectFrames(frames_);
+  const Tracks tracks = window_.CollectTracks(frames, kMaxTracks);
+  Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frame.id.value));
+  const ModelSelection selection = SelectModel(tracks, selection_, prior_, rng);
+  result.wait = selection.wait;
+  result.parallax_deg = selection.parallax_deg;
+  if (!selection.reconstruction) return result;
+
   std::vector<InitialView> views{{window_.reference(), Rigid3{}}};
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    views.push_back({window_.frame(frames[i]), decision.solution->cam_from_reference[i]});
+    views.push_back({window_.frame(frames[i]), selection.reconstruction->cam_from_reference[i]});
   }
-  InitialMap map = BuildStructure(
-      imaging_.camera, std::move(views), window_.PointTracks(frames), window_.LineTracks(frames));
-  if (!map.points.empty()) ScaleMap(1 / MedianDepth(map), map);
-  if (static_cast<int>(map.points.size() + map.lines.size()) < kMinPoints) {
+  InitialMap map = TriangulateMap(camera_,
+                                  std::move(views),
+                                  window_.PointObservations(frames),
+                                  window_.LineObservations(frames));
+  ScaleToMedianDepth(map);
+  if (map.points.size() + map.lines.size() < kMinLandmarks) {
     result.wait = InitializationWait::kInaccurate;
     return result;
   }
   result.map = std::move(map);
   return result;
+}
+
+void Rank1Initializer::Reset() {
+  window_.Reset();
+  prior_.Clear();
 }
 
 void Rank1Initializer::Save(StateWriter& archive) const { Transfer(archive, *this); }

@@ -2,42 +2,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/initialization/multi_view.h"
-#include "plumbline/initialization/window_initializer.h"
+#include "plumbline/initialization/model_selection.h"
+#include "plumbline/initialization/tracks.h"
 
 #include <cstdint>
 
 namespace plumbline {
 
 // The first paper's start of a map (section 2): rank-1 factorization of several frames, completed
-// by geometric interpolation, with a decision that waits rather than errs (multi_view.h).
+// by geometric interpolation, with a decision that waits rather than errs (model_selection.h).
 //
-// From options.frames frames after the reference on, a window spread over all of them is tried anew
+// From options.frames frames after the reference on, as many spread over all of them are tried anew
 // with each frame.
-class Rank1Initializer : public WindowInitializer {
+class Rank1Initializer : public Initializer {
  public:
-  Rank1Initializer(const ImagingModel& imaging,
+  Rank1Initializer(const RectifiedCamera& camera,
                    const InitializationOptions& options,
                    std::uint64_t seed);
 
+  InitializationResult Add(const InitializationFrame& frame) override;
+  void Reset() override;
   void Save(StateWriter& archive) const override;
   void Load(StateReader& archive) override;
 
   // All that it keeps (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.window_, self.memory_, self.most_matches_);
+    visit(self.window_, self.prior_);
+    FrameWindow::VisitMostMatches(self.window_, visit);
   }
 
  private:
-  InitializationResult Attempt() override;
-  void ForgetReference() override { memory_.Clear(); }
-
-  ImagingModel imaging_;
-  InitializationOptions options_;
-  WindowDecisionOptions decision_;
+  RectifiedCamera camera_;
+  int frames_;  // m of the paper
+  ModelSelectionOptions selection_;
   std::uint64_t seed_;
-  WindowMemory memory_;
+  FrameWindow window_;
+  PriorHypotheses prior_;
 };
 
 }  // namespace plumbline

@@ -3,6 +3,7 @@
 #include "plumbline/initialization/two_view.h"
 
 #include "plumbline/base/chi2.h"
+#include "plumbline/base/index.h"
 #include "plumbline/base/units.h"
 #include "plumbline/initialization/byte_format.h"
 #include "plumbline/solvers/epipolar_cost.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace plumbline {
@@ -181,52 +183,24 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
   return solution;
 }
 
-std::optional<InitialMap> BuildTwoViewMap(const RectifiedCamera& camera,
-                                          const std::array<InitializationFrame, 2>& frames,
-                                          const Rigid3& b_from_a,
-                                          std::span<const FeatureTrack> points,
-                                          std::span<const FeatureTrack> lines) {
-  std::vector<InitialView> views{{frames[0], Rigid3{}}, {frames[1], b_from_a}};
-  InitialMap map = BuildStructure(camera, std::move(views), points, lines);
-  if (map.points.size() < kMinPoints) return std::nullopt;
-  AdjustStructure(camera, map);
-  if (map.points.size() < kMinPoints) return std::nullopt;
-  return map;
-}
-
-std::optional<InitialMap> TwoViewInitializer::BuildMap(const InitializationFrame& frame,
-                                                       const ReferenceMatches& matches,
-                                                       const TwoViewSolution& solution) const {
-  std::vector<FeatureTrack> points;
-  for (std::size_t i = 0; i < matches.points.size(); ++i) {
-    if (!solution.is_good[i]) continue;
-    points.push_back({{0, matches.points[i].a}, {1, matches.points[i].b}});
-  }
-  std::vector<FeatureTrack> lines;
-  for (const LineMatch& match : matches.lines) lines.push_back({{0, match.a}, {1, match.b}});
-  return BuildTwoViewMap(camera_, {*reference_, frame}, solution.b_from_a, points, lines);
-}
-
 InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {
-  InitializationResult result;
+  using enum InitializationWait;
   const Features& features = frame.indexed->features;
   if (features.points.size() < kMinFeatures) {
     Reset();
-    result.wait = InitializationWait::kTooFewFeatures;
-    return result;
+    return {.wait = kTooFewFeatures};
   }
   if (!reference_) {
     reference_ = frame;
-    result.wait = InitializationWait::kTooFewFrames;
-    return result;
+    return {.wait = kTooFewFrames};
   }
   const Features& before = reference_->indexed->features;
   const ReferenceMatches matches = MatchToReference(before, features, motion_);
-  result.matches = static_cast<int>(matches.points.size());
+  InitializationResult result{.matches = static_cast<int>(matches.points.size())};
   if (matches.points.size() < kMinMatches) {
     reference_ = frame;
     motion_ = {};
-    result.wait = InitializationWait::kTooFewMatches;
+    result.wait = kTooFewMatches;
     return result;
   }
   motion_ = matches.motion;
@@ -235,9 +209,17 @@ InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {
   const TwoViewSolution solution = SolveTwoViews(rays, rng);
   result.parallax_deg = solution.parallax_deg;
   result.wait = solution.wait;
-  if (result.wait != InitializationWait::kNone) return result;
-  result.map = BuildMap(frame, matches, solution);
-  if (!result.map) result.wait = InitializationWait::kInaccurate;
+  if (result.wait != kNone) return result;
+  std::vector<FeatureTrack> points;
+  for (std::size_t i = 0; i < matches.points.size(); ++i) {
+    if (!solution.is_good[i]) continue;
+    points.push_back({{0, matches.points[i].a}, {1, matches.points[i].b}});
+  }
+  std::vector<FeatureTrack> lines;
+  for (const LineMatch& match : matches.lines) lines.push_back({{0, match.a}, {1, match.b}});
+  result.map = TriangulateAndAdjustMap(
+      camera_, {{*reference_, {}}, {frame, solution.b_from_a}}, points, lines, kMinPoints);
+  if (!result.map) result.wait = kInaccurate;
   return result;
 }
 
@@ -249,5 +231,37 @@ void TwoViewInitializer::Reset() {
 void TwoViewInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
 
 void TwoViewInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
+
+InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& frame) {
+  using enum InitializationWait;
+  InitializationResult result = window_.Offer(frame, 1);
+  if (result.wait != kNone) return result;
+  const std::vector<int> newest{window_.size() - 1};
+  const Tracks tracks = window_.CollectTracks(newest, std::numeric_limits<int>::max());
+  Rng rng(seed_, "two_view", static_cast<std::uint64_t>(frame.id.value));
+  const TwoViewSolution solution =
+      SolveTwoViews(MatchesBetween(tracks.reference, tracks.views.front()), rng);
+  result.parallax_deg = solution.parallax_deg;
+  result.wait = solution.wait;
+  if (result.wait != kNone) return result;
+  std::vector<bool> is_good(window_.reference().indexed->features.points.size(), false);
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    is_good[Index(tracks.features[k])] = solution.is_good[k];
+  }
+  std::vector<FeatureTrack> points = window_.PointObservations(newest);
+  std::erase_if(points,
+                [&](const FeatureTrack& track) { return !is_good[Index(track.front().feature)]; });
+  result.map = TriangulateAndAdjustMap(camera_,
+                                       {{window_.reference(), {}}, {frame, solution.b_from_a}},
+                                       points,
+                                       window_.LineObservations(newest),
+                                       kMinPoints);
+  if (!result.map) result.wait = kInaccurate;
+  return result;
+}
+
+void TwoViewImagesInitializer::Save(StateWriter& archive) const { Transfer(archive, *this); }
+
+void TwoViewImagesInitializer::Load(StateReader& archive) { Transfer(archive, *this); }
 
 }  // namespace plumbline

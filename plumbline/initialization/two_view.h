@@ -4,10 +4,9 @@
 
 #include "plumbline/initialization/initializer.h"
 #include "plumbline/initialization/matching.h"
-#include "plumbline/initialization/structure.h"
+#include "plumbline/initialization/tracks.h"
 #include "plumbline/solvers/relative_pose.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -47,21 +46,13 @@ struct TwoViewSolution {
 //   cost   some milliseconds
 TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng);
 
-// The map of two views, adjusted: the first is the world, the pose of the second is `b_from_a`.
-// nullopt where fewer than 50 points are left. Cost: some milliseconds.
-std::optional<InitialMap> BuildTwoViewMap(const RectifiedCamera& camera,
-                                          const std::array<InitializationFrame, 2>& frames,
-                                          const Rigid3& b_from_a,
-                                          std::span<const FeatureTrack> points,
-                                          std::span<const FeatureTrack> lines);
-
 // The conventional start: the first frame with enough features is the reference until a later one
 // gives a pose (SolveTwoViews) and a map after bundle adjustment. A frame with too few matches
 // becomes the new reference, and what was seen before is forgotten.
 class TwoViewInitializer : public Initializer {
  public:
-  TwoViewInitializer(const ImagingModel& imaging, std::uint64_t seed)
-      : camera_(imaging.camera), seed_(seed) {}
+  TwoViewInitializer(const RectifiedCamera& camera, std::uint64_t seed)
+      : camera_(camera), seed_(seed) {}
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
@@ -75,15 +66,40 @@ class TwoViewInitializer : public Initializer {
   }
 
  private:
-  // Builds and adjusts the map from the pose; nullopt where too little is left.
-  std::optional<InitialMap> BuildMap(const InitializationFrame& frame,
-                                     const ReferenceMatches& matches,
-                                     const TwoViewSolution& solution) const;
-
   RectifiedCamera camera_;
   std::uint64_t seed_;
   std::optional<InitializationFrame> reference_;
   ImageMotion motion_;  // from the reference to the newest frame
+};
+
+// The conventional decision (SolveTwoViews) on what rank1 sees: points are followed and aligned on
+// the images (FrameWindow), and the reference stays until matches with it die out. Beside rank1 it
+// tells what factorization and the decision of several frames bring, beside two_view what the
+// matches bring.
+//
+// Each frame is tried alone, with all points that it shows of the reference. Needs the images of
+// all frames (BugError otherwise).
+class TwoViewImagesInitializer : public Initializer {
+ public:
+  TwoViewImagesInitializer(const RectifiedCamera& camera, std::uint64_t seed)
+      : camera_(camera), seed_(seed), window_(camera, InitialMatching::kImages) {}
+
+  InitializationResult Add(const InitializationFrame& frame) override;
+  void Reset() override { window_.Reset(); }
+  void Save(StateWriter& archive) const override;
+  void Load(StateReader& archive) override;
+
+  // All that it keeps (base/byte_format.h).
+  template <class Self, class Visitor>
+  static void VisitState(Self& self, const Visitor& visit) {
+    visit(self.window_);
+    FrameWindow::VisitMostMatches(self.window_, visit);
+  }
+
+ private:
+  RectifiedCamera camera_;
+  std::uint64_t seed_;
+  FrameWindow window_;
 };
 
 }  // namespace plumbline

@@ -5,7 +5,7 @@
 #include "plumbline/base/error.h"
 
 #include "tests/initialization/blob_images.h"
-#include "tests/initialization/window_scene.h"
+#include "tests/initialization/track_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using testing::RotationErrorDeg;
 TEST(KltInitializer, StartsFromTracks) {
   const Blobs blobs;
   Rng rng(1);
-  KltInitializer initializer(blobs.world.Imaging(), {}, 1);
+  KltInitializer initializer(blobs.world.camera, {}, 1);
   for (int i = 0; i < 12; ++i) {
     const auto result = initializer.Add(FrameAt(blobs, PoseOnPath(i), i, rng));
     if (!result.map) continue;
@@ -38,7 +38,7 @@ TEST(KltInitializer, StartsFromTracks) {
 TEST(KltInitializer, WaitsForParallax) {
   const Blobs blobs;
   Rng rng(2);
-  KltInitializer initializer(blobs.world.Imaging(), {}, 1);
+  KltInitializer initializer(blobs.world.camera, {}, 1);
   for (int i = 0; i < 6; ++i) {
     EXPECT_FALSE(initializer.Add(FrameAt(blobs, {}, i, rng)).map);
   }
@@ -47,7 +47,7 @@ TEST(KltInitializer, WaitsForParallax) {
 TEST(KltInitializer, NeedsImages) {
   const Blobs blobs;
   Rng rng(3);
-  KltInitializer initializer(blobs.world.Imaging(), {}, 1);
+  KltInitializer initializer(blobs.world.camera, {}, 1);
   InitializationFrame frame = FrameAt(blobs, {}, 0, rng);
   frame.image = nullptr;
   EXPECT_THROW(initializer.Add(frame), BugError);

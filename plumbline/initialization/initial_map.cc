@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/initial_map.h"
+
+#include "plumbline/association/measurements.h"
+#include "plumbline/base/chi2.h"
+#include "plumbline/base/index.h"
+#include "plumbline/base/median.h"
+#include "plumbline/base/units.h"
+#include "plumbline/geometry/line_triangulation.h"
+#include "plumbline/geometry/triangulation.h"
+#include "plumbline/geometry/trimming.h"
+#include "plumbline/optimization/local_ba.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+constexpr double kMinParallax = 0.3 * kDegree;
+// Largest standard deviations over the depth: of a point along its ray, of a line across.
+constexpr double kMaxPointSigma = 0.3;
+constexpr double kMaxLineSigma = 0.1;
+// Lines lie where the points lie, give or take this factor on the nearest and furthest of them.
+constexpr double kDepthMargin = 2;
+
+const Features& FeaturesOf(const InitialView& view) { return view.frame.indexed->features; }
+
+std::optional<InitialPoint> BuildPoint(const RectifiedCamera& camera,
+                                       std::span<const InitialView> views,
+                                       const FeatureTrack& track) {
+  std::vector<PointView> measured;
+  for (const InitialObservation& o : track) {
+    const InitialView& view = views[Index(o.view)];
+    const PointFeature& feature = FeaturesOf(view).points[Index(o.feature)];
+    measured.push_back(
+        {view.cam_from_world, o.px.value_or(feature.px), feature.sigma_px, std::nullopt});
+  }
+  const auto point = TriangulatePoint(camera, measured, {.min_parallax = kMinParallax});
+  if (!point || point->chi2 > Chi2Limit95(point->residuals - 3)) return std::nullopt;
+  const PointEstimate in_camera = Transform(measured.front().cam_from_world, point->point);
+  const double depth = in_camera.position.z();
+  if (std::sqrt(in_camera.covariance(2, 2)) > kMaxPointSigma * depth) {
+    return std::nullopt;
+  }
+  return InitialPoint{point->point.position, track};
+}
+
+struct DepthRange {
+  double nearest = 0;
+  double furthest = 0;
+};
+
+// The depths of the points in the first view, between which lines may be.
+DepthRange LineDepths(const InitialMap& map) {
+  DepthRange range{1e300, 0};
+  for (const InitialPoint& point : map.points) {
+    const double depth = (map.views.front().cam_from_world * point.position).z();
+    range.nearest = std::min(range.nearest, depth);
+    range.furthest = std::max(range.furthest, depth);
+  }
+  return {range.nearest / kDepthMargin, range.furthest * kDepthMargin};
+}
+
+// The part of the line that any of the views saw; nullopt where one of them saw it behind itself.
+std::optional<Segment3> SeenPart(const RectifiedCamera& camera,
+                                 std::span<const LineView> views,
+                                 const PluckerLine& line) {
+  std::optional<LineInterval> seen;
+  for (const LineView& view : views) {
+    const auto interval = TrimToSegment(camera, view.cam_from_world, line, view.segment);
+    if (!interval || interval->end <= interval->start) return std::nullopt;
+    if (!seen) seen = interval;
+    seen = LineInterval{std::min(seen->start, interval->start), std::max(seen->end, interval->end)};
+  }
+  if (!seen) return std::nullopt;
+  return SegmentOf(line, *seen);
+}
+
+std::vector<LineView> LineViews(std::span<const InitialView> views, const FeatureTrack& track) {
+  std::vector<LineView> measured;
+  for (const InitialObservation& o : track) {
+    const InitialView& view = views[Index(o.view)];
+    const LineFeature& feature = FeaturesOf(view).lines[Index(o.feature)];
+    measured.push_back({view.cam_from_world, feature.segment, feature.sigma_px});
+  }
+  return measured;
+}
+
+// Depth over its standard deviation goes with the angle of the planes over the noise of the planes.
+double MinPlaneAngle(const RectifiedCamera& camera, std::span<const LineView> views) {
+  double sigma = 0;
+  for (const LineView& view : views) sigma = std::max(sigma, view.sigma_px);
+  return std::numbers::sqrt2 * sigma / (0.5 * (camera.fx + camera.fy)) / kMaxLineSigma;
+}
+
+std::optional<InitialLine> BuildLine(const RectifiedCamera& camera,
+                                     std::span<const InitialView> views,
+                                     const FeatureTrack& track,
+                                     const DepthRange& depths) {
+  const std::vector<LineView> measured = LineViews(views, track);
+  const auto line =
+      TriangulateLine(camera, measured, {.min_plane_angle = MinPlaneAngle(camera, measured)});
+  if (!line) return std::nullopt;
+  const auto segment = SeenPart(camera, measured, line->estimate.line);
+  if (!segment) return std::nullopt;
+  const Rigid3& cam_from_world = views.front().cam_from_world;
+  for (const Eigen::Vector3d& end : {segment->start, segment->end}) {
+    const double depth = (cam_from_world * end).z();
+    if (depth < depths.nearest || depth > depths.furthest) return std::nullopt;
+  }
+  return InitialLine{line->estimate.line, *segment, track};
+}
+
+BaProblem MakeProblem(const RectifiedCamera& camera, const InitialMap& map) {
+  BaProblem problem;
+  problem.camera = camera;
+  for (const InitialView& view : map.views) problem.poses.push_back({view.cam_from_world, false});
+  problem.poses.front().fixed = true;
+  for (const InitialPoint& point : map.points) {
+    const int index = static_cast<int>(problem.points.size());
+    problem.points.push_back(point.position);
+    for (const InitialObservation& o : point.observations) {
+      const Features& features = FeaturesOf(map.views[Index(o.view)]);
+      PointMeasurement measured = MeasurePoint(features, Index(o.feature));
+      if (o.px) measured.px = *o.px;
+      problem.point_observations.push_back({o.view, index, measured});
+    }
+  }
+  for (const InitialLine& line : map.lines) {
+    const int index = static_cast<int>(problem.lines.size());
+    problem.lines.push_back(ToOrthonormal(line.line));
+    for (const InitialObservation& o : line.observations) {
+      const Features& features = FeaturesOf(map.views[Index(o.view)]);
+      problem.line_observations.push_back(
+          {o.view, index, MeasureLeftLine(features, Index(o.feature), LineWeighting::kCovariance)});
+    }
+  }
+  return problem;
+}
+
+// Removes the observations that are not inliers; `inliers` goes through all observations in order.
+template <class Landmark>
+void KeepInliers(const std::vector<bool>& inliers, std::vector<Landmark>& landmarks) {
+  std::size_t next = 0;
+  for (Landmark& landmark : landmarks) {
+    FeatureTrack kept;
+    for (const InitialObservation& o : landmark.observations) {
+      if (inliers[next++]) kept.push_back(o);
+    }
+    landmark.observations = std::move(kept);
+  }
+  std::erase_if(landmarks, [](const Landmark& l) { return l.observations.size() < 2; });
+}
+
+void TakeOver(const RectifiedCamera& camera, const BaResult& result, InitialMap& map) {
+  for (std::size_t i = 0; i < map.views.size(); ++i) {
+    map.views[i].cam_from_world = result.poses[i];
+  }
+  for (std::size_t i = 0; i < map.points.size(); ++i) map.points[i].position = result.points[i];
+  for (std::size_t i = 0; i < map.lines.size(); ++i) map.lines[i].line = ToPlucker(result.lines[i]);
+  KeepInliers(result.point_inliers, map.points);
+  KeepInliers(result.line_inliers, map.lines);
+  std::erase_if(map.lines, [&](InitialLine& line) {
+    const auto segment = SeenPart(camera, LineViews(map.views, line.observations), line.line);
+    if (segment) line.segment = *segment;
+    return !segment;
+  });
+}
+
+}  // namespace
+
+InitialMap TriangulateMap(const RectifiedCamera& camera,
+                          std::vector<InitialView> views,
+                          std::span<const FeatureTrack> point_tracks,
+                          std::span<const FeatureTrack> line_tracks) {
+  InitialMap map;
+  map.views = std::move(views);
+  for (const FeatureTrack& track : point_tracks) {
+    if (auto point = BuildPoint(camera, map.views, track)) {
+      map.points.push_back(std::move(*point));
+    }
+  }
+  if (map.points.empty()) return map;
+  const DepthRange depths = LineDepths(map);
+  for (const FeatureTrack& track : line_tracks) {
+    if (auto line = BuildLine(camera, map.views, track, depths)) {
+      map.lines.push_back(std::move(*line));
+    }
+  }
+  return map;
+}
+
+double MedianDepth(const InitialMap& map) {
+  std::vector<double> depths;
+  for (const InitialPoint& point : map.points) {
+    depths.push_back((map.views.front().cam_from_world * point.position).z());
+  }
+  return UpperMedian(std::move(depths));
+}
+
+void ScaleToMedianDepth(InitialMap& map) {
+  const double depth = MedianDepth(map);
+  if (!(depth > 0)) return;
+  const double factor = 1 / depth;
+  for (InitialView& view : map.views) view.cam_from_world.translation *= factor;
+  for (InitialPoint& point : map.points) point.position *= factor;
+  for (InitialLine& line : map.lines) {
+    line.line.moment *= factor;
+    line.segment.start *= factor;
+    line.segment.end *= factor;
+  }
+}
+
+void AdjustMap(const RectifiedCamera& camera, InitialMap& map) {
+  const BaProblem problem = MakeProblem(camera, map);
+  // To the end: what the map is accepted by is the accuracy of this solution.
+  LocalBaOptions options;
+  options.max_iterations = 30;
+  options.function_tolerance = 1e-6;
+  const BaResult result = SolveLocalBa(problem, options);
+  TakeOver(camera, result, map);
+  ScaleToMedianDepth(map);
+}
+
+std::optional<InitialMap> TriangulateAndAdjustMap(const RectifiedCamera& camera,
+                                                  std::vector<InitialView> views,
+                                                  std::span<const FeatureTrack> point_tracks,
+                                                  std::span<const FeatureTrack> line_tracks,
+                                                  std::size_t min_points) {
+  InitialMap map = TriangulateMap(camera, std::move(views), point_tracks, line_tracks);
+  if (map.points.size() < min_points) return std::nullopt;
+  AdjustMap(camera, map);
+  if (map.points.size() < min_points) return std::nullopt;
+  return map;
+}
+
+}  // namespace plumbline

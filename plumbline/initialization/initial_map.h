@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/geometry/plucker.h"
+#include "plumbline/geometry/rectified_camera.h"
+#include "plumbline/geometry/segment.h"
+#include "plumbline/image/image.h"
+#include "plumbline/map/frame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace plumbline {
+
+// A frame offered for the start of a map. The image is needed by rank1_klt, by two_view_images and
+// by rank1 unless it matches by descriptor.
+struct InitializationFrame {
+  FrameId id;
+  std::int64_t stamp_ns = 0;
+  std::shared_ptr<const IndexedFeatures> indexed;
+  std::shared_ptr<const GrayImage> image;
+};
+
+// The feature of a view (an index into InitialMap::views) that shows a landmark.
+struct InitialObservation {
+  int view = 0;
+  int feature = 0;
+  // Where the view shows a point when that is known better than its feature says, pixels.
+  std::optional<Eigen::Vector2d> px = std::nullopt;
+};
+// The features of several views that show one landmark: at least two, by view.
+using FeatureTrack = std::vector<InitialObservation>;
+
+struct InitialPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  FeatureTrack observations;
+};
+struct InitialLine {
+  PluckerLine line;  // world; directed as its features
+  Segment3 segment;  // the part that was seen
+  FeatureTrack observations;
+};
+struct InitialView {
+  InitializationFrame frame;
+  Rigid3 cam_from_world;
+};
+
+// The start of a monocular map. The world is the first view's camera; its scale is such that the
+// median depth of the points there is 1.
+struct InitialMap {
+  std::vector<InitialView> views;  // by time; the first is the reference, the last the newest frame
+  std::vector<InitialPoint> points;
+  std::vector<InitialLine> lines;
+};
+
+// Triangulates points and lines from views whose poses are known.
+//
+// A point must have 0.3 degrees of parallax, lie in front of all its views, agree with them (chi2
+// at 95 %) and be known to 30 % of its depth. A line must have interpretation planes at an angle
+// that fixes its depth to 10 %, end in front of all views, pass through the ends of its segments,
+// and lie at a depth like that of the points: two segments always meet in some line, so that with
+// two views its depth is the one thing that gives away a wrong match.
+//
+//   point_tracks, line_tracks  indices into `views` and the features of the frames there
+//   returns                    the map in the world of the views' poses; tracks that fail are left
+//                              out
+//   cost                       O(tracks)
+InitialMap TriangulateMap(const RectifiedCamera& camera,
+                          std::vector<InitialView> views,
+                          std::span<const FeatureTrack> point_tracks,
+                          std::span<const FeatureTrack> line_tracks);
+
+// The median depth of the points in the first view; 0 without points.
+double MedianDepth(const InitialMap& map);
+
+// Scales poses, points and lines about the world's origin so that the median depth is 1. A map
+// without points stays as it is.
+void ScaleToMedianDepth(InitialMap& map);
+
+// Bundle adjustment of all poses but the first, all points and lines to all observations. Drops
+// observations that do not fit (chi2 at 95 %) and landmarks that are left with fewer than two, and
+// makes the median depth 1.
+//
+//   map   not empty; the first view's camera is the world
+//   cost  some milliseconds for three views and 300 points
+void AdjustMap(const RectifiedCamera& camera, InitialMap& map);
+
+// Both of these; nullopt where fewer than `min_points` points are left.
+std::optional<InitialMap> TriangulateAndAdjustMap(const RectifiedCamera& camera,
+                                                  std::vector<InitialView> views,
+                                                  std::span<const FeatureTrack> point_tracks,
+                                                  std::span<const FeatureTrack> line_tracks,
+                                                  std::size_t min_points);
+
+}  // namespace plumbline

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/model_selection.h"
+
+#include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
+#include "plumbline/base/index.h"
+#include "plumbline/base/median.h"
+#include "plumbline/base/parallel.h"
+#include "plumbline/base/units.h"
+#include "plumbline/geometry/basis_across.h"
+#include "plumbline/initialization/reconstruction_covariance.h"
+#include "plumbline/solvers/pose_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace plumbline {
+namespace {
+
+// Fewest matches of points and lines between the newest frame and the reference, and of points.
+constexpr int kMinMatches = 24;
+constexpr std::size_t kMinPoints = 12;
+constexpr double kMinParallaxDeg = 1.2;   // of the median point of the newest frame
+constexpr double kMinInlierShare = 0.85;  // of the matches of all views
+// By this part of its own chi2 the best model must be better than the next best.
+constexpr double kMinMargin = 0.5;
+// Largest standard deviations that the covariance may promise: of the rotation of the newest pose,
+// of the direction of the line between the centres, and of the depth of the median point, relative.
+constexpr double kMaxRotation = 0.06 * kDegree;
+constexpr double kMaxDirection = 0.7 * kDegree;
+constexpr double kMaxDepth = 0.06;
+// From this deviation on depths are not known at all: there is no parallax.
+constexpr double kUnknownDepth = 0.3;
+// Least noise that is assumed of measurements, relative to what they are said to have.
+constexpr double kMinNoise = 0.25;
+// Least noise of a fit, in units of the noise that the distances from the epipolar lines have: what
+// these do not show is not less.
+constexpr double kLeastNoise = 0.4;
+// A model this much worse than the best before adjustment is not worth one.
+constexpr double kHopeless = 2;
+// With so many points lines are not asked.
+constexpr std::size_t kManyPoints = 200;
+// What is done to each of several models is done to two at a time: a plane has two.
+constexpr int kThreads = 2;
+
+// Noise of the matches, in units of the standard deviation that they are said to have: by the
+// median distance from the epipolar lines, which has one degree of freedom.
+double NoiseOf(const std::vector<RayMatch>& matches, const Rigid3& b_from_a) {
+  constexpr double kMedianOfChi2 = 0.4549;
+  std::vector<double> chi2;
+  const Eigen::Matrix<double, 3, 2> basis = BasisAcross(b_from_a.translation);
+  for (const RayMatch& match : matches) {
+    const double distance = EvaluateSampson(b_from_a, basis, match).value;
+    chi2.push_back(distance * distance);
+  }
+  return std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
+}
+
+// The models of all hypotheses that can be carried through all frames.
+std::vector<CandidateModel> FactorizeAll(const Tracks& tracks,
+                                         const std::vector<MotionHypothesis>& hypotheses,
+                                         const FactorizationOptions& options) {
+  auto factorized = ParallelMap<std::optional<CandidateModel>>(
+      static_cast<int>(hypotheses.size()), kThreads, [&](int i) -> std::optional<CandidateModel> {
+        auto reconstruction = FactorizeTracks(tracks, hypotheses[Index(i)], options);
+        if (!reconstruction) return std::nullopt;
+        const ReprojectionFit fit = EvaluatePoints(tracks, *reconstruction, kChi2TwoDof99);
+        return CandidateModel{std::move(*reconstruction), fit, fit.cost};
+      });
+  std::vector<CandidateModel> models;
+  for (auto& model : factorized) {
+    if (model) InsertModel(std::move(*model), models);
+  }
+  return models;
+}
+
+// Models that are too bad to be the right one, the best being the first.
+void DropHopeless(std::vector<CandidateModel>& models) {
+  const double limit = kHopeless * models.front().cost;
+  std::erase_if(models, [limit](const CandidateModel& model) { return model.cost > limit; });
+}
+
+// Adjusts all that are worth it. The best first; of those that become the same, the best.
+void AdjustAll(const Tracks& tracks, std::vector<CandidateModel>& models) {
+  SortByCost(models);
+  DropHopeless(models);
+  ParallelFor(static_cast<int>(models.size()), kThreads, [&](int i) {
+    AdjustModel(tracks, models[Index(i)]);
+  });
+  std::vector<CandidateModel> adjusted;
+  for (CandidateModel& model : models) InsertModel(std::move(model), adjusted);
+  models = std::move(adjusted);
+  SortByCost(models);
+}
+
+// Angle between the rays to the newest and to the reference frame, of the median point.
+double ParallaxDeg(const Tracks& tracks, const Reconstruction& reconstruction) {
+  const Eigen::Vector3d centre = Inverse(reconstruction.cam_from_reference.back()).translation;
+  std::vector<double> angles;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (!tracks.views.back().Has(k)) continue;
+    const Eigen::Vector3d& point = reconstruction.points[k];
+    const Eigen::Vector3d to_centre = point - centre;
+    angles.push_back(reconstruction.is_known[k]
+                         ? math::Atan2(point.cross(to_centre).norm(), point.dot(to_centre))
+                         : 0);
+  }
+  return UpperMedian(std::move(angles)) / kDegree;
+}
+
+// Median of the deviations of the depths of all points of the tracks; those without one count as
+// unknown.
+double MedianDepthSigma(const ReconstructionCovariance& covariance) {
+  std::vector<double> sigmas = covariance.relative_depth_sigmas;
+  for (double& sigma : sigmas) {
+    if (sigma < 0) sigma = std::numeric_limits<double>::infinity();
+  }
+  return UpperMedian(std::move(sigmas));
+}
+
+// Whether what the covariance promises for a model is good enough.
+InitializationWait TestAccuracy(const Tracks& tracks, const CandidateModel& model) {
+  const double noise = std::max(kLeastNoise, model.fit.noise);
+  const auto covariance = ComputeCovariance(tracks,
+                                            model.reconstruction,
+                                            noise,
+                                            kChi2TwoDof99 / (noise * noise),
+                                            std::max(kLeastNoise, model.line_noise));
+  if (!covariance) return InitializationWait::kTooLittleParallax;
+  const double depth = MedianDepthSigma(*covariance);
+  if (!(depth < kUnknownDepth)) return InitializationWait::kTooLittleParallax;
+  const int newest = static_cast<int>(tracks.views.size()) - 1;
+  const PoseAccuracy pose = AccuracyOf(model.reconstruction, *covariance, newest);
+  const bool accurate =
+      depth <= kMaxDepth && pose.rotation <= kMaxRotation && pose.direction <= kMaxDirection;
+  return accurate ? InitializationWait::kNone : InitializationWait::kInaccurate;
+}
+
+// The best must be good and no other may come near. A model that is not out of the question must
+// have had its chance as well: the wrong interpretation of a plane often shows more parallax and so
+// seems to be known before the right one is.
+InitializationWait Decide(const Tracks& tracks, const std::vector<CandidateModel>& models) {
+  const CandidateModel& best = models.front();
+  // Few points and no lines.
+  if (static_cast<int>(tracks.views.back().CountSeen()) + best.lines < kMinMatches) {
+    return InitializationWait::kTooFewMatches;
+  }
+  if (best.fit.inliers < kMinInlierShare * best.fit.measurements) {
+    return InitializationWait::kInaccurate;
+  }
+  if (ParallaxDeg(tracks, best.reconstruction) < kMinParallaxDeg) {
+    return InitializationWait::kTooLittleParallax;
+  }
+  for (const CandidateModel& model : models) {
+    if (model.cost > kHopeless * best.cost) break;
+    const InitializationWait accuracy = TestAccuracy(tracks, model);
+    if (accuracy != InitializationWait::kNone) return accuracy;
+  }
+  if (models.size() > 1 && models[1].cost < best.cost * (1 + kMinMargin)) {
+    return InitializationWait::kAmbiguous;
+  }
+  return InitializationWait::kNone;
+}
+
+// Where points alone do not suffice and there are few; what many points leave open is not for lines
+// to decide.
+bool NeedsLines(const Tracks& tracks, InitializationWait wait) {
+  return wait != InitializationWait::kNone && wait != InitializationWait::kTooLittleParallax &&
+         tracks.lines.size() > 0 && tracks.size() < kManyPoints;
+}
+
+}  // namespace
+
+void PriorHypotheses::Clear() {
+  hypotheses_.clear();
+  sure_ = false;
+}
+
+void PriorHypotheses::Keep(const Tracks& tracks,
+                           std::span<const CandidateModel> models,
+                           bool sure) {
+  Clear();
+  sure_ = sure;
+  for (const CandidateModel& model : models) {
+    Hypothesis kept{model.reconstruction.cam_from_reference.back(), {}};
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+      if (!model.reconstruction.is_known[k]) continue;
+      kept.inverse_distances[tracks.features[k]] = 1 / model.reconstruction.points[k].norm();
+    }
+    hypotheses_.push_back(std::move(kept));
+  }
+}
+
+std::vector<MotionHypothesis> PriorHypotheses::HypothesesFor(const Tracks& tracks) const {
+  std::vector<MotionHypothesis> hypotheses;
+  for (const Hypothesis& kept : hypotheses_) {
+    MotionHypothesis hypothesis{kept.newest_from_reference, {}};
+    for (const int feature : tracks.features) {
+      const auto found = kept.inverse_distances.find(feature);
+      hypothesis.inverse_distances.push_back(found == kept.inverse_distances.end() ? 0
+                                                                                   : found->second);
+    }
+    hypotheses.push_back(std::move(hypothesis));
+  }
+  return hypotheses;
+}
+
+bool PriorHypotheses::Confirm(const Tracks& tracks, const Reconstruction& reconstruction) const {
+  if (!sure_) return false;
+  const auto pose = ResectNewest(tracks, HypothesesFor(tracks).front());
+  return pose && IsSameMotion(*pose, reconstruction.cam_from_reference.back());
+}
+
+ModelSelection SelectModel(const Tracks& tracks,
+                           const ModelSelectionOptions& options,
+                           PriorHypotheses& prior,
+                           Rng& rng) {
+  using enum InitializationWait;
+  const std::vector<RayMatch> matches = MatchesBetween(tracks.reference, tracks.views.back());
+  if (matches.size() < kMinPoints) return {.wait = kTooFewMatches};
+  const auto motions = EstimateRelativePoses(matches, {.method = options.relative_pose}, rng);
+  if (motions.empty()) return {.wait = kInaccurate};
+  Tracks scaled = tracks;
+  ScaleSigmas(std::max(kMinNoise, NoiseOf(matches, motions.front().b_from_a)), scaled);
+  std::vector<MotionHypothesis> hypotheses = prior.HypothesesFor(scaled);
+  for (const RelativePoseHypothesis& motion : motions) hypotheses.push_back({motion.b_from_a, {}});
+
+  std::vector<CandidateModel> models = FactorizeAll(scaled, hypotheses, options.factorization);
+  if (models.empty()) return {.wait = kInaccurate};
+  // Adjusted to points alone, two that lines tell apart may become one.
+  std::vector<CandidateModel> before = models;
+  AdjustAll(scaled, models);
+  ModelSelection selection{.wait = Decide(scaled, models)};
+  if (NeedsLines(scaled, selection.wait)) {
+    models.insert(models.end(), before.begin(), before.end());
+    models = AdjustWithLines(scaled, std::move(models), kMinNoise);
+    selection.wait = Decide(scaled, models);
+  }
+  Reconstruction& best = models.front().reconstruction;
+  selection.parallax_deg = ParallaxDeg(scaled, best);
+  const bool sure = selection.wait == kNone;
+  if (sure && !prior.Confirm(scaled, best)) selection.wait = kInaccurate;
+  DropHopeless(models);
+  prior.Keep(scaled, models, sure);
+  if (selection.wait != kNone) return selection;
+  ScaleToMedianDepth(best);
+  selection.reconstruction = std::move(best);
+  return selection;
+}
+
+}  // namespace plumbline

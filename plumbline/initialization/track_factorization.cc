@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/initialization/track_factorization.h"
+
+#include "plumbline/base/median.h"
+#include "plumbline/initialization/geometric_interpolation.h"
+#include "plumbline/initialization/reconstruction_covariance.h"
+#include "plumbline/optimization/pose_only.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+namespace {
+
+// A point whose inverse distance is not above this part of the median is as good as infinitely far:
+// it is put there, where it still holds the rotations.
+constexpr double kFarthest = 0.02;
+// Largest chi2 of measurements that enter the covariance: 99.99 % of two degrees of freedom.
+constexpr double kMaxChi2 = 18.4;
+// Fewest points that must fit for the pose of a frame, absolutely and of those it shows.
+constexpr int kMinResected = 10;
+constexpr double kMinResectedShare = 0.5;
+
+double MedianOfPositive(const std::vector<double>& inverse_distances) {
+  std::vector<double> positive;
+  for (const double d : inverse_distances) {
+    if (d > 0) positive.push_back(d);
+  }
+  return UpperMedian(std::move(positive));
+}
+
+// The points in space, those near infinity put at `kFarthest`.
+Reconstruction ToReconstruction(const Tracks& tracks,
+                                const std::vector<double>& inverse_distances,
+                                std::vector<Rigid3> poses) {
+  Reconstruction reconstruction{std::move(poses), {}, {}};
+  const double farthest = kFarthest * MedianOfPositive(inverse_distances);
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const double d = inverse_distances[k];
+    const Eigen::Vector3d ray = tracks.reference.points[k].homogeneous().normalized();
+    const bool known = d > -farthest && d != 0 && farthest > 0;
+    reconstruction.points.push_back(known ? Eigen::Vector3d(ray / std::max(d, farthest)) : ray);
+    reconstruction.is_known.push_back(known);
+  }
+  return reconstruction;
+}
+
+// Inverse distances from two frames alone: a factorization of one view.
+std::optional<Reconstruction> StructureOfTwoFrames(const Tracks& tracks, const Rigid3& newest) {
+  const Rank1View view = Rank1ViewOf(tracks.views.back(), newest);
+  const auto factors =
+      FactorizeRank1(tracks.reference.points, std::span(&view, 1), {.iterations = 0});
+  if (!factors || 2 * factors->in_front <= factors->solved) return std::nullopt;
+  const double sign = view.centre_direction.dot(factors->centres.front());
+  // Most points must be in front for the translation as it was given.
+  if (!(sign > 0)) return std::nullopt;
+  std::vector<Rigid3> poses{newest};
+  poses.front().translation.normalize();
+  return ToReconstruction(tracks, factors->inverse_distances, std::move(poses));
+}
+
+// The pose of a frame from the points that it shows; nullopt where it does not go with them.
+std::optional<Rigid3> Resect(const Tracks& tracks,
+                             const TrackedPoints& seen,
+                             const Reconstruction& structure,
+                             const Rigid3& guess) {
+  PoseProblem problem;
+  problem.camera.fx = problem.camera.fy = 1;
+  problem.cam_from_world = guess;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (!structure.is_known[k] || !seen.Has(k)) continue;
+    // The points are not better known than the places they come from.
+    const double sigma = std::sqrt(2.0) * seen.sigmas[k];
+    problem.points.push_back({structure.points[k], {seen.points[k], sigma, std::nullopt}});
+  }
+  if (static_cast<int>(problem.points.size()) < kMinResected) return std::nullopt;
+  const PoseOnlyResult result = SolvePose(problem);
+  const auto matches = static_cast<double>(problem.points.size());
+  if (result.inlier_points < kMinResected || result.inlier_points < kMinResectedShare * matches) {
+    return std::nullopt;
+  }
+  return result.cam_from_world;
+}
+
+// Poses of all views in the unit of the structure, that of the newest frame being held or not.
+std::optional<std::vector<Rigid3>> ResectViews(const Tracks& tracks,
+                                               const Reconstruction& structure,
+                                               bool newest_held) {
+  const Rigid3& newest = structure.cam_from_reference.front();
+  std::vector<Rigid3> poses;
+  const auto m = static_cast<double>(tracks.views.size());
+  const std::size_t solved = tracks.views.size() - (newest_held ? 1 : 0);
+  for (std::size_t i = 0; i < solved; ++i) {
+    const Rigid3 guess = Interpolate({}, newest, static_cast<double>(i + 1) / m);
+    const auto pose = Resect(tracks, tracks.views[i], structure, guess);
+    if (!pose) return std::nullopt;
+    poses.push_back(*pose);
+  }
+  if (newest_held) poses.push_back(newest);
+  return poses;
+}
+
+// All points from known poses: along the unit ray p of the reference, at the inverse distance d
+// that makes R p + d t parallel to the measured rays, linear least squares over all views.
+std::vector<double> InverseDistances(const Tracks& tracks, const std::vector<Rigid3>& poses) {
+  std::vector<double> inverse_distances;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const Eigen::Vector3d p = tracks.reference.points[k].homogeneous().normalized();
+    double along = 0;
+    double squared = 0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const TrackedPoints& seen = tracks.views[i];
+      if (!seen.Has(k)) continue;
+      const Eigen::Vector3d ray = seen.points[k].homogeneous().normalized() / seen.sigmas[k];
+      const Eigen::Vector3d across = ray.cross(poses[i].translation);
+      along -= across.dot(ray.cross(poses[i].rotation * p));
+      squared += across.squaredNorm();
+    }
+    inverse_distances.push_back(squared > 0 ? along / squared : 0);
+  }
+  return inverse_distances;
+}
+
+// Factorizes the views and puts the centres found into the poses.
+std::optional<Reconstruction> Factorize(const Tracks& tracks,
+                                        const std::vector<TrackedPoints>& seen,
+                                        const std::vector<Rigid3>& poses,
+                                        const FactorizationOptions& options) {
+  std::vector<Rank1View> views;
+  for (std::size_t i = 0; i < seen.size(); ++i) views.push_back(Rank1ViewOf(seen[i], poses[i]));
+  const auto factors =
+      FactorizeRank1(tracks.reference.points, views, {.iterations = options.reweighting});
+  if (!factors || 2 * factors->in_front <= factors->solved) return std::nullopt;
+  std::vector<Rigid3> solved = poses;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    solved[i].translation = -(poses[i].rotation * factors->centres[i]);
+  }
+  return ToReconstruction(tracks, factors->inverse_distances, std::move(solved));
+}
+
+// The views with only the points that all of them show.
+std::vector<TrackedPoints> CompleteTracks(const Tracks& tracks) {
+  std::vector<TrackedPoints> complete = tracks.views;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    const bool all = std::all_of(tracks.views.begin(),
+                                 tracks.views.end(),
+                                 [k](const TrackedPoints& view) { return view.Has(k); });
+    if (all) continue;
+    for (TrackedPoints& view : complete) view.sigmas[k] = 0;
+  }
+  return complete;
+}
+
+// The views completed by interpolation between the reference and the newest.
+std::vector<TrackedPoints> InterpolateMissing(const Tracks& tracks,
+                                              const Reconstruction& solution,
+                                              const FactorizationOptions& options) {
+  std::vector<TrackedPoints> completed = tracks.views;
+  const auto covariance = ComputeCovariance(tracks, solution, 1, kMaxChi2);
+  if (!covariance) return completed;
+  const TrackedPoints& newest = tracks.views.back();
+  const auto last = static_cast<Eigen::Index>(6 * (tracks.views.size() - 1));
+  for (std::size_t i = 0; i + 1 < completed.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(6 * i);
+    InterpolationPoses poses{solution.cam_from_reference[i], solution.cam_from_reference.back()};
+    poses.covariance << covariance->poses.block<6, 6>(row, row),
+        covariance->poses.block<6, 6>(row, last), covariance->poses.block<6, 6>(last, row),
+        covariance->poses.block<6, 6>(last, last);
+    const GeometricInterpolation interpolation(poses);
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+      if (completed[i].Has(k) || !newest.Has(k)) continue;
+      const auto place = interpolation.Interpolate(tracks.reference.points[k],
+                                                   tracks.reference.sigmas[k],
+                                                   newest.points[k],
+                                                   newest.sigmas[k]);
+      if (!place || place->line_angle < options.min_line_angle) continue;
+      const double sigma = std::sqrt(place->covariance.trace() / 2);
+      if (!(sigma <= options.max_interpolation_sigma)) continue;
+      completed[i].points[k] = place->point;
+      completed[i].sigmas[k] = sigma;
+    }
+  }
+  return completed;
+}
+
+}  // namespace
+
+std::optional<Rigid3> ResectNewest(const Tracks& tracks, const MotionHypothesis& hypothesis) {
+  const Rigid3& guess = hypothesis.newest_from_reference;
+  const Reconstruction structure = ToReconstruction(tracks, hypothesis.inverse_distances, {guess});
+  return Resect(tracks, tracks.views.back(), structure, guess);
+}
+
+Rank1View Rank1ViewOf(const TrackedPoints& seen, const Rigid3& pose) {
+  const Rigid3 reference_from_cam = Inverse(pose);
+  const double length = reference_from_cam.translation.norm();
+  return {reference_from_cam.rotation,
+          length > 0 ? Eigen::Vector3d(reference_from_cam.translation / length)
+                     : Eigen::Vector3d::UnitX(),
+          seen.points,
+          seen.sigmas};
+}
+
+std::optional<Reconstruction> FactorizeTracks(const Tracks& tracks,
+                                              const MotionHypothesis& hypothesis,
+                                              const FactorizationOptions& options) {
+  const bool two_frames = hypothesis.inverse_distances.empty();
+  const Rigid3& newest = hypothesis.newest_from_reference;
+  const auto structure = two_frames
+                             ? StructureOfTwoFrames(tracks, newest)
+                             : ToReconstruction(tracks, hypothesis.inverse_distances, {newest});
+  if (!structure) return std::nullopt;
+  const auto poses = ResectViews(tracks, *structure, two_frames);
+  if (!poses) return std::nullopt;
+  if (!options.factorize) return ToReconstruction(tracks, InverseDistances(tracks, *poses), *poses);
+  auto first = Factorize(tracks, CompleteTracks(tracks), *poses, options);
+  if (!options.interpolate) return first;
+  // Few complete tracks: what the frames share with the first and the newest must do.
+  if (!first) first = Factorize(tracks, tracks.views, *poses, options);
+  if (!first) return std::nullopt;
+  const auto completed = InterpolateMissing(tracks, *first, options);
+  return Factorize(tracks, completed, first->cam_from_reference, options);
+}
+
+}  // namespace plumbline
