@@ -167,7 +167,7 @@ TEST(BadInput, OptionsThatAreWrong) {
         " --set tracking.min_initial=-3"},
        {"a word that is no choice",
         nothing,
-        "features.line_detector: expected one of drawing | lsd | edlines",
+        "features.line_detector: expected one of drawing | ",
         " --set features.line_detector=lds"},
        {"a setting without a value",
         nothing,

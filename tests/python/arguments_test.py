@@ -222,7 +222,7 @@ CASES = {
     "lines of colours": (lambda: plumbline.detect_lines(np.zeros((64, 96, 3), np.uint8)), "image:"),
     "lines of a tiny image": (lambda: plumbline.detect_lines(GRAY[:4]), "at least 16 rows"),
     "lines of no detector": (lambda: plumbline.detect_lines(GRAY, detector="hough"),
-                             "detector: expected drawing, lsd or edlines, found hough"),
+                             "detector: expected drawing, .*, found hough"),
     "fewer lines than none": (lambda: plumbline.detect_lines(GRAY, count=-1), "at least 0"),
     "mask of another size": (lambda: plumbline.detect_lines(GRAY, mask=GRAY[:32]), "mask: expect"),
     "mask of booleans": (lambda: plumbline.detect_lines(GRAY, mask=GRAY > 0), "mask: .* bool"),
