@@ -3,7 +3,8 @@
 //
 // CPU time of what grows with the map, on generated drives: large_map straight|chain|hub|rounds
 // KEYFRAMES... For each the steps of mapping a keyframe at the end of the drive and a snapshot,
-// which are not to grow; the change of its stereo correction; writing and reading its file; the
+// which are not to grow, also while there is a copy of the map; the copy, which holds mapping up;
+// the change of its stereo correction; writing and reading its file; the
 // common directions of lines, the search for well seen lines, and the
 // adjustment that ends a run (--steps: not these), which may; the largest memory so far.
 #include "plumbline/io/map_io.h"
@@ -95,12 +96,34 @@ std::vector<KeyFrame> TakeOutLast(int count, Map& map) {
   return taken;
 }
 
-// Mean milliseconds of CPU of each step of mapping, and of a snapshot, over some keyframes.
-void MeasureSteps(const LongDrive& drive) {
+// Copies share what neither has changed: one all of which has been changed shares nothing.
+Map Unshared(const Map& map) {
+  Map copy = map;
+  edit::MoveKeyFrames motion;
+  for (const auto& [id, keyframe] : map.keyframes()) motion.new_from_old.emplace(id, Similarity3());
+  copy.Apply({std::move(motion)});
+  return copy;
+}
+
+// The time of a copy of the whole map, as it is made for what is computed beside mapping, and of
+// giving it up when all of the map has changed since.
+void MeasureCopy(const LongDrive& drive) {
+  const Map map = Unshared(drive.map);
+  std::optional<Map> copy;
+  const double made = Measure([&] { copy.emplace(map); });
+  const Map changed = Unshared(*copy);
+  const double given_up = Measure([&] { copy.reset(); });
+  fmt::print("  copy of the map {:.2f} ms, given up {:.2f} ms\n", 1000 * made, 1000 * given_up);
+}
+
+// Mean milliseconds of CPU of each step of mapping, and of a snapshot, over some keyframes. With a
+// copy that is made before the first and read by nobody.
+void MeasureSteps(const LongDrive& drive, bool with_copy) {
   constexpr int kKeyFrames = 20;
-  Map map = drive.map;
+  Map map = Unshared(drive.map);
   LocalMapper mapper(drive.imaging, {}, {});
   const std::vector<KeyFrame> taken = TakeOutLast(kKeyFrames, map);
+  const Map copy = with_copy ? map : Map();
   std::vector<MappingStep> sums;
   double snapshot = 0;
   KeyFrameId parent = map.keyframes().rbegin()->first;
@@ -115,7 +138,7 @@ void MeasureSteps(const LongDrive& drive) {
     }
     snapshot += Measure([&] { TakeSnapshot(map, keyframe.id); }) / kKeyFrames;
   }
-  fmt::print("  ");
+  fmt::print("  {}", with_copy ? "beside a copy " : "");
   for (const MappingStep& step : sums) fmt::print("{} {:.2f} ms, ", step.name, step.milliseconds);
   fmt::print("snapshot {:.2f} ms\n", 1000 * snapshot);
 }
@@ -168,7 +191,9 @@ void Run(std::string_view name, DriveShape shape, int keyframes, bool steps_only
              observations,
              drive.map.lines().size(),
              PeakGigabytes());
-  MeasureSteps(drive);
+  MeasureSteps(drive, false);
+  MeasureSteps(drive, true);
+  MeasureCopy(drive);
   MeasureStereoChange(drive);
   MeasureFile(drive);
   if (steps_only) return;

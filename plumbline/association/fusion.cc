@@ -74,14 +74,15 @@ FusionInto::FusionInto(const Map& map, const ImagingModel& imaging, KeyFrameId t
     : map_(map),
       imaging_(imaging),
       to_(to),
-      target_(map.Find(to)->frame),
-      point_chooser_(*target_.indexed, kSearch),
-      line_chooser_(*target_.indexed, kSearch),
-      no_point_(target_.points.size(), false),
-      no_line_(target_.lines.size(), false) {}
+      target_(&map.Find(to)->frame),
+      point_chooser_(*target_->indexed, kSearch),
+      line_chooser_(*target_->indexed, kSearch),
+      no_point_(target_->points.size(), false),
+      no_line_(target_->lines.size(), false) {}
 
 MapEdit FusionInto::Fuse(KeyFrameId from) {
   const Frame& source = map_.Find(from)->frame;
+  target_ = &map_.Find(to_)->frame;
   MapEdit edit;
   FusePoints(source, edit);
   FuseLines(source, edit);
@@ -93,11 +94,11 @@ void FusionInto::FusePoints(const Frame& source, MapEdit& edit) {
   Choices choices;
   choices.reserve(points.size());
   for (const MapPoint* point : points) choices.push_back(Choose(*point));
-  for (const auto& match : OneToOne(choices, target_.points.size())) {
+  for (const auto& match : OneToOne(choices, target_->points.size())) {
     const MapPoint& point = *points[static_cast<std::size_t>(match.landmark)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    if (!PointAgrees(imaging_.camera, target_, feature, point)) continue;
-    const PointId present = target_.points[feature];
+    if (!PointAgrees(imaging_.camera, *target_, feature, point)) continue;
+    const PointId present = target_->points[feature];
     if (present.valid()) {
       edit.push_back(MergeInto<edit::MergePoints>(point, *map_.Find(present)));
     } else {
@@ -111,11 +112,11 @@ void FusionInto::FuseLines(const Frame& source, MapEdit& edit) {
   Choices choices;
   choices.reserve(lines.size());
   for (const MapLine* line : lines) choices.push_back(Choose(*line));
-  for (const auto& match : OneToOne(choices, target_.lines.size())) {
+  for (const auto& match : OneToOne(choices, target_->lines.size())) {
     const MapLine& line = *lines[static_cast<std::size_t>(match.landmark)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    if (!LineAgrees(imaging_.camera, target_, feature, line)) continue;
-    const LineId present = target_.lines[feature];
+    if (!LineAgrees(imaging_.camera, *target_, feature, line)) continue;
+    const LineId present = target_->lines[feature];
     if (present.valid()) {
       edit.push_back(MergeInto<edit::MergeLines>(line, *map_.Find(present)));
     } else {
@@ -127,7 +128,7 @@ void FusionInto::FuseLines(const Frame& source, MapEdit& edit) {
 std::optional<FeatureChoice> FusionInto::Choose(const MapPoint& point) {
   const auto [known, is_new] = chosen_by_point_.try_emplace(point.id);
   if (is_new) {
-    const auto projected = ProjectPoint(imaging_, target_.cam_from_world, point);
+    const auto projected = ProjectPoint(imaging_, target_->cam_from_world, point);
     if (projected) known->second = point_chooser_.Choose(*projected, no_point_);
   }
   return known->second;
@@ -136,7 +137,7 @@ std::optional<FeatureChoice> FusionInto::Choose(const MapPoint& point) {
 std::optional<FeatureChoice> FusionInto::Choose(const MapLine& line) {
   const auto [known, is_new] = chosen_by_line_.try_emplace(line.id);
   if (is_new) {
-    const auto projected = ProjectLine(imaging_, target_.cam_from_world, line);
+    const auto projected = ProjectLine(imaging_, target_->cam_from_world, line);
     if (projected) known->second = line_chooser_.Choose(*projected, no_line_);
   }
   return known->second;

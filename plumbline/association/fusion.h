@@ -37,7 +37,7 @@ class FusionInto {
   const Map& map_;
   ImagingModel imaging_;
   KeyFrameId to_;
-  const Frame& target_;
+  const Frame* target_;  // of to_, as the map has it during a call
   PointChooser point_chooser_;
   LineChooser line_chooser_;
   const std::vector<bool> no_point_, no_line_;  // that is taken

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -98,7 +97,7 @@ void WriteKeyFrames(const Map& map, SectionWriter& file) {
 }
 
 template <class LandmarkId, class Landmark>
-void WriteLandmarks(const std::map<LandmarkId, Landmark>& landmarks,
+void WriteLandmarks(const IdTable<LandmarkId, Landmark>& landmarks,
                     const Map& map,
                     SectionKind kind,
                     SectionWriter& file) {

@@ -2,20 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/map/copy_on_write.h"
+
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <memory>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace plumbline {
 
-// Entries by ids that are given one after the other: a std::map, for its order and because entries
-// stay where they are, and an index of it that finds an id without a search. The index is a table
-// of pages of kPage ids each; a page is there while one of its ids is. Memory beside the entries:
-// at most a page for each entry, and a pointer for kPage ids up to the largest there ever was.
+// Entries by ids that are given one after the other: read like a std::map, in the order of the ids,
+// but an id is found without a search. A table of pages of kPage ids each; a page is there while
+// one of its ids is. Memory beside the entries: at most a page for each entry, and a pointer for
+// kPage ids up to the largest there ever was.
+//
+// Copies share pages and entries until one of them changes them (CopyOnWrite): a copy costs a
+// pointer for each page, and may be read in another thread while this one goes on changing. So an
+// entry stays where it is until it is changed after a copy was made.
 //
 // Each page knows when it last changed, so that whoever follows a large table looks at the pages
 // that changed since the last look. A change is an entry that was added, removed, or handed out by
@@ -23,48 +32,140 @@ namespace plumbline {
 template <class Id, class T>
 class IdTable {
  public:
+  using Entry = std::pair<const Id, T>;
+  static constexpr std::size_t kPage = 64;
+
+  // Goes through the entries by id.
+  class Iterator {
+   public:
+    using iterator_category = std::bidirectional_iterator_tag;
+    using value_type = Entry;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Entry*;
+    using reference = const Entry&;
+
+    Iterator() = default;
+    reference operator*() const { return *table_->pages_[place_ / kPage]->entries[place_ % kPage]; }
+    pointer operator->() const { return &**this; }
+    Iterator& operator++() {
+      place_ = table_->NextPlace(place_ + 1);
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++*this;
+      return before;
+    }
+    Iterator& operator--() {
+      place_ = table_->PlaceBefore(place_);
+      return *this;
+    }
+    Iterator operator--(int) {
+      const Iterator before = *this;
+      --*this;
+      return before;
+    }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.place_ == b.place_; }
+
+   private:
+    friend class IdTable;
+    Iterator(const IdTable* table, std::size_t place) : table_(table), place_(place) {}
+
+    const IdTable* table_ = nullptr;
+    std::size_t place_ = 0;  // that of an entry, or kEnd
+  };
+  using ReverseIterator = std::reverse_iterator<Iterator>;
+
   IdTable() = default;
-  // The whole copy counts as changed after all changes of the other one.
-  IdTable(const IdTable& other) : entries_(other.entries_), changes_(other.changes_) { IndexAll(); }
-  IdTable(IdTable&&) noexcept = default;
+  // The whole copy counts as changed after all changes of the other one. O(pages).
+  IdTable(const IdTable& other)
+      : pages_(other.pages_),
+        size_(other.size_),
+        changes_(other.changes_ + 1),
+        copied_at_(changes_) {}
+  IdTable(IdTable&& other) noexcept { Swap(other); }
   IdTable& operator=(IdTable other) noexcept {
-    entries_.swap(other.entries_);
-    pages_.swap(other.pages_);
-    changes_ = other.changes_;
+    Swap(other);
     return *this;
   }
   ~IdTable() = default;
 
-  const std::map<Id, T>& entries() const { return entries_; }
-  std::map<Id, T>& entries() {
-    for (const auto& page : pages_) {
-      if (page != nullptr) page->changed = changes_ + 1;
-    }
-    ++changes_;
-    return entries_;
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  Iterator begin() const { return {this, NextPlace(0)}; }
+  Iterator end() const { return {this, kEnd}; }
+  ReverseIterator rbegin() const { return ReverseIterator(end()); }
+  ReverseIterator rend() const { return ReverseIterator(begin()); }
+  // The entry of an id, or end().
+  Iterator find(Id id) const { return {this, Find(id) == nullptr ? kEnd : PlaceOf(id)}; }
+  bool contains(Id id) const { return Find(id) != nullptr; }
+  // Throws std::out_of_range where there is none.
+  const T& at(Id id) const {
+    const T* entry = Find(id);
+    if (entry == nullptr) throw std::out_of_range("no entry of this id");
+    return *entry;
   }
+  // The first entry of an id that is not less, or that is greater.
+  Iterator lower_bound(Id id) const { return {this, NextPlace(id.valid() ? PlaceOf(id) : 0)}; }
+  Iterator upper_bound(Id id) const { return {this, NextPlace(id.valid() ? PlaceOf(id) + 1 : 0)}; }
 
   // nullptr where there is none, also of an id that is not valid. O(1).
-  const T* Find(Id id) const { return Indexed(id); }
+  const T* Find(Id id) const {
+    if (!id.valid() || PageOf(id) >= pages_.size()) return nullptr;
+    const CopyOnWrite<Page>& page = pages_[PageOf(id)];
+    if (!page) return nullptr;
+    const CopyOnWrite<Entry>& entry = page->entries[PlaceInPage(id)];
+    return entry ? &entry->second : nullptr;
+  }
+  // The same, to be changed, until the table is copied.
   T* Find(Id id) {
-    T* entry = Indexed(id);
-    if (entry != nullptr) pages_[PageOf(id)]->changed = ++changes_;
-    return entry;
+    if (!contains(id)) return nullptr;
+    Page& page = pages_[PageOf(id)].Own();
+    page.changed = ++changes_;
+    return &page.entries[PlaceInPage(id)].Own().second;
+  }
+
+  // Calls change(id, entry) for all entries, by id.
+  template <class Change>
+  void ForEach(const Change& change) {
+    ++changes_;
+    for (CopyOnWrite<Page>& shared : pages_) {
+      if (!shared) continue;
+      Page& page = shared.Own();
+      page.changed = changes_;
+      for (std::uint64_t taken = page.taken; taken != 0; taken &= taken - 1) {
+        Entry& entry = page.entries[static_cast<std::size_t>(std::countr_zero(taken))].Own();
+        change(entry.first, entry.second);
+      }
+    }
   }
 
   // An id that is there already keeps its entry.
   void Insert(Id id, T entry) {
-    const auto [place, is_new] = entries_.emplace(id, std::move(entry));
-    if (is_new) IndexOne(id, place->second);
+    if (contains(id)) return;
+    if (pages_.size() <= PageOf(id)) pages_.resize(PageOf(id) + 1);
+    CopyOnWrite<Page>& shared = pages_[PageOf(id)];
+    if (!shared) shared = CopyOnWrite(Page());
+    Page& page = shared.Own();
+    page.entries[PlaceInPage(id)] = CopyOnWrite(Entry(id, std::move(entry)));
+    page.taken |= Bit(PlaceInPage(id));
+    page.changed = ++changes_;
+    ++size_;
   }
 
   void Erase(Id id) {
-    if (Indexed(id) == nullptr) return;
-    std::unique_ptr<Page>& page = pages_[PageOf(id)];
-    page->entries[PlaceInPage(id)] = nullptr;
-    page->changed = ++changes_;
-    if (--page->count == 0) page.reset();
-    entries_.erase(id);
+    if (!contains(id)) return;
+    ++changes_;
+    --size_;
+    CopyOnWrite<Page>& shared = pages_[PageOf(id)];
+    if (shared->taken == Bit(PlaceInPage(id))) {
+      shared = {};
+      return;
+    }
+    Page& page = shared.Own();
+    page.entries[PlaceInPage(id)] = {};
+    page.taken &= ~Bit(PlaceInPage(id));
+    page.changed = changes_;
   }
 
   // How many changes there were.
@@ -73,59 +174,74 @@ class IdTable {
   std::size_t page_count() const { return pages_.size(); }
   // The value of changes() after the last change of a page; 0 where none of its ids is there.
   std::uint64_t PageChanged(std::size_t page) const {
-    return page < pages_.size() && pages_[page] != nullptr ? pages_[page]->changed : 0;
+    return page < pages_.size() && pages_[page] ? std::max(pages_[page]->changed, copied_at_) : 0;
   }
   // Calls take(id, entry) for all of a page, by id.
   template <class Take>
   void ForEachOfPage(std::size_t page, const Take& take) const {
     if (PageChanged(page) == 0) return;
-    for (std::size_t i = 0; i < kPage; ++i) {
-      const T* entry = pages_[page]->entries[i];
-      if (entry != nullptr) take(Id{static_cast<std::int64_t>(page * kPage + i)}, *entry);
+    for (std::uint64_t taken = pages_[page]->taken; taken != 0; taken &= taken - 1) {
+      const Entry& entry =
+          *pages_[page]->entries[static_cast<std::size_t>(std::countr_zero(taken))];
+      take(entry.first, entry.second);
     }
   }
 
-  // Pages that are there, for those who want to know what the index takes.
+  // Pages that are there, for those who want to know what the table takes.
   std::size_t pages() const {
-    std::size_t count = 0;
-    for (const auto& page : pages_) count += page != nullptr;
-    return count;
+    return static_cast<std::size_t>(std::count_if(
+        pages_.begin(), pages_.end(), [](const auto& page) { return static_cast<bool>(page); }));
   }
-
-  static constexpr std::size_t kPage = 64;
 
  private:
   struct Page {
-    std::array<T*, kPage> entries{};  // into entries_
-    std::size_t count = 0;            // ids of the page that are not null
-    std::uint64_t changed = 0;        // changes_ after its last change
+    std::array<CopyOnWrite<Entry>, kPage> entries;
+    std::uint64_t taken = 0;    // a bit for each entry that is there
+    std::uint64_t changed = 0;  // changes_ after its last change, of the table that changed it
   };
 
-  static std::size_t PageOf(Id id) { return static_cast<std::size_t>(id.value) / kPage; }
-  static std::size_t PlaceInPage(Id id) { return static_cast<std::size_t>(id.value) % kPage; }
+  static constexpr std::size_t kEnd = std::numeric_limits<std::size_t>::max();
 
-  T* Indexed(Id id) const {
-    if (!id.valid() || PageOf(id) >= pages_.size()) return nullptr;
-    const std::unique_ptr<Page>& page = pages_[PageOf(id)];
-    return page == nullptr ? nullptr : page->entries[PlaceInPage(id)];
+  static std::size_t PlaceOf(Id id) { return static_cast<std::size_t>(id.value); }
+  static std::size_t PageOf(Id id) { return PlaceOf(id) / kPage; }
+  static std::size_t PlaceInPage(Id id) { return PlaceOf(id) % kPage; }
+  static std::uint64_t Bit(std::size_t place_in_page) { return std::uint64_t{1} << place_in_page; }
+
+  // The place of the first entry from this place on, or kEnd.
+  std::size_t NextPlace(std::size_t place) const {
+    std::uint64_t mask = ~std::uint64_t{0} << (place % kPage);
+    for (std::size_t page = place / kPage; page < pages_.size(); ++page) {
+      const std::uint64_t taken = pages_[page] ? pages_[page]->taken & mask : 0;
+      if (taken != 0) return page * kPage + static_cast<std::size_t>(std::countr_zero(taken));
+      mask = ~std::uint64_t{0};
+    }
+    return kEnd;
+  }
+  // The place of the last entry before this place, where there is one.
+  std::size_t PlaceBefore(std::size_t place) const {
+    std::size_t page = std::min(place / kPage, pages_.size());
+    std::uint64_t mask = page < pages_.size() ? Bit(place % kPage) - 1 : 0;
+    while (true) {
+      const std::uint64_t taken =
+          page < pages_.size() && pages_[page] ? pages_[page]->taken & mask : 0;
+      if (taken != 0)
+        return page * kPage + kPage - 1 - static_cast<std::size_t>(std::countl_zero(taken));
+      mask = ~std::uint64_t{0};
+      --page;
+    }
   }
 
-  void IndexOne(Id id, T& entry) {
-    if (pages_.size() <= PageOf(id)) pages_.resize(PageOf(id) + 1);
-    std::unique_ptr<Page>& page = pages_[PageOf(id)];
-    if (page == nullptr) page = std::make_unique<Page>();
-    page->entries[PlaceInPage(id)] = &entry;
-    ++page->count;
-    page->changed = ++changes_;
+  void Swap(IdTable& other) noexcept {
+    pages_.swap(other.pages_);
+    std::swap(size_, other.size_);
+    std::swap(changes_, other.changes_);
+    std::swap(copied_at_, other.copied_at_);
   }
 
-  void IndexAll() {
-    for (auto& [id, entry] : entries_) IndexOne(id, entry);
-  }
-
-  std::map<Id, T> entries_;
-  std::vector<std::unique_ptr<Page>> pages_;  // by id; null where none of the ids is there
+  std::vector<CopyOnWrite<Page>> pages_;  // by id; none where none of the ids is there
+  std::size_t size_ = 0;
   std::uint64_t changes_ = 0;
+  std::uint64_t copied_at_ = 0;  // changes_ when this became a copy
 };
 
 }  // namespace plumbline

@@ -15,10 +15,10 @@ namespace {
 
 // Follows the merges from id to the landmark that stands today.
 template <class LandmarkId, class Landmark>
-LandmarkId Follow(const std::map<LandmarkId, LandmarkId>& merged,
+LandmarkId Follow(const IdTable<LandmarkId, LandmarkId>& merged,
                   const IdTable<LandmarkId, Landmark>& landmarks,
                   LandmarkId id) {
-  for (auto it = merged.find(id); it != merged.end(); it = merged.find(id)) id = it->second;
+  while (const LandmarkId* kept = merged.Find(id)) id = *kept;
   return landmarks.Find(id) != nullptr ? id : LandmarkId{};
 }
 
@@ -86,8 +86,8 @@ MapRecord Map::Record() const {
           next_line_,
           stereo_correction_,
           removed_keyframes_.entries(),
-          merged_points_,
-          merged_lines_};
+          {merged_points_.begin(), merged_points_.end()},
+          {merged_lines_.begin(), merged_lines_.end()}};
 }
 
 // Carries out single changes. Overloads of Do() are what std::visit dispatches to.
@@ -169,8 +169,8 @@ struct MapChanger {
     to->score.visible += score.visible;
     to->score.found += score.found;
     auto& merged = Merged(kept);
-    merged[gone] = kept;
-    if (merged.size() > Map::kMostMerges) merged.erase(merged.begin());
+    merged.Insert(gone, kept);
+    if (merged.size() > Map::kMostMerges) merged.Erase(merged.begin()->first);
   }
 
   template <class LandmarkId>
@@ -183,12 +183,12 @@ struct MapChanger {
 
   // Each goes with the newest keyframe that shows it.
   template <class LandmarkId, class Landmark>
-  static void MoveLandmarks(std::map<LandmarkId, Landmark>& landmarks,
+  static void MoveLandmarks(IdTable<LandmarkId, Landmark>& landmarks,
                             const edit::MoveKeyFrames& change) {
-    for (auto& [id, landmark] : landmarks) {
+    landmarks.ForEach([&](LandmarkId, Landmark& landmark) {
       const auto motion = change.new_from_old.find(landmark.observations.newest().first);
       if (motion != change.new_from_old.end()) Move(motion->second, landmark);
-    }
+    });
   }
 
   // Matches of the new keyframe become observations of the landmarks as they stand today.
@@ -241,8 +241,8 @@ struct MapChanger {
   }
 
   void Do(const edit::MoveKeyFrames& change) {
-    MoveLandmarks(map.points_.entries(), change);
-    MoveLandmarks(map.lines_.entries(), change);
+    MoveLandmarks(map.points_, change);
+    MoveLandmarks(map.lines_, change);
     for (const auto& [id, motion] : change.new_from_old) {
       if (KeyFrame* keyframe = FindKeyFrame(id)) Move(motion, *keyframe);
     }
@@ -251,13 +251,13 @@ struct MapChanger {
   void Do(const edit::CorrectStereo& change) {
     map.stereo_correction_ = change.correction;
     auto ready = change.ready.begin();
-    for (auto& [id, keyframe] : map.keyframes_.entries()) {
+    map.keyframes_.ForEach([&](KeyFrameId id, KeyFrame& keyframe) {
       while (ready != change.ready.end() && ready->first < id) ++ready;
       const bool is_ready = ready != change.ready.end() && ready->first == id &&
                             ready->second->correction == change.correction;
       auto& indexed = keyframe.frame.indexed;
       indexed = is_ready ? ready->second : WithCorrection(indexed, change.correction);
-    }
+    });
   }
 
   void Do(const edit::AddPoint& change) { Add(change.point.id, change.point, map.next_point_); }
@@ -303,27 +303,27 @@ namespace {
 
 template <class Id, class T>
 void MoveEntries(IdTable<Id, T>& from, IdTable<Id, T>& to) {
-  for (auto& [id, entry] : from.entries()) {
-    PLUMBLINE_CHECK(to.Find(id) == nullptr, "two maps use one id");
+  from.ForEach([&](Id id, T& entry) {
+    PLUMBLINE_CHECK(!to.contains(id), "two maps use one id");
     to.Insert(id, std::move(entry));
-  }
+  });
 }
 
 }  // namespace
 
 void Map::Absorb(Map other, const Similarity3& this_from_other) {
   edit::MoveKeyFrames motion;
-  for (auto& [id, keyframe] : other.keyframes_.entries()) {
+  other.keyframes_.ForEach([&](KeyFrameId id, KeyFrame& keyframe) {
     motion.new_from_old.emplace(id, this_from_other);
     keyframe.number += keyframes_taken_in_;
-  }
+  });
   other.Apply({std::move(motion), edit::CorrectStereo{stereo_correction_}});
   MoveEntries(other.keyframes_, keyframes_);
   MoveEntries(other.points_, points_);
   MoveEntries(other.lines_, lines_);
   removed_keyframes_.Absorb(std::move(other.removed_keyframes_), keyframes_taken_in_);
-  merged_points_.merge(other.merged_points_);
-  merged_lines_.merge(other.merged_lines_);
+  for (const auto& [gone, kept] : other.merged_points_) merged_points_.Insert(gone, kept);
+  for (const auto& [gone, kept] : other.merged_lines_) merged_lines_.Insert(gone, kept);
   keyframes_taken_in_ += other.keyframes_taken_in_;
   next_keyframe_ = std::max(next_keyframe_, other.next_keyframe_);
   ReserveIds(other.next_point_, other.next_line_);
@@ -333,8 +333,8 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
 namespace {
 
 template <class LandmarkId, class Landmark>
-void CheckLandmarks(const std::map<LandmarkId, Landmark>& landmarks,
-                    const std::map<KeyFrameId, KeyFrame>& keyframes) {
+void CheckLandmarks(const IdTable<LandmarkId, Landmark>& landmarks,
+                    const IdTable<KeyFrameId, KeyFrame>& keyframes) {
   for (const auto& [id, landmark] : landmarks) {
     PLUMBLINE_CHECK(!landmark.observations.empty(), "landmark without observations");
     for (const auto& [keyframe_id, feature] : landmark.observations) {
@@ -349,7 +349,7 @@ void CheckLandmarks(const std::map<LandmarkId, Landmark>& landmarks,
 template <class LandmarkId, class Landmark>
 void CheckMatches(KeyFrameId keyframe_id,
                   const std::vector<LandmarkId>& matches,
-                  const std::map<LandmarkId, Landmark>& landmarks) {
+                  const IdTable<LandmarkId, Landmark>& landmarks) {
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (!matches[i].valid()) continue;
     const auto it = landmarks.find(matches[i]);

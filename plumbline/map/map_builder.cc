@@ -76,8 +76,8 @@ MapBuilder::MapBuilder(MapRecord record, std::string source)
   map_.next_line_ = record.next_line;
   map_.stereo_correction_ = record.stereo_correction;
   map_.removed_keyframes_ = RemovedKeyFrames(std::move(record.removed_keyframes));
-  map_.merged_points_ = std::move(record.merged_points);
-  map_.merged_lines_ = std::move(record.merged_lines);
+  for (const auto& [gone, kept] : record.merged_points) map_.merged_points_.Insert(gone, kept);
+  for (const auto& [gone, kept] : record.merged_lines) map_.merged_lines_.Insert(gone, kept);
 }
 
 void MapBuilder::CheckRecord(const MapRecord& record) const {
@@ -136,8 +136,7 @@ void MapBuilder::AddLandmark(LandmarkId next,
                              Landmark landmark,
                              IdTable<LandmarkId, Landmark>& table) {
   const LandmarkId id = landmark.id;
-  const auto& others = table.entries();
-  if (!IsInRange(id, next) || (!others.empty() && !(others.rbegin()->first < id))) {
+  if (!IsInRange(id, next) || (!table.empty() && !(table.rbegin()->first < id))) {
     Fail("landmarks out of order");
   }
   if (!IsPlaced(landmark)) Fail("a landmark without a place");

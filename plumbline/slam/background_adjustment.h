@@ -41,7 +41,7 @@ class BackgroundAdjustment {
   BackgroundAdjustment(const BackgroundAdjustment&) = delete;
   BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
 
-  // Copies the map: some microseconds for each keyframe and landmark.
+  // Copies the map, which shares with the copy what it does not change meanwhile.
   void Begin(const Map& map, std::int64_t due_frame);
   void GiveUp();
   bool Running() const { return job_ != nullptr; }

@@ -121,9 +121,9 @@ MapChanges MapComparison::Compare(const Atlas& atlas) {
     const Rigid3& pose = map.keyframes().rbegin()->second.frame.cam_from_world;
     eye = PointOf(Inverse(pose).translation);
   }
-  changes.points = CompareTable(map.point_table(), eye, points_);
-  changes.lines = CompareTable(map.line_table(), eye, lines_);
-  changes.keyframes = CompareTable(map.keyframe_table(), eye, keyframes_);
+  changes.points = CompareTable(map.points(), eye, points_);
+  changes.lines = CompareTable(map.lines(), eye, lines_);
+  changes.keyframes = CompareTable(map.keyframes(), eye, keyframes_);
   const auto& keyframes = map.keyframes();
   for (auto it = keyframes.upper_bound(newest_); it != keyframes.end(); ++it) {
     without_neighbours_.push_back(it->first);

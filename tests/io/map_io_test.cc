@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -105,7 +104,7 @@ void ExpectSame(const MapLine& a, const MapLine& b) {
 }
 
 template <class Id, class Entry>
-void ExpectSame(const std::map<Id, Entry>& a, const std::map<Id, Entry>& b) {
+void ExpectSame(const IdTable<Id, Entry>& a, const IdTable<Id, Entry>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (const auto& [id, entry] : a) {
     ASSERT_TRUE(b.contains(id));

@@ -3,8 +3,11 @@
 #include "plumbline/map/id_table.h"
 
 #include "plumbline/base/ids.h"
+#include "plumbline/base/random.h"
 
 #include <cstdint>
+#include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,7 +33,7 @@ TEST(IdTable, FindsWhatIsThereAndNothingElse) {
   EXPECT_EQ(table.Find(PointId{3}), nullptr);
   EXPECT_EQ(table.Find(PointId{6}), nullptr);
   EXPECT_EQ(table.Find(PointId{}), nullptr);
-  EXPECT_EQ(table.entries().begin()->first, PointId{2});
+  EXPECT_EQ(table.begin()->first, PointId{2});
 }
 
 TEST(IdTable, KeepsAnEntryThatIsThere) {
@@ -44,7 +47,7 @@ TEST(IdTable, ForgetsWhatIsErased) {
   table.Erase(PointId{2});
   table.Erase(PointId{9});
   EXPECT_EQ(table.Find(PointId{2}), nullptr);
-  EXPECT_EQ(table.entries().size(), 1u);
+  EXPECT_EQ(table.size(), 1u);
 }
 
 TEST(IdTable, CopiesHaveEntriesOfTheirOwn) {
@@ -53,9 +56,59 @@ TEST(IdTable, CopiesHaveEntriesOfTheirOwn) {
   *table.Find(PointId{2}) = "changed";
   EXPECT_EQ(*copy.Find(PointId{2}), "two");
   copy = table;
-  EXPECT_EQ(copy.Find(PointId{2}), &copy.entries().begin()->second);
+  EXPECT_EQ(std::as_const(copy).Find(PointId{2}), &copy.begin()->second);
   const Table moved = std::move(copy);
-  EXPECT_EQ(moved.Find(PointId{5}), &moved.entries().rbegin()->second);
+  EXPECT_EQ(moved.Find(PointId{5}), &moved.rbegin()->second);
+}
+
+// What neither has changed since is there once.
+TEST(IdTable, CopiesShareWhatIsNotChanged) {
+  Table table;
+  for (const std::int64_t id : {1, 2, 70, 140}) table.Insert(PointId{id}, std::to_string(id));
+  const Table copy = table;
+  *table.Find(PointId{1}) = "changed";
+  table.Erase(PointId{140});
+  EXPECT_NE(std::as_const(table).Find(PointId{1}), copy.Find(PointId{1}));
+  EXPECT_EQ(std::as_const(table).Find(PointId{2}), copy.Find(PointId{2}));
+  EXPECT_EQ(std::as_const(table).Find(PointId{70}), copy.Find(PointId{70}));
+  EXPECT_EQ(*copy.Find(PointId{140}), "140");
+  EXPECT_EQ(copy.size(), 4U);
+  EXPECT_EQ(table.size(), 3U);
+}
+
+// Against a std::map that goes through the same.
+TEST(IdTable, IsReadLikeAMap) {
+  Rng rng(3);
+  IdTable<PointId, int> table;
+  std::map<PointId, int> expected;
+  EXPECT_TRUE(table.begin() == table.end());
+  for (int i = 0; i < 2000; ++i) {
+    const PointId id{static_cast<std::int64_t>(rng.Index(600))};
+    if (rng.Index(3) == 0) {
+      table.Erase(id);
+      expected.erase(id);
+    } else {
+      table.Insert(id, i);
+      expected.emplace(id, i);
+    }
+    ASSERT_EQ(table.size(), expected.size());
+    ASSERT_EQ(table.contains(id), expected.contains(id));
+  }
+  using Pairs = std::vector<std::pair<PointId, int>>;
+  EXPECT_EQ(Pairs(table.begin(), table.end()), Pairs(expected.begin(), expected.end()));
+  EXPECT_EQ(Pairs(table.rbegin(), table.rend()), Pairs(expected.rbegin(), expected.rend()));
+  for (std::int64_t i = -1; i < 700; ++i) {
+    const PointId id{i};
+    const auto same = [&](auto a, auto b) {
+      return (a == table.end()) == (b == expected.end()) &&
+             (a == table.end() || a->first == b->first);
+    };
+    EXPECT_TRUE(same(table.find(id), expected.find(id))) << i;
+    EXPECT_TRUE(same(table.lower_bound(id), expected.lower_bound(id))) << i;
+    EXPECT_TRUE(same(table.upper_bound(id), expected.upper_bound(id))) << i;
+  }
+  EXPECT_EQ(table.at(table.begin()->first), table.begin()->second);
+  EXPECT_THROW(table.at(PointId{1000}), std::out_of_range);
 }
 
 // However many ids there ever were, the index is as large as what is there.
@@ -66,7 +119,7 @@ TEST(IdTable, TheIndexStaysSmallWhereOldEntriesGo) {
     if (i >= 500) table.Erase(PointId{i - 500});
     ASSERT_LE(table.pages(), 500 / decltype(table)::kPage + 3) << i;
   }
-  EXPECT_EQ(table.entries().size(), 500U);
+  EXPECT_EQ(table.size(), 500U);
   EXPECT_EQ(table.Find(PointId{99'499}), nullptr);
   EXPECT_EQ(*table.Find(PointId{99'500}), 99'500);
 }
@@ -97,7 +150,7 @@ TEST(IdTable, APageKnowsWhenItChanged) {
   table.Insert(PointId{101}, 1);
   EXPECT_TRUE(!changed(0) && changed(1));
   seen = table.changes();
-  for (auto& [id, entry] : table.entries()) ++entry;
+  table.ForEach([](PointId, int& entry) { ++entry; });
   EXPECT_TRUE(changed(0) && changed(1));
   seen = table.changes();
   table = IdTable<PointId, int>(table);

@@ -7,6 +7,7 @@
 
 #include "tests/map/map_fixture.h"
 #include "tests/support/random_geometry.h"
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -351,10 +352,13 @@ TEST(Map, InvariantsHoldAfterAnyChanges) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Rng rng(seed, "edits");
     Map map = ChainOfKeyFrames(3);
+    std::vector<Map> copies;
     for (int i = 0; i < 300; ++i) {
+      if (i % 100 == 50) copies.push_back(map);
       map.Apply({RandomChange(map, rng)});
       ASSERT_NO_THROW(map.CheckInvariants()) << "seed " << seed << ", change " << i;
     }
+    for (const Map& copy : copies) EXPECT_NO_THROW(copy.CheckInvariants()) << "seed " << seed;
     for (std::int64_t id = 0; id < map.NextPointId().value; ++id) {
       const PointId current = map.Current(PointId{id});
       EXPECT_TRUE(!current.valid() || map.Find(current) != nullptr);
@@ -364,6 +368,23 @@ TEST(Map, InvariantsHoldAfterAnyChanges) {
     }
     EXPECT_GT(map.points().size() + map.lines().size(), 5U);  // the test is not about an empty map
   }
+}
+
+// A copy is what the map was, while another thread reads it.
+TEST(Map, ACopyStaysWhatItIs) {
+  Rng rng(1, "edits");
+  Map map = ChainOfKeyFrames(3);
+  for (int i = 0; i < 200; ++i) map.Apply({RandomChange(map, rng)});
+  const std::size_t points = map.points().size(), lines = map.lines().size();
+  const Map copy = map;
+  std::thread reader([&] {
+    for (int i = 0; i < 50; ++i) copy.CheckInvariants();
+  });
+  for (int i = 0; i < 200; ++i) map.Apply({RandomChange(map, rng)});
+  reader.join();
+  EXPECT_EQ(copy.points().size(), points);
+  EXPECT_EQ(copy.lines().size(), lines);
+  EXPECT_NE(map.version(), copy.version());
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(LineMap, LeavesOutLandmarksThatAreInTheWrongPlace) {
   const auto before = MakeLineMap(scene.map, world.Imaging(), {});
   MapEdit edit;
   LineId next = scene.map.NextLineId();
-  const std::map<LineId, MapLine> landmarks = scene.map.lines();
+  const IdTable<LineId, MapLine> landmarks = scene.map.lines();
   for (const auto& [id, line] : landmarks) {
     MapLine ghost = line;
     const Eigen::Vector3d shift(0.3, -0.4, 1);

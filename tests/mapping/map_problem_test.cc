@@ -25,7 +25,7 @@ class MapProblemTest : public ::testing::Test {
 
   // What all four keyframes see.
   template <class Landmark>
-  static const Landmark& SeenByAll(const std::map<decltype(Landmark::id), Landmark>& landmarks) {
+  static const Landmark& SeenByAll(const IdTable<decltype(Landmark::id), Landmark>& landmarks) {
     for (const auto& [id, landmark] : landmarks) {
       if (landmark.observations.size() == 4) return landmark;
     }

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <utility>
+
+namespace plumbline {
+
+// A value, or none, that copies share until one of them is to change it, which then gets a value of
+// its own. A copy costs as much as a pointer.
+//
+// Different copies may be used in different threads at once: what is shared is only read. One copy
+// is for one thread, as a plain value would be.
+template <class T>
+class CopyOnWrite {
+ public:
+  CopyOnWrite() = default;
+  explicit CopyOnWrite(T value) : shared_(new Shared{std::move(value)}) {}
+  CopyOnWrite(const CopyOnWrite& other) noexcept : shared_(other.shared_) {
+    if (shared_ != nullptr) shared_->owners.fetch_add(1, std::memory_order_relaxed);
+  }
+  CopyOnWrite(CopyOnWrite&& other) noexcept : shared_(std::exchange(other.shared_, nullptr)) {}
+  CopyOnWrite& operator=(CopyOnWrite other) noexcept {
+    std::swap(shared_, other.shared_);
+    return *this;
+  }
+  ~CopyOnWrite() {
+    if (shared_ == nullptr) return;
+    if (shared_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete shared_;
+  }
+
+  explicit operator bool() const { return shared_ != nullptr; }
+  // Of a value that is there.
+  const T& operator*() const { return shared_->value; }
+  const T* operator->() const { return &shared_->value; }
+
+  // The value, to be changed, until the next copy is made; where others have it, too, a copy of it
+  // takes its place here.
+  T& Own() {
+    // What those have read that gave it up comes before what is written now.
+    if (shared_->owners.load(std::memory_order_acquire) != 1) *this = CopyOnWrite(shared_->value);
+    return shared_->value;
+  }
+
+ private:
+  struct Shared {
+    T value;
+    std::atomic<int> owners = 1;
+  };
+
+  Shared* shared_ = nullptr;
+};
+
+}  // namespace plumbline
