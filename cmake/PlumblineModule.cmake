@@ -10,12 +10,19 @@ function(plumbline_compile_together target)
   endif()
 endfunction()
 
-# plumbline_module(NAME geometry SOURCES a.cc ... [DEPS base ...] [PUBLIC lib ...] [PRIVATE lib ...] [ALONE a.cc ...])
+# For modules where a run spends less than a hundredth of its time: -O1 in place of -O3 takes a compiler a third to a
+# half less.
+function(plumbline_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+endfunction()
+
+# plumbline_module(NAME geometry SOURCES a.cc ... [DEPS base ...] [PUBLIC lib ...] [PRIVATE lib ...] [ALONE a.cc ...]
+#                  [QUICKLY])
 # One folder, one library plumbline::<name>. DEPS are other modules; their order is checked by
 # tools/check_layering.py. A module without sources is header only. ALONE: sources that are not
-# compiled together with others.
+# compiled together with others. QUICKLY: plumbline_compile_quickly.
 function(plumbline_module)
-  cmake_parse_arguments(ARG "" "NAME" "SOURCES;DEPS;PUBLIC;PRIVATE;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "QUICKLY" "NAME" "SOURCES;DEPS;PUBLIC;PRIVATE;ALONE" ${ARGN})
   set(target plumbline_${ARG_NAME})
   list(TRANSFORM ARG_DEPS PREPEND plumbline_)
   if(ARG_SOURCES)
@@ -25,6 +32,9 @@ function(plumbline_module)
                           PRIVATE $<BUILD_INTERFACE:plumbline_warnings> ${ARG_PRIVATE})
     plumbline_use_precompiled(${target} plumbline_module_headers)
     plumbline_compile_together(${target} ${ARG_ALONE})
+    if(ARG_QUICKLY)
+      plumbline_compile_quickly(${target})
+    endif()
     if(OpenCV_INCLUDE_DIRS)
       target_include_directories(${target} SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
     endif()

@@ -88,7 +88,7 @@ HEAVY_HEADERS = {
 
 INCLUDE = re.compile(r'\s*#\s*include\s+["<]([^">]+)[">]')
 MODULE = re.compile(r"plumbline_module\(\s*NAME\s+(\w+)(.*?)\)", re.DOTALL)
-KEYWORDS = {"SOURCES", "DEPS", "PUBLIC", "PRIVATE", "ALONE"}
+KEYWORDS = {"SOURCES", "DEPS", "PUBLIC", "PRIVATE", "ALONE", "QUICKLY"}
 
 
 def table_problems():
