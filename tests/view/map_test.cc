@@ -95,7 +95,7 @@ TEST_F(MapSeen, WhatWasToldAddsUpToTheMap) {
     const PointId point = any(map().points());
     const double what = rng.Uniform(0, 6);
     if (what < 1) return edit::RemovePoint{point};
-    if (what < 2) return edit::RemoveLine{any(map().lines())};
+    if (what < 2 && !map().lines().empty()) return edit::RemoveLine{any(map().lines())};
     if (what < 3) return edit::MovePoint{point, {rng.Uniform(-5, 5), 0, 9}};
     if (what < 4) {
       MapPoint added = *map().Find(point);
