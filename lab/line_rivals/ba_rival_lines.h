@@ -22,25 +22,12 @@ struct BaLineLeft : BaLine {
 };
 
 // A line as two of its points, each with its three coordinates in the world.
-struct BaLineEnds {
+struct BaLineEnds : BaMeasuredLine {
   static constexpr int kDof = 6;
   using State = Segment3;
-  using Term = LineTerm;
-  using Place = BaLinePlace;
   using View = BaLineView<kDof>;
   using Target = BaTarget<kDof>;
 
-  static Term MakeTerm(const RectifiedCamera& camera, const LineMeasurement& measurement) {
-    return MakeLineTerm(camera, measurement);
-  }
-  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
-  static int Dof(const Term&) { return 2; }
-  static double Chi2(const RectifiedCamera& camera,
-                     const BaPose& pose,
-                     const Place& place,
-                     const Term& term) {
-    return LineChi2(camera, pose, place, term);
-  }
   static bool Add(const RectifiedCamera& camera,
                   const BaPose& pose,
                   const View& view,

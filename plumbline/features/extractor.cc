@@ -48,6 +48,11 @@ void ExtractLines(const GrayImage& image,
   DescribeLines(gradient, &view.lines);
 }
 
+// The valid region that the caller gave, or all of the image.
+const ValidRegion& RegionOf(const ValidRegion* given, const ValidRegion& whole) {
+  return given ? *given : whole;
+}
+
 // The left view and, for stereo, what its points need of the right one.
 std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureOptions& options) {
   std::array<SingleView, 2> views;
@@ -58,13 +63,9 @@ std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureO
     const GrayImage& image = left ? *input.left : *input.right;
     const ValidRegion* valid = left ? input.left_valid : input.right_valid;
     tasks[static_cast<std::size_t>(task)](
-        image, valid ? *valid : whole, options, views[left ? 0 : 1]);
+        image, RegionOf(valid, whole), options, views[left ? 0 : 1]);
   });
   return views;
-}
-
-const ValidRegion& RightRegion(const FeatureInput& input, const ValidRegion& whole) {
-  return input.right_valid ? *input.right_valid : whole;
 }
 
 std::vector<std::optional<Disparity>> MatchRightPoints(const RectifiedCamera& camera,
@@ -75,7 +76,7 @@ std::vector<std::optional<Disparity>> MatchRightPoints(const RectifiedCamera& ca
   const ValidRegion whole(camera.width, camera.height);
   return MatchStereoPoints(camera,
                            left.points,
-                           {left.pyramid, right.pyramid, RightRegion(input, whole)},
+                           {left.pyramid, right.pyramid, RegionOf(input.right_valid, whole)},
                            options.stereo_points,
                            options.parallel ? 2 : 1);
 }
@@ -86,7 +87,7 @@ std::vector<std::optional<RightLine>> MatchRightLines(const RectifiedCamera& cam
                                                       const std::vector<LineFeature>& lines) {
   const ValidRegion whole(camera.width, camera.height);
   SingleView right;
-  ExtractLines(*input.right, RightRegion(input, whole), options, right);
+  ExtractLines(*input.right, RegionOf(input.right_valid, whole), options, right);
   return MatchStereoLines(camera, lines, right.lines, options.stereo_lines);
 }
 
@@ -126,8 +127,8 @@ std::vector<std::optional<RightLine>> FindRightLines(const RectifiedCamera& came
                                                      const FeatureOptions& options,
                                                      const std::vector<LineFeature>& lines) {
   CheckInput(camera, input);
-  Features found;
   if (lines.empty()) return {};
+  Features found;
   if (input.right) {
     found.line_right = MatchRightLines(camera, input, options, lines);
   } else if (input.depth) {

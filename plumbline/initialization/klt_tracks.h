@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// By point, the pixel where an image shows it; nullopt: it does not.
+// The pixel where an image shows each point; nullopt for a point that it does not show.
 using TrackedPixels = std::vector<std::optional<Eigen::Vector2d>>;
 
 // Points followed from image to image by the optical flow of Lucas and Kanade on pyramids (OpenCV),

@@ -25,7 +25,8 @@ constexpr int kMinMatches = 24;
 constexpr std::size_t kMinPoints = 12;
 constexpr double kMinParallaxDeg = 1.2;   // of the median point of the newest frame
 constexpr double kMinInlierShare = 0.85;  // of the matches of all views
-// By this part of its own chi2 the best model must be better than the next best.
+// A model is chosen only where the chi2 of the next best model is larger by at least this part of
+// the chi2 of the best one.
 constexpr double kMinMargin = 0.5;
 // Largest standard deviations that the covariance may promise: of the rotation of the newest pose,
 // of the direction of the line between the centres, and of the depth of the median point, relative.

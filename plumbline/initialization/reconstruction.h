@@ -21,10 +21,11 @@ struct Reconstruction {
   std::vector<Rigid3> cam_from_reference;  // by view
   std::vector<Eigen::Vector3d> points;     // by point of the reference
   std::vector<bool> is_known;              // by point: false where there is no place for it
-  // By line of the reference; nullopt: no place. Empty where lines do not take part.
+  // The place of each line of the reference view, nullopt where none was found; empty where lines
+  // do not take part.
   std::vector<std::optional<PluckerLine>> lines = {};
 
-  // Of the reference (0) or a later view (from 1).
+  // Returns the pose of a view: 0 is the reference, later views count from 1.
   Rigid3 Pose(std::size_t view) const {
     return view == 0 ? Rigid3{} : cam_from_reference[view - 1];
   }

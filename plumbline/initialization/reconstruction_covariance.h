@@ -16,8 +16,9 @@ struct ReconstructionCovariance {
   // Covariance of the left perturbations [rotation, translation] of all views, 6 by 6 for each; the
   // scale of the whole is held.
   Eigen::MatrixXd poses;
-  // By point, of its depth in the reference over that depth once the scale of all points has been
-  // brought to the true one; negative where the point is not known.
+  // For each point the standard deviation of its depth in the reference view, relative to that
+  // depth, once the scale of all points has been brought to the true one; negative where the point
+  // is not known.
   std::vector<double> relative_depth_sigmas;
 };
 

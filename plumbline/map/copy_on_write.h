@@ -31,7 +31,7 @@ class CopyOnWrite {
   }
 
   explicit operator bool() const { return shared_ != nullptr; }
-  // Of a value that is there.
+  // Both return the value, which must be there.
   const T& operator*() const { return shared_->value; }
   const T* operator->() const { return &shared_->value; }
 

@@ -18,6 +18,7 @@ std::shared_ptr<const IndexedFeatures> WithCorrection(
 std::shared_ptr<const IndexedFeatures> WithRightLines(
     const std::shared_ptr<const IndexedFeatures>& indexed,
     std::vector<std::optional<RightLine>> measured) {
+  if (measured.empty()) return indexed;
   auto whole = std::make_shared<IndexedFeatures>(*indexed);
   Features lines;
   lines.line_right = std::move(measured);

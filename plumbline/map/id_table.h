@@ -117,7 +117,8 @@ class IdTable {
     const CopyOnWrite<Entry>& entry = page->entries[PlaceInPage(id)];
     return entry ? &entry->second : nullptr;
   }
-  // The same, to be changed, until the table is copied.
+  // Returns the entry so that it can be changed, or nullptr where there is none. The pointer is
+  // good for changes until the table is copied.
   T* Find(Id id) {
     if (!contains(id)) return nullptr;
     Page& page = pages_[PageOf(id)].Own();

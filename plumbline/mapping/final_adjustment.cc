@@ -177,7 +177,7 @@ Correction AdjustWholeMap(const Map& map,
   const std::size_t count = map.keyframes().size();
   if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
   const bool large = count > static_cast<std::size_t>(limit);
-  // Of many maps the points alone show that it takes too long, before lines are searched.
+  // The search for lines is spared where the points alone show that the map takes too long.
   if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weights(), {}), limit)) return {};
   const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
   if (IsToStop(stop)) return {};

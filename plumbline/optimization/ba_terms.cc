@@ -53,10 +53,10 @@ bool BaPoint::Add(const RectifiedCamera& camera,
   return true;
 }
 
-double LineChi2(const RectifiedCamera& camera,
-                const BaPose& pose,
-                const BaLinePlace& line,
-                const LineTerm& term) {
+double BaMeasuredLine::Chi2(const RectifiedCamera& camera,
+                            const BaPose& pose,
+                            const Place& line,
+                            const Term& term) {
   Eigen::Vector2d r;
   const BaLineInCamera seen(pose, line, term.shift);
   if (!WhitenedLineDistances(camera, term, seen.moment, r)) {

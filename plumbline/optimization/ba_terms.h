@@ -72,22 +72,29 @@ struct BaLineView : BaLinePlace {
   Eigen::Matrix<double, 6, kParameters> J;  // of moment and direction
 };
 
-// Squared norm of the whitened distances of a line's measured ends; infinite where there is none.
-double LineChi2(const RectifiedCamera& camera,
-                const BaPose& pose,
-                const BaLinePlace& line,
-                const LineTerm& term);
-
-struct BaLine {
-  static constexpr int kDof = 4;
-  using State = OrthonormalLine;
+// What lines have in common whatever their parameters: two residuals in each image, the distances
+// of the measured ends from the projected line.
+struct BaMeasuredLine {
   using Term = LineTerm;
   using Place = BaLinePlace;
-  using View = BaLineView<kDof>;
 
   static Term MakeTerm(const RectifiedCamera& camera, const LineMeasurement& measurement) {
     return MakeLineTerm(camera, measurement);
   }
+  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
+  static int Dof(const Term&) { return 2; }
+  // Squared norm of the whitened distances; infinite where the line has no projection.
+  static double Chi2(const RectifiedCamera& camera,
+                     const BaPose& pose,
+                     const Place& line,
+                     const Term& term);
+};
+
+struct BaLine : BaMeasuredLine {
+  static constexpr int kDof = 4;
+  using State = OrthonormalLine;
+  using View = BaLineView<kDof>;
+
   static Place MakePlace(const State& state) {
     const Vector6d h = state.Homogeneous();
     return {h.head<3>(), h.tail<3>()};
@@ -97,14 +104,6 @@ struct BaLine {
   }
   static State Retract(const State& state, const Eigen::Vector4d& step) {
     return RetractStraight(state, step);
-  }
-  static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
-  static int Dof(const Term&) { return 2; }
-  static double Chi2(const RectifiedCamera& camera,
-                     const BaPose& pose,
-                     const Place& place,
-                     const Term& term) {
-    return LineChi2(camera, pose, place, term);
   }
 
   using Target = BaTarget<kDof>;

@@ -120,15 +120,16 @@ class Tracker {
                        const MapSnapshot* snapshot,
                        const LiveConditions& live = {});
 
-  // Where lines are in the right image serves to make landmarks of them, and most frames make none:
-  // features come without (ExtractFeatures). Whether the next frame has to bring it all the same:
-  // it would start a map, or stand for the map (TrackingReference::kLastFrame).
+  // Returns whether the next frame must know where its lines are in the right image before it is
+  // tracked, which features do not tell by themselves (ExtractFeatures): a frame that starts a map,
+  // or stands for the map (TrackingReference::kLastFrame), makes landmarks of them.
   bool NeedsRightLines() const;
-  // Whether landmarks are made of the lines of the last frame, whose result this is: it became a
-  // keyframe, or it agreed with so little of the map that the next one has to be found by its
-  // lines.
+  // Returns whether landmarks are made of the lines of the last frame, whose result is given: the
+  // frame became a keyframe, or it agreed with so little of the map that the next one has to be
+  // found by its lines.
   bool WantsRightLines(const TrackingResult& result) const;
-  // The features of the last frame, now with right lines, for it and for all that its result says.
+  // Puts features with right lines in place of those of the last frame, its result and the keyframe
+  // that it became.
   void Complete(const std::shared_ptr<const IndexedFeatures>& whole, TrackingResult& result);
 
   // Begins to follow a map that was made of several frames: the snapshot is centred on its newest

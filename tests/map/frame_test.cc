@@ -29,6 +29,11 @@ TEST(WithCorrection, SharesFeaturesThatHaveTheCorrection) {
   EXPECT_EQ(WithCorrection(raw, {}), raw);
 }
 
+TEST(WithRightLines, SharesFeaturesThatHaveNoLines) {
+  const auto without = std::make_shared<const IndexedFeatures>();
+  EXPECT_EQ(WithRightLines(without, {}), without);
+}
+
 TEST(WithRightLines, GivesThemTheCorrectionOfTheRest) {
   Features measured;
   measured.lines.resize(2);
