@@ -129,6 +129,7 @@ class LiveKeyFrames {
     measured.indexed = frame.indexed;
     measured.shed = shed;
     system.Track(std::move(measured));
+    system.Complete();
   }
 
   // Mapping begins with a keyframe when one waits and it is done with the one before.

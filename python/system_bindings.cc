@@ -269,7 +269,8 @@ void BindRecord(py::module_& module) {
             for (const StageTime& time : r.times) times[py::str(time.stage)] = time.milliseconds;
             return times;
           },
-          "Milliseconds of each stage, \"total\" from the frame's arrival to its end.")
+          "Milliseconds of each stage, \"total\" from the frame's arrival to its pose; after_* are "
+          "stages since.")
       .def("__repr__", [](const FrameRecord& r) {
         return fmt::format("<FrameResult {}: {}{}>",
                            r.id.value,

@@ -143,9 +143,12 @@ function buildCounts() {
 const totalStage = data.stages.find((stage) => stage.name === "total");
 // The steps of mapping are parts of other stages, or run beside them.
 const isMapping = (stage) => stage.name.startsWith("map_");
-const frameStages = data.stages.filter((stage) => stage !== totalStage && !isMapping(stage));
+const isAfterPose = (stage) => stage.name.startsWith("after_");
+const frameStages = data.stages.filter(
+    (stage) => stage !== totalStage && !isMapping(stage) && !isAfterPose(stage));
+const afterStages = data.stages.filter(isAfterPose);
 const mappingStages = data.stages.filter(isMapping);
-const stageName = (stage) => stage.name.replace(/^map_/, "").replaceAll("_", " ");
+const stageName = (stage) => stage.name.replace(/^(map|after)_/, "").replaceAll("_", " ");
 const stageColor = (k) => k < 7 ? "stage-" + (k + 1) : "stage-rest";  // for color() and paint()
 
 function stageRows(stages) {
@@ -201,14 +204,14 @@ function makeHistogram(host) {
   const period = data.run.rate_hz ? 1000 / data.run.rate_hz : null;
   const marks = [["median", totalStage.median], ["p95", totalStage.p95]];
   if (period && period < 1.5 * longest) marks.push(["frame period", period]);
-  const figure = chartFigure("Time of a whole frame", makeLegend([{
+  const figure = chartFigure("Time from an image to its pose", makeLegend([{
                                color: paint("stage-1"),
                                text: plural(times.length, "frame") +
                                    (open ? ", the last bin with all that are longer" : "")
                              }]));
   host.append(figure);
   new Plot(figure, {
-    label: "Histogram of the time of a whole frame. Arrow keys read out bin by bin.",
+    label: "Histogram of the time from an image to its pose. Arrow keys read out bin by bin.",
     height: (width) => width < 480 ? 260 : 400,
     xLabel: "time of a frame [ms]",
     yLabel: "frames",
@@ -263,16 +266,15 @@ function stageTable() {
   };
   const heads = ["stage", "frames", "median", "p95", "p99", "max", "mean"];
   const rows = frameStages.map((stage, k) => row(stage, k, stageName(stage)));
-  rows.push(row(totalStage, null, "whole frame", "total"));
-  if (mappingStages.length) {
+  rows.push(row(totalStage, null, "from image to pose", "total"));
+  const addGroup = (head, stages) => {
+    if (!stages.length) return;
     rows.push(
-        make(
-            "tr", {class: "group"},
-            make(
-                "th", {colspan: heads.length},
-                "Steps of mapping, part of the stages above or beside them")),
-        ...mappingStages.map((stage, k) => row(stage, k, stageName(stage))));
-  }
+        make("tr", {class: "group"}, make("th", {colspan: heads.length}, head)),
+        ...stages.map((stage, k) => row(stage, k, stageName(stage))));
+  };
+  addGroup("Done for the frame after its pose was told", afterStages);
+  addGroup("Steps of mapping, part of the stages above or beside them", mappingStages);
   return make(
       "div", {class: "scroll", tabindex: 0, role: "region", "aria-label": "Times by stage"},
       make(

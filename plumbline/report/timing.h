@@ -17,7 +17,8 @@ struct StageStatistics {
   double median = 0, p95 = 0, p99 = 0, max = 0, mean = 0;
 };
 
-// One entry for each stage, in the order of first appearance; "total" is the whole frame.
+// One entry for each stage, in the order of first appearance; "total" is from a frame's arrival to
+// its pose.
 std::vector<StageStatistics> TimingStatistics(const FrameLog& frames);
 
 // Milliseconds of one stage in every frame; nullopt where it did not run.

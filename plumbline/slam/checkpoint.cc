@@ -72,6 +72,7 @@ LocalMapper::State MapperOf(const SavedAtlas& maps, LocalMapper::State mapper) {
 }  // namespace
 
 SavedRun System::Save() {
+  Complete();
   const MappingStage::Checkpoint stage = mapping_.Save();
   SavedRun saved{{mapping_.atlas(), ContextWithoutMaps()}, {}, {}};
   AddMaps(saved.maps.atlas, stage.mapper, saved.maps.context);

@@ -41,8 +41,9 @@ struct FrameRecord {
   bool keyframe = false;
   Shed shed = Shed::kNothing;  // what a live run left undone for this frame
   bool demoted = false;        // was a keyframe until mapping had no time for it
-  // In order, "total" last: from the frame's arrival to its end. map_* are steps of mapping that
-  // ended since the last frame, inline within "map", otherwise beside.
+  // In order. "total" is from the frame's arrival to its pose; after_* are what was done for the
+  // frame since (System::Complete). map_* are steps of mapping that ended since the last frame,
+  // inline within "map", otherwise beside.
   std::vector<StageTime> times;
 };
 

@@ -32,11 +32,13 @@ FeatureInput FrontEnd::InputOf(const RectifiedFrame& images) const {
 }
 
 std::shared_ptr<const IndexedFeatures> FrontEnd::WithRightLines(
-    const MeasuredFrame& frame, const std::shared_ptr<const IndexedFeatures>& indexed) const {
+    const RectifiedFrame& images,
+    Shed shed,
+    const std::shared_ptr<const IndexedFeatures>& indexed) const {
   return plumbline::WithRightLines(indexed,
                                    FindRightLines(rectifier_.camera(),
-                                                  InputOf(frame.images),
-                                                  Lightened(options_, frame.shed),
+                                                  InputOf(images),
+                                                  Lightened(options_, shed),
                                                   indexed->features.lines));
 }
 

@@ -36,10 +36,13 @@ class FrontEnd {
   // measures fewer.
   MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
 
-  // Features of the frame, which may have been corrected since, with the places of its lines in the
-  // right image: what landmarks are made of, beside what a pose is found from.
+  // Features of a frame, which may have been corrected since they were measured, with the places of
+  // its lines in the right image: what landmarks are made of, beside what a pose is found from.
+  // `shed` is that of Measure.
   std::shared_ptr<const IndexedFeatures> WithRightLines(
-      const MeasuredFrame& frame, const std::shared_ptr<const IndexedFeatures>& indexed) const;
+      const RectifiedFrame& images,
+      Shed shed,
+      const std::shared_ptr<const IndexedFeatures>& indexed) const;
 
   const Rectifier& rectifier() const { return rectifier_; }
 

@@ -108,6 +108,7 @@ void Pipeline::Do(Job job) {
   }
   const FrameRecord& record = system_.Track(std::move(*job.measured));
   observer_(record, system_.view());
+  system_.Complete();
 }
 
 // What is done for a frame whose turn has come.

@@ -14,7 +14,7 @@ struct StageTime {
   double milliseconds = 0;
 };
 
-// Times the stages that one frame passes, one after the other, from the moment it is made.
+// Times the stages that one frame passes, one after the other, from the moment the clock is made.
 class StageClock {
  public:
   // Ends the stage that began when the last one ended.
@@ -30,8 +30,10 @@ class StageClock {
   // All stages, and "total" from the beginning to the last one's end.
   std::vector<StageTime> Finish() {
     times_.push_back({"total", Milliseconds(last_ - start_)});
-    return std::exchange(times_, {});
+    return Stages();
   }
+  // All stages.
+  std::vector<StageTime> Stages() { return std::exchange(times_, {}); }
 
  private:
   using Clock = std::chrono::steady_clock;

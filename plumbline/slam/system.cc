@@ -65,6 +65,7 @@ System::System(const Calibration& calibration,
 System::~System() = default;
 
 const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason, Shed shed) {
+  Complete();
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
   record.stamp_ns = stamp_ns;
@@ -79,9 +80,14 @@ const FrameRecord& System::Keep(FrameRecord record) {
   return newest_;
 }
 
-const FrameRecord& System::Process(SensorFrame frame) { return Track(Measure(std::move(frame))); }
+const FrameRecord& System::Process(SensorFrame frame) {
+  Track(Measure(std::move(frame)));
+  Complete();
+  return newest_;
+}
 
 const FrameRecord& System::Track(MeasuredFrame measured) {
+  Complete();
   if (!frames_.empty() && measured.stamp_ns <= newest_.stamp_ns) {
     throw InputError("expected a frame after " + std::to_string(newest_.stamp_ns) +
                      " ns, found one of " + std::to_string(measured.stamp_ns) + " ns");
@@ -97,9 +103,10 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
 
   const bool start = monocular_start_ && tracker_.state() == TrackerState::kInitializing;
   TrackingResult result = start ? StartMap(measured, record) : FollowMap(measured, record, clock);
-  clock.Done(start ? "initialize" : "keyframe");
+  clock.Done(start ? "initialize" : "track");
   record.times = clock.Finish();
-  view_ = {std::move(measured.images), std::move(result.frame)};
+  view_ = {std::move(measured.images), result.frame};
+  if (!start) unfinished_ = {std::move(result), measured.shed};
   return Keep(std::move(record));
 }
 
@@ -113,7 +120,7 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
       tracker_.state() == TrackerState::kLost ? mapping_.EarlierSnapshot() : nullptr;
   if (snapshot != nullptr) map_ = snapshot->map;
   if (tracker_.NeedsRightLines()) {
-    measured.indexed = front_end_.WithRightLines(measured, measured.indexed);
+    measured.indexed = front_end_.WithRightLines(measured.images, measured.shed, measured.indexed);
     clock.Done("right_lines");
   }
   TrackingResult result = tracker_.Track(record.id,
@@ -121,28 +128,46 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
                                          std::move(measured.indexed),
                                          snapshot.get(),
                                          {earlier.get(), FeatureShare(measured.shed)});
-  clock.Done("track");
-  if (tracker_.WantsRightLines(result)) {
-    tracker_.Complete(front_end_.WithRightLines(measured, result.frame.indexed), result);
-  }
+  record.keyframe = result.keyframe.has_value();
+  if (result.starts_map) map_ = MapId{next_map_++};
+  RecordTracking(result, record);
+  return result;
+}
+
+void System::Complete() {
+  if (!unfinished_) return;
+  StageClock clock;
+  Unfinished unfinished = std::move(*unfinished_);
+  unfinished_.reset();
+  TrackingResult& result = unfinished.result;
+  const std::int64_t frame = result.frame.id.value;
+  CompleteRightLines(unfinished, clock);
   if (result.keyframe) {
     result.keyframe->keyframe.session = session_id();
-    const auto gone =
-        mapping_.Submit(record.id.value, std::move(*result.keyframe), result.starts_map);
+    const auto gone = mapping_.Submit(frame, std::move(*result.keyframe), result.starts_map);
     if (gone) Demote(*gone);
-    record.keyframe = true;
-    if (result.starts_map) map_ = MapId{next_map_++};
   }
   if (result.leaves_surroundings) {
-    mapping_.Submit(record.id.value, Sighting{map_, result.frame.points, result.frame.lines});
+    mapping_.Submit(frame, Sighting{map_, result.frame.points, result.frame.lines});
   }
   Relocalize(result);
   if (monocular_start_) {
     if (result.cam_from_world) monocular_start_->Tracked(result);
     if (result.state == TrackerState::kInitializing) monocular_start_->Restart();
   }
-  RecordTracking(result, record);
-  return result;
+  clock.Done("after_keyframe");
+  const std::vector<StageTime> times = clock.Stages();
+  newest_.times.insert(newest_.times.end(), times.begin(), times.end());
+  frames_.AddTimes(times);
+}
+
+void System::CompleteRightLines(Unfinished& unfinished, StageClock& clock) {
+  TrackingResult& result = unfinished.result;
+  if (!tracker_.WantsRightLines(result)) return;
+  tracker_.Complete(front_end_.WithRightLines(view_.images, unfinished.shed, result.frame.indexed),
+                    result);
+  view_.frame.indexed = result.frame.indexed;
+  clock.Done("after_right_lines");
 }
 
 // A place that was found for a frame before: the tracker goes on from there, if it is lost still.
@@ -313,6 +338,7 @@ void System::LoseFramesNotMapped() {
 }
 
 void System::CopyMaps(std::function<void(SavedAtlas)> take) {
+  Complete();
   mapping_.Submit(
       newest_.id.value,
       Visit{[context = ContextWithoutMaps(), take = std::move(take)](
@@ -324,6 +350,7 @@ void System::CopyMaps(std::function<void(SavedAtlas)> take) {
 }
 
 void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look) {
+  Complete();
   mapping_.Submit(
       newest_.id.value,
       Visit{[look = std::move(look)](
@@ -333,6 +360,7 @@ void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look
 }
 
 void System::Finish(const StopCheck& stop) {
+  Complete();
   line_maps_.clear();
   try {
     mapping_.Finish(stop);

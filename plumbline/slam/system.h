@@ -76,9 +76,9 @@ class System {
   // frame; called in the thread that maps.
   void Observe(PlaceObserver observer) { mapping_.Observe(std::move(observer)); }
 
-  // What came of the frame; it holds until the next one. Measure and Track. Throws InputError when
-  // an image has another size than the calibration says, or the frame is no later than the one
-  // before.
+  // What came of the frame; it holds until the next one. Measure, Track and Complete. Throws
+  // InputError when an image has another size than the calibration says, or the frame is no later
+  // than the one before.
   const FrameRecord& Process(SensorFrame frame);
   // What can be done ahead, in another thread than the rest; see FrontEnd.
   MeasuredFrame Measure(SensorFrame frame,
@@ -86,8 +86,14 @@ class System {
                         Shed shed = Shed::kNothing) const {
     return front_end_.Measure(std::move(frame), std::move(clock), shed);
   }
-  // What came of a frame that was measured before; otherwise as Process.
+  // What came of a frame that was measured before; otherwise as Process. The pose is told as soon
+  // as it is known: what the frame leaves to do for the map is done by Complete.
   const FrameRecord& Track(MeasuredFrame frame);
+  // Does what the last tracked frame leaves to do, once: looks for its lines in the right image
+  // where landmarks are to be made of them, hands a keyframe to mapping, asks for the place of a
+  // lost camera. Calls that need it done (the next frame, Finish, Save, a look at the maps) do it
+  // themselves. Changes nothing of the frame's record but its times.
+  void Complete();
   // A frame that could not be read, or was left out.
   const FrameRecord& Skip(std::int64_t stamp_ns,
                           const std::string& reason,
@@ -194,7 +200,13 @@ class System {
   void Relocalize(const TrackingResult& result);
   // The number of this run of the camera among those that made the maps.
   SessionId session_id() const;
+  // A frame whose pose is told, until what it leaves to do is done.
+  struct Unfinished {
+    TrackingResult result;
+    Shed shed = Shed::kNothing;
+  };
   TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
+  void CompleteRightLines(Unfinished& unfinished, StageClock& clock);
   // Of the steps of mapping that ended since the last call.
   std::vector<StageTime> TakeMappingTimes();
   TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
@@ -222,6 +234,7 @@ class System {
   FrameLog frames_;
   FrameRecord newest_;  // the last of them
   FrameView view_;
+  std::optional<Unfinished> unfinished_;
   Session session_;                                             // without the stamps
   mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // made so far
 };

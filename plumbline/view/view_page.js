@@ -73,7 +73,7 @@ const totals = [];  // ms of the last frames
 const TOTALS = 240;
 
 function showTimes(frame) {
-  const stages = frame.stages.filter((s) => s.name !== "total" && !s.name.startsWith("map_"));
+  const stages = frame.stages.filter((s) => s.name !== "total" && !/^(map|after)_/.test(s.name));
   const total = frame.stages.find((s) => s.name === "total");
   if (!total) return;
   totals.push(total.milliseconds || 0);

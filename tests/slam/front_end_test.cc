@@ -33,7 +33,7 @@ TEST(FrontEnd, FindsLinesInTheRightImageWhenAsked) {
     return std::count_if(right.begin(), right.end(), [](const auto& r) { return r.has_value(); });
   };
   EXPECT_EQ(found(*measured.indexed), 0);
-  const auto whole = front_end.WithRightLines(measured, measured.indexed);
+  const auto whole = front_end.WithRightLines(measured.images, measured.shed, measured.indexed);
   EXPECT_EQ(found(*measured.indexed), 0);  // a copy
   ASSERT_EQ(whole->features.line_right.size(), whole->features.lines.size());
   EXPECT_GT(found(*whole), 15);

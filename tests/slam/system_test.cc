@@ -221,7 +221,28 @@ TEST(System, TimesEveryFrame) {
     ASSERT_FALSE(record.times.empty());
     EXPECT_EQ(record.times.front().stage, "rectify");
     EXPECT_EQ(CountStage(record, "total"), 1);
+    EXPECT_EQ(CountStage(record, "after_keyframe"), 1);
   }
+}
+
+TEST(System, TellsThePoseBeforeTheKeyFrameIsHandedOn) {
+  const MovingPoster poster;
+  System told(MovingPoster::MakeCalibration(), SlamOptions{});
+  System whole(MovingPoster::MakeCalibration(), SlamOptions{});
+  for (int i = 0; i < 8; ++i) {
+    const FrameRecord pose = told.Track(told.Measure(poster.Frame(i)));
+    EXPECT_EQ(CountStage(pose, "total"), 1);
+    EXPECT_EQ(CountStage(pose, "after_keyframe"), 0);
+    const FrameRecord& complete = whole.Process(poster.Frame(i));
+    EXPECT_EQ(pose.keyframe, complete.keyframe);
+    EXPECT_EQ(pose.causal_world_from_camera->translation,
+              complete.causal_world_from_camera->translation);
+  }
+  told.Finish();
+  whole.Finish();
+  EXPECT_EQ(CountStage(told.frames()[7], "after_keyframe"), 1);
+  EXPECT_EQ(told.maps().at(MapId{0}).keyframes().size(),
+            whole.maps().at(MapId{0}).keyframes().size());
 }
 
 TEST(System, CountsWhatIsDoneAtTheEndWithTheLastFrame) {
