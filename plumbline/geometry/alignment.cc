@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/alignment.h"
 
+#include "plumbline/geometry/eigenpairs.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
@@ -59,9 +60,9 @@ Moments MomentsOf(std::span<const Eigen::Vector3d> source,
 
 std::optional<AlignmentFailure> DegeneracyOf(const Eigen::Matrix3d& covariance,
                                              const Eigen::Vector3d& mean) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  const double first = std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
-  const double second = std::sqrt(std::max(0.0, solver.eigenvalues()(1)));
+  const Eigen::Vector3d values = EigenvaluesOf<3>(covariance);
+  const double first = std::sqrt(std::max(0.0, values(2)));
+  const double second = std::sqrt(std::max(0.0, values(1)));
   // Relative to the coordinates: below this the spread is rounding error.
   if (!(first > 1e-12 * (1e-3 + mean.norm()))) return AlignmentFailure::kCoincident;
   if (!(second > kCollinearRatio * first)) return AlignmentFailure::kCollinear;

@@ -3,6 +3,7 @@
 #include "plumbline/geometry/line_triangulation.h"
 
 #include "plumbline/base/largest_angle.h"
+#include "plumbline/geometry/symmetric_system.h"
 #include "plumbline/geometry/trimming.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
 namespace plumbline {
@@ -134,7 +134,7 @@ OrthonormalLine Refine(const RectifiedCamera& camera,
   const auto image_from_line = ImageFromLine(camera, views);
   NormalEquations equations = Linearize(views, image_from_line, line);
   for (int i = 0; i < max_iterations; ++i) {
-    const Eigen::Vector4d step = equations.information.ldlt().solve(equations.gradient);
+    const Eigen::Vector4d step = SolveSymmetric<4>(equations.information, equations.gradient);
     const OrthonormalLine trial = Retract(line, -step);
     const NormalEquations trial_equations = Linearize(views, image_from_line, trial);
     if (!(trial_equations.chi2 < equations.chi2)) break;
@@ -204,10 +204,10 @@ Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
   const NormalEquations equations =
       Linearize(views, ImageFromLine(camera, views), ToOrthonormal(line));
   if (!(equations.worst <= options.max_residual_sigma)) return kInconsistentViews;
-  const Eigen::LLT<Eigen::Matrix4d> factor(equations.information);
-  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-15)) return kSingular;
+  const auto covariance = InverseOfInformation<4>(equations.information, 1e-15);
+  if (!covariance) return kSingular;
   TriangulatedLine result;
-  result.estimate = {line, factor.solve(Eigen::Matrix4d::Identity())};
+  result.estimate = {line, *covariance};
   result.chi2 = equations.chi2;
   result.residuals = static_cast<int>(2 * views.size());
   return result;

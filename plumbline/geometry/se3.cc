@@ -3,6 +3,7 @@
 #include "plumbline/geometry/se3.h"
 
 #include "plumbline/base/elementary.h"
+#include "plumbline/geometry/basis_across.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +45,23 @@ Eigen::Vector3d LogSo3(const Eigen::Quaterniond& q) {
   const double n = v.norm();
   if (n < 1e-7) return (2.0 / w) * (1 - n * n / (3 * w * w)) * v;
   return (2.0 * math::Atan2(n, w) / n) * v;
+}
+
+Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d a = from.normalized();
+  const Eigen::Vector3d b = to.normalized();
+  const double cosine = b.dot(a);
+  // Of opposite directions rounding leaves little of 1 + cosine: half a turn makes them alike
+  // first.
+  if (cosine < -1 + 1e-6) {
+    const Eigen::Vector3d axis = BasisAcross(a).col(0);
+    return ShortestTurn(-a, b) * Eigen::Quaterniond(0, axis.x(), axis.y(), axis.z());
+  }
+  const double twice_w = std::sqrt(2 * (1 + cosine));
+  Eigen::Quaterniond turn;
+  turn.vec() = a.cross(b) * (1 / twice_w);
+  turn.w() = 0.5 * twice_w;
+  return turn;
 }
 
 Eigen::Matrix3d LeftJacobianSo3(const Eigen::Vector3d& w) {

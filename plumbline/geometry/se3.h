@@ -25,6 +25,10 @@ Eigen::Quaterniond ExpSo3(const Eigen::Vector3d& w);
 // Inverse of ExpSo3 with |result| <= pi.
 Eigen::Vector3d LogSo3(const Eigen::Quaterniond& q);
 
+// Returns the rotation by the least angle that turns the direction of `from` into that of `to`; of
+// directions that are opposite to 0.1 degrees, one by some half turn.
+Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 // Left Jacobian of SO(3): Exp(w + dw) = Exp(LeftJacobianSo3(w) dw) Exp(w) to first order.
 Eigen::Matrix3d LeftJacobianSo3(const Eigen::Vector3d& w);
 // The inverse of LeftJacobianSo3(w).

@@ -3,14 +3,13 @@
 #include "plumbline/geometry/triangulation.h"
 
 #include "plumbline/base/largest_angle.h"
+#include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/geometry/symmetric_system.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 namespace {
@@ -62,8 +61,7 @@ std::optional<Eigen::Vector3d> LinearPoint(const RectifiedCamera& camera,
       add(row, view.disparity->sigma_px);
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(normal);
-  const Eigen::Vector4d x = solver.eigenvectors().col(0);
+  const Eigen::Vector4d x = EigenpairsOf<4>(normal).vectors.col(0);
   if (!(std::abs(x(3)) > 1e-12 * x.head<3>().norm())) return std::nullopt;
   return world_from_local * Eigen::Vector3d(x.head<3>() / x(3));
 }
@@ -139,7 +137,7 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
   std::optional<NormalEquations> equations = Linearize(camera, views, rotations, point);
   if (!equations) return kBehindCamera;
   for (int i = 0; i < options.max_iterations; ++i) {
-    const Eigen::Vector3d step = equations->information.ldlt().solve(equations->gradient);
+    const Eigen::Vector3d step = SolveSymmetric<3>(equations->information, equations->gradient);
     const Eigen::Vector3d trial = point - step;
     std::optional<NormalEquations> trial_equations = Linearize(camera, views, rotations, trial);
     // Also ends where the step is not finite.
@@ -151,9 +149,9 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
   TriangulatedPoint result;
   result.parallax = LargestParallax(centres, point);
   if (!(result.parallax >= options.min_parallax)) return kSmallParallax;
-  const Eigen::LLT<Eigen::Matrix3d> factor(equations->information);
-  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-15)) return kSingular;
-  result.point = {point, factor.solve(Eigen::Matrix3d::Identity())};
+  const auto covariance = InverseOfInformation<3>(equations->information, 1e-15);
+  if (!covariance) return kSingular;
+  result.point = {point, *covariance};
   result.chi2 = equations->chi2;
   result.residuals = equations->residuals;
   return result;

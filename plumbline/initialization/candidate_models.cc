@@ -6,13 +6,12 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/basis_across.h"
+#include "plumbline/geometry/eigenpairs.h"
 #include "plumbline/initialization/reconstruction_covariance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 namespace {
@@ -40,11 +39,11 @@ std::vector<Reconstruction> Probes(const Tracks& tracks, const Reconstruction& b
   const Rigid3& newest = best.cam_from_reference.back();
   const double length = newest.translation.norm();
   const Eigen::Matrix<double, 3, 2> across = BasisAcross(newest.translation / length);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(
-      across.transpose() * covariance->poses.bottomRightCorner<3, 3>() * across);
-  const Eigen::Vector3d weakest = across * spread.eigenvectors().col(1);
+  const Eigenpairs<2> spread =
+      EigenpairsOf<2>(across.transpose() * covariance->poses.bottomRightCorner<3, 3>() * across);
+  const Eigen::Vector3d weakest = across * spread.vectors.col(1);
   // How all poses move with a unit step along what is known least.
-  const Eigen::VectorXd step = covariance->poses.rightCols<3>() * weakest / spread.eigenvalues()(1);
+  const Eigen::VectorXd step = covariance->poses.rightCols<3>() * weakest / spread.values(1);
   std::vector<Reconstruction> probes;
   for (const double side : {-1.0, 1.0}) {
     Reconstruction moved = best;

@@ -3,7 +3,9 @@
 #include "plumbline/initialization/patch_alignment.h"
 
 #include "plumbline/base/elementary.h"
+#include "plumbline/geometry/eigenpairs.h"
 #include "plumbline/geometry/se3.h"
+#include "plumbline/geometry/symmetric_system.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,6 @@
 #include <optional>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 namespace {
@@ -68,9 +69,7 @@ struct Patch {
   Eigen::Matrix2d tensor;  // of the gradients, their mean taken off
 
   bool IsRound(double min_roundness) const {
-    const Eigen::Vector2d values =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(tensor, Eigen::EigenvaluesOnly)
-            .eigenvalues();
+    const Eigen::Vector2d values = EigenvaluesOf<2>(tensor);
     return values(0) > min_roundness * values(1);
   }
 };
@@ -151,7 +150,7 @@ std::optional<Eigen::Vector2d> AlignAffine(const Patch& patch,
     H.diagonal().tail<4>().array() += weight;
     Vector6d right = J.transpose() * residual;
     right.tail<4>() += weight * Eigen::Map<const Eigen::Vector4d>(off.data());
-    const Vector6d step = H.ldlt().solve(right);
+    const Vector6d step = SolveSymmetric<6>(H, right);
     const Eigen::Vector4d linear = step.tail<4>() / r;
     const Eigen::Matrix2d change =
         Eigen::Matrix2d::Identity() + Eigen::Map<const Eigen::Matrix2d>(linear.data());

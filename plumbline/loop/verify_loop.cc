@@ -4,6 +4,7 @@
 
 #include "plumbline/base/index.h"
 #include "plumbline/geometry/covariance.h"
+#include "plumbline/geometry/eigenpairs.h"
 #include "plumbline/loop/chance.h"
 #include "plumbline/loop/loop_search.h"
 #include "plumbline/loop/uncertain_pose.h"
@@ -14,8 +15,6 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
-
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 namespace {
@@ -58,8 +57,7 @@ class Coverage {
     if (count_ < 3) return 0;
     const Eigen::Vector2d mean = sum_ / count_;
     const Eigen::Matrix2d covariance = squares_ / count_ - mean * mean.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance);
-    return std::sqrt(std::max(0.0, solver.eigenvalues()(0))) / camera_.height;
+    return std::sqrt(std::max(0.0, EigenvaluesOf<2>(covariance)(0))) / camera_.height;
   }
 
   void AddCells(int& tested, int& supported) const {

@@ -31,7 +31,7 @@ BaParallelLines::BaParallelLines(const BaProblem& problem) {
   for (const auto& parallel : sorted) {
     ++begin_[static_cast<std::size_t>(parallel.line) + 1];
     const Eigen::Vector3d& axis = problem.axes[static_cast<std::size_t>(parallel.axis)];
-    const auto turn = Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ());
+    const Eigen::Quaterniond turn = ShortestTurn(axis, Eigen::Vector3d::UnitZ());
     residuals_.push_back({turn.toRotationMatrix(), 1 / parallel.sigma});
   }
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/median.h"
 #include "plumbline/geometry/covariance.h"
+#include "plumbline/geometry/eigenpairs.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/prepared_line.h"
 #include "plumbline/optimization/residuals.h"
@@ -12,8 +13,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
 
 namespace plumbline {
 namespace {
@@ -93,11 +92,9 @@ PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth) {
   Vector6d unit = Vector6d::Ones();
   unit.tail<3>().setConstant(scene_depth);
   const Matrix6d scaled = unit.asDiagonal() * information * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
-  const Vector6d& values = eigen.eigenvalues();
+  const auto [values, vectors] = EigenpairsOf<6>(scaled);
   if (!(values(0) > 1e-12 * values(5))) return {kInfinity, kInfinity, scene_depth};
-  const Matrix6d covariance =
-      eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  const Matrix6d covariance = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
   return {LargestSigma(covariance.topLeftCorner<3, 3>()),
           LargestSigma(covariance.bottomRightCorner<3, 3>()),
           scene_depth};

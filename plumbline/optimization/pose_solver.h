@@ -4,6 +4,8 @@
 
 #include "plumbline/base/chi2.h"
 #include "plumbline/base/median.h"
+#include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/geometry/symmetric_system.h"
 #include "plumbline/optimization/pose_only_result.h"
 #include "plumbline/optimization/pose_terms.h"
 #include "plumbline/optimization/robust_loss.h"
@@ -16,9 +18,6 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 namespace plumbline {
 
 // What SolvePose does, for any residual of lines. Internal to pose_only.cc and the laboratory,
@@ -29,8 +28,7 @@ inline bool IsRegular(const Matrix6d& information) {
   if (!(information.diagonal().minCoeff() > 0)) return false;
   const Vector6d scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix6d scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()(0) > 1e-10;
+  return EigenvaluesOf<6>(scaled)(0) > 1e-10;
 }
 
 // Levenberg-Marquardt over one pose. Line: a match of a line as PoseLine is.
@@ -240,7 +238,7 @@ bool PoseSolver<Line>::Optimize(const HuberThresholds& huber, int max_iterations
     ++iterations_;
     Matrix6d A = eq.H;
     A.diagonal() += lambda * eq.H.diagonal().cwiseMax(1e-12 * eq.H.diagonal().maxCoeff());
-    const Vector6d step = -Eigen::LDLT<Matrix6d, Eigen::Lower>(A).solve(eq.g);
+    const Vector6d step = -SolveSymmetric<6>(A, eq.g);
     if (!step.allFinite()) return false;
     // What the linear model expects the step to gain, in units of squared sigmas.
     const double expected = -0.5 * eq.g.dot(step);

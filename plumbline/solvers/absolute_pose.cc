@@ -3,6 +3,7 @@
 #include "plumbline/solvers/absolute_pose.h"
 
 #include "plumbline/base/random.h"
+#include "plumbline/geometry/symmetric_system.h"
 #include "plumbline/solvers/polynomial.h"
 #include "plumbline/solvers/ransac.h"
 
@@ -13,7 +14,6 @@
 #include <limits>
 #include <span>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 namespace plumbline {
@@ -123,7 +123,7 @@ class PointsProblem {
       for (const PointInImage& point : points_) {
         if (SquaredError(pose, point) < limit_) AddTo(pose, point, information, gradient);
       }
-      const Vector6d step = information.ldlt().solve(-gradient);
+      const Vector6d step = SolveSymmetric<6>(information, -gradient);
       if (!step.allFinite()) return start;
       pose = ExpSe3(step) * pose;
       if (step.norm() < 1e-10) break;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/essential.h"
 
+#include "plumbline/geometry/eigenpairs.h"
 #include "plumbline/solvers/polynomial.h"
 
 #include <algorithm>
@@ -265,10 +266,10 @@ std::optional<Eigen::Matrix3d> EssentialFromEightPoints(std::span<const RayMatch
     row << b.x() * a, b.y() * a, b.z() * a;
     normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
-  if (!(solver.eigenvalues()(1) > 1e-12 * solver.eigenvalues()(8))) return std::nullopt;
+  const Eigenpairs<9> eigen = EigenpairsOf<9>(normal);
+  if (!(eigen.values(1) > 1e-12 * eigen.values(8))) return std::nullopt;
   const Eigen::Matrix3d F =
-      in_b.Matrix().transpose() * MatrixByRows(solver.eigenvectors().col(0)) * in_a.Matrix();
+      in_b.Matrix().transpose() * MatrixByRows(eigen.vectors.col(0)) * in_a.Matrix();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d singular = Eigen::Vector3d(1, 1, 0) / std::sqrt(2);
   return svd.matrixU() * singular.asDiagonal() * svd.matrixV().transpose();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/solvers/homography.h"
 
+#include "plumbline/geometry/eigenpairs.h"
+
 #include <cmath>
 #include <limits>
 
@@ -65,9 +67,9 @@ std::optional<Eigen::Matrix3d> HomographyFromPoints(std::span<const RayMatch> ma
     rows.block<3, 1>(6, 1) = -weight * m.b.y() * a;
     normal.selfadjointView<Eigen::Lower>().rankUpdate(rows);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
-  if (!(solver.eigenvalues()(1) > 1e-12 * solver.eigenvalues()(8))) return std::nullopt;
-  const Eigen::Matrix<double, 9, 1> h = solver.eigenvectors().col(0);
+  const Eigenpairs<9> eigen = EigenpairsOf<9>(normal);
+  if (!(eigen.values(1) > 1e-12 * eigen.values(8))) return std::nullopt;
+  const Eigen::Matrix<double, 9, 1> h = eigen.vectors.col(0);
   return Eigen::Matrix3d(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data()));
 }
 
@@ -88,8 +90,8 @@ double SquaredTransferError(const Eigen::Matrix3d& homography, const RayMatch& m
 
 std::vector<PlanarMotion> MotionsFromHomography(const Eigen::Matrix3d& homography) {
   // Ascending; columns of V are the right singular vectors.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(homography.transpose() * homography);
-  const Eigen::Vector3d& squares = solver.eigenvalues();
+  const Eigenpairs<3> eigen = EigenpairsOf<3>(homography.transpose() * homography);
+  const Eigen::Vector3d& squares = eigen.values;
   if (!(squares(0) > 1e-18 * squares(2))) return {};
   // R + t n^T / d has 1 as its middle singular value, and the ratio of the distances of the plane
   // from the two cameras, which is positive, as its determinant.
@@ -97,7 +99,7 @@ std::vector<PlanarMotion> MotionsFromHomography(const Eigen::Matrix3d& homograph
   const Eigen::Matrix3d H = sign / std::sqrt(squares(1)) * homography;
   const double largest = squares(2) / squares(1);
   const double smallest = squares(0) / squares(1);
-  Eigen::Matrix3d V = solver.eigenvectors().rowwise().reverse();
+  Eigen::Matrix3d V = eigen.vectors.rowwise().reverse();
   if (V.determinant() < 0) V = -V;
   if (largest - smallest < 1e-12) {
     PlanarMotion turn;

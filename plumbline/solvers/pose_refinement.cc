@@ -5,6 +5,7 @@
 #include "plumbline/base/chi2.h"
 #include "plumbline/geometry/basis_across.h"
 #include "plumbline/geometry/epipolar.h"
+#include "plumbline/geometry/symmetric_system.h"
 #include "plumbline/solvers/epipolar_cost.h"
 
 #include <algorithm>
@@ -129,19 +130,16 @@ Vector5d Step(const NormalEquations& equations, double damping) {
   damped.diagonal() *= 1 + damping;
   // Where nothing is known nothing moves.
   damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff() + 1e-300;
-  const Vector5d step = -damped.ldlt().solve(equations.gradient);
+  const Vector5d step = -SolveSymmetric<5>(damped, equations.gradient);
   if (!step.allFinite()) return Vector5d::Zero();
   return step;
 }
 
 Matrix5d InverseOrInfinite(const Matrix5d& information) {
-  const Eigen::LLT<Matrix5d> factor(information);
-  if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-14)) {
-    Matrix5d unknown = Matrix5d::Zero();
-    unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
-    return unknown;
-  }
-  return factor.solve(Matrix5d::Identity());
+  if (const auto inverse = InverseOfInformation<5>(information, 1e-14)) return *inverse;
+  Matrix5d unknown = Matrix5d::Zero();
+  unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  return unknown;
 }
 
 Matrix5d Covariance(std::span<const RayMatch> matches, const Rigid3& pose) {

@@ -175,5 +175,19 @@ TEST(AngularDistance, IsTheAngleOfTheRelativeRotation) {
   EXPECT_NEAR(AngularDistance(a, a * ExpSo3({0, 0, 4.0})), 2 * kPi - 4.0, 1e-12);
 }
 
+TEST(ShortestTurn, TurnsOneDirectionIntoTheOther) {
+  Rng rng(3);
+  for (const double opposite : {0.0, 1e-9, 1e-7, 1e-5, 1.0}) {
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::Vector3d from = RandomVector<3>(rng);
+      const Eigen::Vector3d to = -from + opposite * from.norm() * RandomVector<3>(rng);
+      const Eigen::Quaterniond turn = ShortestTurn(from, to);
+      EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-9) << opposite;
+      const double between = std::atan2(from.cross(to).norm(), from.dot(to));
+      EXPECT_NEAR(LogSo3(turn).norm(), between, 2e-3);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline

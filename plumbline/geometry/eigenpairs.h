@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+// Eigenvalues and eigenvectors of small symmetric matrices, by Eigen's SelfAdjointEigenSolver. A
+// compiler needs up to five seconds for it wherever it is used; here each size is compiled once, in
+// eigenpairs.cc. Of a matrix only the lower triangle is read.
+template <int N>
+struct Eigenpairs {
+  Eigen::Matrix<double, N, 1> values;   // ascending
+  Eigen::Matrix<double, N, N> vectors;  // of unit length, one a column
+};
+
+// N: 2, 3, 4, 6, 9. What is not finite has eigenvalues that are not.
+template <int N>
+Eigenpairs<N> EigenpairsOf(const Eigen::Matrix<double, N, N>& symmetric);
+
+// The eigenvalues alone, ascending.
+template <int N>
+Eigen::Matrix<double, N, 1> EigenvaluesOf(const Eigen::Matrix<double, N, N>& symmetric);
+
+}  // namespace plumbline
