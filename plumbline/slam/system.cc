@@ -360,9 +360,9 @@ void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look
 }
 
 void System::Finish(const StopCheck& stop) {
-  Complete();
   line_maps_.clear();
   try {
+    Complete();
     mapping_.Finish(stop);
   } catch (...) {
     LoseFramesNotMapped();
