@@ -3,10 +3,9 @@
 #include "lab/cutting_testbed/pose_from_lines.h"
 
 #include "plumbline/cutting/cut_residuals.h"
+#include "plumbline/geometry/symmetric_system.h"
 
 #include <limits>
-
-#include <Eigen/Cholesky>
 
 namespace plumbline {
 namespace {
@@ -100,7 +99,7 @@ Rigid3 Minimize(std::span<const WeightedCut> lines, const Add& add) {
     Matrix6d damped = at.hessian;
     damped.diagonal() *= 1 + damping;
     damped.diagonal().array() += 1e-12 * at.hessian.trace();
-    const Rigid3 moved = RetractLeft(motion, -damped.ldlt().solve(at.gradient));
+    const Rigid3 moved = RetractLeft(motion, -SolveSymmetric<6>(damped, at.gradient));
     const Normal next = linearize(moved);
     if (next.cost < at.cost) {
       const bool done = at.cost - next.cost < 1e-9 * at.cost;

@@ -51,8 +51,8 @@ Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector
   const Eigen::Vector3d a = from.normalized();
   const Eigen::Vector3d b = to.normalized();
   const double cosine = b.dot(a);
-  // Of opposite directions rounding leaves little of 1 + cosine: half a turn makes them alike
-  // first.
+  // Between nearly opposite directions 1 + cosine consists of rounding errors. Half a turn about an
+  // axis across `from` leaves only a small turn to be made, which is computed accurately.
   if (cosine < -1 + 1e-6) {
     const Eigen::Vector3d axis = BasisAcross(a).col(0);
     return ShortestTurn(-a, b) * Eigen::Quaterniond(0, axis.x(), axis.y(), axis.z());

@@ -267,14 +267,15 @@ function stageTable() {
   const heads = ["stage", "frames", "median", "p95", "p99", "max", "mean"];
   const rows = frameStages.map((stage, k) => row(stage, k, stageName(stage)));
   rows.push(row(totalStage, null, "from image to pose", "total"));
-  const addGroup = (head, stages) => {
+  // Stages that no chart shows have no colour.
+  const addGroup = (head, stages, charted) => {
     if (!stages.length) return;
     rows.push(
         make("tr", {class: "group"}, make("th", {colspan: heads.length}, head)),
-        ...stages.map((stage, k) => row(stage, k, stageName(stage))));
+        ...stages.map((stage, k) => row(stage, charted ? k : null, stageName(stage))));
   };
-  addGroup("Done for the frame after its pose was told", afterStages);
-  addGroup("Steps of mapping, part of the stages above or beside them", mappingStages);
+  addGroup("Done for the frame after its pose was told", afterStages, false);
+  addGroup("Steps of mapping, part of the stages above or beside them", mappingStages, true);
   return make(
       "div", {class: "scroll", tabindex: 0, role: "region", "aria-label": "Times by stage"},
       make(

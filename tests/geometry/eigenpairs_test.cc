@@ -9,18 +9,10 @@
 namespace plumbline {
 namespace {
 
-// Its eigenvalues are far apart.
-template <int N>
-Eigen::Matrix<double, N, N> RandomSymmetric(Rng& rng) {
-  Eigen::Matrix<double, N, N> root;
-  for (int i = 0; i < N; ++i) root.col(i) = (i + 1) * RandomVector<N>(rng);
-  return root * root.transpose();
-}
-
 template <int N>
 void CheckEigenpairs() {
   Rng rng(N);
-  const Eigen::Matrix<double, N, N> matrix = RandomSymmetric<N>(rng);
+  const Eigen::Matrix<double, N, N> matrix = RandomInformation<N>(rng);
   const Eigenpairs<N> pairs = EigenpairsOf<N>(matrix);
   EXPECT_TRUE(
       (pairs.vectors * pairs.values.asDiagonal() * pairs.vectors.transpose()).isApprox(matrix));

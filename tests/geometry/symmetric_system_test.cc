@@ -10,14 +10,6 @@
 namespace plumbline {
 namespace {
 
-// Positive definite, with eigenvalues far apart.
-template <int N>
-Eigen::Matrix<double, N, N> RandomInformation(Rng& rng) {
-  Eigen::Matrix<double, N, N> root;
-  for (int i = 0; i < N; ++i) root.col(i) = (i + 1) * RandomVector<N>(rng);
-  return root * root.transpose() + 0.1 * Eigen::Matrix<double, N, N>::Identity();
-}
-
 template <int N>
 void CheckSolution() {
   Rng rng(N);

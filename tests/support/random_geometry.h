@@ -18,6 +18,14 @@ Eigen::Matrix<double, kSize, 1> RandomVector(Rng& rng, double sigma = 1) {
   return v;
 }
 
+// A positive definite matrix whose eigenvalues are far apart.
+template <int kSize>
+Eigen::Matrix<double, kSize, kSize> RandomInformation(Rng& rng) {
+  Eigen::Matrix<double, kSize, kSize> root;
+  for (int i = 0; i < kSize; ++i) root.col(i) = (i + 1) * RandomVector<kSize>(rng);
+  return root * root.transpose() + 0.1 * Eigen::Matrix<double, kSize, kSize>::Identity();
+}
+
 // A rotation by a uniform angle below max_angle about a random axis, and a random translation.
 inline Rigid3 RandomRigid(Rng& rng, double max_angle = 3, double translation_sigma = 1) {
   const Eigen::Vector3d axis = RandomVector<3>(rng).normalized();
