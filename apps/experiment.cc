@@ -42,6 +42,9 @@ CommandSyntax ExperimentSyntax() {
             "sequences and variants that have this in SEQUENCE/VARIANT, or "
             "fit it, with * and ?; may be repeated"},
            {"--set", "KEY=VALUE", "one option for all runs; may be repeated"},
+           {"--earlier",
+            "PROGRAM",
+            "another version of the program, which `versions` compares this one with"},
            {"--full", "", "the papers' protocol: worlds as they are, and all runs"},
            {"--jobs",
             "N",
@@ -100,8 +103,9 @@ void ListParts(const Experiment& experiment) {
   if (experiment.full_runs) std::cout << ", with --full " << *experiment.full_runs;
   std::cout << "\nvariants:\n";
   for (const Variant& variant : experiment.variants) {
-    std::cout << fmt::format("  {:<23} {}{}{}\n",
+    std::cout << fmt::format("  {:<23} {}{}{}{}\n",
                              variant.name,
+                             variant.by_earlier ? "(by --earlier PROGRAM) " : "",
                              fmt::join(variant.settings, " "),
                              variant.arguments.empty() ? "" : " ",
                              fmt::join(variant.arguments, " "));

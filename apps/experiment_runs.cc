@@ -85,6 +85,7 @@ PlanRequest ReadRequest(const CommandLine& line,
   request.only = line.Values("--only");
   request.settings = line.Values("--set");
   request.program = program;
+  if (const auto earlier = line.Value("--earlier")) request.earlier = ProgramId(*earlier);
   return request;
 }
 
@@ -97,6 +98,8 @@ std::string Duration(double seconds) {
 RunnerOptions ReadRunnerOptions(const CommandLine& line) {
   RunnerOptions options;
   options.program = fs::read_symlink(kProgram);
+  // A name without a folder would be looked for among the installed programs.
+  if (const auto earlier = line.Value("--earlier")) options.earlier = fs::absolute(*earlier);
   options.force = line.Has("--force");
   options.retries = line.Count("--retries", 1, {0, kMostRetries});
   if (line.Has("--memory")) {
@@ -224,6 +227,7 @@ void RefuseFlagsOfRuns(const CommandLine& line, const std::string& name) {
                            "--size",
                            "--only",
                            "--set",
+                           "--earlier",
                            "--jobs",
                            "--time-limit",
                            "--memory",

@@ -452,6 +452,40 @@ Experiment MonocularRobustnessExperiment() {
   return experiment;
 }
 
+// This program beside an earlier version of it, which --earlier names: each plays what the other
+// does, one after the other.
+Experiment VersionsExperiment(bool mono) {
+  Experiment experiment;
+  experiment.name = mono ? "versions_mono" : "versions";
+  experiment.help = "this program beside an earlier version of it";
+  if (mono) experiment.help += ", one camera";
+  experiment.sequences = {{"worlds/*"}, {"euroc/*"}, {"kitti/*"}, {"tum/*"}};
+  if (!mono) experiment.sequences.push_back({"icl/*"});  // which has one camera in any case
+  experiment.variants = {{"earlier", {}}, {"this", {}}};
+  experiment.variants.front().by_earlier = true;
+  if (mono) {
+    for (Variant& variant : experiment.variants) variant.arguments = {"--sensor", "mono"};
+  }
+  experiment.metrics = {"ate",
+                        "ate_causal",
+                        "rpe_rmse",
+                        "roe_rmse",
+                        "lost",
+                        "maps",
+                        "dropped",
+                        "keyframes",
+                        "cpu_ms",
+                        "frame_ms",
+                        "frame_p95_ms",
+                        "memory_mb"};
+  experiment.plots = {"ate", "cpu_ms"};
+  experiment.runs = 3;
+  experiment.reference = "earlier";
+  experiment.ratios = {"ate", "ate_causal", "cpu_ms", "frame_ms", "frame_p95_ms", "memory_mb"};
+  experiment.exclusive = true;
+  return experiment;
+}
+
 // Experiments of our own, beside those of the papers.
 std::vector<Experiment> OwnExperiments() {
   return {
@@ -476,6 +510,8 @@ std::vector<Experiment> OwnExperiments() {
       CuttingExperiment(),
       CuttingControlExperiment(true),
       CuttingControlExperiment(false),
+      VersionsExperiment(false),
+      VersionsExperiment(true),
       RobustnessExperiment(),
       MonocularRobustnessExperiment(),
       StartExperiment(

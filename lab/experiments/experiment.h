@@ -21,6 +21,8 @@ struct Variant {
   // number of this one.
   std::string curve = {};
   double abscissa = 0;
+  // Run by an earlier version of the program, which the request names (PlanRequest::earlier).
+  bool by_earlier = false;
 };
 
 // Sequences to run, by name: FOLDER/NAME for what is found in a folder of the data (euroc, kitti,
@@ -91,7 +93,9 @@ struct Experiment {
   // Runs with --full, where these are more than `runs`.
   std::optional<int> full_runs = {};
   std::vector<std::string> test_arguments = {};  // of the command, without --full
-  bool exclusive = false;  // measures times: its runs have the machine for themselves
+  // Measures times: its runs have the machine for themselves, and those of the variants take turns,
+  // so that a machine that slows down does so for all of them.
+  bool exclusive = false;
   PaperPlot paper_plot = PaperPlot::kNone;
 };
 

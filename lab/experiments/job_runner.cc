@@ -214,7 +214,8 @@ class Runner {
   JobTask TaskOf(const Item& item) const {
     const Job& job = JobOf(item);
     JobTask task;
-    task.command = {options_.program.string()};
+    const bool by_earlier = PlanOf(item).VariantOf(job).by_earlier;
+    task.command = {(by_earlier ? options_.earlier : options_.program).string()};
     task.command.insert(task.command.end(), job.command.begin(), job.command.end());
     task.folder = job.folder;
     task.name = PlanOf(item).NameOf(job);

@@ -32,6 +32,7 @@ struct RunnerState {
 
 struct RunnerOptions {
   std::filesystem::path program;  // ours
+  std::filesystem::path earlier;  // of variants that are by_earlier
   bool force = false;             // run again what is done
   // A job that takes longer than this is killed. nullopt: a minute, and a second for each frame.
   std::optional<double> time_limit_s = std::nullopt;

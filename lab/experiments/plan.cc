@@ -51,6 +51,19 @@ void CheckSettings(const Experiment& experiment, const std::vector<std::string>&
   }
 }
 
+void CheckEarlier(const Experiment& experiment, const PlanRequest& request) {
+  const auto& variants = experiment.variants;
+  const bool wanted = std::any_of(
+      variants.begin(), variants.end(), [](const Variant& variant) { return variant.by_earlier; });
+  if (wanted && !request.earlier) {
+    throw InputError(experiment.name + ": expected --earlier PROGRAM, found none");
+  }
+  if (!wanted && request.earlier) {
+    throw InputError(experiment.name +
+                     ": takes no --earlier; no variant of it is run by another program");
+  }
+}
+
 bool IsChosen(const std::string& name, const std::vector<std::string>& only) {
   return only.empty() || std::any_of(only.begin(), only.end(), [&](const std::string& pattern) {
            const bool wild = pattern.find_first_of("*?") != std::string::npos;
@@ -97,7 +110,7 @@ Job MakeJob(const ExperimentSequence& sequence,
   job.run = run;
   job.folder = request.out / "runs" / sequence.name / variant.name / std::to_string(run);
   job.key = fmt::format("program {}\nsequence {}: {}\narguments {}\n",
-                        request.program,
+                        variant.by_earlier ? *request.earlier : request.program,
                         sequence.name,
                         sequence.identity,
                         fmt::join(arguments, " "));
@@ -143,6 +156,7 @@ std::string Plan::NameOf(const Job& job) const {
 }
 
 Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
+  CheckEarlier(experiment, request);
   CheckSettings(experiment, request.settings);
   FoundSequences found = FindSequences(experiment.sequences, request.sources);
   Plan plan;
@@ -164,6 +178,10 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
       }
     }
     if (jobs.empty()) continue;
+    if (experiment.exclusive) {
+      std::stable_sort(
+          jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.run < b.run; });
+    }
     plan.sequences.push_back(sequence);
     plan.jobs.insert(plan.jobs.end(), jobs.begin(), jobs.end());
   }

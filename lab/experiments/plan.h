@@ -33,7 +33,8 @@ struct Plan {
   Experiment experiment;
   std::vector<ExperimentSequence> sequences;  // those with a job
   std::vector<std::string> missing;           // that nothing was found for (FoundSequences)
-  std::vector<Job> jobs;                      // by sequence, then variant, then run
+  // By sequence, then variant, then run; where times are measured, by sequence, then run.
+  std::vector<Job> jobs;
   std::filesystem::path out, cache;
 
   const ExperimentSequence& SequenceOf(const Job& job) const { return sequences[job.sequence]; }
@@ -51,12 +52,14 @@ struct PlanRequest {
   std::vector<std::string> only = {};
   // KEY=VALUE for all runs; what a variant sets itself goes before it.
   std::vector<std::string> settings = {};
-  std::string program;  // ProgramId
-  bool full = false;    // the runs of the papers' protocol, without Experiment::test_arguments
+  std::string program;                                // ProgramId
+  std::optional<std::string> earlier = std::nullopt;  // ProgramId, of variants that are by_earlier
+  bool full = false;  // the runs of the papers' protocol, without Experiment::test_arguments
 };
 
-// Lists the jobs of an experiment. Throws InputError where a setting is wrong, nothing is found, or
-// `only` leaves nothing.
+// Lists the jobs of an experiment. Throws InputError where a setting is wrong, nothing is found,
+// `only` leaves nothing, or `earlier` is there without a variant that is by_earlier, or the other
+// way round.
 Plan MakePlan(const Experiment& experiment, const PlanRequest& request);
 
 // The plan of an experiment that computes by itself: one job, the program computing it, whose

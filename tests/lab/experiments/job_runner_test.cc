@@ -63,6 +63,23 @@ TEST(JobRunner, RunsEveryJobOnce) {
   EXPECT_EQ(states.front().current, "euroc/a/one/1");
 }
 
+TEST(JobRunner, RunsAVariantOfAnEarlierProgramByThatProgram) {
+  const ScratchFolder folder;
+  const ScratchFolder other;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.variants[0].by_earlier = true;
+  PlanRequest request = RequestIn(folder);
+  request.earlier = "the earlier one";
+  const Plan plan = MakePlan(experiment, request);
+  RunnerOptions options = FakeProgram(folder, "write_result");
+  options.earlier = FakeProgram(other, "write_result").program;
+  ASSERT_TRUE(RunJobs(plan, options).has_value());
+  EXPECT_EQ(Calls(folder), 2U);
+  EXPECT_EQ(Calls(other), 2U);
+  EXPECT_EQ(Contents(other / "calls").find("/two/"), std::string::npos);
+}
+
 TEST(JobRunner, GoesOnWhereItStopped) {
   const ScratchFolder folder;
   const Plan plan = PlanOfTwo(folder);

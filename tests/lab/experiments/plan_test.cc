@@ -39,6 +39,32 @@ TEST(Plan, HasAJobForEachSequenceVariantAndRun) {
   EXPECT_EQ(plan.jobs[1].folder, folder / "out/runs/euroc/a/one/2");
 }
 
+TEST(Plan, VariantsTakeTurnsWhereTimesAreMeasured) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.exclusive = true;
+  EXPECT_THAT(NamesOf(MakePlan(experiment, RequestIn(folder))),
+              ElementsAre("euroc/a/one/1", "euroc/a/two/1", "euroc/a/one/2", "euroc/a/two/2"));
+}
+
+TEST(Plan, AVariantOfAnEarlierProgramDependsOnThatProgram) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  PlanRequest request = RequestIn(folder);
+  request.earlier = "the earlier one";
+  EXPECT_THAT(MessageOf([&] { MakePlan(experiment, request); }),
+              HasSubstr("pair: takes no --earlier"));
+  experiment.variants[0].by_earlier = true;
+  const Plan plan = MakePlan(experiment, request);
+  EXPECT_THAT(plan.jobs.front().key, HasSubstr("program the earlier one\n"));
+  EXPECT_THAT(plan.jobs.back().key, HasSubstr("program the program\n"));
+  request.earlier.reset();
+  EXPECT_THAT(MessageOf([&] { MakePlan(experiment, request); }),
+              HasSubstr("pair: expected --earlier PROGRAM, found none"));
+}
+
 TEST(Plan, RunKHasSeedKAndBeginsAtFrameKMinusOne) {
   const ScratchFolder folder;
   WriteSequenceFolder(folder, "data/euroc/a");
