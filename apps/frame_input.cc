@@ -15,6 +15,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// False when `go_on` said no before.
+bool WaitUntil(Clock::time_point due, const FrameInput::GoOn& go_on) {
+  constexpr std::chrono::milliseconds kAskEvery(50);
+  while (go_on()) {
+    if (Clock::now() >= due) return true;
+    std::this_thread::sleep_until(std::min(due, Clock::now() + kAskEvery));
+  }
+  return false;
+}
+
 }  // namespace
 
 RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
@@ -30,26 +40,24 @@ RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
       say_(std::move(say)),
       reader_(dataset_) {}
 
-// Waits until a frame is due that was taken `since_first_ns` after the first one.
-bool RecordedInput::WaitFor(std::int64_t since_first_ns, const GoOn& go_on) {
-  constexpr std::chrono::milliseconds kAskEvery(50);
-  if (!live_) return go_on();
-  if (since_first_ns == 0) start_ = Clock::now();
-  const Clock::time_point due = start_ + std::chrono::nanoseconds(since_first_ns);
-  while (go_on()) {
-    if (Clock::now() >= due) return true;
-    std::this_thread::sleep_until(std::min(due, Clock::now() + kAskEvery));
-  }
-  return false;
+// Not before the first one is there.
+Clock::time_point RecordedInput::DueOf(std::size_t frame) const {
+  const std::int64_t since_first_ns =
+      dataset_->stamp_ns(frame) - dataset_->stamp_ns(frames_[first_]);
+  return *start_ + std::chrono::nanoseconds(since_first_ns);
 }
 
 std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   if (position_ >= frames_.size() || !go_on()) return std::nullopt;
   const std::size_t k = frames_[position_++];
+  if (live_ && start_ && !WaitUntil(DueOf(k) - reading_.Enough(), go_on)) return std::nullopt;
+  const Clock::time_point begin = Clock::now();
   const auto read = reader_.Read(k, go_on);
   if (!read) return std::nullopt;
+  reading_.Add(Clock::now() - begin);
+  if (!start_) start_ = Clock::now();
+  if (!(live_ ? WaitUntil(DueOf(k), go_on) : go_on())) return std::nullopt;
   InputFrame next{dataset_->stamp_ns(k), std::nullopt, ""};
-  if (!WaitFor(next.stamp_ns - dataset_->stamp_ns(frames_[first_]), go_on)) return std::nullopt;
   if (*read) {
     next.frame = **read;
     return next;

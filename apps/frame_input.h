@@ -10,6 +10,7 @@
 
 #include "apps/frame_reader.h"
 #include "apps/patient_reader.h"
+#include "apps/reading_time.h"
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -58,17 +59,21 @@ class RecordedInput : public FrameInput {
                 RunMode mode,
                 Say say);
   std::optional<InputFrame> Next(const GoOn& go_on) override;
-  void Delay(std::chrono::steady_clock::duration pause) override { start_ += pause; }
+  void Delay(std::chrono::steady_clock::duration pause) override {
+    if (start_) *start_ += pause;
+  }
 
  private:
-  bool WaitFor(std::int64_t since_first_ns, const GoOn& go_on);
+  std::chrono::steady_clock::time_point DueOf(std::size_t frame) const;
 
   std::shared_ptr<const Dataset> dataset_;
   std::vector<std::size_t> frames_;
   std::size_t first_, position_;
   bool live_;
   Say say_;
-  std::chrono::steady_clock::time_point start_;  // when the first one was due
+  // When the first one was due.
+  std::optional<std::chrono::steady_clock::time_point> start_;
+  ReadingTime reading_;
   FrameReader reader_;
 };
 
