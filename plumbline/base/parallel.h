@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/helper_thread.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -10,6 +12,45 @@
 #include <vector>
 
 namespace plumbline {
+
+// Calls of fn(i) for i in [0, n) that several threads share.
+template <class Function>
+class SharedCalls {
+ public:
+  SharedCalls(int n, const Function& fn) : n_(n), fn_(fn), failed_index_(n) {}
+
+  // Does one after the other until none is left; called in every thread that takes part.
+  void Work() {
+    for (int i = next_.fetch_add(1); i < n_; i = next_.fetch_add(1)) {
+      try {
+        fn_(i);
+      } catch (...) {  // rethrown in the caller's thread
+        KeepFailure(i);
+        next_.store(n_);
+      }
+    }
+  }
+
+  // After all threads: the exception of the least i, if there is one.
+  void Rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void KeepFailure(int i) {
+    const std::lock_guard lock(mutex_);
+    if (i >= failed_index_) return;
+    failed_index_ = i;
+    failure_ = std::current_exception();
+  }
+
+  const int n_;
+  const Function& fn_;
+  std::atomic<int> next_{0};
+  std::mutex mutex_;
+  int failed_index_;
+  std::exception_ptr failure_;
+};
 
 // Calls fn(i) once for every i in [0, n), on up to `threads` threads (the caller's among them);
 // threads <= 1 runs in the caller's thread, in order. fn(i) may write only what belongs to i, so
@@ -23,32 +64,23 @@ void ParallelFor(int n, int threads, const Function& fn) {
     for (int i = 0; i < n; ++i) fn(i);
     return;
   }
-  std::atomic<int> next{0};
-  std::mutex mutex;
-  int failed_index = n;
-  std::exception_ptr failure;
-  const auto keep_failure = [&](int i) {
-    const std::lock_guard lock(mutex);
-    if (i >= failed_index) return;
-    failed_index = i;
-    failure = std::current_exception();
-  };
-  const auto work = [&] {
-    for (int i = next.fetch_add(1); i < n; i = next.fetch_add(1)) {
-      try {
-        fn(i);
-      } catch (...) {  // rethrown in the caller's thread below
-        keep_failure(i);
-        next.store(n);
-      }
-    }
-  };
+  SharedCalls<Function> calls(n, fn);
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(threads, n); ++i) helpers.emplace_back(work);
-    work();
+    for (int i = 1; i < std::min(threads, n); ++i) helpers.emplace_back([&] { calls.Work(); });
+    calls.Work();
   }
-  if (failure) std::rethrow_exception(failure);
+  calls.Rethrow();
+}
+
+// The same in the caller's thread and that of the helper, where there is one that has time.
+template <class Function>
+void ParallelFor(int n, HelperThread* helper, const Function& fn) {
+  SharedCalls<Function> calls(n, fn);
+  const bool helped = helper != nullptr && n > 1 && helper->Ask([&] { calls.Work(); });
+  calls.Work();
+  if (helped) helper->Finish();
+  calls.Rethrow();
 }
 
 // The results fn(0), ..., fn(n - 1) in this order. The type of the results needs a default value.

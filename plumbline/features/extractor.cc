@@ -54,11 +54,13 @@ const ValidRegion& RegionOf(const ValidRegion* given, const ValidRegion& whole) 
 }
 
 // The left view and, for stereo, what its points need of the right one.
-std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureOptions& options) {
+std::array<SingleView, 2> ExtractViews(const FeatureInput& input,
+                                       const FeatureOptions& options,
+                                       HelperThread* helper) {
   std::array<SingleView, 2> views;
   const ValidRegion whole(input.left->width(), input.left->height());
   const std::array tasks{ExtractPoints, ExtractLines, BuildPyramidOnly};
-  ParallelFor(input.right ? 3 : 2, options.parallel ? 2 : 1, [&](int task) {
+  ParallelFor(input.right ? 3 : 2, helper, [&](int task) {
     const bool left = task < 2;
     const GrayImage& image = left ? *input.left : *input.right;
     const ValidRegion* valid = left ? input.left_valid : input.right_valid;
@@ -71,14 +73,15 @@ std::array<SingleView, 2> ExtractViews(const FeatureInput& input, const FeatureO
 std::vector<std::optional<Disparity>> MatchRightPoints(const RectifiedCamera& camera,
                                                        const FeatureInput& input,
                                                        const std::array<SingleView, 2>& views,
-                                                       const FeatureOptions& options) {
+                                                       const FeatureOptions& options,
+                                                       HelperThread* helper) {
   const auto& [left, right] = views;
   const ValidRegion whole(camera.width, camera.height);
   return MatchStereoPoints(camera,
                            left.points,
                            {left.pyramid, right.pyramid, RegionOf(input.right_valid, whole)},
                            options.stereo_points,
-                           options.parallel ? 2 : 1);
+                           helper);
 }
 
 std::vector<std::optional<RightLine>> MatchRightLines(const RectifiedCamera& camera,
@@ -104,13 +107,17 @@ void CheckInput(const RectifiedCamera& camera, const FeatureInput& input) {
 
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
-                         const FeatureOptions& options) {
+                         const FeatureOptions& options,
+                         HelperThread* helper) {
   CheckInput(camera, input);
-  std::array<SingleView, 2> views = ExtractViews(input, options);
+  std::optional<HelperThread> made;
+  if (options.parallel && helper == nullptr) helper = &made.emplace();
+  if (!options.parallel) helper = nullptr;
+  std::array<SingleView, 2> views = ExtractViews(input, options, helper);
   SingleView& left = views[0];
   Features features;
   if (input.right) {
-    features.point_disparity = MatchRightPoints(camera, input, views, options);
+    features.point_disparity = MatchRightPoints(camera, input, views, options, helper);
   } else if (input.depth) {
     features.point_disparity = PointDisparities(camera, *input.depth, left.points, options.depth);
   }

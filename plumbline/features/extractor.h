@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/helper_thread.h"
 #include "plumbline/base/options.h"
 #include "plumbline/features/depth_disparity.h"
 #include "plumbline/features/line_detection.h"
@@ -45,9 +46,11 @@ struct FeatureInput {
 // What the pose of a frame is found from: points and lines of the left image, and for stereo and
 // RGB-D the disparities of the points, rounded to single precision. No line has a right line.
 // Images must have the size of the camera (BugError otherwise). Same input, same bytes.
+// With options.parallel the work is shared with the helper, or with one made for the call.
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
-                         const FeatureOptions& options);
+                         const FeatureOptions& options,
+                         HelperThread* helper = nullptr);
 
 // Where the lines that ExtractFeatures found are in the right image, or would be by the depth image
 // (see Features::line_right), rounded to single precision; one entry for each line. New landmarks

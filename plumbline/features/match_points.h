@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/helper_thread.h"
 #include "plumbline/base/options.h"
 #include "plumbline/features/types.h"
 #include "plumbline/features/valid_region.h"
@@ -61,13 +62,13 @@ struct StereoPyramids {
 // window free. Its pixels weigh the less the further they are from the corner, and windows of
 // coarse levels are smaller, against errors at depth edges. sigma_px comes from the curvature and
 // the residual of that correlation. Matches whose residual is far above the median are dropped.
-// Disparities are 0 < d <= fx * baseline / min_depth. Up to `threads` threads share the levels;
-// same result with any number.
+// Disparities are 0 < d <= fx * baseline / min_depth. A helper shares
+// the levels; same result with and without.
 std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
                                                         const std::vector<PointFeature>& points,
                                                         const StereoPyramids& pyramids,
                                                         const StereoPointOptions& options,
-                                                        int threads = 1);
+                                                        HelperThread* helper = nullptr);
 
 template <class Visitor>
 void VisitFields(Visitor&& visit, StereoPointOptions& o) {

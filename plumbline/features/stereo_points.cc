@@ -232,7 +232,7 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
                                                         const std::vector<PointFeature>& points,
                                                         const StereoPyramids& pyramids,
                                                         const StereoPointOptions& options,
-                                                        int threads) {
+                                                        HelperThread* helper) {
   const ImagePyramid& left = pyramids.left;
   const ImagePyramid& right = pyramids.right;
   PLUMBLINE_CHECK(camera.baseline > 0, "stereo needs a baseline");
@@ -240,7 +240,7 @@ std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& c
   PLUMBLINE_CHECK(options.window_px > 0 && options.window_px <= kMaxWindow,
                   "size of the correlation window");
   std::vector<std::optional<Found>> matches(points.size());
-  ParallelFor(static_cast<int>(left.size()), threads, [&](int octave) {
+  ParallelFor(static_cast<int>(left.size()), helper, [&](int octave) {
     const auto level = static_cast<std::size_t>(octave);
     const auto in_octave = [&](const PointFeature& point) { return point.octave == octave; };
     if (std::none_of(points.begin(), points.end(), in_octave)) return;

@@ -3,6 +3,7 @@
 #include "plumbline/image/rectify.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/bilinear_map.h"
 #include "plumbline/image/opencv_bridge.h"
@@ -228,19 +229,28 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
   camera_.baseline = baseline;
 }
 
-RectifiedFrame Rectifier::Apply(SensorFrame frame) const {
+RectifiedFrame Rectifier::Apply(SensorFrame frame, HelperThread* helper) const {
   RectifiedFrame result;
   result.stamp_ns = frame.stamp_ns;
   CheckSize(frame.left, calibration_.left, "left");
-  result.left = left_maps_ ? left_maps_->linear.Apply(frame.left) : std::move(frame.left);
   if (frame.right && calibration_.right) {
     CheckSize(*frame.right, *calibration_.right, "right");
-    result.right = right_maps_ ? right_maps_->linear.Apply(*frame.right) : std::move(*frame.right);
+    result.right.emplace();
   }
   if (frame.depth && calibration_.depth_factor) {
     CheckSize(*frame.depth, calibration_.left, "depth");
-    result.depth = left_maps_ ? left_maps_->Apply(*frame.depth) : std::move(*frame.depth);
+    result.depth.emplace();
   }
+  ParallelFor(3, helper, [&](int image) {
+    if (image == 0) {
+      result.left = left_maps_ ? left_maps_->linear.Apply(frame.left) : std::move(frame.left);
+    } else if (image == 1 && result.right) {
+      *result.right =
+          right_maps_ ? right_maps_->linear.Apply(*frame.right) : std::move(*frame.right);
+    } else if (image == 2 && result.depth) {
+      *result.depth = left_maps_ ? left_maps_->Apply(*frame.depth) : std::move(*frame.depth);
+    }
+  });
   return result;
 }
 

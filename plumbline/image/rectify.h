@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/helper_thread.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/image/image.h"
@@ -50,8 +51,9 @@ class Rectifier {
   // interpolation at 1/32 px, depth by the nearest neighbour. Pixels from beyond the raw image
   // repeat its border (depth: 0). A right or depth image that the calibration does not know is
   // dropped, one that is missing stays missing. Throws InputError on images of another size than
-  // calibrated. One thread may call it while others do.
-  RectifiedFrame Apply(SensorFrame frame) const;
+  // calibrated. One thread may call it while others do. A helper
+  // takes one of two images.
+  RectifiedFrame Apply(SensorFrame frame, HelperThread* helper = nullptr) const;
 
   // 255 where all of a pixel comes from real pixels, 0 where not; same size as the images. Edges
   // along its border are not edges of the scene.

@@ -15,6 +15,7 @@ ValidRegion RegionOf(const GrayImage& mask) {
 
 FrontEnd::FrontEnd(const Calibration& calibration, const FeatureOptions& features)
     : options_(features),
+      helper_(features.parallel ? std::make_unique<HelperThread>() : nullptr),
       rectifier_(calibration),
       left_valid_(RegionOf(rectifier_.left_mask())),
       right_valid_(RegionOf(rectifier_.right_mask())) {}
@@ -46,11 +47,12 @@ MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, Shed shed) 
   MeasuredFrame measured;
   measured.shed = shed;
   measured.stamp_ns = frame.stamp_ns;
-  measured.images = rectifier_.Apply(std::move(frame));
+  measured.images = rectifier_.Apply(std::move(frame), helper_.get());
   clock.Done("rectify");
   const RectifiedCamera& camera = rectifier_.camera();
   measured.indexed = IndexFeatures(
-      camera, ExtractFeatures(camera, InputOf(measured.images), Lightened(options_, shed)));
+      camera,
+      ExtractFeatures(camera, InputOf(measured.images), Lightened(options_, shed), helper_.get()));
   clock.Done("features");
   measured.clock = std::move(clock);
   return measured;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/helper_thread.h"
 #include "plumbline/features/extractor.h"
 #include "plumbline/features/valid_region.h"
 #include "plumbline/geometry/calibration.h"
@@ -50,6 +51,7 @@ class FrontEnd {
   FeatureInput InputOf(const RectifiedFrame& images) const;
 
   FeatureOptions options_;
+  std::unique_ptr<HelperThread> helper_;  // none where features are measured in one thread
   Rectifier rectifier_;
   ValidRegion left_valid_;
   ValidRegion right_valid_;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/helper_thread.h"
 #include "plumbline/features/match_points.h"
 #include "plumbline/features/orb.h"
 
@@ -66,11 +67,12 @@ TEST(StereoPoints, AreNotFoundInTheInventedBorderOfTheRightImage) {
   constexpr int kBorder = kWidth / 2;
   GrayImage mask(kWidth, kHeight, 255);
   for (int y = 0; y < kHeight; ++y) std::fill_n(mask.row(y), kBorder, std::uint8_t{0});
+  HelperThread helper;
   const auto disparities = MatchStereoPoints(TestCamera(kWidth, kHeight),
                                              left.points,
                                              {left.pyramid, right.pyramid, ValidRegion(mask)},
                                              {},
-                                             2);
+                                             &helper);
   int found = 0;
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     if (!disparities[i]) continue;
