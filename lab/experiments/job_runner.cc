@@ -16,6 +16,7 @@
 #include <fstream>
 #include <map>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -157,8 +158,14 @@ class Runner {
       }
       if (open_[p] == 0) Finish(p);
     }
-    std::stable_partition(waiting_.begin(), waiting_.end(), [this](const Item& item) {
-      return !PlanOf(item).experiment.exclusive;
+    const auto timed =
+        std::stable_partition(waiting_.begin(), waiting_.end(), [this](const Item& item) {
+          return !PlanOf(item).experiment.exclusive;
+        });
+    // The variants of a sequence take turns.
+    std::stable_sort(timed, waiting_.end(), [this](const Item& a, const Item& b) {
+      return std::tuple(a.plan, JobOf(a).sequence, JobOf(a).run) <
+             std::tuple(b.plan, JobOf(b).sequence, JobOf(b).run);
     });
   }
 

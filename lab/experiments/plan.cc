@@ -178,10 +178,6 @@ Plan MakePlan(const Experiment& experiment, const PlanRequest& request) {
       }
     }
     if (jobs.empty()) continue;
-    if (experiment.exclusive) {
-      std::stable_sort(
-          jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.run < b.run; });
-    }
     plan.sequences.push_back(sequence);
     plan.jobs.insert(plan.jobs.end(), jobs.begin(), jobs.end());
   }

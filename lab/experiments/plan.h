@@ -33,8 +33,7 @@ struct Plan {
   Experiment experiment;
   std::vector<ExperimentSequence> sequences;  // those with a job
   std::vector<std::string> missing;           // that nothing was found for (FoundSequences)
-  // By sequence, then variant, then run; where times are measured, by sequence, then run.
-  std::vector<Job> jobs;
+  std::vector<Job> jobs;                      // by sequence, then variant, then run
   std::filesystem::path out, cache;
 
   const ExperimentSequence& SequenceOf(const Job& job) const { return sequences[job.sequence]; }

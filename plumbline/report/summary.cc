@@ -67,6 +67,18 @@ Json Timing(const FrameLog& frames) {
   return json;
 }
 
+// The most memory of this program. Not ru_maxrss: that also counts what the process had before it
+// became this program, which is the memory of whoever started it.
+double PeakMemoryMb() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kilobytes = 0;
+  while (status >> word) {
+    if (word == "VmHWM:" && status >> kilobytes) break;
+  }
+  return kilobytes / 1024;
+}
+
 }  // namespace
 
 ResourceUse MeasureResources() {
@@ -77,7 +89,7 @@ ResourceUse MeasureResources() {
   };
   ResourceUse use;
   use.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  use.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  use.peak_memory_mb = PeakMemoryMb();
   return use;
 }
 

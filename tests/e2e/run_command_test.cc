@@ -55,6 +55,20 @@ TEST(Run, WritesTheSameBytesEveryTime) {
   }
 }
 
+TEST(Run, ThePeakOfMemoryIsNotThatOfWhoeverStartedIt) {
+  constexpr std::size_t kMegabytes = 512;
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 5);
+  const std::vector<char> ballast(kMegabytes << 20, 1);
+  const pid_t child = StartProgram({"run", sequence.string(), "--out", (folder / "run").string()});
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_EQ(WEXITSTATUS(status), 0);
+  const auto summary = nlohmann::json::parse(Contents(folder / "run/summary.json"));
+  EXPECT_GT(summary["peak_memory_mb"], 10);
+  EXPECT_LT(summary["peak_memory_mb"], kMegabytes - 100) << ballast.back();
+}
+
 // How many frames it has time for is up to the machine, but each of them has its row.
 TEST(Run, LiveAccountsForEveryFrame) {
   const ScratchFolder folder;

@@ -63,6 +63,18 @@ TEST(JobRunner, RunsEveryJobOnce) {
   EXPECT_EQ(states.front().current, "euroc/a/one/1");
 }
 
+TEST(JobRunner, LetsVariantsTakeTurnsWhereTimesAreMeasured) {
+  const ScratchFolder folder;
+  WriteSequenceFolder(folder, "data/euroc/a");
+  Experiment experiment = TwoVariants();
+  experiment.exclusive = true;
+  const Plan plan = MakePlan(experiment, RequestIn(folder));
+  ASSERT_TRUE(RunJobs(plan, FakeProgram(folder, "write_result")).has_value());
+  const std::string runs = (folder / "out/runs/euroc/a").string();
+  EXPECT_EQ(Contents(folder / "calls"),
+            fmt::format("{0}/one/1\n{0}/two/1\n{0}/one/2\n{0}/two/2\n", runs));
+}
+
 TEST(JobRunner, RunsAVariantOfAnEarlierProgramByThatProgram) {
   const ScratchFolder folder;
   const ScratchFolder other;

@@ -39,15 +39,6 @@ TEST(Plan, HasAJobForEachSequenceVariantAndRun) {
   EXPECT_EQ(plan.jobs[1].folder, folder / "out/runs/euroc/a/one/2");
 }
 
-TEST(Plan, VariantsTakeTurnsWhereTimesAreMeasured) {
-  const ScratchFolder folder;
-  WriteSequenceFolder(folder, "data/euroc/a");
-  Experiment experiment = TwoVariants();
-  experiment.exclusive = true;
-  EXPECT_THAT(NamesOf(MakePlan(experiment, RequestIn(folder))),
-              ElementsAre("euroc/a/one/1", "euroc/a/two/1", "euroc/a/one/2", "euroc/a/two/2"));
-}
-
 TEST(Plan, AVariantOfAnEarlierProgramDependsOnThatProgram) {
   const ScratchFolder folder;
   WriteSequenceFolder(folder, "data/euroc/a");
