@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// False when `go_on` said no before.
+// Waits until it is `due`. Returns false where `go_on` says no before that.
 bool WaitUntil(Clock::time_point due, const FrameInput::GoOn& go_on) {
   constexpr std::chrono::milliseconds kAskEvery(50);
   while (go_on()) {
@@ -40,7 +40,7 @@ RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
       say_(std::move(say)),
       reader_(dataset_) {}
 
-// Not before the first one is there.
+// When a frame is due. May be asked only after the first frame has been read, which sets the start.
 Clock::time_point RecordedInput::DueOf(std::size_t frame) const {
   const std::int64_t since_first_ns =
       dataset_->stamp_ns(frame) - dataset_->stamp_ns(frames_[first_]);

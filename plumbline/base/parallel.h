@@ -73,7 +73,8 @@ void ParallelFor(int n, int threads, const Function& fn) {
   calls.Rethrow();
 }
 
-// The same in the caller's thread and that of the helper, where there is one that has time.
+// Calls fn(i) once for every i in [0, n), in the caller's thread and in the helper's where it is
+// free.
 template <class Function>
 void ParallelFor(int n, HelperThread* helper, const Function& fn) {
   SharedCalls<Function> calls(n, fn);

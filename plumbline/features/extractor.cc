@@ -111,8 +111,11 @@ Features ExtractFeatures(const RectifiedCamera& camera,
                          HelperThread* helper) {
   CheckInput(camera, input);
   std::optional<HelperThread> made;
-  if (options.parallel && helper == nullptr) helper = &made.emplace();
-  if (!options.parallel) helper = nullptr;
+  if (!options.parallel) {
+    helper = nullptr;
+  } else if (helper == nullptr) {
+    helper = &made.emplace();
+  }
   std::array<SingleView, 2> views = ExtractViews(input, options, helper);
   SingleView& left = views[0];
   Features features;

@@ -62,8 +62,8 @@ struct StereoPyramids {
 // window free. Its pixels weigh the less the further they are from the corner, and windows of
 // coarse levels are smaller, against errors at depth edges. sigma_px comes from the curvature and
 // the residual of that correlation. Matches whose residual is far above the median are dropped.
-// Disparities are 0 < d <= fx * baseline / min_depth. A helper shares
-// the levels; same result with and without.
+// Disparities are 0 < d <= fx * baseline / min_depth. A helper shares the levels; the
+// result is the same with and without one.
 std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
                                                         const std::vector<PointFeature>& points,
                                                         const StereoPyramids& pyramids,

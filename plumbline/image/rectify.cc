@@ -241,13 +241,17 @@ RectifiedFrame Rectifier::Apply(SensorFrame frame, HelperThread* helper) const {
     CheckSize(*frame.depth, calibration_.left, "depth");
     result.depth.emplace();
   }
-  ParallelFor(3, helper, [&](int image) {
+  const bool left_alone = !result.right && !result.depth;
+  ParallelFor(left_alone ? 1 : 2, helper, [&](int image) {
     if (image == 0) {
       result.left = left_maps_ ? left_maps_->linear.Apply(frame.left) : std::move(frame.left);
-    } else if (image == 1 && result.right) {
+      return;
+    }
+    if (result.right) {
       *result.right =
           right_maps_ ? right_maps_->linear.Apply(*frame.right) : std::move(*frame.right);
-    } else if (image == 2 && result.depth) {
+    }
+    if (result.depth) {
       *result.depth = left_maps_ ? left_maps_->Apply(*frame.depth) : std::move(*frame.depth);
     }
   });

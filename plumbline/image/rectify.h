@@ -51,8 +51,8 @@ class Rectifier {
   // interpolation at 1/32 px, depth by the nearest neighbour. Pixels from beyond the raw image
   // repeat its border (depth: 0). A right or depth image that the calibration does not know is
   // dropped, one that is missing stays missing. Throws InputError on images of another size than
-  // calibrated. One thread may call it while others do. A helper
-  // takes one of two images.
+  // calibrated. One thread may call it while others do. A helper takes
+  // the right or depth image.
   RectifiedFrame Apply(SensorFrame frame, HelperThread* helper = nullptr) const;
 
   // 255 where all of a pixel comes from real pixels, 0 where not; same size as the images. Edges
