@@ -22,6 +22,7 @@ Eigen::Matrix<double, N, 1> EigenvaluesOf(const Eigen::Matrix<double, N, N>& sym
 template Eigenpairs<2> EigenpairsOf(const Eigen::Matrix<double, 2, 2>&);
 template Eigenpairs<3> EigenpairsOf(const Eigen::Matrix<double, 3, 3>&);
 template Eigenpairs<4> EigenpairsOf(const Eigen::Matrix<double, 4, 4>&);
+template Eigenpairs<5> EigenpairsOf(const Eigen::Matrix<double, 5, 5>&);
 template Eigenpairs<6> EigenpairsOf(const Eigen::Matrix<double, 6, 6>&);
 template Eigenpairs<9> EigenpairsOf(const Eigen::Matrix<double, 9, 9>&);
 template Eigen::Matrix<double, 2, 1> EigenvaluesOf(const Eigen::Matrix<double, 2, 2>&);

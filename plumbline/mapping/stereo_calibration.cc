@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/stereo_calibration.h"
 
+#include "plumbline/geometry/eigenpairs.h"
 #include "plumbline/geometry/triangulation.h"
 
 #include <algorithm>
@@ -50,6 +51,24 @@ struct KeyFrameEvidence {
     weighted += weight * displacement * row;
   }
 };
+
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
+// Takes out of coefficients what their noise explains. In the basis whose parts are independent,
+// over the evidence and in their errors, each part is shrunk by 1 - variance / square, or to zero.
+//   covariance    of the coefficients
+//   mean_squares  what coefficients make of the mean square of the correction over all evidence
+Vector5d WithoutNoise(const Vector5d& coefficients,
+                      const Matrix5d& covariance,
+                      const Matrix5d& mean_squares) {
+  const Eigen::LLT<Matrix5d> root(covariance);
+  const Matrix5d lower = root.matrixL();
+  const Matrix5d basis = lower * EigenpairsOf<5>(lower.transpose() * mean_squares * lower).vectors;
+  Vector5d parts = basis.inverse() * coefficients;  // each with a variance of 1
+  for (double& part : parts) part *= std::max(0.0, 1 - 1 / (part * part));
+  return basis * parts;
+}
 
 std::vector<PointView> LeftViews(const Map& map, const MapPoint& point) {
   std::vector<PointView> views;
@@ -105,12 +124,18 @@ StereoCorrection StereoCalibrator::Estimate() const {
   if (moments(0, 0) == 0) return {};
   const double prior_sigma_px = kPriorSigma * camera_.width;
   const Matrix6d prior = Matrix6d::Identity() / (prior_sigma_px * prior_sigma_px);
-  Vector6d k = (information + prior).llt().solve(weighted);
-  k(0) = -moments.row(0).tail<5>().dot(k.tail<5>()) / moments(0, 0);
-  const double square = k.dot(moments * k) / moments(0, 0);
+  const Matrix6d covariance = (information + prior).llt().solve(Matrix6d::Identity());
+  const Vector6d learned = covariance * weighted;
+  const Vector5d means = moments.col(0).tail<5>() / moments(0, 0);
+  const Matrix5d mean_squares =
+      moments.bottomRightCorner<5, 5>() / moments(0, 0) - means * means.transpose();
+  const Vector5d bends =
+      WithoutNoise(learned.tail<5>(), covariance.bottomRightCorner<5, 5>(), mean_squares);
+  const double square = bends.dot(mean_squares * bends);
   if (square <= kBiasPx * kBiasPx) return {};
-  k *= 1 - kBiasPx * kBiasPx / square;
-  return {camera_, k};
+  Vector6d k;
+  k << -means.dot(bends), bends;
+  return {camera_, (1 - kBiasPx * kBiasPx / square) * k};
 }
 
 }  // namespace plumbline

@@ -19,10 +19,12 @@ namespace plumbline {
 // ones above. Points alone: where there are none, lines learned a correction that bent the map. A
 // normal distribution for each coefficient, its deviation 4e-4 of the image's width, comes before
 // all evidence; the evidence enters under the Huber loss. The mean of c over all evidence is left
-// as it is: the scale of the map, which hangs on it, is the calibration's to say. Corners at the
-// edges of things have biased disparities, too, some hundredths of a pixel in the mean: c is shrunk
-// by 1 - (0.04 px / rms of c)^2 (James and Stein 1961, positive part), so that a good calibration
-// stays as it is.
+// as it is: the scale of the map, which hangs on it, is the calibration's to say. What remains of c
+// has five independent parts (common eigenvectors of its covariance and of its mean square). Each
+// is shrunk by 1 - variance / square, to zero where that is negative (James and Stein 1961,
+// positive part), so that little evidence changes little. Corners at the edges of things have
+// biased disparities, too, some hundredths of a pixel in the mean: the whole of c is then shrunk by
+// 1 - (0.04 px / rms of c)^2, so that a good calibration stays as it is.
 class StereoCalibrator {
  public:
   explicit StereoCalibrator(const RectifiedCamera& camera);

@@ -148,6 +148,44 @@ TEST(StereoCalibrator, LeavesTheScaleOfTheMapAlone) {
   EXPECT_EQ(Learn(world, scaled), StereoCorrection());
 }
 
+// Evidence at places all over the right image that found these coefficients with this deviation.
+StereoEvidence EvidenceOf(const RectifiedCamera& camera,
+                          const Vector6d& coefficients,
+                          double sigma) {
+  StereoEvidence evidence;
+  for (int x = 20; x < camera.width; x += 40) {
+    for (int y = 20; y < camera.height; y += 40) {
+      const Vector6d terms = StereoCorrection::Terms(camera, Eigen::Vector2d(x, y));
+      evidence.moments += terms * terms.transpose() / (sigma * sigma);
+    }
+  }
+  evidence.information = evidence.moments;
+  evidence.weighted = evidence.information * coefficients;
+  return evidence;
+}
+
+TEST(StereoCalibrator, BelievesWhatItsEvidenceIsSureOf) {
+  const RectifiedCamera camera = TestCamera();
+  Vector6d k;
+  k << 0, 0.5, 0, 0, 0, 0;
+  StereoCalibrator calibrator(camera);
+  calibrator.SetEvidence(EvidenceOf(camera, k, 0.1));
+  EXPECT_NEAR(calibrator.Estimate().coefficients()(1), 0.5, 0.05);
+  calibrator.SetEvidence(EvidenceOf(camera, k, 20));
+  EXPECT_EQ(calibrator.Estimate(), StereoCorrection());
+}
+
+TEST(StereoCalibrator, LeavesOutPartsThatMayBeNoise) {
+  const RectifiedCamera camera = TestCamera();
+  Vector6d k;
+  k << 0, 0.5, 0.02, 0, 0, 0;
+  StereoCalibrator calibrator(camera);
+  calibrator.SetEvidence(EvidenceOf(camera, k, 1));
+  const Vector6d found = calibrator.Estimate().coefficients();
+  EXPECT_GT(found(1), 0.35);
+  EXPECT_LT(std::abs(found(2)), 0.01);
+}
+
 TEST(StereoCalibrator, HasNoOpinionWithoutEvidence) {
   EXPECT_EQ(StereoCalibrator(TestCamera()).Estimate(), StereoCorrection());
   const SyntheticWorld world = MakeSyntheticWorld(100, 50);
