@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/front_end.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace plumbline {
@@ -36,6 +37,11 @@ std::shared_ptr<const IndexedFeatures> FrontEnd::WithRightLines(
     const RectifiedFrame& images,
     Shed shed,
     const std::shared_ptr<const IndexedFeatures>& indexed) const {
+  const auto& known = indexed->features.line_right;
+  if (std::any_of(
+          known.begin(), known.end(), [](const auto& right) { return right.has_value(); })) {
+    return indexed;
+  }
   return plumbline::WithRightLines(indexed,
                                    FindRightLines(rectifier_.camera(),
                                                   InputOf(images),

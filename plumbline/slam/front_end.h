@@ -39,7 +39,8 @@ class FrontEnd {
 
   // Features of a frame, which may have been corrected since they were measured, with the places of
   // its lines in the right image: what landmarks are made of, beside what a pose is found from.
-  // `shed` is that of Measure.
+  // They are looked for once: features that have such places are returned as they are. `shed` is
+  // that of Measure.
   std::shared_ptr<const IndexedFeatures> WithRightLines(
       const RectifiedFrame& images,
       Shed shed,

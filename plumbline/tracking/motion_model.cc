@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/tracking/motion_model.h"
 
+#include "plumbline/optimization/pose_sigma.h"
+
 namespace plumbline {
 namespace {
 
@@ -25,6 +27,10 @@ PosePrior MotionModel::Predict(const Rigid3& last_pose, double seconds) const {
 void MotionModel::Observe(const Rigid3& last_pose, const PoseEstimate& pose, double seconds) {
   velocity_ = LogSe3(pose.cam_from_world * Inverse(last_pose)) / seconds;
   spread_ = Spread{pose.information.inverse(), pose.scene_depth};
+}
+
+bool MotionModel::LastPoseIsKnownTo(double limit) const {
+  return spread_ && SigmaOfPose(spread_->covariance.inverse(), spread_->scene_depth).AtMost(limit);
 }
 
 void MotionModel::Begin(const Vector6d& velocity) {

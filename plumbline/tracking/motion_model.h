@@ -29,6 +29,8 @@ class MotionModel {
   void ChangeUnit(double scale);
 
   bool IsKnown() const { return velocity_.has_value(); }
+  // Whether the deviations of the last pose (SigmaOfPose) are known and at most `limit`.
+  bool LastPoseIsKnownTo(double limit) const;
 
   // All that it keeps from frame to frame (base/byte_format.h).
   template <class Self, class Visitor>

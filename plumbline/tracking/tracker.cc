@@ -11,6 +11,10 @@
 namespace plumbline {
 namespace {
 
+// Where the last pose is known to these deviations (PoseSigma), lines of the left image alone are
+// enough for the next one.
+constexpr double kEnoughForLeftLines = 3e-4;
+
 // Whether association a is to be preferred. The one that shows more of the map is, unless the other
 // shows twice as much in all: things that move have many landmarks made on the spot, but after a
 // fast motion little of the map is left in the image.
@@ -297,15 +301,16 @@ TrackingResult Tracker::StartMap(Frame frame) {
 }
 
 bool Tracker::NeedsRightLines() const {
-  return !monocular_ && (state_ == TrackerState::kInitializing || IsOdometry());
+  if (monocular_) return false;
+  return state_ == TrackerState::kInitializing || IsOdometry() ||
+         !motion_.LastPoseIsKnownTo(kEnoughForLeftLines);
 }
 
 bool Tracker::WantsRightLines(const TrackingResult& result) const {
   if (monocular_ || IsOdometry() || result.starts_map || !result.cam_from_world) {
     return false;
   }
-  const int inliers = result.counts.inlier_points + result.counts.inlier_lines;
-  return result.keyframe || inliers < options_.enough_inliers;
+  return result.keyframe || !motion_.LastPoseIsKnownTo(kEnoughForLeftLines);
 }
 
 void Tracker::Complete(const std::shared_ptr<const IndexedFeatures>& whole,

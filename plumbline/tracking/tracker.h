@@ -121,12 +121,13 @@ class Tracker {
                        const LiveConditions& live = {});
 
   // Returns whether the next frame must know where its lines are in the right image before it is
-  // tracked, which features do not tell by themselves (ExtractFeatures): a frame that starts a map,
-  // or stands for the map (TrackingReference::kLastFrame), makes landmarks of them.
+  // tracked, which features do not tell by themselves (ExtractFeatures). A frame that starts a map,
+  // or stands for the map (TrackingReference::kLastFrame), makes landmarks of them. Where the last
+  // pose is known less well than usual, the next one gets all that its lines tell.
   bool NeedsRightLines() const;
   // Returns whether landmarks are made of the lines of the last frame, whose result is given: the
-  // frame became a keyframe, or it agreed with so little of the map that the next one has to be
-  // found by its lines.
+  // frame became a keyframe, or its pose is known less well than usual, so that the next one has to
+  // be found by its lines.
   bool WantsRightLines(const TrackingResult& result) const;
   // Puts features with right lines in place of those of the last frame, its result and the keyframe
   // that it became.

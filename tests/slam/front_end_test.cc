@@ -38,6 +38,7 @@ TEST(FrontEnd, FindsLinesInTheRightImageWhenAsked) {
   ASSERT_EQ(whole->features.line_right.size(), whole->features.lines.size());
   EXPECT_GT(found(*whole), 15);
   EXPECT_EQ(whole->features.points.size(), measured.indexed->features.points.size());
+  EXPECT_EQ(front_end.WithRightLines(measured.images, measured.shed, whole), whole);
 }
 
 TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {

@@ -51,6 +51,18 @@ TEST(MotionModel, KnowsLessTheLongerAgoTheLastFrameIs) {
   EXPECT_NEAR(soon(5), 4 * soon(0), 0.1 * soon(5));  // translations in the unit of the depth
 }
 
+TEST(MotionModel, TellsHowWellTheLastPoseIsKnown) {
+  MotionModel motion;
+  EXPECT_FALSE(motion.LastPoseIsKnownTo(1));
+  motion.Observe(Rigid3{}, EstimateAt(Rigid3{}), kFrameSeconds);  // 0.001 rad, 0.001 m of 4 m
+  EXPECT_TRUE(motion.LastPoseIsKnownTo(1.1e-3));
+  EXPECT_FALSE(motion.LastPoseIsKnownTo(0.9e-3));
+  motion.ChangeUnit(10);
+  EXPECT_TRUE(motion.LastPoseIsKnownTo(1.1e-3));
+  motion.Forget();
+  EXPECT_FALSE(motion.LastPoseIsKnownTo(1));
+}
+
 TEST(MotionModel, OfAVelocityAloneHasNoInformation) {
   MotionModel motion;
   motion.Begin(Velocity());

@@ -366,14 +366,20 @@ struct OneKeyFrame {
   }
 };
 
-TEST(Tracker, WantsRightLinesOfKeyFramesAndOfWhatAgreesWithLittle) {
+TEST(Tracker, WantsRightLinesOfKeyFramesAndWhereItKnowsLittle) {
   OneKeyFrame scene;
-  EXPECT_FALSE(scene.tracker.NeedsRightLines());  // it has a map
+  EXPECT_TRUE(scene.tracker.NeedsRightLines());  // how well the first pose is known is not told
   TrackingResult result = scene.Step(1);
   ASSERT_TRUE(result.cam_from_world);
   ASSERT_FALSE(result.keyframe);
+  EXPECT_TRUE(scene.tracker.NeedsRightLines());
+  EXPECT_TRUE(scene.tracker.WantsRightLines(result));
+  // The next frame comes so soon that its pose is known by both frames.
+  result = scene.Step(2);
+  ASSERT_FALSE(result.keyframe);
+  EXPECT_FALSE(scene.tracker.NeedsRightLines());
   EXPECT_FALSE(scene.tracker.WantsRightLines(result));
-  result.counts.inlier_points = result.counts.inlier_lines = 10;
+  result.keyframe.emplace();
   EXPECT_TRUE(scene.tracker.WantsRightLines(result));
   result.cam_from_world.reset();
   EXPECT_FALSE(scene.tracker.WantsRightLines(result));
