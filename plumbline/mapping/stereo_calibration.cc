@@ -18,12 +18,15 @@ namespace {
 // Prior deviation of each coefficient, relative to the width of the image: a rig's angles and
 // lenses are off by so much whatever the number of pixels.
 constexpr double kPriorSigma = 4e-4;
+// Largest deviation of a prediction, relative to the width of the image. What is predicted from
+// views that are close together errs alike for all points of a keyframe, as much as the poses of
+// the views, and a map that bends as it was taught confirms what it was taught.
+constexpr double kMaxPredictionSigma = 2.5e-4;
 // Deviation of a single displacement in addition to the error of its prediction: the noise of the
 // disparity, and the error that the appearance of a landmark causes in all its disparities alike.
 constexpr double kNoisePx = 0.5;
-constexpr double kHuber = 1.345;               // threshold of the loss, in deviations
-constexpr double kMaxPredictionSigmaPx = 0.3;  // less certain predictions are not used
-constexpr double kMaxDisplacementPx = 3;       // a larger displacement is a wrong match
+constexpr double kHuber = 1.345;          // threshold of the loss, in deviations
+constexpr double kMaxDisplacementPx = 3;  // a larger displacement is a wrong match
 constexpr std::size_t kMinViews = 3;
 // A correction counts as far as its root mean square exceeds this: smaller ones may come from the
 // biases of corners whose correlation windows show an edge in depth.
@@ -87,6 +90,7 @@ StereoCalibrator::StereoCalibrator(const RectifiedCamera& camera) : camera_(came
 void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
   if (camera_.baseline == 0) return;
   constexpr double kMinParallax = 0.002;
+  const double max_sigma_px = kMaxPredictionSigma * camera_.width;
   const StereoCorrection current = Estimate();
   const Frame& frame = keyframe.frame;
   KeyFrameEvidence evidence;
@@ -102,7 +106,7 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
     const double predicted = camera_.DisparityFromDepth(z);
     const double depth_variance = depth_row * found->point.covariance * depth_row.transpose();
     const double variance = predicted * predicted * depth_variance / (z * z);
-    if (!(variance <= kMaxPredictionSigmaPx * kMaxPredictionSigmaPx)) continue;
+    if (!(variance <= max_sigma_px * max_sigma_px)) continue;
     const Eigen::Vector2d px = frame.features().points[i].px - Eigen::Vector2d(disparity->px, 0);
     const double displacement = disparity->px + frame.indexed->correction.At(px) - predicted;
     evidence.Add(StereoCorrection::Terms(camera_, px),
