@@ -4,7 +4,6 @@
 
 #include "lab/experiments/figure_list.h"
 #include "lab/experiments/table_page.h"
-#include "plumbline/base/error.h"
 #include "plumbline/base/escape_html.h"
 #include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
@@ -18,14 +17,6 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<std::string> ReadText(const fs::path& path) {
-  try {
-    return ReadInputFile(path);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
 
 // The lines of a list of figures without its brackets.
 std::string EntriesOf(const std::string& list) {
@@ -43,7 +34,7 @@ std::string JoinLists(const fs::path& out, const std::vector<GroupPart>& parts, 
       const FigureRow row{"", "", {}, "", {}, "", part.trouble};
       if (results) list = FormatFigureList(part.name, std::vector<FigureRow>{row});
     } else {
-      list = ReadText(out / part.name / file).value_or("");
+      list = ReadFileIfThere(out / part.name / file).value_or("");
     }
     const std::string entries = EntriesOf(list);
     if (entries.empty()) continue;
@@ -70,7 +61,7 @@ std::string Markdown(const fs::path& out,
   for (const GroupPart& part : parts) {
     for (const char* file : {"table.md", "timing.md"}) {
       if (!part.trouble.empty()) continue;
-      if (const auto table = ReadText(out / part.name / file)) text += "\n" + *table;
+      if (const auto table = ReadFileIfThere(out / part.name / file)) text += "\n" + *table;
     }
   }
   return text;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/metrics.h"
 
-#include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 
 #include <algorithm>
@@ -236,14 +235,6 @@ constexpr auto kMetrics = [] {
   return metrics;
 }();
 
-std::optional<std::string> ReadText(const std::filesystem::path& path) {
-  try {
-    return ReadInputFile(path);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
 std::optional<double> NumberAt(const Json& summary, const char* where) {
   const Json::json_pointer pointer(where);
   if (!summary.contains(pointer) || !summary[pointer].is_number()) return std::nullopt;
@@ -304,7 +295,7 @@ const Metric* FindMetric(std::string_view name) {
 }
 
 std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
-  const auto text = ReadText(folder / "summary.json");
+  const auto text = ReadFileIfThere(folder / "summary.json");
   if (!text) return std::nullopt;
   const Json summary = Json::parse(*text, nullptr, false);
   if (!summary.is_object() || !(IsSummaryOfRun(summary) || IsSummaryOfStarts(summary))) {
@@ -322,7 +313,7 @@ std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
     }
   }
   for (const char* name : {"trajectory.txt", "starts.csv"}) {
-    figures.trajectory += ReadText(folder / name).value_or("");
+    figures.trajectory += ReadFileIfThere(folder / name).value_or("");
   }
   return figures;
 }

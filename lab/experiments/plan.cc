@@ -25,14 +25,6 @@ namespace fs = std::filesystem;
 
 const std::string kMark = "job.txt";
 
-std::optional<std::string> ReadText(const fs::path& path) {
-  try {
-    return ReadInputFile(path);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
 template <class Options>
 void CheckSettingsAs(const Experiment& experiment, const std::vector<std::string>& settings) {
   Options options;
@@ -253,7 +245,7 @@ std::optional<RunFigures> ReadResult(const Job& job) {
 }
 
 bool IsDone(const Job& job) {
-  return ReadText(job.folder / kMark) == job.key && ReadResult(job).has_value();
+  return ReadFileIfThere(job.folder / kMark) == job.key && ReadResult(job).has_value();
 }
 
 void MarkDone(const Job& job) { WriteFileAtomically(job.folder / kMark, job.key); }

@@ -72,4 +72,12 @@ std::string ReadInputFile(const fs::path& path, std::uint64_t largest) {
   return contents;
 }
 
+std::optional<std::string> ReadFileIfThere(const fs::path& path) {
+  try {
+    return ReadInputFile(path);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace plumbline

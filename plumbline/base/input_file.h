@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace plumbline {
@@ -16,6 +17,9 @@ constexpr std::uint64_t kLargestTable = std::uint64_t{1} << 30;
 // a folder, a pipe or a device (reading might wait for ever), larger than `largest` bytes or cannot
 // be read.
 std::string ReadInputFile(const std::filesystem::path& path, std::uint64_t largest = kLargestTable);
+
+// The contents of a file that need not be there; none where ReadInputFile would fail.
+std::optional<std::string> ReadFileIfThere(const std::filesystem::path& path);
 
 // What is at a path that is there: "a folder", "a file", "a pipe", "a device", "a socket".
 std::string KindOf(const std::filesystem::path& path);

@@ -3,11 +3,10 @@
 #include "plumbline/report/run_manifest.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <system_error>
 
@@ -22,17 +21,10 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kKey = "plumbline_run";
 constexpr int kVersion = 1;
 
-std::optional<std::string> TextOf(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-}
-
 // Versions without manifests wrote the text of options.yaml into summary.json, too.
 bool IsOfOlderVersion(const fs::path& folder) {
-  const auto options = TextOf(folder / "options.yaml");
-  const auto summary = TextOf(folder / "summary.json");
+  const auto options = ReadFileIfThere(folder / "options.yaml");
+  const auto summary = ReadFileIfThere(folder / "summary.json");
   if (!options || !summary) return false;
   const Json json = Json::parse(*summary, nullptr, false);
   return json.is_object() && json.contains("version") && json.contains("line_bytes") &&
@@ -78,7 +70,7 @@ std::optional<RunManifest> ReadRunManifest(const fs::path& folder) {
     if (!IsOfOlderVersion(folder)) return std::nullopt;
     return RunManifest{true, RunFilesIn(folder)};
   }
-  const auto text = TextOf(file);
+  const auto text = ReadFileIfThere(file);
   if (!text) FailManifest(file);
   const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object() || json.value(kKey, Json()) != kVersion ||

@@ -60,5 +60,12 @@ TEST(ReadInputFile, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(ErrorOf(file), file.string() + ": cannot be read: Permission denied");
 }
 
+TEST(ReadFileIfThere, GivesNothingWhereThereIsNoFile) {
+  const ScratchFolder folder;
+  EXPECT_EQ(ReadFileIfThere(folder / "none"), std::nullopt);
+  EXPECT_EQ(ReadFileIfThere(folder.path()), std::nullopt);
+  EXPECT_EQ(ReadFileIfThere(folder.Write("some", "text\n")), "text\n");
+}
+
 }  // namespace
 }  // namespace plumbline
