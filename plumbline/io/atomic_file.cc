@@ -66,6 +66,7 @@ AtomicFileWriter::AtomicFileWriter(const std::filesystem::path& path) : file_(pa
 }
 
 void AtomicFileWriter::Write(std::string_view bytes) {
+  if (bytes.empty()) return;  // it may point nowhere, which fwrite does not allow
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size()) {
     FailWrite(file_.path(), LastError());
   }
