@@ -164,24 +164,21 @@ StereoEvidence EvidenceOf(const RectifiedCamera& camera,
   return evidence;
 }
 
+// What is learned from such evidence of a correction linear in x and y.
+StereoCorrection LearnedFrom(double of_x, double of_y, double sigma) {
+  const Vector6d coefficients = (Vector6d() << 0, of_x, of_y, 0, 0, 0).finished();
+  StereoCalibrator calibrator(TestCamera());
+  calibrator.SetEvidence(EvidenceOf(TestCamera(), coefficients, sigma));
+  return calibrator.Estimate();
+}
+
 TEST(StereoCalibrator, BelievesWhatItsEvidenceIsSureOf) {
-  const RectifiedCamera camera = TestCamera();
-  Vector6d k;
-  k << 0, 0.5, 0, 0, 0, 0;
-  StereoCalibrator calibrator(camera);
-  calibrator.SetEvidence(EvidenceOf(camera, k, 0.1));
-  EXPECT_NEAR(calibrator.Estimate().coefficients()(1), 0.5, 0.05);
-  calibrator.SetEvidence(EvidenceOf(camera, k, 20));
-  EXPECT_EQ(calibrator.Estimate(), StereoCorrection());
+  EXPECT_NEAR(LearnedFrom(0.5, 0, 0.1).coefficients()(1), 0.5, 0.05);
+  EXPECT_EQ(LearnedFrom(0.5, 0, 20), StereoCorrection());
 }
 
 TEST(StereoCalibrator, LeavesOutPartsThatMayBeNoise) {
-  const RectifiedCamera camera = TestCamera();
-  Vector6d k;
-  k << 0, 0.5, 0.02, 0, 0, 0;
-  StereoCalibrator calibrator(camera);
-  calibrator.SetEvidence(EvidenceOf(camera, k, 1));
-  const Vector6d found = calibrator.Estimate().coefficients();
+  const Vector6d found = LearnedFrom(0.5, 0.02, 1).coefficients();
   EXPECT_GT(found(1), 0.35);
   EXPECT_LT(std::abs(found(2)), 0.01);
 }
