@@ -5,6 +5,8 @@
 #include "plumbline/association/uncertain_line.h"
 #include "plumbline/optimization/residuals.h"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
 namespace plumbline {
@@ -20,6 +22,22 @@ Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J,
                          const Eigen::LLT<Eigen::Matrix4d>& information) {
   const Eigen::Matrix<double, 4, 2> spread = information.solve(J.transpose());
   return J * spread;
+}
+
+bool IsPositiveDefinite(const Eigen::Matrix2d& S) {
+  return S(0, 0) > 0 && S(1, 1) - S(1, 0) * S(1, 0) / S(0, 0) > 0;
+}
+
+// J Lambda^-1 J^T as a square, which rounding errors leave positive, and no larger than what still
+// tells anything.
+Eigen::Matrix2d BoundedSpreadOf(const Eigen::Matrix<double, 2, 4>& J,
+                                const Eigen::LLT<Eigen::Matrix4d>& information) {
+  constexpr double kMaxSpread = 1e8;  // square pixels: wider than images are
+  const Eigen::Matrix<double, 4, 2> root = information.matrixL().solve(J.transpose());
+  const double size = root.squaredNorm();
+  if (!(size > kMaxSpread)) return root.transpose() * root;
+  const Eigen::Matrix<double, 4, 2> bounded = std::sqrt(kMaxSpread / size) * root;
+  return bounded.transpose() * bounded;
 }
 
 void MakeScalar(const LineWeights& weights, Eigen::Matrix2d& covariance) {
@@ -70,7 +88,12 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
   unit.covariance = Eigen::Matrix2d::Identity();
   const auto residual = EvaluateLine(camera, cam_from_world, line.prepared, unit);
   if (!residual) return;
+  const Eigen::Matrix2d noise = measurement.covariance;
   measurement.covariance += SpreadOf(residual->J_line, line.information);
+  // A line that is seen end on spreads so wide that rounding errors outgrow the noise.
+  if (!IsPositiveDefinite(measurement.covariance)) {
+    measurement.covariance = noise + BoundedSpreadOf(residual->J_line, line.information);
+  }
   MakeScalar(weights, measurement.covariance);
 }
 

@@ -222,6 +222,25 @@ TEST(AddLandmarkUncertainty, StaysFiniteWithoutInformation) {
   EXPECT_GT(m.covariance.trace(), 1000);  // a line that may be anywhere says next to nothing
 }
 
+// Seen end on, a line's image turns wildly with its least move, which must not drown the deviations
+// of its measured ends.
+TEST(AddLandmarkUncertainty, StaysPositiveDefiniteWhereTheLinePassesThroughTheCamera) {
+  const LineScene scene(kSlanted, kExact);
+  const Eigen::Matrix4d information =
+      1e6 * LineInformation(scene.world.camera, scene.frame, 0, scene.line);
+  for (const double away : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+    const Eigen::Vector3d centre = kSlanted.start + Eigen::Vector3d(0, away, 0);
+    LineMeasurement m = MeasureLeftLine(scene.frame.features(), 0, LineWeighting::kCovariance);
+    AddLandmarkUncertainty(scene.world.camera,
+                           {Eigen::Quaterniond::Identity(), -centre},
+                           scene.line,
+                           information,
+                           LineWeighting::kCovariance,
+                           m);
+    EXPECT_NO_THROW(MakeLineTerm(scene.world.camera, m)) << away;
+  }
+}
+
 TEST(PointFromFrame, FindsTheTruePointWithItsLooks) {
   SyntheticWorld world;
   world.points.push_back({{0.7, -0.4, 5}, Descriptor{9, 8, 7, 6}});
