@@ -5,6 +5,7 @@
 #include "plumbline/association/uncertain_line.h"
 #include "plumbline/optimization/residuals.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -33,11 +34,9 @@ bool IsPositiveDefinite(const Eigen::Matrix2d& S) {
 Eigen::Matrix2d BoundedSpreadOf(const Eigen::Matrix<double, 2, 4>& J,
                                 const Eigen::LLT<Eigen::Matrix4d>& information) {
   constexpr double kMaxSpread = 1e8;  // square pixels: wider than images are
-  const Eigen::Matrix<double, 4, 2> root = information.matrixL().solve(J.transpose());
-  const double size = root.squaredNorm();
-  if (!(size > kMaxSpread)) return root.transpose() * root;
-  const Eigen::Matrix<double, 4, 2> bounded = std::sqrt(kMaxSpread / size) * root;
-  return bounded.transpose() * bounded;
+  Eigen::Matrix<double, 4, 2> root = information.matrixL().solve(J.transpose());
+  root *= std::sqrt(std::min(1.0, kMaxSpread / root.squaredNorm()));
+  return root.transpose() * root;
 }
 
 void MakeScalar(const LineWeights& weights, Eigen::Matrix2d& covariance) {
