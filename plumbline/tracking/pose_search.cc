@@ -278,7 +278,8 @@ PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
                                      const PoseEstimate& first,
                                      const PosePrior& prior,
                                      const MapSnapshot& snapshot,
-                                     const FrameAssociation& found) const {
+                                     const FrameAssociation& found,
+                                     const ProjectionSearchOptions& windows) const {
   // Landmarks of the map come before those made on the spot from the last frame: these know the
   // pose from one frame only, and would keep the map's from being found.
   PoseAttempt attempt{FrameAssociation(frame.points.size(), frame.lines.size()), {}, {}, {}};
@@ -287,7 +288,7 @@ PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
   AddRest(snapshot.points, association.points);
   AddRest(snapshot.lines, association.lines);
   attempt.expected =
-      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, {}, association);
+      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, windows, association);
   CopyMatches(found, false, association);
   attempt.counts = CountsOf(association.matches);
   attempt.pose = EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);

@@ -79,13 +79,15 @@ class PoseSearch {
                             const PoseEstimate& first,
                             const PosePrior& prior,
                             FrameAssociation found) const;
-  // Searches the rest of the snapshot from the first estimate and what it was found with; expected
-  // are the landmarks that should be visible from there. Established landmarks are not outvoted.
+  // Searches the rest of the snapshot in the windows of `windows`, from the first estimate and what
+  // it was found with; expected are the landmarks that should be visible from there. Established
+  // landmarks are not outvoted.
   PoseAttempt WithLocalMap(const Frame& frame,
                            const PoseEstimate& first,
                            const PosePrior& prior,
                            const MapSnapshot& snapshot,
-                           const FrameAssociation& found) const;
+                           const FrameAssociation& found,
+                           const ProjectionSearchOptions& windows) const;
 
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(kFewestInliers, options_.max_pose_sigma);

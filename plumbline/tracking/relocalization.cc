@@ -70,7 +70,7 @@ std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
   const auto first = search_.FromAppearance(frame, keyframe, *snapshot, found, counts);
   if (!first) return std::nullopt;
   PoseAttempt attempt =
-      search_.WithLocalMap(frame, *first, {first->cam_from_world}, *snapshot, found);
+      search_.WithLocalMap(frame, *first, {first->cam_from_world}, *snapshot, found, {});
   if (attempt.pose.Inliers() < kMinInliers || !search_.Accepted(attempt.pose) ||
       !search_.Agreed(attempt.pose, attempt.counts)) {
     return std::nullopt;

@@ -148,8 +148,14 @@ PoseAttempt Tracker::Settle(const Frame& frame,
                             const PosePrior& prior,
                             const MapSnapshot& snapshot,
                             FrameAssociation found) const {
-  return IsOdometry() ? search_.WithLastFrame(frame, first, prior, std::move(found))
-                      : search_.WithLocalMap(frame, first, prior, snapshot, found);
+  if (IsOdometry()) return search_.WithLastFrame(frame, first, prior, std::move(found));
+  PoseAttempt near = search_.WithLocalMap(frame, first, prior, snapshot, found, {});
+  if (first.Inliers() >= options_.enough_inliers) return near;
+  // A pose from few landmarks is not exact enough for narrow windows: most of the map would lie
+  // outside of them, and the few things inside would confirm the error.
+  PoseAttempt wide =
+      search_.WithLocalMap(frame, first, prior, snapshot, found, FirstSearch(kWideFactor));
+  return wide.pose.Inliers() > near.pose.Inliers() ? wide : near;
 }
 
 bool Tracker::IsWeak(const PoseAttempt& attempt) const {

@@ -26,6 +26,7 @@ TEST(Accuracy, FloorRgbd) { Check(kFloor); }
 TEST(Accuracy, RoadStereo) { Check(kRoad); }
 TEST(Accuracy, RoadDrivingStereo) { Check(kRoadDriving); }
 TEST(Accuracy, MachineHallFastStereo) { Check(kMachineHallFast); }
+TEST(Accuracy, MachineHallFastBackwardsStereo) { Check(kMachineHallFastBack); }
 TEST(Accuracy, RoadFastStereo) { Check(kRoadFast); }
 TEST(Accuracy, RoadFastTiedByLines) { Check(kRoadFastLines); }
 TEST(Accuracy, MachineHallMono) { Check(kMachineHallMono); }
