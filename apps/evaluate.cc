@@ -5,6 +5,7 @@
 #include "plumbline/eval/line_map_figure.h"
 #include "plumbline/eval/trajectory_figure.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/path_overlap.h"
 #include "plumbline/io/text_rows.h"
 
 #include "apps/command_line.h"
@@ -157,13 +158,19 @@ void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
   }
 }
 
-// Figures and pictures must not take the place of what they are about.
+// Figures and pictures must not take the place of what they are about, nor of a data set's files.
 void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::path>& read) {
   std::error_code error;
+  const std::filesystem::path reference = line.Positional(0);
+  const bool of_data_set = std::filesystem::is_directory(reference, error);
   for (const char* option : {"--json", "--plot", "--plot-lines"}) {
     const auto path = line.Value(option);
     if (!path) continue;
     if (std::string_view(option) != "--json") CheckFigureName(*path);
+    if (of_data_set && std::filesystem::exists(*path, error) && IsWithin(*path, reference)) {
+      throw InputError(std::string(option) + " " + *path + ": expected a file outside of " +
+                       reference.string() + ", or a new one");
+    }
     for (const std::filesystem::path& input : read) {
       if (!std::filesystem::equivalent(*path, input, error)) continue;
       throw InputError(std::string(option) + " " + *path +

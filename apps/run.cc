@@ -300,21 +300,24 @@ void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
   }
 }
 
-// The recording takes the place of the file when it is complete.
-void CheckRecordingApart(const CommandLine& line, const RunSetup& setup, const Dataset& dataset) {
-  if (!setup.view.record) return;
-  for (const RunInput& input : InputsOf(line, dataset)) {
-    std::error_code error;
-    if (!std::filesystem::equivalent(*setup.view.record, input.path, error)) continue;
-    throw InputError("--record " + setup.view.record->string() +
-                     ": expected another file than one that is read");
+// The recording and the checkpoint take the places of files when they are complete. Only the
+// checkpoint that the run goes on from may be replaced: it was read whole.
+void CheckFilesApart(const CommandLine& line, const RunSetup& setup, const Dataset& dataset) {
+  std::vector<RunInput> inputs = InputsOf(line, dataset);
+  if (setup.view.record) CheckFileApart("--record", *setup.view.record, inputs);
+  if (!setup.checkpoint) return;
+  if (setup.resume) {
+    std::erase_if(inputs, [&](const RunInput& input) { return input.path == *setup.resume; });
+  }
+  CheckFileApart("--checkpoint", *setup.checkpoint, inputs);
+  if (setup.view.record) {
+    CheckFileApart("--checkpoint", *setup.checkpoint, std::vector<RunInput>{{*setup.view.record}});
   }
 }
 
 // Before anything is written: that there is somewhere to listen.
 void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, RunFrames& input) {
   if (!setup.view.access && !setup.view.record) return;
-  CheckRecordingApart(line, setup, *input.dataset);
   ViewedRun run;
   run.name = input.dataset->info().name.empty() ? WithoutPassword(line.Positional(0))
                                                 : input.dataset->info().name;
@@ -399,6 +402,7 @@ int RunCommand(std::span<const std::string> arguments) {
   RunSetup setup = ReadSetup(line);
   RunFrames input = OpenInput(line, setup);
   CheckApart(setup.folder, InputsOf(line, *input.dataset));
+  CheckFilesApart(line, setup, *input.dataset);
   System system(input.dataset->calibration(), setup.options);
   system.DescribeSession(PLUMBLINE_VERSION, input.dataset->info().name);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);

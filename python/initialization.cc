@@ -160,7 +160,7 @@ py::dict Interpolate(py::handle reference,
 
 std::vector<std::shared_ptr<const GrayImage>> ReadSequence(const py::sequence& images) {
   std::vector<std::shared_ptr<const GrayImage>> sequence;
-  for (const py::handle image : images) {
+  for (const py::object image : images) {  // of an array, it lives no longer than this
     sequence.push_back(std::make_shared<const GrayImage>(ReadGray(image, "images")));
     const GrayImage &first = *sequence.front(), &last = *sequence.back();
     if (first.width() == last.width() && first.height() == last.height()) continue;

@@ -71,6 +71,7 @@ FrameRecord RunningSystem::Process(SensorFrame frame) {
 void RunningSystem::Skip(std::int64_t stamp_ns, const std::string& reason) {
   const auto lock = Enter("skip");
   CheckRunning("skip");
+  if (reason.empty()) throw InputError("reason: expected why the frame is left out, found nothing");
   CheckStamp(stamp_ns);
   pipeline_.Skip(stamp_ns, reason);
 }

@@ -29,7 +29,8 @@ Trajectory MakeTrajectory(py::handle stamps_ns, py::handle positions, py::handle
         "stamps_ns: expected whole numbers of shape (N,), nanoseconds, found " +
         Describe(stamps ? py::object(stamps) : py::reinterpret_borrow<py::object>(stamps_ns)));
   }
-  const auto stamp = Integers::ensure(stamps);
+  // An empty array may be of any type, of which not all turn into whole numbers.
+  const Integers stamp = stamps.size() > 0 ? Integers::ensure(stamps) : Integers(0);
   const std::vector<Eigen::Vector3d> centres = ReadVectors3(positions, "positions");
   const Doubles turns = ReadDoubles(quaternions, "quaternions", {kAny, 4});
   CheckCount("positions", static_cast<std::size_t>(stamp.size()), centres.size());

@@ -133,6 +133,23 @@ void CheckApart(const fs::path& out, std::span<const RunInput> inputs) {
   }
 }
 
+void CheckFileApart(std::string_view option,
+                    const fs::path& file,
+                    std::span<const RunInput> inputs) {
+  for (const RunInput& input : inputs) {
+    if (IsSamePath(file, input.path)) {
+      throw InputError(
+          fmt::format("{} {}: expected another file than one that is read", option, file.string()));
+    }
+    if (IsWithin(file, input.path)) {
+      throw InputError(fmt::format("{} {}: expected a file outside of {}, which is read",
+                                   option,
+                                   file.string(),
+                                   input.path.string()));
+    }
+  }
+}
+
 RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), part_(folder_ / kPart) {
   try {
     Open();

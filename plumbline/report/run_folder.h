@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plumbline {
@@ -30,6 +31,12 @@ struct RunInput {
 // Throws InputError, which says what to do, when a folder for results is, holds or lies in
 // something that is read. Touches nothing.
 void CheckApart(const std::filesystem::path& out, std::span<const RunInput> inputs);
+
+// Throws InputError, which names the option, when a file that a run is to write is or lies in
+// something that is read: it would take the place of data. Touches nothing.
+void CheckFileApart(std::string_view option,
+                    const std::filesystem::path& file,
+                    std::span<const RunInput> inputs);
 
 // The folder of a run's results (--out DIR), of which nothing is lost.
 //

@@ -41,6 +41,7 @@ void Pipeline::Feed(SensorFrame frame) {
 }
 
 void Pipeline::Skip(std::int64_t stamp_ns, const std::string& reason) {
+  PLUMBLINE_CHECK(!reason.empty(), "a frame is left out for a reason");
   Job job;
   job.stamp_ns = stamp_ns;
   job.reason = reason;

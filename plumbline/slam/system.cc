@@ -64,8 +64,15 @@ System::System(const Calibration& calibration,
 
 System::~System() = default;
 
+void System::CheckStamp(std::int64_t stamp_ns) const {
+  if (frames_.empty() || stamp_ns > newest_.stamp_ns) return;
+  throw InputError(
+      fmt::format("expected a frame after {} ns, found one of {} ns", newest_.stamp_ns, stamp_ns));
+}
+
 const FrameRecord& System::Skip(std::int64_t stamp_ns, const std::string& reason, Shed shed) {
   Complete();
+  CheckStamp(stamp_ns);
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};
   record.stamp_ns = stamp_ns;
@@ -88,10 +95,7 @@ const FrameRecord& System::Process(SensorFrame frame) {
 
 const FrameRecord& System::Track(MeasuredFrame measured) {
   Complete();
-  if (!frames_.empty() && measured.stamp_ns <= newest_.stamp_ns) {
-    throw InputError("expected a frame after " + std::to_string(newest_.stamp_ns) +
-                     " ns, found one of " + std::to_string(measured.stamp_ns) + " ns");
-  }
+  CheckStamp(measured.stamp_ns);
   if (session_.uuid == Uuid()) session_.uuid = SessionUuid(measured);
   FrameRecord record;
   record.id = FrameId{static_cast<std::int64_t>(frames_.size())};

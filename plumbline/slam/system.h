@@ -94,7 +94,8 @@ class System {
   // lost camera. Calls that need it done (the next frame, Finish, Save, a look at the maps) do it
   // themselves. Changes nothing of the frame's record but its times.
   void Complete();
-  // A frame that could not be read, or was left out.
+  // A frame that could not be read, or was left out. Throws InputError when it is no later than the
+  // one before.
   const FrameRecord& Skip(std::int64_t stamp_ns,
                           const std::string& reason,
                           Shed shed = Shed::kNothing);
@@ -214,6 +215,7 @@ class System {
   void Demote(const DemotedKeyFrame& gone);
   FrameStatus StatusWithoutPose() const;
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
+  void CheckStamp(std::int64_t stamp_ns) const;  // throws InputError unless later than the last
   const FrameRecord& Keep(FrameRecord record);
   void LoseFramesNotMapped();
 

@@ -177,11 +177,18 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     if atlas is not None:
         system.continue_in(atlas, read_only=bool(localize))
 
-    def finish() -> str | None:
-        system.finish()
+    def write() -> str | None:
         if folder is None:
             return None
         return _plumbline._write_run(system, folder, dataset, len(frames), [])
+
+    def finish() -> str | None:
+        try:
+            system.finish()
+        except KeyboardInterrupt:  # the maps are whole, and as far adjusted as they got
+            write()
+            raise
+        return write()
 
     teller = _Teller(system, on_frame, on_event)
     try:

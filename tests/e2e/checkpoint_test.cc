@@ -148,6 +148,9 @@ TEST(CheckpointOfRun, IsRefusedForAnotherRunAndNothingIsTouched) {
   expect_refused("--resume " + Quoted(Posters().map), "expected a Plumbline checkpoint");
   expect_refused("--map " + Quoted(run.checkpoint()), "expected a Plumbline map");
   expect_refused("--checkpoint " + Quoted(run.folder / "none/c"), "no such folder");
+  expect_refused("--checkpoint " + Quoted(fs::path(Posters().sequence) / "c"), "which is read");
+  const std::string same = Quoted(run.folder / "same");
+  expect_refused("--record " + same + " --checkpoint " + same, "expected another file");
   const std::string bytes = Contents(run.checkpoint());
   run.folder.Write("c.plbrun", bytes.substr(0, bytes.size() / 2));
   expect_refused("--stride 2" + from, "c.plbrun: ");

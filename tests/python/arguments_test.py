@@ -128,6 +128,7 @@ CASES = {
                                  "stamp_ns: expected a frame after 1 ns, found one of 1 ns"),
     "stamp to feed": (lambda: system().feed(GRAY, "now"), "found str"),
     "image to feed": (lambda: system().feed([1, 2], 0), "images: expected 1 for mono, found 2"),
+    "no reason to skip": (lambda: system(frames=1).skip(10**18, ""), "reason: expected why"),
     "stamp to skip": (lambda: system(frames=1).skip(0, "x"), "expected a frame after 0 ns"),
     # Order of calls.
     "process after the end": (lambda: system(finish=True).process(GRAY, 0),

@@ -119,6 +119,15 @@ def test_points_are_followed(images):
     assert places.shape == (4, 30, 2)
     np.testing.assert_allclose(places[0], lines["start"], atol=1e-4)
     assert (~np.isnan(places[3, :, 0])).sum() > 5
+    # Images in one array, whose items are made as they are asked for.
+    np.testing.assert_array_equal(
+        plumbline.follow_points(np.stack(images), lines["start"]), places)
+
+
+def test_a_trajectory_may_be_empty():
+    for none in ([], np.zeros(0), np.zeros(0, int)):
+        poses = plumbline.Trajectory(none, np.zeros((0, 3)), np.zeros((0, 4)))
+        assert poses.to_tum() == ""
 
 
 def cutting_problem(rng, count=12):

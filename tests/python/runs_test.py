@@ -145,6 +145,18 @@ def test_ctrl_c_ends_a_run_and_keeps_its_results(sequence, tmp_path):
     assert 1 <= lines < 12
 
 
+def test_ctrl_c_at_the_end_of_a_run_keeps_its_results(sequence, tmp_path, monkeypatch):
+    class Interrupted(plumbline.System):
+        def finish(self):
+            super().finish()
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("plumbline.recorded.System", Interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        plumbline.run(sequence, out=tmp_path / "out")
+    assert len((tmp_path / "out" / "trajectory.txt").read_text().splitlines()) == 12
+
+
 def test_ctrl_c_ends_a_rendering(tmp_path):
     done = interrupted("""
         import sys, plumbline

@@ -252,5 +252,20 @@ TEST(CheckApart, RefusesToWriteAmongWhatIsRead) {
   EXPECT_THAT(message(scratch / "run", {{map}}), HasSubstr("holds"));
 }
 
+TEST(CheckFileApart, RefusesToReplaceWhatIsRead) {
+  const ScratchFolder scratch;
+  const fs::path image = scratch.Write("data/images/1.png", "");
+  const fs::path map = scratch.Write("run/map.plb", "");
+  const std::vector<RunInput> inputs = {{scratch / "data"}, {map, true}};
+  const auto message = [&](const fs::path& file) {
+    return MessageOf([&] { CheckFileApart("--checkpoint", file, inputs); });
+  };
+  EXPECT_THAT(message(image), HasSubstr("outside of " + (scratch / "data").string()));
+  EXPECT_THAT(message(scratch / "data/new"), HasSubstr("--checkpoint"));
+  EXPECT_THAT(message(map), HasSubstr("another file than one that is read"));
+  EXPECT_EQ(message(scratch / "run/new"), "no error");
+  EXPECT_EQ(message(scratch / "database"), "no error");
+}
+
 }  // namespace
 }  // namespace plumbline

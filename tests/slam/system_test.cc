@@ -101,6 +101,7 @@ TEST(System, CountsSkippedFramesAndGoesOn) {
     }
     EXPECT_EQ(system.Process(poster.Frame(i)).status, FrameStatus::kTracked) << i;
   }
+  EXPECT_THROW(system.Skip(MovingPoster::StampNs(7), "late"), InputError);
   system.Finish();
   ASSERT_EQ(system.frames().size(), 8U);
   for (std::size_t i = 0; i < 8; ++i) {
