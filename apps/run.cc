@@ -302,17 +302,16 @@ void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
 
 // The recording and the checkpoint take the places of files when they are complete. Only the
 // checkpoint that the run goes on from may be replaced: it was read whole.
-void CheckFilesApart(const CommandLine& line, const RunSetup& setup, const Dataset& dataset) {
-  std::vector<RunInput> inputs = InputsOf(line, dataset);
-  if (setup.view.record) CheckFileApart("--record", *setup.view.record, inputs);
+void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
+  if (setup.view.record) {
+    CheckFileApart("--record", *setup.view.record, inputs);
+    inputs.push_back({*setup.view.record});
+  }
   if (!setup.checkpoint) return;
   if (setup.resume) {
     std::erase_if(inputs, [&](const RunInput& input) { return input.path == *setup.resume; });
   }
   CheckFileApart("--checkpoint", *setup.checkpoint, inputs);
-  if (setup.view.record) {
-    CheckFileApart("--checkpoint", *setup.checkpoint, std::vector<RunInput>{{*setup.view.record}});
-  }
 }
 
 // Before anything is written: that there is somewhere to listen.
@@ -401,8 +400,9 @@ int RunCommand(std::span<const std::string> arguments) {
   const auto start = Clock::now();
   RunSetup setup = ReadSetup(line);
   RunFrames input = OpenInput(line, setup);
-  CheckApart(setup.folder, InputsOf(line, *input.dataset));
-  CheckFilesApart(line, setup, *input.dataset);
+  std::vector<RunInput> inputs = InputsOf(line, *input.dataset);
+  CheckApart(setup.folder, inputs);
+  CheckFilesApart(setup, std::move(inputs));
   System system(input.dataset->calibration(), setup.options);
   system.DescribeSession(PLUMBLINE_VERSION, input.dataset->info().name);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
