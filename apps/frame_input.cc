@@ -49,7 +49,8 @@ Clock::time_point RecordedInput::DueOf(std::size_t frame) const {
 
 std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   if (position_ >= frames_.size() || !go_on()) return std::nullopt;
-  const std::size_t k = frames_[position_++];
+  const std::size_t position = position_++;
+  const std::size_t k = frames_[position];
   if (live_ && start_ && !WaitUntil(DueOf(k) - reading_.Enough(), go_on)) return std::nullopt;
   const Clock::time_point begin = Clock::now();
   const auto read = reader_.Read(k, go_on);
@@ -63,7 +64,7 @@ std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
     return next;
   }
   const ImageFailure& failure = read->error();
-  say_(fmt::format("frame {} skipped: {}: {}", k, failure.path.string(), failure.why));
+  say_(fmt::format("frame {} skipped: {}: {}", position, failure.path.string(), failure.why));
   next.reason = "image_unreadable";
   return next;
 }
@@ -83,15 +84,19 @@ std::optional<InputFrame> LiveInput::Next(const GoOn& go_on) {
       if (!end->why.empty()) say_(end->why);
       return std::nullopt;
     }
-    InputFrame frame = Take(*std::move(event));
     const std::size_t k = next_++;
-    if (k >= range_.from && (k - range_.from) % range_.stride == 0) return frame;
+    const bool chosen = k >= range_.from && (k - range_.from) % range_.stride == 0;
+    InputFrame frame = Take(*std::move(event), chosen);
+    if (!chosen) continue;
+    ++position_;
+    return frame;
   }
   return std::nullopt;
 }
 
-// Says once, not for every frame, what is wrong for longer.
-InputFrame LiveInput::Take(LiveEvent event) {
+// Says once, not for every frame, what is wrong for longer, and nothing of frames that nobody
+// chose.
+InputFrame LiveInput::Take(LiveEvent event, bool chosen) {
   InputFrame next;
   std::string why;
   if (auto* frame = std::get_if<SensorFrame>(&event)) {
@@ -104,20 +109,20 @@ InputFrame LiveInput::Take(LiveEvent event) {
     why = missing.why;
   }
   const bool wrong_size = next.reason == "image_size";
-  if (!why.empty() && !(wrong_size && size_was_wrong_)) {
+  if (chosen && !why.empty() && !(wrong_size && size_was_wrong_)) {
     say_(fmt::format("frame {} skipped: {}: {}{}",
-                     next_,
+                     position_,
                      name_,
                      why,
                      wrong_size ? "; so are all until the size is that of the calibration" : ""));
   }
-  size_was_wrong_ = wrong_size;
+  if (chosen) size_was_wrong_ = wrong_size;
   const StampContinuity::Stamp stamp = continuity_.Next(next.stamp_ns);
   if (stamp.jumped_back_ns) {
     say_(fmt::format(
         "frame {}: {}: the stamps jump back by {:.3f} s; from here on they are {:.3f} s "
         "later in the results",
-        next_,
+        position_,
         name_,
         1e-9 * static_cast<double>(*stamp.jumped_back_ns),
         1e-9 * static_cast<double>(stamp.stamp_ns - next.stamp_ns)));

@@ -92,12 +92,13 @@ class LiveInput : public FrameInput {
   std::optional<InputFrame> Next(const GoOn& go_on) override;
 
  private:
-  InputFrame Take(LiveEvent event);
+  InputFrame Take(LiveEvent event, bool chosen);
 
   std::string name_;
   LiveRange range_;
   Say say_;
-  std::size_t next_ = 0;  // index of the frame that comes next
+  std::size_t next_ = 0;      // index of the frame that comes next
+  std::size_t position_ = 0;  // number of the chosen frame that comes next
   bool size_was_wrong_ = false;
   StampContinuity continuity_;
   PatientReader<LiveEvent> reader_;

@@ -19,6 +19,9 @@
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace plumbline {
 namespace {
 
@@ -99,10 +102,20 @@ int Dispatch(std::span<const std::string> arguments) {
   return FindCommand(arguments[1]).run(help);
 }
 
+// Whoever started the program may have closed its standard streams (`>&-`). The first files that it
+// opens would take their places, and what it prints would go into them.
+void OpenStandardStreams() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    if (::fcntl(descriptor, F_GETFD) >= 0) continue;
+    if (::open("/dev/null", O_RDWR) != descriptor) return;  // the lowest free one, where it works
+  }
+}
+
 }  // namespace
 }  // namespace plumbline
 
 int main(int argc, char** argv) {
+  plumbline::OpenStandardStreams();
   plumbline::SetUpProcess();
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);

@@ -12,10 +12,14 @@
 #include "plumbline/io/ply.h"
 #include "plumbline/io/png.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/map/keyframe_trajectory.h"
 #include "plumbline/mapping/line_map.h"
+#include "plumbline/slam/saved_options.h"
 
+#include "apps/chosen_map.h"
 #include "apps/command_line.h"
 #include "apps/map_commands.h"
+#include "apps/stop_signal.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,6 +63,7 @@ CommandSyntax MapExportSyntax() {
           {"FILE"},
           {{"--to", "ply|obj|dxf|tum|colmap|nerfstudio", "the form"},
            {"--out", "PATH", "file, or new folder for colmap and nerfstudio"},
+           kMapOption,
            {"--images", "PATH", "the data that the map was made from: its images are written, too"},
            {"--format",
             "auto|euroc|tum|kitti|images|video|bag|mcap",
@@ -115,12 +120,50 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   return request;
 }
 
+// A signal has asked to stop before there was anything whole to write.
+struct Stopped {};
+
+void StopIfAsked() {
+  if (StopRequested()) throw Stopped{};
+}
+
+// What is written: a map of the file, and how its lines are told.
+struct ExportedMap {
+  SavedMap saved;
+  ImagingModel imaging;
+  LineMapOptions line_map;
+};
+
+// As the run that made the map had them.
+LineMapOptions LineMapOptionsOf(const AtlasContext& context, const std::string& name) {
+  try {
+    return SavedOptions(context, name).mapping.line_map;
+  } catch (const InputError& error) {
+    std::cerr << error.what() << "; lines as by default\n";
+    return {};
+  }
+}
+
+ExportedMap LoadExportedMap(const CommandLine& line) {
+  const std::string& name = line.Positional(0);
+  SavedAtlas saved = LoadAtlas(name);
+  const AtlasContext& context = saved.context;
+  return {{context.camera,
+           context.rectified_from_left,
+           std::move(ChooseMap(line, saved.atlas)),
+           saved.file_version},
+          {context.camera, context.octave_scale},
+          LineMapOptionsOf(context, name)};
+}
+
 // The lines that a run gives out, too.
-std::vector<Segment3> LinesOf(const SavedMap& saved) {
+std::vector<Segment3> LinesOf(const ExportedMap& map) {
   std::vector<Segment3> segments;
-  for (const MappedLine& line : MakeLineMap(saved.map, {saved.camera}, {})) {
+  for (const MappedLine& line :
+       MakeLineMap(map.saved.map, map.imaging, map.line_map, StopRequested)) {
     segments.push_back(line.segment);
   }
+  StopIfAsked();
   return segments;
 }
 
@@ -128,20 +171,6 @@ std::vector<Eigen::Vector3d> PointsOf(const Map& map) {
   std::vector<Eigen::Vector3d> points;
   for (const auto& [id, point] : map.points()) points.push_back(point.position);
   return points;
-}
-
-// Poses of the left camera as delivered, in the order of time. Of keyframes of one time, which a
-// merged map may have, the one with the lowest number.
-Trajectory KeyFrameTrajectory(const SavedMap& saved) {
-  const Rigid3 rectified_from_left{saved.rectified_from_left, Eigen::Vector3d::Zero()};
-  std::map<std::int64_t, Rigid3> poses;
-  for (const auto& [id, keyframe] : saved.map.keyframes()) {
-    poses.emplace(keyframe.frame.stamp_ns,
-                  Inverse(keyframe.frame.cam_from_world) * rectified_from_left);
-  }
-  Trajectory trajectory;
-  for (const auto& [stamp_ns, pose] : poses) trajectory.push_back({stamp_ns, pose});
-  return trajectory;
 }
 
 // Writes the image of each keyframe into a folder. Returns the mean grey of each point in them.
@@ -152,6 +181,7 @@ PointGreys WriteImages(const SavedMap& saved,
   MakeFolder(folder);
   std::map<PointId, std::pair<int, int>> sums;  // of greys, and their number
   for (const auto& [id, keyframe] : saved.map.keyframes()) {
+    StopIfAsked();
     const GrayImage image = images.Read(keyframe);
     WriteGrayPng(folder / names.at(id), image);
     const Frame& frame = keyframe.frame;
@@ -214,10 +244,11 @@ void ExportNerfstudio(const SavedMap& saved, const ExportRequest& request) {
       "{}: {} images, {} points\n", request.out.string(), names.size(), saved.map.points().size());
 }
 
-void ExportFile(const SavedMap& saved, const ExportRequest& request) {
+void ExportFile(const ExportedMap& map, const ExportRequest& request) {
+  const SavedMap& saved = map.saved;
   const std::string out = request.out.string();
   if (request.format == ExportFormat::kTum) {
-    const Trajectory trajectory = KeyFrameTrajectory(saved);
+    const Trajectory trajectory = KeyFrameTrajectory(saved.map, saved.rectified_from_left);
     WriteTum(request.out, trajectory);
     const std::size_t left_out = saved.map.keyframes().size() - trajectory.size();
     std::cout << fmt::format(
@@ -227,7 +258,7 @@ void ExportFile(const SavedMap& saved, const ExportRequest& request) {
         left_out == 0 ? std::string() : fmt::format(" ({} of the same times left out)", left_out));
     return;
   }
-  const std::vector<Segment3> lines = LinesOf(saved);
+  const std::vector<Segment3> lines = LinesOf(map);
   std::string what;
   if (request.format == ExportFormat::kPly) {
     WritePly(request.out, PointsOf(saved.map), lines);
@@ -240,6 +271,17 @@ void ExportFile(const SavedMap& saved, const ExportRequest& request) {
   std::cout << fmt::format("{}: {}{} lines\n", out, what, lines.size());
 }
 
+void Export(const ExportedMap& map, const ExportRequest& request) {
+  StopIfAsked();
+  if (request.format == ExportFormat::kColmap) {
+    ExportColmap(map.saved, request);
+  } else if (request.format == ExportFormat::kNerfstudio) {
+    ExportNerfstudio(map.saved, request);
+  } else {
+    ExportFile(map, request);
+  }
+}
+
 }  // namespace
 
 int MapExportCommand(std::span<const std::string> arguments) {
@@ -249,13 +291,12 @@ int MapExportCommand(std::span<const std::string> arguments) {
     return 0;
   }
   const ExportRequest request = ReadExportRequest(line);
-  const SavedMap saved = LoadMap(line.Positional(0));
-  if (request.format == ExportFormat::kColmap) {
-    ExportColmap(saved, request);
-  } else if (request.format == ExportFormat::kNerfstudio) {
-    ExportNerfstudio(saved, request);
-  } else {
-    ExportFile(saved, request);
+  CatchStopSignals();
+  try {
+    Export(LoadExportedMap(line), request);
+  } catch (const Stopped&) {
+    std::cerr << "plumbline: stopped; nothing is written\n";
+    return FirstStopSignal()->exit_code;
   }
   return 0;
 }

@@ -29,7 +29,7 @@ int MapInfoCommand(std::span<const std::string> arguments) {
     return 0;
   }
   const std::string& path = line.Positional(0);
-  const SavedMap saved = LoadMap(path);
+  const SavedAtlas saved = LoadAtlas(path);
   if (const auto json = line.Value("--json")) {
     RefuseToReplaceInput(*json, path);
     WriteFileAtomically(*json, MapInfoJson(path, saved));

@@ -79,9 +79,18 @@ Json BoxJson(const Eigen::AlignedBox3d& box) {
           {"max", {box.max().x(), box.max().y(), box.max().z()}}};
 }
 
-Json MapJson(const SavedMap& saved) {
-  const MapSummary summary = Summarize(saved);
-  Json json = {{"id", saved.map.id().value},
+// All maps, the one to go on with first.
+std::vector<const Map*> MapsOf(const Atlas& atlas) {
+  std::vector<const Map*> maps;
+  for (const auto& [id, map] : atlas.maps()) {
+    maps.insert(id == atlas.active_id() ? maps.begin() : maps.end(), &map);
+  }
+  return maps;
+}
+
+Json MapJson(const RectifiedCamera& camera, const Map& map) {
+  const MapSummary summary = Summarize(camera, map);
+  Json json = {{"id", map.id().value},
                {"keyframes", summary.keyframes},
                {"first_keyframe_s", nullptr},
                {"last_keyframe_s", nullptr},
@@ -102,68 +111,11 @@ Json MapJson(const SavedMap& saved) {
   return json;
 }
 
-}  // namespace
-
-MapSummary Summarize(const SavedMap& saved) {
-  const Map& map = saved.map;
-  MapSummary summary;
-  summary.keyframes = map.keyframes().size();
-  summary.points = map.points().size();
-  summary.lines = map.lines().size();
-  summary.path_length = PathAlongKeyFrames(map);
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    const std::int64_t stamp = keyframe.frame.stamp_ns;
-    if (!summary.time_ns) summary.time_ns = {stamp, stamp};
-    summary.time_ns->first = std::min(summary.time_ns->first, stamp);
-    summary.time_ns->second = std::max(summary.time_ns->second, stamp);
-  }
-  std::vector<Eigen::Vector3d> places;
-  double error_sum = 0;
-  std::size_t error_count = 0;
-  for (const auto& [id, point] : map.points()) {
-    places.push_back(point.position);
-    summary.point_observations += point.observations.size();
-    if (const auto error = MeanReprojectionError(saved.camera, map, point)) {
-      error_sum += *error;
-      ++error_count;
-    }
-  }
-  if (error_count > 0) summary.reprojection_px = error_sum / static_cast<double>(error_count);
-  for (const auto& [id, line] : map.lines()) {
-    places.push_back(line.Interval().start);
-    places.push_back(line.Interval().end);
-    summary.line_observations += line.observations.size();
-  }
-  constexpr double kLeftOut = 0.05;
-  summary.bounds = BoxOf(places, 0);
-  summary.middle_bounds = BoxOf(places, kLeftOut);
-  return summary;
-}
-
-std::string MapInfoTable(const std::filesystem::path& path, const SavedMap& saved) {
-  constexpr double kBytesPerMegabyte = 1e6, kNanoseconds = 1e9;
-  const MapSummary summary = Summarize(saved);
-  const RectifiedCamera& c = saved.camera;
-  const bool metric = c.baseline > 0;
-  const char* unit = metric ? " m" : "";
-  std::string text = Row("file",
-                         fmt::format("{}, version {}, {:.1f} MB",
-                                     path.string(),
-                                     saved.version,
-                                     static_cast<double>(SizeOf(path)) / kBytesPerMegabyte));
-  text += Row("camera",
-              fmt::format("{}x{}, fx {:.6g} fy {:.6g} cx {:.6g} cy {:.6g}, rectified",
-                          c.width,
-                          c.height,
-                          c.fx,
-                          c.fy,
-                          c.cx,
-                          c.cy));
-  text += Row("baseline",
-              metric ? fmt::format("{:.4f} m", c.baseline)
-                     : std::string("none: a single camera; lengths are in the map's own unit"));
-  text += Row("maps", fmt::format("1 (number {})", saved.map.id().value));
-  text += Row("keyframes", std::to_string(summary.keyframes));
+std::string MapRows(const RectifiedCamera& camera, const Map& map) {
+  constexpr double kNanoseconds = 1e9;
+  const MapSummary summary = Summarize(camera, map);
+  const char* unit = camera.baseline > 0 ? " m" : "";
+  std::string text = Row("keyframes", std::to_string(summary.keyframes));
   if (summary.time_ns) {
     const auto [first, last] = *summary.time_ns;
     text += Row("time",
@@ -191,11 +143,85 @@ std::string MapInfoTable(const std::filesystem::path& path, const SavedMap& save
   return text;
 }
 
-std::string MapInfoJson(const std::filesystem::path& path, const SavedMap& saved) {
-  const RectifiedCamera& c = saved.camera;
-  const Eigen::Quaterniond& q = saved.rectified_from_left;
+std::string OtherMapRow(const Map& map) {
+  return Row(fmt::format("map {}", map.id().value),
+             fmt::format("{} keyframes, {} points, {} lines",
+                         map.keyframes().size(),
+                         map.points().size(),
+                         map.lines().size()));
+}
+
+}  // namespace
+
+MapSummary Summarize(const RectifiedCamera& camera, const Map& map) {
+  MapSummary summary;
+  summary.keyframes = map.keyframes().size();
+  summary.points = map.points().size();
+  summary.lines = map.lines().size();
+  summary.path_length = PathAlongKeyFrames(map);
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const std::int64_t stamp = keyframe.frame.stamp_ns;
+    if (!summary.time_ns) summary.time_ns = {stamp, stamp};
+    summary.time_ns->first = std::min(summary.time_ns->first, stamp);
+    summary.time_ns->second = std::max(summary.time_ns->second, stamp);
+  }
+  std::vector<Eigen::Vector3d> places;
+  double error_sum = 0;
+  std::size_t error_count = 0;
+  for (const auto& [id, point] : map.points()) {
+    places.push_back(point.position);
+    summary.point_observations += point.observations.size();
+    if (const auto error = MeanReprojectionError(camera, map, point)) {
+      error_sum += *error;
+      ++error_count;
+    }
+  }
+  if (error_count > 0) summary.reprojection_px = error_sum / static_cast<double>(error_count);
+  for (const auto& [id, line] : map.lines()) {
+    places.push_back(line.Interval().start);
+    places.push_back(line.Interval().end);
+    summary.line_observations += line.observations.size();
+  }
+  constexpr double kLeftOut = 0.05;
+  summary.bounds = BoxOf(places, 0);
+  summary.middle_bounds = BoxOf(places, kLeftOut);
+  return summary;
+}
+
+std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& saved) {
+  constexpr double kBytesPerMegabyte = 1e6;
+  const RectifiedCamera& c = saved.context.camera;
+  std::string text = Row("file",
+                         fmt::format("{}, version {}, {:.1f} MB",
+                                     path.string(),
+                                     saved.file_version,
+                                     static_cast<double>(SizeOf(path)) / kBytesPerMegabyte));
+  text += Row("camera",
+              fmt::format("{}x{}, fx {:.6g} fy {:.6g} cx {:.6g} cy {:.6g}, rectified",
+                          c.width,
+                          c.height,
+                          c.fx,
+                          c.fy,
+                          c.cx,
+                          c.cy));
+  text +=
+      Row("baseline",
+          c.baseline > 0 ? fmt::format("{:.4f} m", c.baseline)
+                         : std::string("none: a single camera; lengths are in the map's own unit"));
+  const std::vector<const Map*> maps = MapsOf(saved.atlas);
+  if (maps.empty()) return text + Row("maps", "0");
+  std::string numbers = fmt::format("number {}", maps.front()->id().value);
+  if (maps.size() > 1) numbers += ", of which the rest speaks";
+  text += Row("maps", fmt::format("{} ({})", maps.size(), numbers)) + MapRows(c, *maps.front());
+  for (std::size_t i = 1; i < maps.size(); ++i) text += OtherMapRow(*maps[i]);
+  return text;
+}
+
+std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& saved) {
+  const RectifiedCamera& c = saved.context.camera;
+  const Eigen::Quaterniond& q = saved.context.rectified_from_left;
   Json json = {{"file", path.string()},
-               {"version", saved.version},
+               {"version", saved.file_version},
                {"bytes", SizeOf(path)},
                {"camera",
                 {{"width", c.width},
@@ -206,8 +232,9 @@ std::string MapInfoJson(const std::filesystem::path& path, const SavedMap& saved
                  {"cy", c.cy},
                  {"baseline", c.baseline},
                  {"rectified_from_left_xyzw", {q.x(), q.y(), q.z(), q.w()}}}},
-               {"unit", c.baseline > 0 ? "m" : "of the map"}};
-  json["maps"] = Json::array({MapJson(saved)});
+               {"unit", c.baseline > 0 ? "m" : "of the map"},
+               {"maps", Json::array()}};
+  for (const Map* map : MapsOf(saved.atlas)) json["maps"].push_back(MapJson(c, *map));
   return json.dump(2) + "\n";
 }
 

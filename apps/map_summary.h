@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/io/map_io.h"
+#include "plumbline/map/saved_atlas.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,10 +24,11 @@ struct MapSummary {
   std::optional<double> reprojection_px;  // mean over the points (MeanReprojectionError)
 };
 
-MapSummary Summarize(const SavedMap& saved);
+MapSummary Summarize(const RectifiedCamera& camera, const Map& map);
 
-// The whole of `plumbline map info`: for people, and as JSON.
-std::string MapInfoTable(const std::filesystem::path& path, const SavedMap& saved);
-std::string MapInfoJson(const std::filesystem::path& path, const SavedMap& saved);
+// The whole of `plumbline map info`: for people, the map to go on with in figures and how many
+// others there are; as JSON all maps, the one to go on with first.
+std::string MapInfoTable(const std::filesystem::path& path, const SavedAtlas& saved);
+std::string MapInfoJson(const std::filesystem::path& path, const SavedAtlas& saved);
 
 }  // namespace plumbline

@@ -4,6 +4,7 @@
 #include "plumbline/io/map_io.h"
 #include "plumbline/view/viewer.h"
 
+#include "apps/chosen_map.h"
 #include "apps/command_line.h"
 #include "apps/map_commands.h"
 #include "apps/stop_signal.h"
@@ -19,7 +20,6 @@
 namespace plumbline {
 namespace {
 
-constexpr int kMostMaps = 1'000'000'000;
 constexpr auto kStep = std::chrono::milliseconds(20);
 constexpr const char* kDefaultAddress = "8080";
 
@@ -27,7 +27,7 @@ CommandSyntax MapViewSyntax() {
   return {"map view",
           "Shows a map file in browsers, and in Foxglove, until Ctrl-C.",
           {"FILE"},
-          {{"--map", "N", "the map of this number (default: the one that grew last)"},
+          {kMapOption,
            {"--view", "[HOST:]PORT", "where to listen (default: 8080 of this machine)"},
            {"--view-origin", "URL", "another page that may connect; may be repeated"}}};
 }
@@ -37,20 +37,6 @@ SharedBytes PictureOf(const Atlas& atlas, ShownId id) {
   const KeyFrame* keyframe = atlas.active().Find(KeyFrameId{id});
   if (keyframe == nullptr) return nullptr;
   return std::make_shared<const std::string>(FrameMessage(ViewedFrameOf(*keyframe)).Take());
-}
-
-void ChooseMap(const CommandLine& line, Atlas& atlas) {
-  if (atlas.empty()) throw InputError(line.Positional(0) + ": expected a map, found none");
-  if (!line.Has("--map")) {
-    atlas.Activate(atlas.active_id());
-    return;
-  }
-  const MapId id{line.Count("--map", 0, {0, kMostMaps})};
-  if (atlas.Find(id) == nullptr) {
-    throw InputError("--map " + *line.Value("--map") +
-                     ": expected a map of the file; see map info");
-  }
-  atlas.Activate(id);
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 #include "apps/merge_atlases.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/options_io.h"
 #include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/map/gathering.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/saved_options.h"
 
 #include "apps/line_method.h"
 #include <utility>
@@ -49,17 +49,15 @@ std::string WhyNotMerged(MergeRefusal refusal) {
 
 // The options that the first map was made with, as far as this program does what they say.
 SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const Remark& remark) {
-  SlamOptions options;
-  if (first.options_yaml.empty()) return options;
   try {
-    OptionTable(options).LoadText(first.options_yaml, name);
+    SlamOptions options = SavedOptions(first, name);
     ChooseLineMethod(options);
     CheckOptions(options);
+    return options;
   } catch (const InputError& error) {
     remark(fmt::format("{}; merging with the default options", error.what()));
     return {};
   }
-  return options;
 }
 
 void JoinAsTold(const Similarity3& transform, MapId second, MergedAtlases& merged) {

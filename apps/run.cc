@@ -268,11 +268,13 @@ std::vector<std::string> LoadMapInto(System& system, const RunSetup& setup) {
 }
 
 // Before an hour's work: that there is somewhere to write the checkpoint to.
-void CheckFolderOfCheckpoint(const RunSetup& setup) {
+void CheckPlaceOfCheckpoint(const RunSetup& setup) {
   if (!setup.checkpoint) return;
   const std::filesystem::path folder = setup.checkpoint->parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw InputError("cannot write " + setup.checkpoint->string() + ": no such folder");
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw InputError("cannot write " + setup.checkpoint->string() + ": no such folder");
+  }
+  CheckReplaceable(*setup.checkpoint);
 }
 
 // Goes on from the checkpoint, whose frames must be the first of the input.
@@ -305,16 +307,19 @@ void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
 void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
   if (setup.view.record) {
     CheckFileApart("--record", *setup.view.record, inputs);
+    CheckNoResult("--record", *setup.view.record, setup.folder);
+    CheckReplaceable(*setup.view.record);
     inputs.push_back({*setup.view.record});
   }
   if (!setup.checkpoint) return;
+  CheckNoResult("--checkpoint", *setup.checkpoint, setup.folder);
   if (setup.resume) {
     std::erase_if(inputs, [&](const RunInput& input) { return input.path == *setup.resume; });
   }
   CheckFileApart("--checkpoint", *setup.checkpoint, inputs);
 }
 
-// Before anything is written: that there is somewhere to listen.
+// Before anything is done: that there is somewhere to listen, and to record to.
 void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, RunFrames& input) {
   if (!setup.view.access && !setup.view.record) return;
   ViewedRun run;
@@ -377,16 +382,16 @@ void Print(const System& system, const Dataset& dataset, const RunSetup& setup) 
 
 // In one line, whatever went wrong.
 void RethrowFailures(const Processed& processed, const std::optional<std::string>& not_written) {
-  if (!not_written) {
-    if (processed.failure) std::rethrow_exception(processed.failure);
-    return;
+  std::string failures = not_written.value_or("");
+  if (processed.not_recorded) {
+    failures += (failures.empty() ? "" : "; ") + *processed.not_recorded;
   }
   try {
     if (processed.failure) std::rethrow_exception(processed.failure);
   } catch (const InputError& error) {
-    throw InputError(error.what() + ("; " + *not_written));
+    throw InputError(error.what() + (failures.empty() ? "" : "; " + failures));
   }
-  throw InputError(*not_written);
+  if (!failures.empty()) throw InputError(failures);
 }
 
 }  // namespace
@@ -407,9 +412,9 @@ int RunCommand(std::span<const std::string> arguments) {
   system.DescribeSession(PLUMBLINE_VERSION, input.dataset->info().name);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
   ResumeFrom(setup, system, input);
-  OpenViewer(line, setup, system, input);
   RunFolder folder(setup.folder);
-  CheckFolderOfCheckpoint(setup);
+  CheckPlaceOfCheckpoint(setup);
+  OpenViewer(line, setup, system, input);
   WriteOptions(setup, folder);
   IgnoreBrokenPipes();
   SayBefore(*input.dataset, folder, map_notes, setup.quiet);

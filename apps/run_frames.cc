@@ -89,8 +89,8 @@ class FrameFeed {
   // In the thread that tracks.
   void Observe(const FrameRecord& record, const FrameView& view) {
     const auto position = static_cast<std::size_t>(record.id.value);
-    if (record.reason == Pipeline::kDropped) {
-      progress_.Say(fmt::format("frame {} dropped: tracking is behind", input_.IndexOf(position)));
+    if (record.shed == Shed::kFrame) {
+      progress_.Say(fmt::format("frame {} dropped: tracking is behind", position));
     }
     if (!result_.first_pose_seconds && record.status == FrameStatus::kTracked) {
       result_.first_pose_seconds = SecondsSinceProcessStart();
@@ -127,6 +127,7 @@ class FrameFeed {
     if (!input_.viewer) return;
     input_.viewer->Finish(system_.atlas(), system_.events());
     Report(input_.viewer->TakeFailure());
+    result_.not_recorded = input_.viewer->RecordingFailure();
   }
 
   // In the thread that feeds: as long as somebody who looks has paused the run. What is asked about
@@ -228,31 +229,26 @@ class FrameFeed {
 }  // namespace
 
 KeptViews::KeptViews(const RunFrames& input) {
-  if (input.live != nullptr) live_ = input.range;
-  const std::vector<std::size_t>& frames = input.frames;
-  if (input.first >= frames.size()) return;
+  live_ = input.live != nullptr;
+  const std::size_t frames = input.frames.size();
+  if (input.first >= frames) return;
   for (std::size_t k = 0; k < kOverlays; ++k) {
-    const std::size_t position =
-        input.first + k * (frames.size() - 1 - input.first) / (kOverlays - 1);
-    wanted_[position] = frames[position];
+    wanted_.insert(input.first + k * (frames - 1 - input.first) / (kOverlays - 1));
   }
 }
 
 void KeptViews::Offer(std::size_t position, const FrameView& view) {
   if (view.images.left.empty()) return;
   if (live_) return OfferOfMany(position, view);
-  const auto it = wanted_.find(position);
-  if (it != wanted_.end()) views_.emplace_back(it->second, view);
+  if (wanted_.contains(position)) views_.emplace_back(position, view);
 }
 
 void KeptViews::OfferOfMany(std::size_t position, const FrameView& view) {
   if (position % every_ != 0) return;
-  views_.emplace_back(live_->from + position * live_->stride, view);
+  views_.emplace_back(position, view);
   if (views_.size() <= kOverlays) return;
   every_ *= 2;
-  std::erase_if(views_, [this](const auto& kept) {
-    return (kept.first - live_->from) / live_->stride % every_ != 0;
-  });
+  std::erase_if(views_, [this](const auto& kept) { return kept.first % every_ != 0; });
 }
 
 Processed ProcessFrames(

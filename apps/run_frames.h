@@ -12,9 +12,9 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,11 +35,6 @@ struct RunFrames {
   std::optional<std::filesystem::path> checkpoint;  // written when all frames are tracked
   std::string description;                          // for the checkpoint, SavedRun::input
   std::shared_ptr<Viewer> viewer;                   // that shows the run; may be null
-
-  // Of the frame at a position of the run.
-  std::size_t IndexOf(std::size_t position) const {
-    return live != nullptr ? range.from + position * range.stride : frames[position];
-  }
 };
 
 // Frames that are shown with their features, kept until there is time to draw them.
@@ -50,15 +45,15 @@ class KeptViews {
   explicit KeptViews(const RunFrames& input);
 
   void Offer(std::size_t position, const FrameView& view);
-  // Index in the data set, and the view.
+  // The number of the frame as played, and the view.
   const std::vector<std::pair<std::size_t, FrameView>>& views() const { return views_; }
 
  private:
   void OfferOfMany(std::size_t position, const FrameView& view);
 
-  std::map<std::size_t, std::size_t> wanted_;  // position in the run -> index in the data set
+  std::set<std::size_t> wanted_;  // positions in the run
   std::vector<std::pair<std::size_t, FrameView>> views_;
-  std::optional<LiveRange> live_;
+  bool live_ = false;
   std::size_t every_ = 1;  // position that is kept, of a live source
 };
 
@@ -68,6 +63,7 @@ struct Processed {
   // Why not all frames were taken, or mapping is not complete: an InputError, with what the machine
   // was short of too, or something unforeseen.
   std::exception_ptr failure;
+  std::optional<std::string> not_recorded;  // why --record has no whole file
 };
 
 // Reads the frames and feeds them to the system until there are no more, somebody asks to stop

@@ -185,12 +185,18 @@ std::vector<int> ReadIndices(py::handle value, const char* name, std::size_t lim
   return indices;
 }
 
+// Whether it is one number: of Python or of numpy, or an array without axes.
+static bool IsScalar(py::handle value) {
+  return py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value) ||
+         (py::hasattr(value, "ndim") && value.attr("ndim").cast<int>() == 0);
+}
+
 std::vector<double> ReadSigmas(py::handle value, const char* name, std::size_t count) {
   std::vector<double> sigmas;
-  if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) {
-    sigmas.assign(count, value.cast<double>());
+  const Doubles array = ReadDoubles(value, name, IsScalar(value) ? Shape{} : Shape{kAny});
+  if (array.ndim() == 0) {
+    sigmas.assign(count, *array.data());
   } else {
-    const Doubles array = ReadDoubles(value, name, {kAny});
     CheckCount(name, count, static_cast<std::size_t>(array.size()));
     sigmas.assign(array.data(), array.data() + array.size());
   }

@@ -56,10 +56,7 @@ std::optional<PyMap> ActiveMap(const PyAtlas& atlas) {
 
 py::dict LineMapOf(const PyMap& map) {
   std::vector<MappedLine> lines;
-  RunInterruptibly([&](const StopCheck& stop) {
-    const AtlasContext& context = map.saved->context;
-    lines = MakeLineMap(*map.map, {context.camera, context.octave_scale}, {}, stop);
-  });
+  RunInterruptibly([&](const StopCheck& stop) { lines = MappedLinesOf(map, stop); });
   std::vector<Segment3> segments;
   std::vector<double> sigmas;
   std::vector<std::int64_t> keyframes;
@@ -126,11 +123,11 @@ rectified image, sigma_px across. Ordered by line, then keyframe. A read-only co
       .def(
           "keyframe_trajectory",
           [](const PyMap& map) { return PoseList{KeyFrameTrajectoryOf(map)}; },
-          "keyframe_trajectory() -> Trajectory\n\nOf the left camera as delivered.")
+          "keyframe_trajectory() -> Trajectory\n\nOf the left camera; of one time the oldest.")
       .def("line_map", LineMapOf, R"(line_map() -> dict
 
-The lines fit to be given out, each once (docs/methods/line-map.md): "segments" (N, 2, 3) in the
-world, "sigmas" (N,) of the worse end across the line, "keyframes" (N,) that show it. New arrays.)")
+The lines fit to be given out (docs/methods/line-map.md), as the run had it: "segments" (N, 2, 3) in
+the world, "sigmas" (N,) of the worse end across, "keyframes" (N,) that show it. New arrays.)")
       .def("export",
            &ExportMap,
            py::arg("path"),

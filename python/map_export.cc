@@ -11,13 +11,17 @@
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
-#include "plumbline/mapping/line_map.h"
+#include "plumbline/map/keyframe_trajectory.h"
+#include "plumbline/slam/saved_options.h"
 
 #include "apps/command_line.h"
+#include "bindings.h"
 #include <map>
 #include <vector>
 
 namespace plumbline::python {
+
+namespace py = pybind11;
 namespace {
 
 enum class ExportFormat { kPly, kObj, kDxf, kTum, kColmap };
@@ -29,9 +33,21 @@ constexpr auto EnumNames(std::type_identity<ExportFormat>) {
                     std::pair{ExportFormat::kColmap, "colmap"}};
 }
 
+// As the run that made the map had them; a warning where this version does not know them.
+LineMapOptions LineMapOptionsOf(const AtlasContext& context) {
+  try {
+    return SavedOptions(context, "options of the map").mapping.line_map;
+  } catch (const InputError& error) {
+    const py::gil_scoped_acquire acquire;
+    const std::string warning = std::string(error.what()) + "; lines as by default";
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
+    return {};
+  }
+}
+
 std::vector<Segment3> LinesOf(const PyMap& map) {
   std::vector<Segment3> segments;
-  for (const MappedLine& line : MakeLineMap(*map.map, {map.saved->context.camera}, {})) {
+  for (const MappedLine& line : MappedLinesOf(map, {})) {
     segments.push_back(line.segment);
   }
   return segments;
@@ -61,16 +77,14 @@ void WriteColmap(const PyMap& map, const std::filesystem::path& path) {
 
 }  // namespace
 
+std::vector<MappedLine> MappedLinesOf(const PyMap& map, const StopCheck& stop) {
+  const AtlasContext& context = map.saved->context;
+  return MakeLineMap(
+      *map.map, {context.camera, context.octave_scale}, LineMapOptionsOf(context), stop);
+}
+
 Trajectory KeyFrameTrajectoryOf(const PyMap& map) {
-  const Rigid3 rectified_from_left{map.saved->context.rectified_from_left, Eigen::Vector3d::Zero()};
-  std::map<std::int64_t, Rigid3> poses;
-  for (const auto& [id, keyframe] : map.map->keyframes()) {
-    poses.emplace(keyframe.frame.stamp_ns,
-                  Inverse(keyframe.frame.cam_from_world) * rectified_from_left);
-  }
-  Trajectory trajectory;
-  for (const auto& [stamp_ns, pose] : poses) trajectory.push_back({stamp_ns, pose});
-  return trajectory;
+  return KeyFrameTrajectory(*map.map, map.saved->context.rectified_from_left);
 }
 
 void ExportMap(const PyMap& map, const std::filesystem::path& path, const std::string& format) {

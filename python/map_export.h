@@ -2,16 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/stop_check.h"
 #include "plumbline/geometry/trajectory.h"
+#include "plumbline/mapping/line_map.h"
 
 #include "maps.h"
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace plumbline::python {
 
-// Poses of the left camera as delivered at the keyframes of a map, in the order of time; of
-// keyframes of one time the one with the lowest number.
+// The line map as the run that made the map gave it out (MakeLineMap). May be called with or
+// without the lock of the interpreter.
+std::vector<MappedLine> MappedLinesOf(const PyMap& map, const StopCheck& stop);
+
+// KeyFrameTrajectory of a map.
 Trajectory KeyFrameTrajectoryOf(const PyMap& map);
 
 // Writes a map as `plumbline map export --to FORMAT` without images does: ply, obj, dxf, tum,

@@ -161,13 +161,8 @@ void RunningSystem::CheckFinished(const char* what) const {
 }
 
 void RunningSystem::CheckFrame(const SensorFrame& frame) const {
+  system_.CheckComplete(frame);
   CheckImage("left", frame.left, calibration_);
-  if (calibration_.right && !frame.right) {
-    throw InputError("images: expected a left and a right image, as calibrated, found one image");
-  }
-  if (!calibration_.right && calibration_.depth_factor && !frame.depth) {
-    throw InputError("images: expected an image and a depth image, as calibrated, found one image");
-  }
   if (calibration_.right) CheckImage("right", *frame.right, calibration_);
   if (frame.depth) CheckImage("depth", *frame.depth, calibration_);
 }

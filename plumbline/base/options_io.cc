@@ -111,6 +111,17 @@ struct Store {
   }
 };
 
+struct HasValueInRange {
+  const OptionField& field;
+
+  bool operator()(const EnumField& /*choice*/) const { return true; }
+  bool operator()(const std::string* /*text*/) const { return true; }
+  template <class T>
+  bool operator()(const T* value) const {
+    return InRange(field, static_cast<double>(*value));
+  }
+};
+
 struct ToText {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const double* value) const { return Shortest(*value); }
@@ -264,6 +275,13 @@ void OptionTable::Set(std::string_view assignment) {
   SetField(std::string(assignment.substr(0, equals)),
            std::string(assignment.substr(equals + 1)),
            "--set " + Printable(assignment));
+}
+
+void OptionTable::CheckRanges() const {
+  for (const OptionField& field : fields_) {
+    if (std::visit(HasValueInRange{field}, field.target)) continue;
+    throw InputError(field.key + ": expected " + Allowed(field) + ", found " + ValueOf(field));
+  }
 }
 
 std::string OptionTable::Dump() const {

@@ -64,6 +64,10 @@ class OptionTable {
   // One setting "key=value".
   void Set(std::string_view assignment);
 
+  // Throws InputError where a number lies outside the range of its option: one that was set in the
+  // struct itself, which nobody checks.
+  void CheckRanges() const;
+
   // A YAML document of all options with help, range and choices as comments. LoadText of it gives
   // the same values again, to the last bit.
   std::string Dump() const;

@@ -58,6 +58,12 @@ std::optional<std::string> TurnFault(const Calibration& calibration,
       Place(centre));
 }
 
+std::optional<std::string> CameraFault(const CameraIntrinsics& in) {
+  if (auto fault = SizeFault(in.width, in.height)) return fault;
+  if (auto fault = IntrinsicsFault(in)) return fault;
+  return DistortionFault(in);
+}
+
 }  // namespace
 
 std::optional<std::string> SizeFault(double width, double height) {
@@ -146,6 +152,17 @@ std::optional<std::string> PairFault(const Calibration& calibration) {
                 " degrees off");
   }
   return calibration.rectified ? TurnFault(calibration, centre) : std::nullopt;
+}
+
+std::optional<std::string> CalibrationFault(const Calibration& calibration) {
+  if (auto fault = CameraFault(calibration.left.intrinsics())) return "left camera: " + *fault;
+  if (calibration.depth_factor) {
+    if (auto fault = DepthFactorFault(*calibration.depth_factor)) return fault;
+  }
+  if (auto fault = RectifiedFault(calibration)) return fault;
+  if (!calibration.right) return std::nullopt;
+  if (auto fault = CameraFault(calibration.right->intrinsics())) return "right camera: " + *fault;
+  return PairFault(calibration);
 }
 
 std::optional<std::string> RectifiedFault(const Calibration& calibration) {

@@ -41,6 +41,10 @@ std::optional<std::string> DistortionFault(const CameraIntrinsics& intrinsics);
 // rectified, is not turned. Of a calibration with `right`.
 std::optional<std::string> PairFault(const Calibration& calibration);
 
+// All of the above of both cameras, and the depth factor: of a calibration that no file was checked
+// for, such as one that a program puts together.
+std::optional<std::string> CalibrationFault(const Calibration& calibration);
+
 // Whether images that are declared rectified have no distortion.
 std::optional<std::string> RectifiedFault(const Calibration& calibration);
 

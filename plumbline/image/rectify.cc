@@ -190,11 +190,10 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
   const Camera& left = calibration_.left;
   const bool stereo = calibration_.right.has_value();
   const bool with_depth = calibration_.depth_factor.has_value();
-  Refuse(RectifiedFault(calibration_));
+  Refuse(CalibrationFault(calibration_));
   bool unchanged = left.IsIdeal();
   double baseline = with_depth ? kVirtualBaseline : 0;
   if (stereo) {
-    Refuse(PairFault(calibration_));
     const Rigid3 left_from_right = Inverse(calibration_.right_from_left);
     baseline = left_from_right.translation.norm();
     if (!calibration_.rectified) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/atomic_file.h"
 
+#include "plumbline/base/input_file.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <string>
@@ -34,7 +36,18 @@ bool Synchronized(const std::filesystem::path& path) {
 
 }  // namespace
 
+void CheckReplaceable(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+  if (std::filesystem::is_directory(status)) {
+    FailWrite(path, std::make_error_code(std::errc::is_a_directory));
+  }
+  throw WriteError(path, "expected a file or nothing there, found " + KindOf(path));
+}
+
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  CheckReplaceable(path_);
   temporary_ =
       path_.parent_path() /
       fmt::format(".{}.{}.tmp{}", path_.stem().string(), ::getpid(), path_.extension().string());

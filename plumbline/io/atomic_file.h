@@ -17,10 +17,12 @@ namespace plumbline {
 // A file that cannot be written: "cannot write <path>: <reason>".
 class WriteError : public InputError {
  public:
-  WriteError(std::filesystem::path path, const std::error_code& why)
-      : InputError("cannot write " + path.string() + ": " + why.message()),
+  WriteError(std::filesystem::path path, std::string why)
+      : InputError("cannot write " + path.string() + ": " + why),
         path_(std::move(path)),
-        why_(why.message()) {}
+        why_(std::move(why)) {}
+  WriteError(std::filesystem::path path, const std::error_code& why)
+      : WriteError(std::move(path), why.message()) {}
   const std::filesystem::path& path() const { return path_; }
   const std::string& why() const { return why_; }
 
@@ -28,6 +30,10 @@ class WriteError : public InputError {
   std::filesystem::path path_;
   std::string why_;
 };
+
+// Throws WriteError where no file is to take the place of what is at `path`: a folder, a device, a
+// pipe. Touches nothing.
+void CheckReplaceable(const std::filesystem::path& path);
 
 // Writes a whole file or nothing: the contents go to a temporary file in the same folder, which
 // takes the final name once complete. A killed program leaves the old file, or none, in place.
@@ -43,7 +49,7 @@ enum class Durability { kProcess, kPower };
 // temporary_path(), then Commit(). Without Commit the temporary file is removed.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  explicit AtomicFile(std::filesystem::path path);  // throws as CheckReplaceable
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();

@@ -113,10 +113,10 @@ std::unique_ptr<Dataset> OpenEuroc(const fs::path& path, const DatasetOptions& o
     throw InputError(path.string() + ": expected a EuRoC folder, found no mav0/cam0 in it");
   }
   std::vector<SensorKind> available = {SensorKind::kMono};
-  if (PathExists(mav / "cam1" / "data.csv"))
-    available.insert(available.begin(), SensorKind::kStereo);
+  if (PathExists(mav / "cam1")) available.insert(available.begin(), SensorKind::kStereo);
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kEuroc, std::move(available), options);
   const bool stereo = info.sensor == SensorKind::kStereo;
+  if (stereo) CheckSecondList(mav / "cam1" / "data.csv", "right");
   UseCamera(ReadCalibration(path, mav, options, info.sensor), info);
 
   const std::vector<ListedImage> left = ReadList(mav / "cam0");

@@ -111,7 +111,18 @@ std::string NameOf(const fs::path& path) {
 
 bool PathExists(const fs::path& path) {
   std::error_code error;
-  return fs::exists(path, error);
+  const bool exists = fs::exists(path, error);
+  if (error) throw InputError(path.string() + ": cannot be read: " + error.message());
+  return exists;
+}
+
+void CheckSecondList(const fs::path& list, const char* images) {
+  if (PathExists(list)) return;
+  throw InputError(
+      fmt::format("{}: expected a list of the {} images, found none; with the sensor "
+                  "mono it is not needed",
+                  list.string(),
+                  images));
 }
 
 ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted) {

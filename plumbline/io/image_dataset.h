@@ -20,8 +20,12 @@ struct ListedImage {
   std::filesystem::path path;
 };
 
-// Whether there is such a file or folder; false also where that cannot be found out.
+// Whether there is such a file or folder. InputError where that cannot be found out.
 bool PathExists(const std::filesystem::path& path);
+
+// Throws InputError where there is no list of the images of a second sensor ("right", "depth"), of
+// which something else is there: it is not to be left out unasked.
+void CheckSecondList(const std::filesystem::path& list, const char* images);
 
 // The image files of one frame.
 struct FrameFiles {

@@ -141,12 +141,15 @@ std::map<std::size_t, fs::path> NumberedImages(const fs::path& folder) {
   return images;
 }
 
-// The file of frame i, or where it would be.
+// The file of frame i, or where it would be beside the others.
 fs::path ImageAt(const std::map<std::size_t, fs::path>& images,
                  const fs::path& folder,
                  std::size_t i) {
   const auto found = images.find(i);
-  return found != images.end() ? found->second : folder / fmt::format("{:06}.png", i);
+  if (found != images.end()) return found->second;
+  const std::string extension =
+      images.empty() ? ".png" : images.begin()->second.extension().string();
+  return folder / fmt::format("{:06}{}", i, extension);
 }
 
 std::optional<GroundTruth> ReadGroundTruth(const fs::path& path,

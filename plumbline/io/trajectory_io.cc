@@ -38,14 +38,18 @@ Eigen::Quaterniond QuaternionAt(const path& file,
 std::int64_t Stamp(const path& file, const TextRow& row, TrajectoryFormat format) {
   const bool seconds = format == TrajectoryFormat::kTum;
   const std::string& text = row.fields[0];
-  const std::optional<std::int64_t> stamp = seconds ? ParseSeconds(text) : ParseNanoseconds(text);
+  // A trajectory may have times before zero, as none of a sensor are.
+  const bool negative = text.starts_with('-');
+  const std::string_view digits = std::string_view(text).substr(negative ? 1 : 0);
+  const std::optional<std::int64_t> stamp =
+      seconds ? ParseSeconds(digits) : ParseNanoseconds(digits);
   if (!stamp) {
     FailAt(file,
            row.line,
            seconds ? "a time stamp in seconds" : "a time stamp in whole nanoseconds",
            InQuotes(text));
   }
-  return *stamp;
+  return negative ? -*stamp : *stamp;
 }
 
 Rigid3 PoseOfRow(const path& file, const TextRow& row, TrajectoryFormat format) {

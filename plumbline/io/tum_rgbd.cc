@@ -93,7 +93,7 @@ std::optional<CameraFile> ReadCalibration(const fs::path& path, const DatasetOpt
 
 std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& options) {
   std::optional<CameraFile> camera = ReadCalibration(path, options);
-  const bool has_depth = PathExists(path / "depth.txt");
+  const bool has_depth = PathExists(path / "depth.txt") || PathExists(path / "depth");
   const bool has_factor = !camera || camera->calibration.depth_factor.has_value();
   if (has_depth && !has_factor && options.sensor == SensorKind::kRgbd) {
     throw InputError(path.string() + ": expected depth_factor in the camera file, found none");
@@ -110,6 +110,7 @@ std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& opt
   const std::vector<ListedImage> color = ReadList(path / "rgb.txt");
   std::vector<FrameFiles> files;
   if (info.sensor == SensorKind::kRgbd) {
+    CheckSecondList(path / "depth.txt", "depth");
     files = JoinDepth(color, ReadList(path / "depth.txt"), info);
   } else {
     for (const ListedImage& image : color) {

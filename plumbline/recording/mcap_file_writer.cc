@@ -7,12 +7,14 @@
 #include "plumbline/base/error.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <numeric>
 #include <span>
 #include <system_error>
 #include <utility>
 
+#include <fmt/core.h>
 #include <zstd.h>
 
 namespace plumbline {
@@ -82,11 +84,18 @@ std::uint64_t TimeOf(std::int64_t time_ns) {
   return time_ns > 0 ? static_cast<std::uint64_t>(time_ns) : 0;
 }
 
+// What the operating system said last; it says nothing where a stream failed on its own.
+std::string LastReason() {
+  return errno == 0 ? std::string("unknown reason") : std::generic_category().message(errno);
+}
+
 }  // namespace
 
 McapFileWriter::McapFileWriter(std::filesystem::path path)
-    : path_(std::move(path)), part_(path_.string() + ".part"), file_(part_, std::ios::binary) {
-  if (!file_) throw InputError(part_.string() + ": cannot be written");
+    : path_(std::move(path)), part_(path_.string() + ".part") {
+  errno = 0;
+  file_.open(part_, std::ios::binary);
+  if (!file_) throw InputError("cannot write " + part_.string() + ": " + LastReason());
   Append(std::string(kMagic));
   Append(Record(kHeader, Fields().Text("").Text("plumbline")));
 }
@@ -99,9 +108,15 @@ McapFileWriter::~McapFileWriter() {
   }
 }
 
+void McapFileWriter::Fail() const {
+  throw InputError(fmt::format(
+      "cannot write {}: {} ({} has what there is)", path_.string(), LastReason(), part_.string()));
+}
+
 void McapFileWriter::Append(const std::string& bytes) {
+  errno = 0;
   file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file_) throw InputError(part_.string() + ": cannot be written any more");
+  if (!file_) Fail();
   size_ += bytes.size();
   crc_ = CrcOf(bytes, crc_);
 }
@@ -233,11 +248,13 @@ void McapFileWriter::Close() {
   Append(footer_head);
   Append(Fields().Number(crc_).bytes());
   Append(std::string(kMagic));
+  errno = 0;
   file_.close();
-  if (!file_) throw InputError(part_.string() + ": cannot be completed");
+  if (!file_) Fail();
   std::error_code error;
   std::filesystem::rename(part_, path_, error);
-  if (error) throw InputError(path_.string() + ": cannot be written: " + error.message());
+  errno = error.value();
+  if (error) Fail();
 }
 
 }  // namespace plumbline

@@ -53,6 +53,7 @@ class McapFileWriter {
   };
   using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  // time, offset in the chunk
 
+  [[noreturn]] void Fail() const;  // with what the operating system said last
   void Append(const std::string& bytes);
   void EndChunk();
   void AppendSummary();

@@ -150,6 +150,17 @@ void CheckFileApart(std::string_view option,
   }
 }
 
+void CheckNoResult(std::string_view option, const fs::path& file, const fs::path& out) {
+  const std::string name = file.filename().string();
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const bool result = IsRunFile(name) || name == RunManifest::kFile;
+  if (!IsWithin(file, out / kPart) && !(result && IsSamePath(folder, out))) return;
+  throw InputError(fmt::format("{} {}: expected another name, found one that the results in {} use",
+                               option,
+                               file.string(),
+                               out.string()));
+}
+
 RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)), part_(folder_ / kPart) {
   try {
     Open();

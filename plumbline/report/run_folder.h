@@ -38,6 +38,12 @@ void CheckFileApart(std::string_view option,
                     const std::filesystem::path& file,
                     std::span<const RunInput> inputs);
 
+// Throws InputError, which names the option, when a file that a run is to write beside its results
+// has the place of one of them in the folder `out`, or lies in the folder's part. Touches nothing.
+void CheckNoResult(std::string_view option,
+                   const std::filesystem::path& file,
+                   const std::filesystem::path& out);
+
 // The folder of a run's results (--out DIR), of which nothing is lost.
 //
 // A run writes into DIR/.part. At the end Commit() puts its files in the places of those of an

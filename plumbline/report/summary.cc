@@ -4,7 +4,6 @@
 
 #include "plumbline/base/options.h"
 #include "plumbline/report/timing.h"
-#include "plumbline/slam/pipeline.h"
 
 #include <ctime>
 #include <fstream>
@@ -119,7 +118,7 @@ RunCounts CountRun(const System& system) {
     counts.tracked += frame.status == FrameStatus::kTracked;
     counts.lost += frame.status == FrameStatus::kLost;
     counts.skipped += frame.status == FrameStatus::kSkipped;
-    counts.dropped += frame.reason == Pipeline::kDropped;
+    counts.dropped += frame.shed == Shed::kFrame;
     counts.shed_mapping += frame.shed == Shed::kMapping;
     counts.shed_lines += frame.shed == Shed::kLines;
     counts.shed_points += frame.shed == Shed::kPoints;

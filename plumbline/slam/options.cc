@@ -3,6 +3,7 @@
 #include "plumbline/slam/options.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/options_io.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,8 @@ void CheckLineMethod(const char* option, Value asked, Value done) {
 }  // namespace
 
 void CheckOptions(const SlamOptions& options) {
+  SlamOptions copy = options;  // the table has pointers to what may be changed
+  OptionTable(copy).CheckRanges();
   const FeatureOptions& f = options.features;
   if (!(f.points && f.point_count > 0) && !(f.lines && f.line_count > 0)) {
     throw InputError(

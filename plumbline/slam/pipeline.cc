@@ -86,6 +86,7 @@ void Pipeline::DropOldest() {
       std::find_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.HasFrame(); });
   oldest->raw.reset();
   oldest->reason = kDropped;
+  oldest->dropped = true;
 }
 
 // Frames that somebody will have to work on.
@@ -96,9 +97,8 @@ std::size_t Pipeline::Waiting() const {
 
 void Pipeline::Do(Job job) {
   if (!job.HasFrame()) {
-    const bool dropped = job.reason == kDropped;
-    dropped_ += dropped;
-    observer_(system_.Skip(job.stamp_ns, job.reason, dropped ? Shed::kFrame : Shed::kNothing),
+    dropped_ += job.dropped;
+    observer_(system_.Skip(job.stamp_ns, job.reason, job.dropped ? Shed::kFrame : Shed::kNothing),
               FrameView{});
     return;
   }

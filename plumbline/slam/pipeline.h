@@ -65,8 +65,9 @@ class Pipeline {
     std::optional<SensorFrame> raw;
     StageClock clock;  // of a raw frame, since its arrival
     Execution::Clock::time_point arrival;
-    double interval = 0;  // seconds since the frame before was taken; 0: not known
-    std::string reason;   // why it has no frame to work on
+    double interval = 0;   // seconds since the frame before was taken; 0: not known
+    std::string reason;    // why it has no frame to work on
+    bool dropped = false;  // it had one, and waited too long
 
     bool HasFrame() const { return reason.empty(); }
   };

@@ -87,6 +87,21 @@ const FrameRecord& System::Keep(FrameRecord record) {
   return newest_;
 }
 
+void System::CheckComplete(const SensorFrame& frame) const {
+  const Calibration& calibration = rectifier().calibration();
+  if (calibration.right && !frame.right) {
+    throw InputError("images: expected a left and a right image, as calibrated, found one image");
+  }
+  if (!calibration.right && calibration.depth_factor && !frame.depth) {
+    throw InputError("images: expected an image and a depth image, as calibrated, found one image");
+  }
+}
+
+MeasuredFrame System::Measure(SensorFrame frame, StageClock clock, Shed shed) const {
+  CheckComplete(frame);
+  return front_end_.Measure(std::move(frame), std::move(clock), shed);
+}
+
 const FrameRecord& System::Process(SensorFrame frame) {
   Track(Measure(std::move(frame)));
   Complete();
@@ -393,9 +408,15 @@ Rigid3 System::AsDelivered(const Rigid3& rectified_cam_from_world) const {
   return Inverse(rectified_cam_from_world) * rectified_from_delivered;
 }
 
+const Map& System::MapOf(MapId id) const {
+  if (const Map* map = atlas().Find(id)) return *map;
+  throw InputError(
+      fmt::format("map {}: expected one of the {} maps of the run", id.value, maps().size()));
+}
+
 Trajectory System::FinalTrajectory(MapId map) const {
   Trajectory trajectory;
-  const Map& owner = maps().at(map);
+  const Map& owner = MapOf(map);
   for (const FrameRecord& record : frames_) {
     if (record.status != FrameStatus::kTracked || atlas().Current(record.map) != map) continue;
     trajectory.push_back(
@@ -420,13 +441,13 @@ MapEvents System::EventsSoFar() const {
 const std::vector<MappedLine>& System::LineMap(MapId map, const StopCheck& stop) const {
   const auto made = line_maps_.find(map);
   if (made != line_maps_.end()) return made->second;
-  const Map& owner = maps().at(map);
+  const Map& owner = MapOf(map);
   return line_maps_[map] = MakeLineMap(owner, imaging_, options_.mapping.line_map, stop);
 }
 
 Trajectory System::KeyFrameTrajectory(MapId map) const {
   Trajectory trajectory;
-  const Map& owner = maps().at(map);
+  const Map& owner = MapOf(map);
   for (const auto& [id, keyframe] : owner.keyframes()) {
     if (id < first_keyframe_) continue;
     trajectory.push_back({keyframe.frame.stamp_ns, AsDelivered(keyframe.frame.cam_from_world)});

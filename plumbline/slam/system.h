@@ -77,15 +77,13 @@ class System {
   void Observe(PlaceObserver observer) { mapping_.Observe(std::move(observer)); }
 
   // What came of the frame; it holds until the next one. Measure, Track and Complete. Throws
-  // InputError when an image has another size than the calibration says, or the frame is no later
-  // than the one before.
+  // InputError when an image has another size than the calibration says or is missing, or the frame
+  // is no later than the one before.
   const FrameRecord& Process(SensorFrame frame);
   // What can be done ahead, in another thread than the rest; see FrontEnd.
-  MeasuredFrame Measure(SensorFrame frame,
-                        StageClock clock = {},
-                        Shed shed = Shed::kNothing) const {
-    return front_end_.Measure(std::move(frame), std::move(clock), shed);
-  }
+  MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
+  // Throws InputError where an image is missing that the calibration speaks of; Measure does, too.
+  void CheckComplete(const SensorFrame& frame) const;
   // What came of a frame that was measured before; otherwise as Process. The pose is told as soon
   // as it is known: what the frame leaves to do for the map is done by Complete.
   const FrameRecord& Track(MeasuredFrame frame);
@@ -172,7 +170,7 @@ class System {
   MapEvents EventsSoFar() const;
 
   // Poses of the camera as delivered, after Finish; frames in order of time. `map` is one of
-  // maps(); of causal poses also one that was joined with another since.
+  // maps() (InputError); of causal poses also one that was joined with another since.
   Trajectory FinalTrajectory(MapId map) const;
   // The poses of the keyframes alone, as of FinalTrajectory.
   Trajectory KeyFrameTrajectory(MapId map) const;
@@ -215,6 +213,7 @@ class System {
   void Demote(const DemotedKeyFrame& gone);
   FrameStatus StatusWithoutPose() const;
   void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
+  const Map& MapOf(MapId id) const;              // throws InputError where there is none
   void CheckStamp(std::int64_t stamp_ns) const;  // throws InputError unless later than the last
   const FrameRecord& Keep(FrameRecord record);
   void LoseFramesNotMapped();

@@ -3,7 +3,6 @@
 #include "plumbline/view/viewer.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/slam/pipeline.h"
 #include "plumbline/view/view_page.h"
 
 #include <algorithm>
@@ -74,6 +73,7 @@ void Viewer::RunServer() {
   } catch (const std::exception& error) {
     const std::lock_guard lock(mutex_);
     failure_ = std::string("the viewer has stopped: ") + error.what();
+    if (recording_) recording_failure_ = failure_;
     broken_ = true;
     recording_ = false;
     delivered_.notify_all();
@@ -183,13 +183,13 @@ void Viewer::FailRecording(const std::string& why) {
   NoteWishes();
   const std::lock_guard lock(mutex_);
   record_all_ = false;
-  failure_ = why;
+  failure_ = recording_failure_ = why;
 }
 
 void Viewer::Count(const FrameRecord& record) {
   constexpr std::size_t kArrivals = 30;  // frames a second are counted over
   ++counts_.frames;
-  counts_.dropped += record.reason == Pipeline::kDropped;
+  counts_.dropped += record.shed == Shed::kFrame;
   counts_.lost += record.status == FrameStatus::kLost;
   arrivals_.push_back(Clock::now());
   if (arrivals_.size() > kArrivals) arrivals_.pop_front();
@@ -313,6 +313,11 @@ void Viewer::EndRecording() {
 std::optional<std::string> Viewer::TakeFailure() {
   const std::lock_guard lock(mutex_);
   return std::exchange(failure_, std::nullopt);
+}
+
+std::optional<std::string> Viewer::RecordingFailure() {
+  const std::lock_guard lock(mutex_);
+  return recording_failure_;
 }
 
 }  // namespace plumbline

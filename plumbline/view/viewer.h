@@ -82,6 +82,8 @@ class Viewer {
 
   // What went wrong in the thread of the viewer, which serves or records nobody any more; once.
   std::optional<std::string> TakeFailure();
+  // Why there is no whole recording; nullopt where there is one, or none was asked for.
+  std::optional<std::string> RecordingFailure();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -124,7 +126,7 @@ class Viewer {
   Mail mail_;
   bool mail_posted_ = false;
   std::vector<std::pair<CallId, MapQuestion>> questions_;
-  std::optional<std::string> failure_;
+  std::optional<std::string> failure_, recording_failure_;
   bool broken_ = false;            // the thread has ended
   std::size_t not_recorded_ = 0;   // frames
   bool looking_ = false;           // LookAtMaps is to be called

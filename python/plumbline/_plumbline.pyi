@@ -281,7 +281,7 @@ class _TrajectoryErrors(TypedDict):
     rpe: _ErrorStatistics | None
     roe: _ErrorStatistics | None
     scale: float
-    scale_drift: float
+    scale_drift: float | None
     reference_from_estimate: _Doubles
     degenerate: bool
     stamps_ns: _Integers

@@ -15,21 +15,35 @@
 namespace plumbline {
 namespace {
 
+using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 
-SavedMap WorldMap(double noise) {
+struct WorldMap {
+  RectifiedCamera camera;
+  Map map;
+};
+
+WorldMap MakeWorldMap(double noise) {
   const SyntheticWorld world = MakeSyntheticWorld(60, 10);
-  SavedMap saved;
-  saved.camera = world.camera;
-  saved.version = 1;
-  saved.map =
-      MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(10), PoseOnPath(20)}, {.noise = noise}).map;
+  return {
+      world.camera,
+      MakeTrueMap(world, {PoseOnPath(0), PoseOnPath(10), PoseOnPath(20)}, {.noise = noise}).map};
+}
+
+// The first one is to be gone on with.
+SavedAtlas AtlasOf(const std::vector<Map>& maps) {
+  SavedAtlas saved;
+  saved.context.camera = TestCamera();
+  saved.file_version = 1;
+  for (const Map& map : maps) saved.atlas.Adopt(map);
+  if (!maps.empty()) saved.atlas.Activate(maps.front().id());
   return saved;
 }
 
 TEST(Summarize, CountsAndMeasures) {
-  const SavedMap saved = WorldMap(0);
-  const MapSummary summary = Summarize(saved);
+  const WorldMap saved = MakeWorldMap(0);
+  const MapSummary summary = Summarize(saved.camera, saved.map);
   EXPECT_EQ(summary.keyframes, 3U);
   EXPECT_EQ(summary.points, saved.map.points().size());
   std::size_t observations = 0;
@@ -51,35 +65,56 @@ TEST(Summarize, CountsAndMeasures) {
   EXPECT_TRUE(summary.bounds.contains(summary.middle_bounds));
   EXPECT_LT(summary.middle_bounds.volume(), 0.9 * summary.bounds.volume());
   EXPECT_LT(*summary.reprojection_px, 1e-9);
-  EXPECT_GT(*Summarize(WorldMap(1)).reprojection_px, 0.5);
+  const WorldMap noisy = MakeWorldMap(1);
+  EXPECT_GT(*Summarize(noisy.camera, noisy.map).reprojection_px, 0.5);
 }
 
 // The way from the end of one map to the start of the other was not travelled.
 TEST(Summarize, PathsOfMergedMapsAreApart) {
-  SavedMap saved = WorldMap(0);
-  const double alone = Summarize(saved).path_length;
+  WorldMap saved = MakeWorldMap(0);
+  const double alone = Summarize(saved.camera, saved.map).path_length;
   saved.map.Absorb(Renumbered(saved.map, Behind(saved.map)), {1, ExpSo3({0, 1, 0}), {100, 0, 0}});
-  EXPECT_NEAR(Summarize(saved).path_length, 2 * alone, 1e-9);
+  EXPECT_NEAR(Summarize(saved.camera, saved.map).path_length, 2 * alone, 1e-9);
 }
 
 TEST(MapInfo, SaysInWhatUnitLengthsAre) {
   const ScratchFolder folder;
   const auto file = folder.Write("m.plb", std::string(2'340'000, 'x'));
-  SavedMap saved = WorldMap(0);
+  SavedAtlas saved = AtlasOf({MakeWorldMap(0).map});
   EXPECT_THAT(MapInfoTable(file, saved), HasSubstr("version 1, 2.3 MB\n"));
   EXPECT_THAT(MapInfoTable(file, saved), HasSubstr("0.1100 m\n"));
   EXPECT_THAT(MapInfoTable(file, saved), HasSubstr(" m along the keyframes\n"));
-  saved.camera.baseline = 0;
+  saved.context.camera.baseline = 0;
   EXPECT_THAT(MapInfoTable(file, saved), HasSubstr("none: a single camera; lengths are in"));
   EXPECT_EQ(MapInfoTable(file, saved).find(" m along"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(MapInfoJson(file, saved))["unit"], "of the map");
 }
 
+TEST(MapInfo, CountsTheMaps) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("m.plb", "x");
+  SavedAtlas saved;
+  saved.context.camera = TestCamera();
+  EXPECT_THAT(MapInfoTable(file, saved), EndsWith("maps          0\n"));
+  EXPECT_EQ(nlohmann::json::parse(MapInfoJson(file, saved))["maps"].size(), 0U);
+  saved = AtlasOf({Map()});
+  EXPECT_THAT(MapInfoTable(file, saved), HasSubstr("maps          1 (number 0)\nkeyframes"));
+  saved = AtlasOf({MakeWorldMap(0).map, Map(MapId{1})});
+  EXPECT_THAT(
+      MapInfoTable(file, saved),
+      AllOf(HasSubstr("maps          2 (number 0, of which the rest speaks)\nkeyframes     3\n"),
+            EndsWith("map 1         0 keyframes, 0 points, 0 lines\n")));
+  const auto maps = nlohmann::json::parse(MapInfoJson(file, saved))["maps"];
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_EQ(maps[0]["id"], 0);
+  EXPECT_EQ(maps[0]["keyframes"], 3);
+  EXPECT_EQ(maps[1]["id"], 1);
+}
+
 TEST(MapInfo, OfAnEmptyMapHasNoTimesAndNoBounds) {
   const ScratchFolder folder;
   const auto file = folder.Write("m.plb", "x");
-  SavedMap saved;
-  saved.camera = TestCamera();
+  const SavedAtlas saved = AtlasOf({Map()});
   EXPECT_EQ(MapInfoTable(file, saved).find("time"), std::string::npos);
   EXPECT_EQ(MapInfoTable(file, saved).find("bounds"), std::string::npos);
   const auto map = nlohmann::json::parse(MapInfoJson(file, saved))["maps"][0];

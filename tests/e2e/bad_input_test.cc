@@ -443,6 +443,15 @@ TEST(BadInput, UnreadableImagesAndMissingPartnersAreNamedAndLeftOut) {
                         ": not an image this program can decode\n"));
   EXPECT_THAT(outcome.err, HasSubstr("cam1/data/3.png: no such file\n"));
   EXPECT_THAT(outcome.out, HasSubstr("frames 7: 5 tracked, 0 lost, 2 skipped"));
+  // Numbers count the frames as played, in messages, tables and names of files.
+  const Outcome played = RunProgram(
+      folder,
+      "run " + Quoted(sequence) + " --from 1 --stride 2 --out " + Quoted(folder / "played"));
+  EXPECT_EQ(played.code, 0) << played.err;
+  EXPECT_THAT(played.err, HasSubstr("frame 1 skipped: "));
+  EXPECT_THAT(Contents(folder / "played/frames.csv"), HasSubstr("\n1,1.150000000,skipped,"));
+  EXPECT_TRUE(fs::exists(folder / "played/overlay_000002.png"));
+  EXPECT_FALSE(fs::exists(folder / "played/overlay_000005.png"));
 }
 
 }  // namespace

@@ -148,6 +148,10 @@ TEST(CheckpointOfRun, IsRefusedForAnotherRunAndNothingIsTouched) {
   expect_refused("--resume " + Quoted(Posters().map), "expected a Plumbline checkpoint");
   expect_refused("--map " + Quoted(run.checkpoint()), "expected a Plumbline map");
   expect_refused("--checkpoint " + Quoted(run.folder / "none/c"), "no such folder");
+  expect_refused("--checkpoint " + Quoted(run.folder.path()), "Is a directory");
+  expect_refused("--checkpoint " + Quoted(run.folder / "out/map.plb"), "expected another name");
+  expect_refused("--record " + Quoted(run.folder.path()), "Is a directory");
+  expect_refused("--record " + Quoted(run.folder / "out/map.plb"), "expected another name");
   expect_refused("--checkpoint " + Quoted(fs::path(Posters().sequence) / "c"), "which is read");
   const std::string same = Quoted(run.folder / "same");
   expect_refused("--record " + same + " --checkpoint " + same, "expected another file");

@@ -5,11 +5,14 @@
 #include "tests/e2e/poster_run.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/read_colmap.h"
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -18,6 +21,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 namespace plumbline {
 namespace {
@@ -53,6 +57,18 @@ TEST(MapExport, GivesTheFilesOfTheRunAgain) {
 }
 
 // Real lines, and the sensors whose images are rectified in other ways.
+// The options that the run had decide about the lines of its map.
+TEST(MapExport, KnowsTheOptionsOfTheRun) {
+  const ScratchFolder folder;
+  const Outcome run =
+      RunProgram(folder,
+                 "run " + Quoted(Posters().sequence) +
+                     " --set mapping.line_map.min_keyframes=2 --out " + Quoted(folder / "run"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(Contents(folder / "run/lines.obj"), Contents(Posters().out / "lines.obj"));
+  ExpectFilesOfTheRun(folder, folder / "run");
+}
+
 TEST(MapExport, OfRealSequences) {
   const std::tuple<const char*, const char*, bool> runs[] = {
       {"euroc/MH_01_easy_first250", "--to 30", true},
@@ -217,6 +233,34 @@ TEST(MapExport, LeavesNothingWhenAnImageIsBroken) {
   const Outcome outcome = Export(folder, "nerfstudio --images " + Quoted(sequence), "data");
   ExpectRefusal(outcome, "cam0/data/0.png: not an image this program can decode");
   EXPECT_EQ(FilesOf(folder.path()), (std::set<std::string>{"sequence", "stderr", "stdout"}));
+}
+
+// Nor does one that a signal stops, unless it was done by then.
+TEST(MapExport, ASignalLeavesNothing) {
+  const ScratchFolder folder;
+  const pid_t child = StartProgram({"map",
+                                    "export",
+                                    Posters().map.string(),
+                                    "--to",
+                                    "colmap",
+                                    "--images",
+                                    Posters().sequence.string(),
+                                    "--out",
+                                    (folder / "model").string()});
+  const fs::path images = folder / fmt::format(".model.{}.tmp/images", child);
+  for (int i = 0; i < 60000 && !fs::exists(images) && !fs::exists(folder / "model"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ::kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 0) {
+    EXPECT_EQ(FilesOf(folder.path()), std::set<std::string>{"model"});
+  } else {
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_TRUE(FilesOf(folder.path()).empty());
+  }
 }
 
 }  // namespace

@@ -223,6 +223,37 @@ TEST(RunFolder, StandardOutputThatIsFullIsAnError) {
   EXPECT_EQ(Contents(folder / "err"), "plumbline: cannot write to standard output\n");
 }
 
+// The first file that is opened would take the place of a stream that is closed.
+TEST(RunFolder, StreamsThatAreClosedGoNowhere) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 3);
+  const std::string command = "'" PLUMBLINE_BINARY "' run " + Quoted(sequence) + " --out " +
+                              Quoted(folder / "out") + " <&- >&- 2>&-";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);  // NOLINT(concurrency-mt-unsafe)
+  const Outcome other =
+      RunProgram(folder, "run " + Quoted(sequence) + " --out " + Quoted(folder / "other"));
+  ASSERT_EQ(other.code, 0) << other.err;
+  EXPECT_EQ(FilesOf(folder / "out"), FilesOf(folder / "other"));
+  for (const std::string& name : FilesOf(folder / "out")) {
+    EXPECT_EQ(Contents(folder / "out" / name).find("results in "), std::string::npos) << name;
+  }
+}
+
+// A limit on the size of files takes the part of a disk that is full.
+TEST(RunFolder, ARecordingThatDoesNotFitIsAnErrorWithAllResults) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 30);
+  const fs::path record = folder / "run.mcap";
+  const Outcome outcome =
+      RunProgram(folder,
+                 RunArguments(sequence, folder / "out", "--record " + Quoted(record)),
+                 "ulimit -f 2000; ");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("cannot write " + record.string() + ": File too large"));
+  EXPECT_FALSE(fs::exists(record));
+  EXPECT_EQ(nlohmann::json::parse(Contents(folder / "out/summary.json"))["frames"]["in"], 30);
+}
+
 TEST(RunFolder, HoldsWhatWasDoneBeforeAnImageOfAnotherSize) {
   const ScratchFolder folder;
   const fs::path sequence = WritePosterSequence(folder, 12);

@@ -170,7 +170,8 @@ TEST(View, BadOptionsAreNamed) {
       {"--view 192.0.2.1:80", "cannot listen there"},
       {"--view-origin https://a", "--view-origin: expected --view"},
       {"--view 0 --view-origin a", "--view-origin: expected the origin of a page"},
-      {"--record /no/such/folder/a.mcap", "/no/such/folder/a.mcap.part: cannot be written"}};
+      {"--record /no/such/folder/a.mcap",
+       "/no/such/folder/a.mcap.part: No such file or directory"}};
   for (const BadOptions& bad : table) {
     const Outcome outcome = RunProgram(folder,
                                        "run " + Quoted(Posters().sequence) + " " + bad.arguments +

@@ -163,5 +163,23 @@ TEST(LeverFault, TheCameraIsOnTheBody) {
               Optional(HasSubstr("expected a body at most 10000 m from the camera, found ")));
 }
 
+TEST(CalibrationFault, NamesTheCamera) {
+  Calibration calibration = Pair({0.1, 0, 0});
+  EXPECT_EQ(CalibrationFault(calibration), std::nullopt);
+  CameraIntrinsics short_focal = Intrinsics();
+  short_focal.fx = 0.4;
+  calibration.right = Camera(short_focal);
+  EXPECT_THAT(CalibrationFault(calibration), Optional(HasSubstr("right camera: expected fx from")));
+  calibration.left = Camera(short_focal);
+  EXPECT_THAT(CalibrationFault(calibration), Optional(HasSubstr("left camera: expected fx from")));
+  EXPECT_THAT(CalibrationFault(Pair({-0.1, 0, 0})), Optional(HasSubstr("to the right")));
+  calibration = Pair({0.1, 0, 0});
+  calibration.rectified = true;
+  EXPECT_THAT(CalibrationFault(calibration), Optional(HasSubstr("no lens distortion")));
+  calibration.rectified = false;
+  calibration.depth_factor = 0;
+  EXPECT_THAT(CalibrationFault(calibration), Optional(HasSubstr("a depth factor")));
+}
+
 }  // namespace
 }  // namespace plumbline

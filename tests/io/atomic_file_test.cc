@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace plumbline {
 namespace {
@@ -35,7 +36,13 @@ TEST(WriteFileAtomically, NamesTheFileAndTheReason) {
   std::filesystem::create_directories(folder / "b.txt/full");
   EXPECT_THAT(MessageOf([&] { WriteFileAtomically(folder / "b.txt", "x"); }),
               HasSubstr("b.txt: Is a directory"));
-  EXPECT_EQ(FileCount(folder.path()), 1);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(MessageOf([&] { WriteFileAtomically(folder / "pipe", "x"); }),
+              HasSubstr("pipe: expected a file or nothing there, found a pipe"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_THAT(MessageOf([] { CheckReplaceable("/dev/null"); }),
+              HasSubstr("/dev/null: expected a file or nothing there, found a device"));
+  EXPECT_EQ(FileCount(folder.path()), 2);
 }
 
 TEST(AtomicFile, LeavesTheOldFileWithoutCommit) {

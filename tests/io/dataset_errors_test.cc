@@ -66,6 +66,10 @@ TEST(OpenDataset, NamesFaultsOfEuroc) {
        {csv, std::nullopt, "cam0/data.csv: no such file"},
        {csv, "105,1.png\n", "expected equal time stamps in cam0/data.csv and cam1/data.csv"},
        {"mav0/cam1/data.csv", "x,1.png\n", "cam1/data.csv:1: expected a time stamp"},
+       {"mav0/cam1/data.csv",
+        std::nullopt,
+        "cam1/data.csv: expected a list of the right images, found none; with the sensor mono it "
+        "is not needed"},
        {"mav0/cam1/sensor.yaml",
         EurocSensorYaml(0.5, 0),
         "cam1/sensor.yaml:2: T_BS: expected the right camera to the right (+x) of the left one, "
@@ -133,6 +137,7 @@ TEST(OpenDataset, NamesFaultsOfTum) {
        {"rgb", std::nullopt, "expected images, found none of the 2 listed"},
        {"depth.txt", "9.0 a.png\n", "expected depth images within 20 ms of colour images"},
        {"depth.txt", "9.0 a b c\n", "depth.txt:1: expected a time stamp and a file name"},
+       {"depth.txt", std::nullopt, "depth.txt: expected a list of the depth images, found none"},
        {"groundtruth.txt", "1 2 3\n", "groundtruth.txt:1: expected 8 columns"},
        {"camera.yaml", std::nullopt, "expected a calibration, found none: give --camera FILE"},
        {"camera.yaml", "size: 5\n", "camera.yaml:1: size: expected 2 numbers"}});
@@ -158,6 +163,17 @@ TEST(OpenDataset, ANumberComesOnceInAFolderOfImages) {
                  "a_9.png"},
                 {"a_010.png", Png(8, 6, 1), "found a_010.png and a_10.png"},
                 {"b.jpg", Png(8, 6, 1), "found b.jpg and b.png"}});
+}
+
+// What cannot be looked at is not as good as missing: the ground truth would be left out unsaid.
+TEST(OpenDataset, SaysWhereItCannotLook) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  const std::filesystem::path truth = folder / "mav0/state_groundtruth_estimate0";
+  std::filesystem::remove_all(truth);
+  std::filesystem::create_symlink(truth, truth);  // to itself
+  EXPECT_THAT(MessageOf([&] { OpenDataset(folder.path()); }),
+              HasSubstr("state_groundtruth_estimate0/data.csv: cannot be read: Too many levels"));
 }
 
 // 30000x30000 pixels take 1.8 GB as 16 bits; the file has a few bytes.

@@ -34,6 +34,7 @@ TEST(FormatTum, HasNineDecimalsAndPositiveW) {
 TEST(ReadTrajectory, ReadsBackWhatWriteTumWrote) {
   const ScratchFolder folder;
   Trajectory written;
+  written.push_back({-1'500'000'000, Rigid3{}});  // before the start of its clock
   for (int i = 0; i < 20; ++i) {
     const Vector6d tangent = Vector6d::LinSpaced(-1, 1 + i) * 0.3;
     written.push_back({1'403'636'584'763'555'584 + 50'000'001LL * i, ExpSe3(tangent)});

@@ -72,6 +72,18 @@ def test_a_pose_from_lines_alone_and_with_points():
     assert np.trace(both["information"]) > np.trace(found["information"])
 
 
+@pytest.mark.parametrize("sigma", [0.8, np.float32(0.8), np.array(0.8), np.full(40, 0.8)])
+def test_one_deviation_of_all_is_a_number_of_any_kind(sigma):
+    world = landmarks(np.random.default_rng(4), 40)
+    pixels = project(TRUE, world)[0]
+    found = plumbline.solve_pose(CAMERA, np.eye(4), points=dict(
+        world=world, pixels=pixels, sigma_px=sigma))
+    np.testing.assert_allclose(found["cam_from_world"], TRUE, atol=1e-7)
+    whole = plumbline.solve_pose(CAMERA, np.eye(4), points=dict(
+        world=world, pixels=pixels, sigma_px=np.int64(2)))
+    assert np.trace(found["information"]) > np.trace(whole["information"])
+
+
 def test_bundle_adjustment_of_points_and_lines():
     rng = np.random.default_rng(3)
     poses = np.array([pose(rng.normal(0, 0.05, 3), [0.3 * i, 0.02 * i, 0]) for i in range(4)])

@@ -190,6 +190,16 @@ def test_the_line_map_is_what_a_run_gives_out(finished, tmp_path):
     assert (lines["sigmas"] > 0).all() and (lines["keyframes"] >= 4).all()
 
 
+def test_the_line_map_has_the_options_of_the_run(dataset, finished, tmp_path):
+    other = plumbline.run(dataset, out=tmp_path,
+                          **{"mapping.line_map.min_keyframes": 2})
+    lines = plumbline.load_map(tmp_path / "map.plb").active.line_map()
+    assert lines["keyframes"].min() < 4 <= finished.map.line_map()["keyframes"].min()
+    np.testing.assert_array_equal(lines["segments"], other.map.line_map()["segments"])
+    other.map.export(tmp_path / "again.obj", "obj")
+    assert (tmp_path / "again.obj").read_bytes() == (tmp_path / "lines.obj").read_bytes()
+
+
 def test_trajectories_of_keyframes_are_of_the_camera_as_delivered(finished):
     m = finished.map
     np.testing.assert_array_equal(m.keyframe_trajectory().stamps_ns, m.keyframe_stamps_ns)

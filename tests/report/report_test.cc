@@ -129,7 +129,7 @@ TEST(SecondsSinceProcessStart, GoesOnWithTime) {
 TEST(CountRun, TellsDroppedFramesFromOthersThatWereSkipped) {
   System system(MovingPoster::MakeCalibration(), SlamOptions{});
   system.Skip(MovingPoster::StampNs(0), "image_unreadable");
-  system.Skip(MovingPoster::StampNs(1), Pipeline::kDropped);
+  system.Skip(MovingPoster::StampNs(1), Pipeline::kDropped, Shed::kFrame);
   system.Finish();
   const RunCounts counts = CountRun(system);
   EXPECT_EQ(counts.skipped, 2);

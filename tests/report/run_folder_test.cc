@@ -99,6 +99,22 @@ TEST(RunFolder, RefusesFilesThatNoRunWrote) {
   EXPECT_EQ(Contents(scratch / "out/overlay_0.png"), "mine");
 }
 
+TEST(CheckNoResult, RefusesThePlacesOfResults) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch / "out";
+  scratch.Write("out/notes.txt", "mine");
+  for (const char* name : {"map.plb", "trajectory_map3.txt", "../out/map.plb", ".plumbline-run"}) {
+    EXPECT_THAT(MessageOf([&] { CheckNoResult("--checkpoint", out / name, out); }),
+                HasSubstr("expected another name, found one that the results in "))
+        << name;
+  }
+  EXPECT_THAT(MessageOf([&] { CheckNoResult("--record", out / ".part/run.mcap", out); }),
+              StartsWith("--record "));
+  for (const fs::path& other : {out / "run.plbrun", scratch / "map.plb", out / "old/map.plb"}) {
+    CheckNoResult("--checkpoint", other, out);
+  }
+}
+
 TEST(RunFolder, RefusesAFolderOfTheUserByTheNameOfAFile) {
   const ScratchFolder scratch;
   WriteRun(scratch / "out", {"map.plb"}, "old");

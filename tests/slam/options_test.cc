@@ -6,10 +6,12 @@
 #include "plumbline/base/options_io.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <variant>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -37,6 +39,23 @@ TEST(CheckOptions, AsksForPointsOrLines) {
   EXPECT_TRUE(IsRefused(options));
   options.features.line_count = 100;
   options.features.lines = false;
+  EXPECT_TRUE(IsRefused(options));
+}
+
+// Numbers that a program sets in the struct itself are held to the bounds of files.
+TEST(CheckOptions, HoldsNumbersToTheirBounds) {
+  SlamOptions options;
+  options.features.point_count = -5;
+  try {
+    CheckOptions(options);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::StartsWith("features.point_count: expected a whole number"));
+    EXPECT_THAT(error.what(), ::testing::EndsWith("found -5"));
+  }
+  options = {};
+  options.mapping.line_map.min_mean_length_px = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(IsRefused(options));
 }
 

@@ -122,6 +122,15 @@ TEST_F(LiveTest, DropsTheOldestWaitingFrameAndSaysSoInOrder) {
   }
 }
 
+// A reason is a word of the caller; only the pipeline itself drops frames.
+TEST_F(LiveTest, AFrameThatTheCallerLeftOutIsNotDropped) {
+  Release();
+  pipeline_->Skip(MovingPoster::StampNs(0), Pipeline::kDropped);
+  pipeline_->Finish();
+  ASSERT_EQ(system_.frames().size(), 1U);
+  EXPECT_EQ(system_.frames()[0].shed, Shed::kNothing);
+}
+
 TEST_F(LiveTest, FramesThatCannotBeReadTakeNoPlaceInTheQueue) {
   pipeline_->Feed(poster_.Frame(0));
   WaitUntilBusy();

@@ -167,6 +167,36 @@ TEST(System, RejectsImagesOfAnotherSize) {
   EXPECT_TRUE(system.frames().empty());
 }
 
+TEST(System, RejectsFramesWithoutAnImageOfItsCalibration) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  SensorFrame frame = MovingPoster().Frame(0);
+  frame.right.reset();
+  EXPECT_THROW(system.Process(frame), InputError);
+  Calibration with_depth = MovingPoster::MakeCalibration();
+  with_depth.right.reset();
+  with_depth.depth_factor = 1000;
+  System depth(with_depth, SlamOptions{});
+  EXPECT_THROW(depth.Process(frame), InputError);
+}
+
+TEST(System, RejectsACalibrationThatNoCameraHas) {
+  Calibration calibration = MovingPoster::MakeCalibration();
+  CameraIntrinsics metres = calibration.left.intrinsics();
+  metres.fx = 0.004;
+  calibration.left = Camera(metres);
+  EXPECT_THROW(System(calibration, SlamOptions{}), InputError);
+}
+
+TEST(System, RejectsMapsThatAreNotThere) {
+  System system(MovingPoster::MakeCalibration(), SlamOptions{});
+  system.Process(MovingPoster().Frame(0));
+  system.Finish();
+  EXPECT_EQ(system.FinalTrajectory(MapId{0}).size(), 1U);
+  EXPECT_THROW(system.FinalTrajectory(MapId{7}), InputError);
+  EXPECT_THROW(system.KeyFrameTrajectory(MapId{7}), InputError);
+  EXPECT_THROW(system.LineMap(MapId{7}), InputError);
+}
+
 // Seen by one camera: above, the poster; below, the same at half the distance.
 SensorFrame TwoPosters(const MovingPoster& poster, int i) {
   SensorFrame frame{MovingPoster::StampNs(i), poster.Frame(i).left, {}, {}};

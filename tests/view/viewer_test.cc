@@ -382,6 +382,7 @@ TEST_F(Shown, ARecordingHasEveryFrame) {
   for (int i = 0; i < kFrames; ++i) Step();
   viewer_->Finish(atlas_, {});
   EXPECT_FALSE(viewer_->TakeFailure().has_value());
+  EXPECT_FALSE(viewer_->RecordingFailure().has_value());
   viewer_.reset();
   std::map<std::string, int> counts;
   ReadMcap(*options.record, [&](const Channel& channel, const StoredMessage&, auto) {

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/slam/saved_options.h"
+
+#include "plumbline/base/options_io.h"
+
+namespace plumbline {
+
+SlamOptions SavedOptions(const AtlasContext& context, const std::string& source) {
+  SlamOptions options;
+  if (!context.options_yaml.empty()) {
+    OptionTable(options).LoadText(context.options_yaml, source);
+  }
+  return options;
+}
+
+}  // namespace plumbline

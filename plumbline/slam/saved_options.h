@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/map/saved_atlas.h"
+#include "plumbline/slam/options.h"
+
+#include <string>
+
+namespace plumbline {
+
+// The options that decided about the results of saved maps; the default ones where the file does
+// not say (version 1). Throws InputError, with `source` for a name, where this version of the
+// program does not know what they say.
+SlamOptions SavedOptions(const AtlasContext& context, const std::string& source);
+
+}  // namespace plumbline
