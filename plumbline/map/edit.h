@@ -48,6 +48,13 @@ struct CorrectStereo {
   std::vector<std::pair<KeyFrameId, std::shared_ptr<const IndexedFeatures>>> ready = {};
 };
 
+// The same features of a keyframe, some at places that are known better. The map corrects them as
+// it does those of a new keyframe.
+struct MoveFeatures {
+  KeyFrameId id;
+  std::shared_ptr<const IndexedFeatures> indexed;
+};
+
 // The landmark and its observations.
 struct AddPoint {
   MapPoint point;
@@ -122,6 +129,7 @@ using MapChange = std::variant<edit::AddKeyFrame,
                                edit::SetPose,
                                edit::MoveKeyFrames,
                                edit::CorrectStereo,
+                               edit::MoveFeatures,
                                edit::AddPoint,
                                edit::AddLine,
                                edit::RemovePoint,

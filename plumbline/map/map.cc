@@ -260,6 +260,12 @@ struct MapChanger {
     });
   }
 
+  void Do(const edit::MoveFeatures& change) {
+    if (KeyFrame* keyframe = FindKeyFrame(change.id)) {
+      keyframe->frame.indexed = WithCorrection(change.indexed, map.stereo_correction_);
+    }
+  }
+
   void Do(const edit::AddPoint& change) { Add(change.point.id, change.point, map.next_point_); }
   void Do(const edit::AddLine& change) { Add(change.line.id, change.line, map.next_line_); }
   void Do(const edit::RemovePoint& change) { Remove(change.id); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/byte_format.h"
+#include "plumbline/image/byte_format.h"
 #include "plumbline/map/edit.h"
 #include "plumbline/mapping/local_mapper.h"
 
@@ -21,6 +22,16 @@ void Transfer(Archive& archive, T& removal) {
 template <class Archive, Like<AdjustedLines> T>
 void Transfer(Archive& archive, T& lines) {
   TransferAll(archive, lines.count, lines.bytes);
+}
+
+template <class Archive, Like<KeyFramePatches> T>
+void Transfer(Archive& archive, T& patches) {
+  TransferAll(archive, patches.keyframe, patches.samples);
+  if constexpr (Archive::kReading) {
+    if (patches.samples.width() != KeyFramePatches::kSamples) {
+      throw InputError(archive.source() + ": expected patches of another size");
+    }
+  }
 }
 
 }  // namespace plumbline

@@ -125,10 +125,18 @@ void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
   for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
-// Adjusts poses and points, without lines, to a corrected lens. Another lens changes the scale from
-// place to place by more than the final adjustment would take for a tear in the map, so that poses
-// and points have to move there first. Returns false when stopped.
-bool BringToLens(const MappingOptions& options, const StopCheck& stop, BaProblem& problem) {
+// Adjusts poses and points, without lines, to a corrected lens, from where they are for one near
+// by. Another lens changes the scale from place to place by more than the final adjustment would
+// take for a tear in the map, so that poses and points have to move there first. Returns false when
+// stopped.
+bool BringToLens(const LearnedLens& lens,
+                 const MappingOptions& options,
+                 const StopCheck& stop,
+                 BaProblem& problem) {
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    problem.poses[i].cam_from_world = lens.poses[i];
+  }
+  problem.points = lens.points;
   BaProblem points = problem;
   points.lines.clear();
   points.line_observations.clear();
@@ -185,11 +193,11 @@ Correction AdjustWholeMap(const Map& map,
   // Long lines that are seen from far away can tie so many keyframes together that it takes too
   // long.
   if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weights(), {});
-  const LensCorrection lens =
-      options.lens_calibration ? LearnLens(whole.problem, stop) : LensCorrection{};
-  Correct(lens, whole.problem);
+  const LearnedLens lens =
+      options.lens_calibration ? LearnLens(whole.problem, stop) : LearnedLens{};
+  Correct(lens.correction, whole.problem);
   BaProblem problem = whole.problem;
-  if (lens.border_px != 0 && !BringToLens(options, stop, problem)) return {};
+  if (!lens.poses.empty() && !BringToLens(lens, options, stop, problem)) return {};
   // The unit is changed by `whole`, in which the poses that are held are free: it changes for all.
   const std::optional<BaResult> result = SolveInOnePiece(
       problem,

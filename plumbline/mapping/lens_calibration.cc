@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -31,25 +34,46 @@ class Profile {
   }
 
   // Returns nullopt where the numbers are not finite, and when stopped.
-  std::optional<double> At(double border_px) const {
+  std::optional<double> At(double border_px) {
     BaProblem corrected = problem_;
+    if (!solved_.empty()) TakePlaces(Nearest(border_px), corrected);
     Correct({border_px}, corrected);
     LocalBaOptions options;
     options.rounds = 1;  // no observation is taken out, so that all costs are of the same ones
     options.max_iterations = 40;
     options.function_tolerance = 1e-6;
-    const BaResult result = SolveLocalBa(corrected, options, stop_);
+    BaResult result = SolveLocalBa(corrected, options, stop_);
     if (result.termination == BaTermination::kStopped ||
         result.termination == BaTermination::kNotFinite ||
         result.termination == BaTermination::kNothingToDo) {
       return std::nullopt;
     }
-    return result.final_cost;
+    const double cost = result.final_cost;
+    solved_[border_px] = std::move(result);
+    return cost;
+  }
+
+  // The solution for the nearest correction so far; there is one.
+  const BaResult& Nearest(double border_px) const {
+    const auto after = solved_.lower_bound(border_px);
+    if (after == solved_.begin()) return after->second;
+    const auto before = std::prev(after);
+    const bool first =
+        after == solved_.end() || border_px - before->first < after->first - border_px;
+    return (first ? before : after)->second;
   }
 
  private:
+  static void TakePlaces(const BaResult& solved, BaProblem& problem) {
+    for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+      problem.poses[i].cam_from_world = solved.poses[i];
+    }
+    problem.points = solved.points;
+  }
+
   BaProblem problem_;
   const StopCheck& stop_;
+  std::map<double, BaResult> solved_;  // by correction
 };
 
 struct Parabola {
@@ -77,9 +101,9 @@ double MeanSize(const BaProblem& problem) {
 }
 
 // Fits a parabola to the profile around `middle`; nullopt where it has no minimum near by.
-std::optional<Parabola> FitAround(const Profile& profile, double middle, double step, double most) {
+std::optional<Parabola> FitAround(Profile& profile, double middle, double step, double most) {
   std::array<double, 3> costs{};
-  for (std::size_t i = 0; i < costs.size(); ++i) {
+  for (const std::size_t i : {1, 0, 2}) {
     const auto cost = profile.At(middle + (static_cast<double>(i) - 1) * step);
     if (!cost) return std::nullopt;
     costs[i] = *cost;
@@ -118,7 +142,7 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
   }
 }
 
-LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop) {
+LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
   constexpr double kStep = 0.002;  // relative to the width of the image
   constexpr double kMost = 3;      // largest correction, in deviations of the prior
   // In a map of a camera that goes straight on, 4.6 deviations spoke for a correction where there
@@ -128,7 +152,7 @@ LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop) {
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
   const double sigma = kPriorSigma * problem.camera.width;
   const double step = kStep * problem.camera.width;
-  const Profile profile(problem, stop);
+  Profile profile(problem, stop);
   std::optional<Parabola> fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
   const double uncorrected = fit->middle_cost;
@@ -142,7 +166,9 @@ LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop) {
   const double border = fit->minimum * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
   const bool significant = 2 * (uncorrected - corrected) > kSigmas * kSigmas;
   const bool matters = std::abs(border) * MeanSize(problem) > kAllowed * problem.camera.width;
-  return {significant && matters ? border : 0};
+  if (!significant || !matters) return {};
+  const BaResult& nearest = profile.Nearest(border);
+  return {{border}, nearest.poses, nearest.points};
 }
 
 }  // namespace plumbline

@@ -30,14 +30,21 @@ void Correct(const LensCorrection& correction, BaProblem& problem);
 // there was at its side before.
 //
 // How: the profile of the cost over the correction, all poses and points adjusted for each (bundle
-// adjustment of the points alone); its minimum by successive parabolas, joined with a normal
-// distribution about none, its deviation a hundredth of the image's width. A correction that lowers
-// the cost by less than six deviations would (a likelihood ratio of 36) is none: where the camera
-// goes straight on, nothing tells of it. None either where lengths are measured (a pair), or
-// when `stop` says so.
+// adjustment of the points alone) from where they are for the nearest correction so far: from far
+// away a few points stick where they fit no correction. Its minimum by successive parabolas, joined
+// with a normal distribution about none, its deviation a hundredth of the image's width. A
+// correction that lowers the cost by less than six deviations would (a likelihood ratio of 36) is
+// none: where the camera goes straight on, nothing tells of it. None either where lengths are
+// measured (a pair), or when `stop` says so.
 //
 //   problem  of a whole map: poses with their gauge held, points with all observations
 //   cost     that of five adjustments of the points alone
-LensCorrection LearnLens(const BaProblem& problem, const StopCheck& stop = {});
+struct LearnedLens {
+  LensCorrection correction;
+  // Adjusted to a correction near that, by their place in the problem; empty where there is none.
+  std::vector<Rigid3> poses;
+  std::vector<Eigen::Vector3d> points;
+};
+LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop = {});
 
 }  // namespace plumbline

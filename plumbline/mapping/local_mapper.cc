@@ -82,17 +82,23 @@ void RefreshChanged(const std::vector<ShownLandmark<LandmarkId>>& before,
 LocalMapper::LocalMapper(const ImagingModel& imaging,
                          const LineOptions& lines,
                          const MappingOptions& options)
-    : imaging_(imaging), lines_(lines), options_(options), calibrator_(imaging.camera) {}
+    : imaging_(imaging),
+      lines_(lines),
+      options_(options),
+      point_aligner_(imaging.camera, imaging.octave_scale),
+      calibrator_(imaging.camera) {}
 
 std::vector<MappingStep> LocalMapper::Add(Map& map,
                                           const KeyFrame& keyframe,
-                                          const TrackingScores& scores) {
+                                          const TrackingScores& scores,
+                                          const GrayImage* image) {
   const KeyFrameId id = keyframe.id;
   std::vector<MappingStep> times;
   ShownLandmarks refreshed;
   Timed("take_in", times, [&] { refreshed = TakeIn(map, keyframe, scores); });
   Timed("create", times, [&] { CreateLandmarks(map, id); });
   Timed("fuse", times, [&] { Fuse(map, id, refreshed); });
+  if (image != nullptr) Timed("align", times, [&] { AlignPoints(map, id, *image); });
   Timed("adjust", times, [&] { Adjust(map, id); });
   if (options_.stereo_calibration) Timed("calibrate", times, [&] { CalibrateStereo(map, id); });
   Timed("clean_up", times, [&] {
@@ -125,7 +131,11 @@ void LocalMapper::StartNewMap(Map& map) {
 }
 
 LocalMapper::State LocalMapper::state() const {
-  return {young_, calibrator_.evidence(), adjusted_lines_, stereo_change_.state()};
+  return {young_,
+          calibrator_.evidence(),
+          adjusted_lines_,
+          stereo_change_.state(),
+          point_aligner_.recent()};
 }
 
 void LocalMapper::SetState(const State& state) {
@@ -133,6 +143,7 @@ void LocalMapper::SetState(const State& state) {
   calibrator_.SetEvidence(state.stereo_evidence);
   adjusted_lines_ = state.adjusted_lines;
   stereo_change_.SetState(state.stereo_change);
+  point_aligner_.SetRecent(state.recent_patches);
 }
 
 std::vector<MappingStep> LocalMapper::Start(Map& map, const MapEdit& edit, KeyFrameId newest) {
@@ -233,6 +244,11 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed)
     map.Apply(into_keyframe.Fuse(neighbour.id));
   }
   Refresh(map, id, refreshed);
+}
+
+void LocalMapper::AlignPoints(Map& map, KeyFrameId id, const GrayImage& image) {
+  auto aligned = point_aligner_.Align(map, id, image);
+  if (aligned != nullptr) map.Apply({edit::MoveFeatures{id, std::move(aligned)}});
 }
 
 void LocalMapper::Adjust(Map& map, KeyFrameId id) {

@@ -10,10 +10,12 @@
 #include "plumbline/map/young_landmarks.h"
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
+#include "plumbline/mapping/point_alignment.h"
 #include "plumbline/mapping/stereo_calibration.h"
 #include "plumbline/mapping/stereo_change.h"
 
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,9 +54,13 @@ class LocalMapper {
   // Sets the options for all that is done from now on.
   void SetOptions(const MappingOptions& options) { options_ = options; }
 
-  // Takes in a keyframe, with the scores that tracking counted since the last one. Returns the time
-  // of each step, in order.
-  std::vector<MappingStep> Add(Map& map, const KeyFrame& keyframe, const TrackingScores& scores);
+  // Takes in a keyframe, with the scores that tracking counted since the last one. With its
+  // rectified left image, points are aligned (PointAligner). Returns the time of each step, in
+  // order.
+  std::vector<MappingStep> Add(Map& map,
+                               const KeyFrame& keyframe,
+                               const TrackingScores& scores,
+                               const GrayImage* image = nullptr);
 
   // Begins a map with several keyframes, of which `newest` is the last, and their landmarks; `edit`
   // makes these from the empty map. Adjusts all of it, then creates new landmarks of `newest`.
@@ -88,6 +94,7 @@ class LocalMapper {
     StereoEvidence stereo_evidence;
     AdjustedLines adjusted_lines;
     std::optional<StereoChange::State> stereo_change = {};
+    std::deque<KeyFramePatches> recent_patches = {};
   };
   State state() const;
   void SetState(const State& state);
@@ -104,6 +111,7 @@ class LocalMapper {
   void CreateLandmarks(Map& map, KeyFrameId id);
   void Watch(MapId map, const MapEdit& edit);
   void Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed) const;
+  void AlignPoints(Map& map, KeyFrameId id, const GrayImage& image);
   void Adjust(Map& map, KeyFrameId id);
   void CalibrateStereo(Map& map, KeyFrameId id);
 
@@ -111,6 +119,7 @@ class LocalMapper {
   LineOptions lines_;
   MappingOptions options_;
   std::map<MapId, YoungLandmarks> young_;
+  PointAligner point_aligner_;
   StereoCalibrator calibrator_;
   StereoChange stereo_change_;
   AdjustedLines adjusted_lines_;

@@ -395,7 +395,7 @@ MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& ad
   Map& map = atlas_.active();
   changed_.insert(map.id());
   Done done;
-  done.times = mapper_.Add(map, SettledIn(map, *added), added->scores);
+  done.times = mapper_.Add(map, SettledIn(map, *added), added->scores, added->image.get());
   Recognize(added->keyframe.id, frame, done.times);
   done.snapshot = TakeSnapshotAround(atlas_.active(), added->keyframe.id);
   return done;

@@ -305,6 +305,7 @@ struct MappingStage::Checkpoint {
     visit(self.mapper.adjusted_lines, self.submitted, self.map_begins, self.dues);
     visit(self.versions, self.outcomes, self.changed, self.centres, self.times);
     visit(self.history, self.places, self.adjustment, self.mapper.stereo_change);
+    visit(self.mapper.recent_patches);
   }
 };
 

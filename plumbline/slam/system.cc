@@ -163,6 +163,9 @@ void System::Complete() {
   CompleteRightLines(unfinished, clock);
   if (result.keyframe) {
     result.keyframe->keyframe.session = session_id();
+    if (imaging_.camera.baseline == 0) {
+      result.keyframe->image = std::make_shared<const GrayImage>(view_.images.left);
+    }
     const auto gone = mapping_.Submit(frame, std::move(*result.keyframe), result.starts_map);
     if (gone) Demote(*gone);
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/image/image.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/placement.h"
 #include "plumbline/map/snapshot.h"
@@ -58,6 +59,8 @@ struct NewKeyFrame {
   KeyFrame keyframe;
   TrackingScores scores;
   RelativePose from_parent = {};  // of use only where there is a parent
+  // The rectified left image, where mapping is to align points in it (PointAligner); else null.
+  std::shared_ptr<const GrayImage> image = nullptr;
 };
 
 // How a tracker uses a map that an earlier run made.

@@ -96,8 +96,8 @@ TEST(LoadCheckpoint, RefusesAFileWithAnyByteChanged) {
 TEST(LoadCheckpoint, SaysWhatIsWrong) {
   const SavedFile file;
   std::string newer = file.bytes;
-  newer[8] = 3;
-  file.ExpectRefused(newer, "expected a checkpoint of version 2, found version 3");
+  newer[8] = 4;
+  file.ExpectRefused(newer, "expected a checkpoint of version 3, found version 4");
   SaveAtlas(file.folder / "m.plb", MakeSavedAtlas().atlas, MakeSavedAtlas().context);
   file.ExpectRefused(Contents(file.folder / "m.plb"),
                      "expected a Plumbline checkpoint, found another file");

@@ -143,6 +143,18 @@ TEST(Map, CorrectsTheDisparitiesOfAllKeyFramesOnceForAll) {
   EXPECT_DOUBLE_EQ(features->features.point_disparity[0]->px, 10);
 }
 
+TEST(Map, FeaturesAreMovedWithinAKeyFrame) {
+  Map map = ChainOfKeyFrames(2);
+  const auto before = map.Find(kF1)->frame.indexed;
+  Features moved = before->features;
+  moved.points[3].px += Eigen::Vector2d(0.5, -0.25);
+  const auto indexed = IndexFeatures(TestCamera(), moved);
+  map.Apply({edit::MoveFeatures{kF1, indexed}, edit::MoveFeatures{kF3, indexed}});
+  map.CheckInvariants();
+  EXPECT_EQ(map.Find(kF1)->frame.features().points[3].px, moved.points[3].px);
+  EXPECT_EQ(map.Find(kF0)->frame.features().points[3].px, before->features.points[3].px);
+}
+
 TEST(Map, MovesAndScoresAreTakenOver) {
   Map map = ChainOfKeyFrames(1);
   const PluckerLine moved = LineThroughPoints({0, 1, 5}, {1, 1, 5});

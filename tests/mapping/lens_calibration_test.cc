@@ -73,7 +73,7 @@ TEST(LearnLens, FindsWhatTheCalibrationHasLeft) {
   for (const double border : {3.0, -3.0}) {
     double mean = 0;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const double found = LearnLens(DriveRoundABend({border}, seed)).border_px;
+      const double found = LearnLens(DriveRoundABend({border}, seed)).correction.border_px;
       EXPECT_NEAR(found, border, 1) << seed;
       mean += found / kSeeds;
     }
@@ -82,23 +82,24 @@ TEST(LearnLens, FindsWhatTheCalibrationHasLeft) {
 }
 
 TEST(LearnLens, LeavesAGoodCalibrationAlone) {
-  EXPECT_EQ(LearnLens(DriveRoundABend({0})).border_px, 0);
+  EXPECT_EQ(LearnLens(DriveRoundABend({0})).correction.border_px, 0);
   // Less than what the deviations of corners allow for in any case.
-  EXPECT_EQ(LearnLens(DriveRoundABend({0.4})).border_px, 0);
+  EXPECT_EQ(LearnLens(DriveRoundABend({0.4})).correction.border_px, 0);
 }
 
 TEST(LearnLens, IsForOneCameraAlone) {
   BaProblem problem = DriveRoundABend({3});
   problem.camera.baseline = 0.5;
-  EXPECT_EQ(LearnLens(problem).border_px, 0);
+  EXPECT_EQ(LearnLens(problem).correction.border_px, 0);
   problem.point_observations.clear();
   problem.camera.baseline = 0;
-  EXPECT_EQ(LearnLens(problem).border_px, 0);
+  EXPECT_EQ(LearnLens(problem).correction.border_px, 0);
 }
 
 TEST(LearnLens, FindsNothingWhenItIsStopped) {
   int questions = 0;
-  EXPECT_EQ(LearnLens(DriveRoundABend({3}), [&] { return ++questions > 3; }).border_px, 0);
+  EXPECT_EQ(LearnLens(DriveRoundABend({3}), [&] { return ++questions > 3; }).correction.border_px,
+            0);
 }
 
 TEST(LensCorrection, MovesTheSideOfTheImageByWhatItSays) {

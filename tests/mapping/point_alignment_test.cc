@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/mapping/point_alignment.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace point_alignment_test {
+
+// A painted wall at a depth of 8 m before the first camera, which drives towards it.
+constexpr double kDepth = 8;
+const std::vector<Eigen::Vector2d> kPlaces = {{0.31, 0.22}, {-1.1, 0.6}, {0.7, -0.9}, {-0.4, -0.5}};
+
+RectifiedCamera OneCamera() {
+  RectifiedCamera camera;
+  camera.fx = camera.fy = 300;
+  camera.cx = 200;
+  camera.cy = 150;
+  camera.width = 400;
+  camera.height = 300;
+  return camera;
+}
+
+double Paint(const Eigen::Vector2d& wall) {
+  return 120 + 40 * std::sin(14 * wall.x() + 6 * wall.y()) +
+         40 * std::cos(5 * wall.x() - 15 * wall.y());
+}
+
+// Seen from `forward` metres nearer.
+Eigen::Vector2d PixelOf(const Eigen::Vector2d& wall, double forward) {
+  return OneCamera().Project({wall.x(), wall.y(), kDepth - forward});
+}
+Eigen::Vector2d WallAt(const Eigen::Vector2d& px, double forward) {
+  return OneCamera().Unproject(px).head<2>() * (kDepth - forward);
+}
+
+GrayImage View(double forward, double contrast = 1) {
+  GrayImage image(400, 300);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const double grey = Paint(WallAt(Eigen::Vector2d(x, y), forward));
+      image.at(x, y) = static_cast<std::uint8_t>(std::lround(128 + contrast * (grey - 128)));
+    }
+  }
+  return image;
+}
+
+// A map of the places, each keyframe with corners that are off by `errors` from where it shows
+// them, and in the octave that their size asks for.
+struct WallMap {
+  Map map;
+
+  KeyFrameId Add(double forward, const Eigen::Vector2d& error, int octave) {
+    const KeyFrameId id = map.NextKeyFrameId();
+    Features features;
+    for (const Eigen::Vector2d& place : kPlaces) {
+      PointFeature corner;
+      corner.px = PixelOf(place, forward) + error;
+      corner.octave = octave;
+      features.points.push_back(corner);
+    }
+    features.point_disparity.resize(kPlaces.size());
+    Frame frame{FrameId{id.value}, id.value, {}, IndexFeatures(OneCamera(), features), {}, {}};
+    frame.cam_from_world.translation.z() = -forward;
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+      const auto value = static_cast<std::int64_t>(i);
+      frame.points.push_back(id.value == 0 ? PointId{} : PointId{value});
+    }
+    map.Apply({edit::AddKeyFrame{{id, KeyFrameId{id.value - 1}, frame}}});
+    if (id.value > 0) return id;
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+      MapPoint point;
+      point.id = PointId{static_cast<std::int64_t>(i)};
+      point.position = {kPlaces[i].x(), kPlaces[i].y(), kDepth};
+      point.created_by = id;
+      point.observations = {{id, static_cast<int>(i)}};
+      map.Apply({edit::AddPoint{point}});
+    }
+    return id;
+  }
+};
+
+double LargestError(const Features& features, const Eigen::Vector2d& first_error, double forward) {
+  double largest = 0;
+  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+    const Eigen::Vector2d shown = WallAt(PixelOf(kPlaces[i], 0) + first_error, 0);
+    largest = std::max(largest, (features.points[i].px - PixelOf(shown, forward)).norm());
+  }
+  return largest;
+}
+
+TEST(PointAligner, LaterCornersShowWhatTheFirstOnesShow) {
+  const Eigen::Vector2d first(0.3, -0.2);
+  WallMap wall;
+  PointAligner aligner(OneCamera(), 1.2);
+  EXPECT_EQ(aligner.Align(wall.map, wall.Add(0, first, 0), View(0)), nullptr);
+  // Nearer, larger, darker; corners are found in the octave of their size, and off by its pixels.
+  for (const auto& [forward, octave] : {std::pair{1.3, 1}, std::pair{3.0, 3}, std::pair{4.6, 5}}) {
+    const KeyFrameId id = wall.Add(forward, {-0.7, 0.9}, octave);
+    const auto aligned = aligner.Align(wall.map, id, View(forward, 0.8));
+    ASSERT_NE(aligned, nullptr);
+    EXPECT_GT(LargestError(wall.map.Find(id)->frame.features(), first, forward), 1);
+    EXPECT_LT(LargestError(aligned->features, first, forward), 0.15) << forward;
+    EXPECT_EQ(aligned->features.points[0].octave, octave);
+  }
+  EXPECT_EQ(aligner.recent().size(), 4U);
+}
+
+TEST(PointAligner, GoesOnFromWhatItRemembers) {
+  WallMap wall;
+  PointAligner aligner(OneCamera(), 1.2), other(OneCamera(), 1.2);
+  aligner.Align(wall.map, wall.Add(0, {0.3, 0.1}, 0), View(0));
+  const KeyFrameId id = wall.Add(2, {0.6, 0.6}, 2);
+  EXPECT_EQ(other.Align(wall.map, id, View(2)), nullptr);
+  other.SetRecent(aligner.recent());
+  const auto one = aligner.Align(wall.map, id, View(2)), two = other.Align(wall.map, id, View(2));
+  ASSERT_NE(one, nullptr);
+  ASSERT_NE(two, nullptr);
+  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+    EXPECT_EQ(one->features.points[i].px, two->features.points[i].px);
+  }
+}
+
+TEST(PointAligner, LeavesWhatDoesNotLookAlike) {
+  WallMap wall;
+  PointAligner aligner(OneCamera(), 1.2);
+  aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), View(0));
+  EXPECT_EQ(aligner.Align(wall.map, wall.Add(2, {0.5, 0}, 2), View(2, -0.9)), nullptr);
+  EXPECT_EQ(aligner.Align(wall.map, wall.Add(2, {0.5, 0}, 2), GrayImage(400, 300, 90)), nullptr);
+}
+
+TEST(PointAligner, ForgetsTheOldest) {
+  WallMap wall;
+  PointAligner aligner(OneCamera(), 1.2);
+  const GrayImage image = View(0);
+  for (std::size_t i = 0; i < PointAligner::kRecent + 3; ++i) {
+    aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), image);
+  }
+  EXPECT_EQ(aligner.recent().size(), PointAligner::kRecent);
+  EXPECT_EQ(aligner.recent().front().keyframe, KeyFrameId{3});
+}
+
+}  // namespace point_alignment_test
+}  // namespace plumbline
