@@ -7,6 +7,8 @@
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/path_overlap.h"
 #include "plumbline/io/text_rows.h"
+#include "plumbline/report/run_folder.h"
+#include "plumbline/report/run_manifest.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
@@ -14,6 +16,7 @@
 #include "apps/figure_file.h"
 #include "apps/line_map_input.h"
 #include "apps/reference_trajectory.h"
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -158,12 +161,37 @@ void EvaluateLines(const CommandLine& line, Evaluation& evaluation) {
   }
 }
 
-// Figures and pictures must not take the place of what they are about, nor of a data set's files.
-void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::path>& read) {
+// The folder of the run that an estimate is of; nullopt: it is of none.
+std::optional<std::filesystem::path> FolderOfRun(const std::filesystem::path& estimate) {
   std::error_code error;
+  if (std::filesystem::is_directory(estimate, error)) return estimate;
+  const std::filesystem::path folder = std::filesystem::absolute(estimate, error).parent_path();
+  if (!std::filesystem::exists(folder / RunManifest::kFile, error)) return std::nullopt;
+  return folder;
+}
+
+// Each output has a place of its own.
+void CheckApartFromEachOther(const CommandLine& line, std::span<const char* const> options) {
+  for (auto option = options.begin(); option != options.end(); ++option) {
+    const auto path = line.Value(*option);
+    for (auto before = options.begin(); path && before != option; ++before) {
+      const auto other = line.Value(*before);
+      if (!other || !IsSamePath(*path, *other)) continue;
+      throw InputError(std::string(*option) + " " + *path +
+                       ": expected another file than that of " + *before);
+    }
+  }
+}
+
+// Figures and pictures must not take the place of what they are about, nor of a data set's files or
+// of those of the run.
+void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::path>& read) {
+  constexpr std::array kOptions = {"--json", "--plot", "--plot-lines"};
+  std::error_code error;
+  const auto run = FolderOfRun(line.Positional(1));
   const std::filesystem::path reference = line.Positional(0);
   const bool of_data_set = std::filesystem::is_directory(reference, error);
-  for (const char* option : {"--json", "--plot", "--plot-lines"}) {
+  for (const char* option : kOptions) {
     const auto path = line.Value(option);
     if (!path) continue;
     if (std::string_view(option) != "--json") CheckFigureName(*path);
@@ -176,7 +204,9 @@ void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::pa
       throw InputError(std::string(option) + " " + *path +
                        ": expected a file to write, found one that is compared");
     }
+    if (run) CheckNoResult(option, *path, *run);
   }
+  CheckApartFromEachOther(line, kOptions);
 }
 
 // What the command reads, as far as it is there.

@@ -56,9 +56,9 @@ void AddRow(std::ostringstream& table,
   }
   for (const double value :
        {statistics->rmse, statistics->mean, statistics->median, statistics->max}) {
-    table << std::setw(10) << factor * value;
+    table << ' ' << std::setw(9) << factor * value;
   }
-  table << std::setw(9) << statistics->count << '\n';
+  table << ' ' << std::setw(8) << statistics->count << '\n';
 }
 
 // A row of the table of lines: one figure for each tolerance.
@@ -72,7 +72,7 @@ void AddLineRow(std::ostringstream& table,
   for (const LineMapErrorAt& at : rows) {
     const std::optional<double> value = figure(at);
     if (value) {
-      table << std::setw(10) << *value;
+      table << ' ' << std::setw(9) << *value;
     } else {
       table << std::setw(10) << "-";
     }

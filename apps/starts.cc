@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/starts/sequence_truth.h"
 #include "lab/starts/start_bench.h"
 #include "lab/starts/start_figures.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/initialization/make_initializer.h"
@@ -10,6 +12,7 @@
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/run_folder.h"
 #include "plumbline/version.h"
 
 #include "apps/command_line.h"
@@ -24,8 +27,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <span>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -37,6 +42,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kLongestStart = 3600;  // seconds of video
+constexpr const char* kRecords = "starts.csv";
+constexpr const char* kSummary = "summary.json";
 
 CommandSyntax StartsSyntax() {
   return {"starts",
@@ -100,6 +107,24 @@ double ReadParallax(const CommandLine& line) {
   return *number;
 }
 
+// The poses that the user gives, some of which must be at the times of frames.
+Trajectory ReadPoses(const std::filesystem::path& path, const Dataset& dataset) {
+  Trajectory poses = ReadTrajectory(path).poses;
+  const std::vector<std::int64_t>& stamps = dataset.info().stamps_ns;
+  const bool common = std::any_of(stamps.begin(), stamps.end(), [&](std::int64_t stamp_ns) {
+    return InterpolateAt(poses, stamp_ns, SequenceTruth::kMaxGapNs).has_value();
+  });
+  if (common || stamps.empty()) return poses;
+  throw InputError(
+      fmt::format("--poses {}: no frame has a pose at its time: the poses cover {} to {}, the "
+                  "frames {} to {}",
+                  path.string(),
+                  FormatStamp(poses.front().stamp_ns),
+                  FormatStamp(poses.back().stamp_ns),
+                  FormatStamp(stamps.front()),
+                  FormatStamp(stamps.back())));
+}
+
 StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
   StartPlan plan;
   plan.seconds = line.Count("--seconds", static_cast<int>(plan.seconds), {1, kLongestStart});
@@ -107,7 +132,7 @@ StartPlan ReadPlan(const CommandLine& line, const Dataset& dataset) {
   plan.limits.parallax_deg = ReadParallax(line);
   const int from = line.Count("--from", 0, {0, kMostFrames});
   plan.frames = EveryStart(dataset.size(), from, line.Count("--every", 5, {1, kMostFrames}));
-  if (const auto path = line.Value("--poses")) plan.poses = ReadTrajectory(*path).poses;
+  if (const auto path = line.Value("--poses")) plan.poses = ReadPoses(*path, dataset);
   if (plan.frames.empty()) {
     throw InputError(fmt::format(
         "--from {}: expected a frame with one behind it; there are {}", from, dataset.size()));
@@ -186,6 +211,53 @@ StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& pl
       });
 }
 
+// What the command reads. Options that come from a pipe have no place.
+std::vector<RunInput> ReadByStarts(const CommandLine& line, const Dataset& dataset) {
+  std::vector<RunInput> inputs = {{line.Positional(0)}};
+  std::error_code error;
+  const auto add = [&](const std::filesystem::path& path) {
+    if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
+  };
+  if (const auto camera = line.Value("--camera")) add(*camera);
+  if (const auto poses = line.Value("--poses")) add(*poses);
+  for (const std::string& config : line.Values("--config")) add(config);
+  if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
+  return inputs;
+}
+
+// Whether an earlier call wrote the results of a folder: its starts.csv begins as ours do.
+bool HasStarts(const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path records = folder / kRecords;
+  if (!std::filesystem::is_regular_file(records, error)) return false;
+  const auto text = ReadFileIfThere(records);
+  return text && text->starts_with(FormatStarts({}));
+}
+
+// Files that the command would replace must be of an earlier call.
+void RefuseForeignFiles(const std::filesystem::path& folder) {
+  static const std::regex written(R"(starts\.csv|summary\.json|start_[0-9]{6,}\.png)");
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error) || HasStarts(folder)) return;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (std::regex_match(name, written)) names.push_back(name);
+  }
+  if (names.empty()) return;
+  throw InputError((folder / *std::min_element(names.begin(), names.end())).string() +
+                   ": not written by an earlier call of starts, which would replace it; move it "
+                   "away or choose another --out");
+}
+
+// The folder for the results. With drawings it has starts.csv from the beginning, so that they are
+// known as those of this command even where it is killed.
+void PrepareFolder(const Setup& setup, bool draws) {
+  MakeFolder(setup.folder);
+  if (!draws || HasStarts(setup.folder)) return;
+  WriteFileAtomically(setup.folder / kRecords, FormatStarts({}));
+}
+
 }  // namespace
 
 int StartsCommand(std::span<const std::string> arguments) {
@@ -202,13 +274,15 @@ int StartsCommand(std::span<const std::string> arguments) {
     throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
   }
   StartPlan plan = ReadPlan(line, *dataset);
-  MakeFolder(setup.folder);
+  CheckApart(setup.folder, ReadByStarts(line, *dataset));
+  RefuseForeignFiles(setup.folder);
+  PrepareFolder(setup, line.Has("--draw"));
   if (line.Has("--draw")) DrawMaps(*dataset, setup, plan);
   CatchStopSignals();
   const StartResults results = Run(*dataset, setup, plan);
   const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-  WriteFileAtomically(setup.folder / "starts.csv", FormatStarts(results.records));
-  WriteFileAtomically(setup.folder / "summary.json",
+  WriteFileAtomically(setup.folder / kRecords, FormatStarts(results.records));
+  WriteFileAtomically(setup.folder / kSummary,
                       FormatSummary(setup, dataset->info().name, results, seconds));
   if (!setup.quiet) PrintResult(results, setup);
   if (const auto signal = FirstStopSignal()) return signal->exit_code;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
+#include "plumbline/report/run_folder.h"
 #include "worlds/world_catalog.h"
 #include "worlds/write_sequence.h"
 
@@ -9,6 +10,7 @@
 #include "apps/commands.h"
 #include "apps/progress.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -79,6 +81,7 @@ int SynthCommand(std::span<const std::string> arguments) {
   }
   const auto folder = line.Value("--out");
   if (!folder) throw InputError("synth: expected --out DIR");
+  if (!world.text.empty()) CheckApart(*folder, std::array{RunInput{name}});
   PrepareSequenceFolder(*folder);
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const SyntheticSequence sequence(world, options, threads);

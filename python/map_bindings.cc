@@ -24,7 +24,7 @@ namespace {
 
 PyAtlas LoadMaps(const std::filesystem::path& path) {
   const py::gil_scoped_release release;
-  return {std::make_shared<const SavedAtlas>(LoadAtlas(path))};
+  return {std::make_shared<const SavedAtlas>(LoadAtlas(path)), std::filesystem::absolute(path)};
 }
 
 void SaveMaps(const PyAtlas& atlas, const std::filesystem::path& path) {
@@ -34,7 +34,9 @@ void SaveMaps(const PyAtlas& atlas, const std::filesystem::path& path) {
 
 std::vector<PyMap> MapsOf(const PyAtlas& atlas) {
   std::vector<PyMap> maps;
-  for (const auto& [id, map] : atlas.saved->atlas.maps()) maps.push_back({atlas.saved, &map});
+  for (const auto& [id, map] : atlas.saved->atlas.maps()) {
+    maps.push_back({atlas.saved, &map, atlas.file});
+  }
   return maps;
 }
 
@@ -51,7 +53,7 @@ PyMap MapAt(const PyAtlas& atlas, py::ssize_t index) {
 std::optional<PyMap> ActiveMap(const PyAtlas& atlas) {
   const Map* map = atlas.saved->atlas.Find(atlas.saved->atlas.active_id());
   if (map == nullptr) return std::nullopt;
-  return PyMap{atlas.saved, map};
+  return PyMap{atlas.saved, map, atlas.file};
 }
 
 py::dict LineMapOf(const PyMap& map) {
@@ -136,7 +138,7 @@ the world, "sigmas" (N,) of the worse end across, "keyframes" (N,) that show it.
            R"(export(path, format)
 
 Writes what `plumbline map export` writes without images: "ply", "obj", "dxf", "tum" (the
-keyframes), "colmap" (a new folder).)")
+keyframes), "colmap" (a new folder). Raises InputError for the file that the map was read from.)")
       .def("__repr__", [](const PyMap& map) {
         return fmt::format("<Map {}: {} keyframes, {} points, {} lines>",
                            map.map->id().value,

@@ -9,6 +9,7 @@
 #include "plumbline/io/keyframe_images.h"
 #include "plumbline/io/limap_lines.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/path_overlap.h"
 #include "plumbline/io/ply.h"
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/map/keyframe_trajectory.h"
@@ -88,7 +89,12 @@ Trajectory KeyFrameTrajectoryOf(const PyMap& map) {
 }
 
 void ExportMap(const PyMap& map, const std::filesystem::path& path, const std::string& format) {
-  switch (ParseChoice<ExportFormat>("format", format)) {
+  const auto chosen = ParseChoice<ExportFormat>("format", format);
+  if (!map.file.empty() && IsSamePath(path, map.file)) {
+    throw InputError(path.string() +
+                     ": expected another file than the one that the map was read from");
+  }
+  switch (chosen) {
     case ExportFormat::kPly:
       return WritePointsAndLines(map, path);
     case ExportFormat::kObj:

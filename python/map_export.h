@@ -21,7 +21,7 @@ std::vector<MappedLine> MappedLinesOf(const PyMap& map, const StopCheck& stop);
 Trajectory KeyFrameTrajectoryOf(const PyMap& map);
 
 // Writes a map as `plumbline map export --to FORMAT` without images does: ply, obj, dxf, tum,
-// colmap.
+// colmap. Throws InputError for the file that it was read from.
 void ExportMap(const PyMap& map, const std::filesystem::path& path, const std::string& format);
 
 }  // namespace plumbline::python

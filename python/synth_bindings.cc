@@ -3,6 +3,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/report/run_folder.h"
 #include "worlds/sequence.h"
 #include "worlds/world_catalog.h"
 #include "worlds/write_sequence.h"
@@ -16,6 +17,7 @@
 #include "options.h"
 #include "trajectories.h"
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -69,6 +71,7 @@ int WriteWorld(const std::string& world,
                const py::kwargs& given) {
   const SynthOptions options = ReadSynthOptions(world, given);
   const auto format = ParseChoice<SequenceFormat>("format", format_name);
+  if (!OpenWorld(world).text.empty()) CheckApart(folder, std::array{RunInput{world}});
   int frames = 0;
   RunInterruptibly([&](const StopCheck& stop) {
     PrepareSequenceFolder(folder);

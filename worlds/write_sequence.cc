@@ -3,6 +3,7 @@
 #include "worlds/write_sequence.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/true_world.h"
@@ -11,6 +12,7 @@
 #include <iomanip>
 #include <locale>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -24,10 +26,24 @@ constexpr const char* kWorldFile = "world.yaml";
 constexpr const char* kPartFile = "world.yaml.part";              // while the folder is not whole
 constexpr const char* kDescriptionFile = "described_world.yaml";  // a copy of a user's file
 
+constexpr const char* kRendered = "# Rendered by Plumbline";
+
 std::string WorldYaml(const SyntheticSequence& sequence, SequenceFormat format) {
   SynthOptions options = sequence.options();
-  return "# Rendered by Plumbline; the same options give the same bytes again.\nworld: " +
-         sequence.world() + "\nformat: " + NameOf(format) + "\n" + OptionTable(options).Dump();
+  return std::string(kRendered) +
+         "; the same options give the same bytes again.\nworld: " + sequence.world() +
+         "\nformat: " + NameOf(format) + "\n" + OptionTable(options).Dump();
+}
+
+// Whether an earlier call wrote a folder, whole or not; its world.yaml begins as ours do. What a
+// call that ended early left to begin with is empty.
+bool IsRendered(const fs::path& folder) {
+  const auto begins = [](const std::optional<std::string>& text) {
+    return text && text->starts_with(kRendered);
+  };
+  if (fs::exists(folder / kWorldFile)) return begins(ReadFileIfThere(folder / kWorldFile));
+  const auto part = ReadFileIfThere(folder / kPartFile);
+  return begins(part) || part == "";
 }
 
 // Takes away what an earlier call left, whole or not; refuses to touch anything else.
@@ -37,7 +53,7 @@ void ClearFolder(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) {
     throw InputError(folder.string() + ": expected a folder, found a file");
   }
-  if (!fs::exists(folder / kWorldFile) && !fs::exists(folder / kPartFile)) {
+  if (!IsRendered(folder)) {
     throw InputError(folder.string() +
                      ": expected an empty folder or one with a rendered sequence (world.yaml), "
                      "found other files");

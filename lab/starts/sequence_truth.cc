@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kMaxGapNs = 250'000'000;
-
 // The same whatever the options of the initialization under test are.
 FeatureOptions StereoFeatures() {
   FeatureOptions options;

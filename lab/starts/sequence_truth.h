@@ -20,12 +20,13 @@ namespace plumbline {
 // The truth of a recorded or rendered sequence that is also read as monocular.
 //
 // Poses are those of the ground truth, or others where given, interpolated over gaps of at most
-// 0.25 s. Depth is the best
-// there is: exact depth images of a rendered world (mav0/depth0), those of an RGB-D sensor, or the
-// points of the sequence's own stereo pairs, measured in each frame by itself and known to 0.2 px
-// at best.
+// kMaxGapNs. Depth is the best there is: exact depth images of a rendered world (mav0/depth0),
+// those of an RGB-D sensor, or the points of the sequence's own stereo pairs, measured in each
+// frame by itself and known to 0.2 px at best.
 class SequenceTruth : public StartTruth {
  public:
+  static constexpr std::int64_t kMaxGapNs = 250'000'000;
+
   //   mono        the sequence as monocular; must outlive this. Frames are numbered as there
   //   rectifier   of its images
   //   camera      as DatasetOptions::camera

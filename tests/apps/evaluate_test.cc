@@ -166,6 +166,52 @@ TEST(Evaluate, WritesOverNothingThatItReads) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
 }
 
+TEST(Evaluate, WritesOverNothingOfTheRun) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  const auto estimate = folder.Write("run/trajectory.txt", kTum).string();
+  const std::string run = (folder / "run").string();
+  const std::string map = folder.Write("run/map.plb", "the map").string();
+  const auto refused = HasSubstr(map + ": expected another name, found one that the results in");
+  EXPECT_THAT(EvaluateMessage({reference, run, "--json", map}), refused);
+  folder.Write("run/.plumbline-run", "{}");
+  EXPECT_THAT(EvaluateMessage({reference, estimate, "--json", map}), refused);
+  EXPECT_EQ(Contents(map), "the map");
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(EvaluateMessage({reference, run, "--json", run + "/error.json"}), "no error");
+  EXPECT_EQ(EvaluateMessage({reference, run, "--json", run + "/error.json"}), "no error");
+  testing::internal::GetCapturedStdout();
+}
+
+TEST(Evaluate, WritesEachResultIntoAFileOfItsOwn) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  const std::string plot = (folder / "a.svg").string(), same = (folder / "b/../a.svg").string();
+  std::filesystem::create_directory(folder / "b");
+  EXPECT_THAT(EvaluateMessage({reference, reference, "--plot", plot, "--json", same}),
+              HasSubstr("--plot " + plot + ": expected another file than that of --json"));
+  EXPECT_THAT(EvaluateMessage({reference, reference, "--plot-lines", plot, "--plot", same}),
+              HasSubstr("--plot-lines " + plot + ": expected another file than that of --plot"));
+  EXPECT_FALSE(std::filesystem::exists(plot));
+}
+
+TEST(Evaluate, FiguresOfAnySizeStandApart) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  const auto far = folder
+                       .Write("far.txt",
+                              "1.000 1234567 0 0 0 0 0 1\n1.050 1234567 1 0 0 0 0 1\n"
+                              "1.100 1234567 3 0 0 0 0 1\n")
+                       .string();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(EvaluateMessage({reference, far, "--align", "none"}), "no error");
+  const std::string table = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(table, HasSubstr("ATE [m]        1234566."));
+  // Six decimals, then a space.
+  EXPECT_THAT(table,
+              testing::Not(testing::ContainsRegex("[.][0-9][0-9][0-9][0-9][0-9][0-9][0-9]")));
+}
+
 TEST(Evaluate, PlacesTooFarToCompareAreRefused) {
   const ScratchFolder folder;
   const auto reference = folder.Write("truth.txt", kTum).string();

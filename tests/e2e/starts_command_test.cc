@@ -4,6 +4,7 @@
 #include "tests/e2e/program.h"
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,50 @@ TEST(StartsCommand, RefusesBadInputInOneLine) {
   }
   fs::remove_all(folder / "sequence/mav0/state_groundtruth_estimate0");
   EXPECT_THAT(RunStarts(folder, "").err, HasSubstr("expected ground truth, found none"));
+}
+
+TEST(StartsCommand, WhatIsReadIsNotReplaced) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  for (const char* out : {"sequence", "sequence/out", "."}) {
+    const Outcome outcome = RunStarts(folder, "--start 0", out);
+    EXPECT_EQ(outcome.code, 2) << out;
+    EXPECT_THAT(outcome.err, HasSubstr("which is read; choose another folder"));
+  }
+  EXPECT_FALSE(fs::exists(folder / "starts.csv"));
+  EXPECT_EQ(FilesOf(folder / "sequence"), std::set<std::string>{"mav0"});
+}
+
+TEST(StartsCommand, ReplacesOnlyWhatItWroteItself) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  for (const char* name : {"summary.json", "starts.csv", "start_000000.png"}) {
+    fs::remove_all(folder / "out");
+    folder.Write(std::string("out/") + name, "mine");
+    const Outcome outcome = RunStarts(folder, "--start 0");
+    EXPECT_EQ(outcome.code, 2) << name;
+    EXPECT_THAT(outcome.err, HasSubstr(name + std::string(": not written by an earlier call")));
+    EXPECT_EQ(Contents(folder / "out" / name), "mine");
+    EXPECT_EQ(FilesOf(folder / "out").size(), 1U) << name;
+  }
+  fs::remove_all(folder / "out");
+  folder.Write("out/diary.txt", "dear");
+  EXPECT_EQ(RunStarts(folder, "--start 0 --draw").code, 0);
+  EXPECT_EQ(RunStarts(folder, "--start 3 --draw").code, 0);
+  EXPECT_THAT(Contents(folder / "out/starts.csv"), HasSubstr("\n3,"));
+  EXPECT_EQ(Contents(folder / "out/diary.txt"), "dear");
+}
+
+TEST(StartsCommand, PosesOfAnotherTimeAreAnError) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  const fs::path poses = folder.Write("late.txt", "100 0 0 0 0 0 0 1\n101 0 0 0 0 0 0 1\n");
+  const Outcome outcome = RunStarts(folder, "--poses " + Quoted(poses));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("no frame has a pose at its time: the poses cover 100.000000000 to "
+                        "101.000000000, the frames 1.000000000 to 1.550000000"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST(StartsCommand, TheExperimentMakesTablesOfThem) {

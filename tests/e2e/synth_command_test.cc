@@ -50,6 +50,22 @@ TEST(SynthCommand, RefusesBadInputInOneLine) {
   EXPECT_FALSE(fs::exists(folder / "out/world.yaml"));
 }
 
+TEST(SynthCommand, TheWorldThatIsReadIsNotRemoved) {
+  const ScratchFolder folder;
+  const fs::path out = folder / "out";
+  const std::string few = " --set frames=1 --out " + Quoted(out) + kSmall;
+  fs::copy_file(PLUMBLINE_EXAMPLES "/worlds/shed.yaml", folder / "shed.yaml");
+  ASSERT_EQ(RunProgram(folder, "synth " + Quoted(folder / "shed.yaml") + few).code, 0);
+  const fs::path described = out / "described_world.yaml";
+  const std::string text = Contents(described);
+  ASSERT_FALSE(text.empty());
+  const Outcome outcome = RunProgram(folder, "synth " + Quoted(described) + few);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("described_world.yaml, which is read"));
+  EXPECT_EQ(Contents(described), text);
+  EXPECT_TRUE(fs::exists(out / "world.yaml"));
+}
+
 TEST(SynthCommand, TellsWhenThereIsNoRoomLeft) {
   const ScratchFolder folder;
   // No file larger than 8 blocks (4 KiB): the images do not fit.

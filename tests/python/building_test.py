@@ -1,10 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: Apache-2.0
 """Building blocks: lines, rank-1, interpolation, cutting, trajectories, worlds."""
+import pathlib
+
 import numpy as np
 import pytest
 
 import plumbline
+
+EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
 
 
 @pytest.fixture(scope="module")
@@ -204,6 +208,16 @@ def test_points_are_aligned():
     assert rmse < 1e-12
     scaled, _ = plumbline.align_points(source, 3 * source, with_scale=True)
     np.testing.assert_allclose(scaled[:3, :3], 3 * np.eye(3), atol=1e-12)
+
+
+def test_the_file_of_a_world_is_not_removed(tmp_path):
+    few = {"frames": 1, "scale": 0.25, "samples": 1}
+    plumbline.render("room", tmp_path / "out", **few)
+    own = tmp_path / "out" / "described_world.yaml"
+    own.write_text((EXAMPLES / "worlds" / "shed.yaml").read_text())
+    with pytest.raises(plumbline.InputError, match="described_world.yaml, which is read"):
+        plumbline.render(str(own), tmp_path / "out", **few)
+    assert own.exists()
 
 
 def test_worlds_are_rendered():

@@ -127,6 +127,23 @@ def test_maps_are_saved_and_read(finished, tmp_path):
         plumbline.load_map(tmp_path / "nothing.plb")
 
 
+def test_no_export_replaces_the_map_file(finished, tmp_path, monkeypatch):
+    file = tmp_path / "map.plb"
+    finished.maps.save(file)
+    before = file.read_bytes()
+    monkeypatch.chdir(tmp_path)
+    atlas = plumbline.load_map("map.plb")
+    (tmp_path / "link.plb").symlink_to(file)
+    monkeypatch.chdir(tmp_path.parent)
+    for one in (atlas[0], atlas.active, next(iter(atlas))):
+        for path in (file, tmp_path / "link.plb"):
+            with pytest.raises(plumbline.InputError, match="expected another file than the one"):
+                one.export(path, "ply")
+    assert file.read_bytes() == before
+    atlas.save(file)
+    assert file.read_bytes() == before
+
+
 def test_maps_are_exported(program, finished, tmp_path):
     finished.maps.save(tmp_path / "map.plb")
     for form in ("ply", "obj", "dxf", "tum"):

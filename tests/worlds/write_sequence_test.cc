@@ -199,6 +199,28 @@ TEST(WriteSequence, TouchesNoFolderOfOthers) {
   EXPECT_EQ(ReadInputFile(folder / "mine" / "diary.txt"), "dear");
 }
 
+TEST(WriteSequence, AWorldOfAUserIsNoRenderedSequence) {
+  const ScratchFolder folder;
+  const SyntheticSequence sequence("room", Small(), 1);
+  for (const char* name : {"world.yaml", "world.yaml.part"}) {
+    fs::remove_all(folder / "mine");
+    folder.Write(std::string("mine/") + name, "lamps: []\n");
+    folder.Write("mine/rgb/a.png", "mine");
+    EXPECT_THAT(
+        MessageOf([&] { WriteSequence(sequence, SequenceFormat::kEuroc, folder / "mine", 1); }),
+        testing::HasSubstr("expected an empty folder or one with a rendered sequence"));
+    EXPECT_EQ(ReadInputFile(folder / "mine" / name), "lamps: []\n");
+    EXPECT_EQ(ReadInputFile(folder / "mine/rgb/a.png"), "mine");
+  }
+}
+
+TEST(WriteSequence, WhatACallLeftThatEndedAtOnceIsReplaced) {
+  const ScratchFolder folder;
+  PrepareSequenceFolder(folder / "room");
+  PrepareSequenceFolder(folder / "room");
+  EXPECT_TRUE(fs::exists(folder / "room/world.yaml.part"));
+}
+
 TEST(SyntheticSequence, RefusesWhatCannotBe) {
   EXPECT_THROW(SyntheticSequence("atlantis", Small(), 1), InputError);
   SynthOptions options = Small();
