@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
+#include "plumbline/io/text_rows.h"
 #include "plumbline/map/gathering.h"
 #include "plumbline/slam/options.h"
 #include "plumbline/slam/saved_options.h"
@@ -60,8 +61,23 @@ SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const 
   }
 }
 
+// As far as places that are read may be, and no larger or smaller than they can make a map.
+void CheckWithinReach(const Similarity3& transform) {
+  const double farthest = transform.translation.cwiseAbs().maxCoeff();
+  if (!(farthest <= kFarthest)) {
+    throw InputError(fmt::format(
+        "transform: expected coordinates within {:g} of 0, found {:g}", kFarthest, farthest));
+  }
+  if (transform.scale >= 1 / kFarthest && transform.scale <= kFarthest) return;
+  throw InputError(fmt::format("transform: expected a scale from {:g} to {:g}, found {:g}",
+                               1 / kFarthest,
+                               kFarthest,
+                               transform.scale));
+}
+
 void JoinAsTold(const Similarity3& transform, MapId second, MergedAtlases& merged) {
   Atlas& atlas = merged.saved.atlas;
+  CheckWithinReach(transform);
   if (merged.saved.context.camera.baseline > 0 && transform.scale != 1) {
     throw InputError(fmt::format(
         "transform: expected a motion of the scale 1, found the scale {:g} for maps of measured "

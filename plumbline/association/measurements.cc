@@ -25,10 +25,6 @@ Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J,
   return J * spread;
 }
 
-bool IsPositiveDefinite(const Eigen::Matrix2d& S) {
-  return S(0, 0) > 0 && S(1, 1) - S(1, 0) * S(1, 0) / S(0, 0) > 0;
-}
-
 // J Lambda^-1 J^T as a square, which rounding errors leave positive, and no larger than what still
 // tells anything.
 Eigen::Matrix2d BoundedSpreadOf(const Eigen::Matrix<double, 2, 4>& J,

@@ -32,6 +32,8 @@ bool Agrees(const RectifiedCamera& camera,
             LineMeasurement measurement) {
   measurement.covariance += kPoseSigmaPx * kPoseSigmaPx * Eigen::Matrix2d::Identity();
   AddLandmarkUncertainty(camera, cam_from_world, line, LineWeighting::kCovariance, measurement);
+  // Far from the origin the information of a line may be lost in rounding errors.
+  if (!IsPositiveDefinite(measurement.covariance)) return false;
   const auto distances = LineDistances(camera, cam_from_world, line.prepared, measurement);
   return distances && distances->squaredNorm() <= kChi2TwoDof99;
 }

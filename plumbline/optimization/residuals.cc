@@ -21,8 +21,8 @@ PointTerm MakePointTerm(const PointMeasurement& measurement) {
 
 LineTerm MakeLineTerm(const RectifiedCamera& camera, const LineMeasurement& measurement) {
   const Eigen::Matrix2d& S = measurement.covariance;
+  PLUMBLINE_CHECK(IsPositiveDefinite(S), "covariance of a line must be positive definite");
   const double variance = S(1, 1) - S(1, 0) * S(1, 0) / S(0, 0);
-  PLUMBLINE_CHECK(S(0, 0) > 0 && variance > 0, "covariance of a line must be positive definite");
   // S = L L^T with L = [l00 0; l10 l11]; the whitening matrix is L^-1.
   const double l00 = std::sqrt(S(0, 0));
   const double l11 = std::sqrt(variance);

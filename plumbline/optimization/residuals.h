@@ -124,6 +124,11 @@ inline std::optional<double> PointChi2(const RectifiedCamera& camera,
   return ru * ru + rv * rv + rd * rd;
 }
 
+// Whether a covariance of a line measurement can be used: it has a Cholesky factor.
+inline bool IsPositiveDefinite(const Eigen::Matrix2d& S) {
+  return S(0, 0) > 0 && S(1, 1) - S(1, 0) * S(1, 0) / S(0, 0) > 0;
+}
+
 // A line measurement ready for use. Throws BugError when its covariance is not positive definite.
 struct LineTerm {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();

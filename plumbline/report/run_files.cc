@@ -153,10 +153,12 @@ std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t>
 
 RunFile MapFile(const System& system) {
   return {"map.plb", [&system](const std::filesystem::path& path) {
+            // Maps that are only read stay as they were, the one to go on with, too.
+            const MapId active = system.atlas().active_id();
             SaveAtlas(path,
                       system.atlas(),
                       system.Context(),
-                      system.MainMap().value_or(system.atlas().active_id()));
+                      system.read_only() ? active : system.MainMap().value_or(active));
           }};
 }
 

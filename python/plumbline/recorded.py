@@ -98,11 +98,13 @@ class _Teller:
     def __init__(self, system: System, on_frame: Callable[[FrameResult], object] | None,
                  on_event: Callable[[dict[str, Any]], object] | None) -> None:
         self.results: list[FrameResult] = []
+        self.began = False
         self._system = system
         self._on_frame = on_frame
         self._on_event = on_event
 
     def tell(self) -> None:
+        self.began = True
         for result in self._system.results():
             self.results.append(result)
             if self._on_frame is not None:
@@ -153,7 +155,8 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     features={"line_count": 100}, or dotted keys.
 
     The GIL is released while it computes. Ctrl-C raises KeyboardInterrupt between two frames; with
-    `out` the frames so far are finished and written first. Raises InputError.
+    `out` the frames so far are finished and written first, as they are before an exception of
+    on_frame or on_event is raised again. Raises InputError.
     """
     if isinstance(path, Dataset):
         if (sensor, camera, format, tuple(topics)) != (None, None, None, ()):
@@ -193,8 +196,9 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     teller = _Teller(system, on_frame, on_event)
     try:
         _feed(system, dataset, frames, teller)
-    except KeyboardInterrupt:
-        if folder is not None:
+    except BaseException as failure:
+        # Of a system that refused its first frame there is nothing to keep.
+        if folder is not None and (teller.began or isinstance(failure, KeyboardInterrupt)):
             finish()
         raise
     written = finish()

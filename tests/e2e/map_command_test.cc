@@ -232,6 +232,10 @@ TEST(MapCommands, NameWhatIsMissingOrUnknown) {
        {"merge MAP MAP --transform '0 0 0 0 0 0 one' --out FOLDER/x", "found 'one'"},
        {"merge MAP MAP --transform '0 0 0 0 0 1 1' --out FOLDER/x", "a quaternion of norm 1.41421"},
        {"merge MAP MAP --transform '0 0 0 0 0 0 1 -1' --out FOLDER/x", "found the scale -1"},
+       {"merge MAP MAP --transform '0 -1e300 0 0 0 0 1' --out FOLDER/x",
+        "transform: expected coordinates within 1e+09 of 0, found 1e+300"},
+       {"merge MAP MAP --transform '0 0 0 0 0 0 1 1e-300' --out FOLDER/x",
+        "transform: expected a scale from 1e-09 to 1e+09, found 1e-300"},
        {"merge MAP MAP --transform '0 0 0 0 0 0 1 2' --out FOLDER/x",
         "found the scale 2 for maps of measured depth, whose scale is 1"}});
   EXPECT_FALSE(fs::exists(folder / "x"));

@@ -5,6 +5,7 @@
 #include "tests/support/true_map.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -58,6 +59,18 @@ TEST(LineSupportSearch, LeavesOutWhatIsClaimed) {
   const auto supports = search.Find(hypothesis);
   ASSERT_FALSE(supports.empty());
   search.Claim(supports);
+  EXPECT_TRUE(search.Find(hypothesis).empty());
+}
+
+// The inverse of a covariance that rounding errors made singular.
+TEST(LineSupportSearch, FindsNothingForALineOfWhichNothingIsKnown) {
+  const SyntheticWorld world = MakeSyntheticWorld(0, 30);
+  const TrueMap scene = SixKeyFrames(world, kExactly);
+  const ImagingModel imaging = world.Imaging();
+  const LineSupportSearch search(scene.map, imaging);
+  LineHypothesis hypothesis = HypothesisOf(scene.map.lines().begin()->second);
+  ASSERT_FALSE(search.Find(hypothesis).empty());
+  hypothesis.information.setConstant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_TRUE(search.Find(hypothesis).empty());
 }
 

@@ -157,6 +157,29 @@ def test_ctrl_c_at_the_end_of_a_run_keeps_its_results(sequence, tmp_path, monkey
     assert len((tmp_path / "out" / "trajectory.txt").read_text().splitlines()) == 12
 
 
+@pytest.mark.parametrize("failure", [ZeroDivisionError, SystemExit])
+def test_what_was_done_before_a_function_fails_is_kept(sequence, tmp_path, failure):
+    def fail_at_the_fifth(result):
+        if result.index == 4:
+            raise failure("mine")
+
+    with pytest.raises(failure, match="mine"):
+        plumbline.run(sequence, out=tmp_path / "out", on_frame=fail_at_the_fifth)
+    lines = len((tmp_path / "out" / "trajectory.txt").read_text().splitlines())
+    assert 5 <= lines < 12
+    assert (tmp_path / "out" / "map.plb").exists()
+
+
+def test_what_was_done_before_an_event_is_refused_is_kept(finished, dataset, tmp_path):
+    def fail(event):
+        raise ZeroDivisionError(event["kind"])
+
+    with pytest.raises(ZeroDivisionError, match="relocalization"):
+        plumbline.run(dataset, start=3, map=finished.maps, localize=True, out=tmp_path / "out",
+                      on_event=fail)
+    assert (tmp_path / "out" / "trajectory.txt").exists()
+
+
 def test_ctrl_c_ends_a_rendering(tmp_path):
     done = interrupted("""
         import sys, plumbline

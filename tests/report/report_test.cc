@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/map_io.h"
 #include "plumbline/report/overlay.h"
 #include "plumbline/report/run_files.h"
 #include "plumbline/report/summary.h"
@@ -12,6 +13,7 @@
 #include <chrono>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -273,6 +275,26 @@ TEST(RunFiles, AreThereWithoutAnyPose) {
   EXPECT_EQ(Contents(folder / "trajectory.txt"), "");
   EXPECT_EQ(Contents(folder / "keyframes.txt"), "");
   EXPECT_EQ(Rows(Contents(folder / "frames.csv")), 1U);
+}
+
+TEST(RunFiles, MapsThatAreOnlyReadHaveTheBytesThatWereLoaded) {
+  SlamOptions options;
+  options.slam.mode = RunMode::kInline;
+  const MovingPoster poster;
+  System mapped(MovingPoster::MakeCalibration(), options);
+  for (int i = 0; i < 40; ++i) mapped.Process(poster.Frame(i));
+  mapped.Finish();
+  SavedAtlas saved{mapped.atlas(), mapped.Context()};
+  saved.atlas.Start();  // the one to go on with; the camera is in the other one
+  const ScratchFolder folder;
+  SaveAtlas(folder / "loaded.plb", saved.atlas, saved.context);
+  System system(MovingPoster::MakeCalibration(), options);
+  system.Continue(std::move(saved), true);
+  for (int i = 8; i < 40; ++i) system.Process(poster.Frame(i));
+  system.Finish();
+  ASSERT_EQ(system.MainMap(), MapId{0});
+  MapFile(system).write(folder / "map.plb");
+  EXPECT_TRUE(Contents(folder / "map.plb") == Contents(folder / "loaded.plb"));
 }
 
 TEST(RunFiles, SayWhichFileCannotBeWritten) {
