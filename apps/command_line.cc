@@ -31,6 +31,10 @@ const CommandOption* FindOption(const CommandSyntax& syntax, std::string_view na
                    (nearest ? "; the nearest is " + *nearest : ""));
 }
 
+bool MayBeRepeated(const CommandOption& option) {
+  return option.help.find("may be repeated") != std::string::npos;
+}
+
 bool MayBeLeftOut(const std::string& positional) { return positional.starts_with('['); }
 
 }  // namespace
@@ -84,7 +88,14 @@ void CommandLine::AddValue(const CommandOption& option, std::string value) {
   if (value.empty()) {
     throw InputError(option.name + ": expected " + option.value + ", found an empty argument");
   }
-  values_[option.name].push_back(std::move(value));
+  std::vector<std::string>& values = values_[option.name];
+  if (!values.empty() && !MayBeRepeated(option)) {
+    throw InputError(fmt::format("{}: expected it once, found {} and {}",
+                                 option.name,
+                                 InQuotes(values.front()),
+                                 InQuotes(value)));
+  }
+  values.push_back(std::move(value));
 }
 
 bool CommandLine::Has(std::string_view option) const { return values_.contains(option); }

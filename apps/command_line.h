@@ -18,7 +18,7 @@ namespace plumbline {
 struct CommandOption {
   std::string name;   // "--align"
   std::string value;  // what follows it, "none|se3|sim3"; empty for a switch
-  std::string help;
+  std::string help;   // with "may be repeated" for one that may
 };
 
 // What a subcommand takes.
@@ -45,7 +45,8 @@ constexpr int kMostFrames = 1'000'000'000;
 class CommandLine {
  public:
   // Throws InputError for an unknown option (with the nearest one there is), a value that is
-  // missing, empty or not wanted, or a wrong number of positional arguments. With --help among the
+  // missing, empty or not wanted, one of an option that has one and may not be repeated, or a wrong
+  // number of positional arguments. With --help among the
   // arguments nothing else is checked.
   CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments);
 

@@ -3,7 +3,9 @@
 #include "plumbline/base/error.h"
 
 #include "bindings.h"
+#include <cstring>
 #include <exception>
+#include <string>
 
 namespace plumbline::python {
 namespace {
@@ -20,6 +22,14 @@ PyObject* MakeError(py::module_& module,
   if (error == nullptr) throw py::error_already_set();
   module.add_object(name, error);
   return error;
+}
+
+// Raises it with a message that may hold any bytes, such as those of a file's name.
+void Raise(PyObject* error, const char* message) {
+  const auto bytes = static_cast<py::ssize_t>(std::strlen(message));
+  const auto text =
+      py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(message, bytes, "backslashreplace"));
+  if (text) PyErr_SetObject(error, text.ptr());
 }
 
 }  // namespace
@@ -42,9 +52,9 @@ void BindErrors(py::module_& module) {
     try {
       if (failure) std::rethrow_exception(failure);
     } catch (const InputError& error) {
-      PyErr_SetString(input_error, error.what());
+      Raise(input_error, error.what());
     } catch (const BugError& error) {
-      PyErr_SetString(bug_error, error.what());
+      Raise(bug_error, error.what());
     }
   });
 }

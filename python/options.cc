@@ -16,7 +16,8 @@
 namespace plumbline::python {
 namespace {
 
-void SetAll(const py::dict& options, const std::string& prefix, OptionTable& table);
+// Groups in groups; deeper dictionaries are a slip, or hold themselves.
+constexpr int kDeepest = 16;
 
 // The value as one writes it behind --set KEY=.
 std::string TextOf(const std::string& key, py::handle value) {
@@ -33,7 +34,7 @@ std::string TextOf(const std::string& key, py::handle value) {
                    Describe(value));
 }
 
-void SetAll(const py::dict& options, const std::string& prefix, OptionTable& table) {
+void SetAll(const py::dict& options, const std::string& prefix, int depth, OptionTable& table) {
   for (const auto& [name, value] : options) {
     if (!py::isinstance<py::str>(name)) {
       throw InputError((prefix.empty() ? "options" : prefix) +
@@ -41,7 +42,11 @@ void SetAll(const py::dict& options, const std::string& prefix, OptionTable& tab
     }
     const std::string key = prefix + name.cast<std::string>();
     if (py::isinstance<py::dict>(value)) {
-      SetAll(py::reinterpret_borrow<py::dict>(value), key + ".", table);
+      if (depth == kDeepest) {
+        throw InputError(key + ": expected at most " + std::to_string(kDeepest) +
+                         " dictionaries one in the other, found more");
+      }
+      SetAll(py::reinterpret_borrow<py::dict>(value), key + ".", depth + 1, table);
     } else {
       table.Set(key + "=" + TextOf(key, value));
     }
@@ -82,7 +87,7 @@ std::string HelpOfOptions() {
 
 }  // namespace
 
-void SetOptions(const py::dict& options, OptionTable& table) { SetAll(options, "", table); }
+void SetOptions(const py::dict& options, OptionTable& table) { SetAll(options, "", 0, table); }
 
 py::dict ValuesOf(const OptionTable& table) {
   py::dict values;

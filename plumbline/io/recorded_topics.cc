@@ -170,6 +170,11 @@ std::vector<const RecordedTopic*> Named(const RecordedTopics& topics,
                                    KnownEncodings(),
                                    InQuotes(topic->encoding)));
     }
+    if (std::find(found.begin(), found.end(), &*topic) != found.end()) {
+      throw InputError(fmt::format("{}: expected each topic once, found {} twice",
+                                   topics.file->path().string(),
+                                   InQuotes(name)));
+    }
     found.push_back(&*topic);
   }
   return found;

@@ -20,7 +20,9 @@ CommandSyntax Syntax() {
   return {"do",
           "Does.",
           {"A", "[B]"},
-          {{"--set", "K=V", "sets"}, {"--count", "N", "counts"}, {"--quiet", "", "says less"}}};
+          {{"--set", "K=V", "sets; may be repeated"},
+           {"--count", "N", "counts"},
+           {"--quiet", "", "says less"}}};
 }
 
 CommandLine Parse(const std::vector<std::string>& arguments) {
@@ -62,6 +64,14 @@ TEST(CommandLine, NamesWrongUse) {
   EXPECT_EQ(ParseMessage({"x", "--quiet=1"}), "--quiet: takes no value");
   EXPECT_EQ(ParseMessage({"x", "y", "z"}), "do: unexpected argument z");
   EXPECT_THAT(ParseMessage({}), HasSubstr("do: expected A"));
+}
+
+TEST(CommandLine, TakesTwoValuesOnlyOfWhatMayBeRepeated) {
+  EXPECT_EQ(ParseMessage({"x", "--count", "1", "--count=2"}),
+            "--count: expected it once, found '1' and '2'");
+  EXPECT_EQ(ParseMessage({"x", "--count", "1", "--count", "1"}),
+            "--count: expected it once, found '1' and '1'");
+  EXPECT_EQ(ParseMessage({"x", "--set", "a=1", "--set", "a=2", "--quiet", "--quiet"}), "no error");
 }
 
 TEST(CommandLine, TextsThatAreEmptyAreNone) {

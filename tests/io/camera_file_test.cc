@@ -24,6 +24,19 @@ using testing::HasSubstr;
 
 constexpr char kMono[] = "model: pinhole\nsize: [640, 480]\nintrinsics: [500, 510, 320.5, 240]\n";
 
+TEST(ParseCamera, ReadsTheExampleOfTheDocuments) {
+  const std::string page = Contents(PLUMBLINE_SEEDS "/../../docs/file-formats.md");
+  const std::string fence = "```";
+  const std::size_t begin = page.find(fence + "yaml\n", page.find("## Camera files"));
+  ASSERT_NE(begin, std::string::npos);
+  const std::size_t text = begin + fence.size() + 5;
+  const std::string example = page.substr(text, page.find(fence, text) - text);
+  const Calibration c = ParseCamera(example, "example.yaml");
+  ASSERT_TRUE(c.right && c.body_from_left && c.rate_hz);
+  EXPECT_DOUBLE_EQ(c.right_from_left.translation.x(), -0.11);
+  EXPECT_THAT(example, HasSubstr("\n# baseline: 0.11 "));
+}
+
 TEST(ParseCamera, ReadsAMonocularCamera) {
   const Calibration c = ParseCamera(std::string(kMono) +
                                         "distortion: radtan\n"

@@ -207,6 +207,8 @@ TEST(Recordings, ListTopicsWhereTheChoiceIsNotClear) {
                         "choose by --topic"));
   EXPECT_THAT(message({.camera = camera, .topics = {"/side/image"}}),
               HasSubstr("expected images on topic '/side/image', found none; topics: /back/image"));
+  EXPECT_THAT(message({.camera = camera, .topics = {"/front/image", "/front/image"}}),
+              HasSubstr("expected each topic once, found '/front/image' twice"));
   const auto mono = OpenDataset(path, {.camera = camera, .topics = {"/front/image"}});
   EXPECT_EQ(mono->sensor(), SensorKind::kMono);
   EXPECT_EQ(mono->Read(0)->left.at(0, 0), 'a');

@@ -357,6 +357,20 @@ def test_other_kinds_of_objects_are_refused(name):
         TYPES[name]()
 
 
+def test_options_that_hold_themselves_are_refused():
+    endless = {}
+    endless["a"] = endless
+    with pytest.raises(plumbline.InputError, match="expected at most 16 dictionaries"):
+        plumbline.options(**endless)
+    with pytest.raises(plumbline.InputError, match="expected at most 16 dictionaries"):
+        plumbline.Synth("room", **endless)
+
+
+def test_names_of_files_that_are_no_text_are_told():
+    with pytest.raises(plumbline.InputError, match=r"/none/\\xff\.plb"):
+        plumbline.load_map(b"/none/\xff.plb".decode(errors="surrogateescape"))
+
+
 def test_errors_have_a_family():
     assert issubclass(plumbline.InputError, (plumbline.Error,))
     assert issubclass(plumbline.InputError, ValueError)
