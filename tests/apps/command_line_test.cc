@@ -111,7 +111,7 @@ TEST(CommandLine, CountsAreWholeNumbersOfARange) {
 TEST(HelpText, ListsTheOptions) {
   const std::string help = HelpText(Syntax());
   EXPECT_THAT(help, HasSubstr("plumbline do A [B] [options]\nDoes.\n"));
-  EXPECT_THAT(help, HasSubstr("--set K=V  sets\n  --count N  counts\n"));
+  EXPECT_THAT(help, HasSubstr("--set K=V  sets; may be repeated\n  --count N  counts\n"));
 }
 
 }  // namespace
