@@ -45,9 +45,8 @@ constexpr int kMostFrames = 1'000'000'000;
 class CommandLine {
  public:
   // Throws InputError for an unknown option (with the nearest one there is), a value that is
-  // missing, empty or not wanted, one of an option that has one and may not be repeated, or a wrong
-  // number of positional arguments. With --help among the
-  // arguments nothing else is checked.
+  // missing, empty or not wanted, a second value of an option that may not be repeated, or a wrong
+  // number of positional arguments. With --help among the arguments nothing else is checked.
   CommandLine(const CommandSyntax& syntax, std::span<const std::string> arguments);
 
   bool help() const { return Has("--help"); }

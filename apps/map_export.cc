@@ -134,7 +134,8 @@ struct ExportedMap {
   LineMapOptions line_map;
 };
 
-// As the run that made the map had them.
+// The options of the line map that the run which made the map had; the default ones, with a remark,
+// where this version of the program does not know them.
 LineMapOptions LineMapOptionsOf(const AtlasContext& context, const std::string& name) {
   try {
     return SavedOptions(context, name).mapping.line_map;

@@ -61,7 +61,8 @@ SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const 
   }
 }
 
-// As far as places that are read may be, and no larger or smaller than they can make a map.
+// Throws where a transform moves a map farther than coordinates of files may lie from the origin,
+// or scales it by more than that: nothing can be computed with such places.
 void CheckWithinReach(const Similarity3& transform) {
   const double farthest = transform.translation.cwiseAbs().maxCoeff();
   if (!(farthest <= kFarthest)) {

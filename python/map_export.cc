@@ -34,7 +34,8 @@ constexpr auto EnumNames(std::type_identity<ExportFormat>) {
                     std::pair{ExportFormat::kColmap, "colmap"}};
 }
 
-// As the run that made the map had them; a warning where this version does not know them.
+// The options of the line map that the run which made the map had; the default ones, with a warning
+// of Python, where this version does not know them.
 LineMapOptions LineMapOptionsOf(const AtlasContext& context) {
   try {
     return SavedOptions(context, "options of the map").mapping.line_map;

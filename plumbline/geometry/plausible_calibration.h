@@ -41,8 +41,9 @@ std::optional<std::string> DistortionFault(const CameraIntrinsics& intrinsics);
 // rectified, is not turned. Of a calibration with `right`.
 std::optional<std::string> PairFault(const Calibration& calibration);
 
-// All of the above of both cameras, and the depth factor: of a calibration that no file was checked
-// for, such as one that a program puts together.
+// Checks a whole calibration: sizes, intrinsics and lenses of its cameras, how they stand to one
+// another, and the depth factor. It is for calibrations that a program puts together, of which no
+// reader of files has checked the parts.
 std::optional<std::string> CalibrationFault(const Calibration& calibration);
 
 // Whether images that are declared rectified have no distortion.

@@ -48,8 +48,8 @@ struct CorrectStereo {
   std::vector<std::pair<KeyFrameId, std::shared_ptr<const IndexedFeatures>>> ready = {};
 };
 
-// The same features of a keyframe, some at places that are known better. The map corrects them as
-// it does those of a new keyframe.
+// Gives a keyframe features in place of those that it has: the same ones in the same order, some of
+// them at places that are known better. The map's stereo correction is applied to them.
 struct MoveFeatures {
   KeyFrameId id;
   std::shared_ptr<const IndexedFeatures> indexed;

@@ -44,7 +44,7 @@ class PointAligner {
  public:
   static constexpr std::size_t kRecent = 20;  // keyframes whose patches are kept
 
-  // Imaging: `octave_scale` is the factor between octaves.
+  // octave_scale: how many times smaller each octave of the image pyramid is than the one below.
   PointAligner(const RectifiedCamera& camera, double octave_scale)
       : camera_(camera), octave_scale_(octave_scale) {}
 
@@ -56,7 +56,7 @@ class PointAligner {
                                                KeyFrameId id,
                                                const GrayImage& image);
 
-  // The oldest first.
+  // The patches of recent keyframes, those of the oldest keyframe first.
   const std::deque<KeyFramePatches>& recent() const { return recent_; }
   void SetRecent(std::deque<KeyFramePatches> recent) { recent_ = std::move(recent); }
 
