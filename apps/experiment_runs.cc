@@ -7,6 +7,7 @@
 #include "lab/experiments/job_runner.h"
 #include "lab/experiments/paper_catalog.h"
 #include "lab/experiments/plan.h"
+#include "lab/experiments/results_folder.h"
 #include "lab/experiments/slurm_executor.h"
 #include "lab/experiments/write_results.h"
 #include "plumbline/base/error.h"
@@ -299,6 +300,7 @@ int RunExperiment(const Experiment& experiment, const CommandLine& line) {
       MakePlan(experiment, ReadRequest(line, experiment, ReadOut(line), ProgramId(kProgram)));
   SayMissing(plan, quiet);
   if (line.Has("--dry-run")) return ListJobs({&plan}, line.Has("--force"));
+  CheckResultsFolder(plan.out);
   const auto results = RunWithProgress({&plan}, line, 1, {});
   if (!results) return FirstStopSignal()->exit_code;
   WriteResults(plan, results->front());
@@ -323,6 +325,8 @@ int RunGroup(const ExperimentGroup& group, const CommandLine& line) {
   std::vector<const Plan*> plans;
   for (const Plan& plan : planned.plans) plans.push_back(&plan);
   if (line.Has("--dry-run")) return ListJobs(plans, line.Has("--force"));
+  CheckResultsFolder(ReadOut(line));
+  for (const Plan* plan : plans) CheckResultsFolder(plan->out);
   std::size_t runs = 0, failed = 0;
   const auto results = RunWithProgress(
       plans, line, cores, [&](std::size_t p, const std::vector<JobResult>& of_plan) {
@@ -343,6 +347,7 @@ int RunComputed(const ComputedExperiment& experiment, const CommandLine& line) {
   const int usual = line.Has("--full") ? experiment.full_repeats : experiment.repeats;
   const int repeats = line.Count("--runs", usual, {1, kMostRepeats});
   const bool quiet = line.Has("--quiet");
+  CheckResultsFolder(out);
   ProgressLine progress(quiet);
   CatchStopSignals();
   const bool done = experiment.run(experiment, repeats, out, [&](std::size_t at, std::size_t all) {

@@ -80,4 +80,13 @@ std::optional<std::string> ReadFileIfThere(const fs::path& path) {
   }
 }
 
+bool FileBeginsWith(const fs::path& path, std::string_view text) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string start(text.size(), '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return file && start == text;
+}
+
 }  // namespace plumbline

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace plumbline {
 
@@ -20,6 +21,9 @@ std::string ReadInputFile(const std::filesystem::path& path, std::uint64_t large
 
 // The contents of a file that need not be there; none where ReadInputFile would fail.
 std::optional<std::string> ReadFileIfThere(const std::filesystem::path& path);
+
+// Whether there is a file at `path` that begins with `text`; no more of it is read.
+bool FileBeginsWith(const std::filesystem::path& path, std::string_view text);
 
 // What is at a path that is there: "a folder", "a file", "a pipe", "a device", "a socket".
 std::string KindOf(const std::filesystem::path& path);

@@ -67,5 +67,21 @@ TEST(ReadFileIfThere, GivesNothingWhereThereIsNoFile) {
   EXPECT_EQ(ReadFileIfThere(folder.Write("some", "text\n")), "text\n");
 }
 
+TEST(FileBeginsWith, ReadsTheBeginningOfFilesOnly) {
+  const ScratchFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const std::filesystem::path file = folder.Write("file", "a,b\n1,2\n");
+  EXPECT_TRUE(FileBeginsWith(file, "a,b\n"));
+  EXPECT_TRUE(FileBeginsWith(file, "a,b\n1,2\n"));
+  EXPECT_TRUE(FileBeginsWith(file, ""));
+  EXPECT_FALSE(FileBeginsWith(file, "a,c\n"));
+  EXPECT_FALSE(FileBeginsWith(file, "a,b\n1,2\n3"));
+  EXPECT_FALSE(FileBeginsWith(folder / "none", "a"));
+  EXPECT_FALSE(FileBeginsWith(folder.path(), ""));
+  EXPECT_FALSE(FileBeginsWith(folder / "pipe", "a"));
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 36);  // takes no place on the disk
+  EXPECT_TRUE(FileBeginsWith(file, "a,b\n"));
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -198,5 +198,32 @@ TEST(ExperimentCommand, RefusesBadInputInOneLineBeforeAnyRun) {
   }
 }
 
+TEST(ExperimentCommand, ReplacesNoFileThatNoExperimentWrote) {
+  const ScratchFolder folder;
+  WriteData(folder);
+  const std::string data = " --data " + Quoted(folder / "data");
+  struct Case {
+    std::string arguments, file;
+  };
+  const std::vector<Case> cases = {
+      {"sensors --runs 1 --only poster/points" + data, "out/results.json"},
+      {"sensors --runs 1 --only poster/points" + data, "out/plots/mine.svg"},
+      {"cutting-testbed --runs 1", "out/table.md"},
+      {"all --only poster" + data, "out/table.html"},
+      {"all --only poster" + data, "out/rippl-figure8/timing.json"},
+  };
+  for (const Case& c : cases) {
+    fs::remove_all(folder / "out");
+    const fs::path file = folder.Write(c.file, "mine\n");
+    const Outcome outcome = RunProgram(
+        folder, "experiment " + c.arguments + " --quiet --out " + Quoted(folder / "out"));
+    EXPECT_EQ(outcome.code, 2) << c.file;
+    EXPECT_THAT(outcome.err, HasSubstr(file.string() + ": not written by an earlier experiment"));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(Contents(file), "mine\n");
+    EXPECT_FALSE(fs::exists(folder / "out/runs")) << c.file;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline
