@@ -226,6 +226,7 @@ Json MapData(const MapScene& map, const Vector3d& origin, SensorKind sensor) {
     keyframes.Add(pose.rotation.coeffs());  // x y z w
   }
   return {{"id", map.id.value},
+          {"keyframe_count", map.keyframe_count},
           {"point_count", map.point_count},
           {"line_count", map.line_count},
           {"frames", map.frames},

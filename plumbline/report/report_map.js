@@ -141,9 +141,13 @@ function buildView(figure, bar) {
 
 function mapText(map) {
   const parts = [
-    plural(map.keyframe_frames.length, "keyframe"), plural(map.point_count, "point"),
+    plural(map.keyframe_count, "keyframe"), plural(map.point_count, "point"),
     plural(map.line_count, "line")
   ];
+  const ofThisRun = map.keyframe_frames.length;
+  if (ofThisRun < map.keyframe_count) {
+    parts.push(`${whole(ofThisRun)} of the keyframes are of this run and shown`);
+  }
   const points = map.points.length / 3, lines = map.lines.length / 6;
   if (points < map.point_count) parts.push(`${whole(points)} of the points shown`);
   if (lines < map.line_count) parts.push(`${whole(lines)} of the lines shown`);

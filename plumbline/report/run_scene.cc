@@ -62,6 +62,7 @@ MapScene MakeMapScene(const System& system, const Dataset& dataset, const Map& m
   for (const MappedLine& line : system.LineMap(map.id())) {
     scene.lines.push_back({world_from_map * line.segment.start, world_from_map * line.segment.end});
   }
+  scene.keyframe_count = map.keyframes().size();
   scene.point_count = scene.points.size();
   scene.line_count = scene.lines.size();
   return scene;

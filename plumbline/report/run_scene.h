@@ -24,6 +24,7 @@ struct MapScene {
   std::vector<Rigid3> poses;                 // world_from_camera, camera as delivered
   std::vector<std::size_t> keyframe_frames;  // as `frames`, for the keyframes that were kept
   std::vector<Rigid3> keyframe_poses;
+  std::size_t keyframe_count = 0;               // in the map, with those of earlier runs
   std::size_t point_count = 0, line_count = 0;  // in the map, in its line map (System::LineMap)
   std::vector<Eigen::Vector3d> points;          // those to be shown
   std::vector<Segment3> lines;

@@ -124,6 +124,7 @@ TEST(HtmlReport, HoldsTheMapRelativeToItsOrigin) {
   EXPECT_EQ(FloatsOf(map["lines"]).size(), 6U * map["line_count"].get<std::size_t>());
   EXPECT_EQ(FloatsOf(map["keyframes"]).size(), 7U * map["keyframe_frames"].size());
   EXPECT_EQ(map["point_count"], json["counts"]["points"]);
+  EXPECT_EQ(map["keyframe_count"], json["counts"]["keyframes"]);
   const auto positions = FloatsOf(map["positions"]);
   ASSERT_EQ(positions.size(), 12U);
   for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(positions[static_cast<std::size_t>(axis)], 0);
@@ -132,6 +133,26 @@ TEST(HtmlReport, HoldsTheMapRelativeToItsOrigin) {
   EXPECT_EQ(map["error"]["frames"], map["frames"]);
   EXPECT_EQ(map["error"]["position"].size(), 4U);
   EXPECT_LT(map["error"]["ate"]["rmse"], 0.01);
+}
+
+TEST(HtmlReport, CountsTheKeyframesOfEarlierRunsInTheMapOfTwo) {
+  SlamOptions options;
+  options.slam.mode = RunMode::kInline;
+  const MovingPoster poster;
+  System first(MovingPoster::MakeCalibration(), options);
+  for (int i = 0; i < 40; ++i) first.Process(poster.Frame(i));
+  first.Finish();
+  System second(MovingPoster::MakeCalibration(), options);
+  second.Continue({first.atlas(), first.Context()}, true);
+  for (int i = 10; i < 20; ++i) second.Process(poster.Frame(i));
+  second.Finish();
+  const std::string page = FormatHtmlReport(second, PosterDataset(20), {});
+  const auto json = DataOf(page);
+  const auto& map = json["scene"]["maps"][0];
+  EXPECT_EQ(map["keyframe_count"], first.maps().begin()->second.keyframes().size());
+  EXPECT_EQ(map["keyframe_count"], json["counts"]["keyframes"]);
+  EXPECT_TRUE(map["keyframe_frames"].empty());
+  EXPECT_THAT(page, HasSubstr("plural(map.keyframe_count, \"keyframe\")"));
 }
 
 TEST(HtmlReport, TellsOfPlacesThatWereSeenAgain) {
