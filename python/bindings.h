@@ -21,4 +21,8 @@ void BindCutting(pybind11::module_& module);
 void BindAdjustment(pybind11::module_& module);
 void BindSynth(pybind11::module_& module);
 
+// After all of these: an object that was made by __new__ without __init__ raises TypeError where it
+// is used. pybind11 would hand functions memory that nobody wrote.
+void RefuseUninitialized(const pybind11::module_& module);
+
 }  // namespace plumbline::python

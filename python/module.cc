@@ -21,4 +21,5 @@ PYBIND11_MODULE(_plumbline, module) {
   python::BindCutting(module);
   python::BindAdjustment(module);
   python::BindSynth(module);
+  python::RefuseUninitialized(module);
 }

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import plumbline
+from plumbline import _plumbline
 from building_test import cutting_problem, rank1_arguments, tracks
 from stubs_test import arguments_of, functions
 
@@ -355,6 +356,33 @@ TYPES = {
 def test_other_kinds_of_objects_are_refused(name):
     with pytest.raises(TypeError, match="incompatible|supported"):
         TYPES[name]()
+
+
+BOUND = sorted((member for member in vars(_plumbline).values()
+                if isinstance(member, type) and not issubclass(member, Exception)),
+               key=lambda member: member.__name__)
+
+
+def test_all_classes_are_looked_at():
+    names = {bound.__name__ for bound in BOUND}
+    assert {"Dataset", "Frame", "System", "Trajectory", "Map", "Calibration"} <= names
+
+
+@pytest.mark.parametrize("bound", BOUND, ids=lambda bound: bound.__name__)
+def test_objects_that_were_never_made_are_refused(bound):
+    for made_by in (bound, type("Derived", (bound,), {})):
+        empty = made_by.__new__(made_by)
+        for name, member in vars(bound).items():
+            if type(member) is property:
+                with pytest.raises((TypeError, RuntimeError)):
+                    getattr(empty, name)
+        for name, use in (("__len__", len), ("__iter__", list), ("__repr__", repr)):
+            if name in vars(bound):
+                with pytest.raises((TypeError, RuntimeError)):
+                    use(empty)
+    if hasattr(bound, "__len__"):
+        with pytest.raises(TypeError, match="expected an object that __init__ made"):
+            len(bound.__new__(bound))
 
 
 def test_options_that_hold_themselves_are_refused():
