@@ -202,6 +202,21 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
   return DecodeGrayImage(path, *bytes, wanted);
 }
 
+std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
+  constexpr std::size_t kBitDepth = 24, kColorType = 25;  // where the header of a PNG file has them
+  const auto bytes = ReadBytes(path);
+  if (!bytes || !IsPng(*bytes) || bytes->size() <= kColorType) return std::nullopt;
+  if ((*bytes)[kBitDepth] != 16 || (*bytes)[kColorType] != 0) return std::nullopt;
+  const auto mat = DecodeMat(path, *bytes, cv::IMREAD_UNCHANGED, std::nullopt);
+  if (!mat || mat->type() != CV_16UC1) return std::nullopt;
+  int brightest = 0;
+  for (int y = 0; y < mat->rows; ++y) {
+    const auto* in = mat->ptr<std::uint16_t>(y);
+    brightest = std::max(brightest, int{*std::max_element(in, in + mat->cols)});
+  }
+  return brightest;
+}
+
 Expected<DepthImage, ImageFailure> DecodeDepthImage(const std::filesystem::path& name,
                                                     std::span<const std::uint8_t> bytes,
                                                     double factor,

@@ -26,11 +26,15 @@ struct ImageFailure {
 Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& path);
 
 // Decodes an 8-bit grey image; colour is converted by 0.299 R + 0.587 G + 0.114 B, in the same way
-// whatever the file type (those of image_header.h). An EXIF orientation is ignored: the calibration
-// is of the raw pixels. An image whose header tells another size than `wanted`, or more than
-// kMostPixels, is not decoded.
+// whatever the file type (those of image_header.h). Of 16 bits the upper 8 are taken. An EXIF
+// orientation is ignored: the calibration is of the raw pixels. An image whose header tells another
+// size than `wanted`, or more than kMostPixels, is not decoded.
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
                                                 std::optional<ImageSize> wanted = std::nullopt);
+
+// The brightest level of a PNG file with one channel of 16 bits; nullopt for any other file, and
+// where none can be decoded.
+std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
 
 // Decodes a 16-bit depth image to metres, value / factor; 0 stays 0 (no measurement).
 Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,

@@ -207,6 +207,17 @@ TEST(OpenDataset, SortsFoldersOfImagesByNumber) {
   EXPECT_EQ(dataset->Read(2)->left.at(0, 0), 10);
 }
 
+TEST(OpenDataset, TellsOfImagesOf16Bits) {
+  const ScratchFolder folder;
+  for (const char* name : {"1.png", "2.png"}) folder.Write(name, Png(8, 6, 4095));
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+  const auto dataset = OpenDataset(folder.path());
+  EXPECT_THAT(dataset->info().notes,
+              ElementsAre("the images have 16 bits, of which the upper 8 are used: the brightest "
+                          "level of the first one, 4095 of 65535, becomes 15 of 255"));
+  EXPECT_EQ(dataset->Read(0)->left.at(0, 0), 15);
+}
+
 TEST(OpenDataset, LooksAtDataWithoutCalibrationOnRequest) {
   const ScratchFolder folder;
   folder.Write("rgb.txt", "1.0 a.png\n");

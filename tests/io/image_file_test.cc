@@ -127,6 +127,31 @@ TEST(ReadGrayImage, TellsWhyThereIsNoImage) {
               HasSubstr("not an image"));
 }
 
+TEST(ReadGrayImage, TakesTheUpperBitsOfSixteen) {
+  const ScratchFolder folder;
+  cv::Mat image(2, 3, CV_16UC1, cv::Scalar(0));
+  image.at<std::uint16_t>(1, 2) = 4095;
+  image.at<std::uint16_t>(0, 0) = 255;
+  const auto file = folder.Write("g.png", Encoded(image, ".png"));
+  const auto gray = ReadGrayImage(file);
+  ASSERT_TRUE(gray);
+  EXPECT_EQ(gray->at(2, 1), 15);
+  EXPECT_EQ(gray->at(0, 0), 0);
+  EXPECT_EQ(BrightestOf16Bits(file), 4095);
+}
+
+TEST(BrightestOf16Bits, IsKnownOfSuchFilesOnly) {
+  const ScratchFolder folder;
+  EXPECT_EQ(BrightestOf16Bits(folder.Write("a.png", Encoded(Pattern(), ".png"))), std::nullopt);
+  EXPECT_EQ(BrightestOf16Bits(folder.Write("a.jpg", Encoded(Pattern(), ".jpg"))), std::nullopt);
+  EXPECT_EQ(BrightestOf16Bits(folder / "none.png"), std::nullopt);
+  const cv::Mat image(8, 8, CV_16UC1, cv::Scalar(4095));
+  const std::string bytes = Encoded(image, ".png");
+  for (const std::size_t length : {std::size_t{0}, std::size_t{20}, bytes.size() - 20}) {
+    EXPECT_EQ(BrightestOf16Bits(folder.Write("cut.png", bytes.substr(0, length))), std::nullopt);
+  }
+}
+
 TEST(ReadDepthImage, DividesByTheFactorAndKeepsHoles) {
   const ScratchFolder folder;
   cv::Mat image(2, 3, CV_16UC1, cv::Scalar(0));
