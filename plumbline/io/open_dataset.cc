@@ -32,14 +32,16 @@ DatasetFormat DetectFormat(const fs::path& path) {
                    "sequence (image_0/, calib.txt) or a folder of images, found none of them");
 }
 
-// What a file is, also where its beginning is damaged.
+// What a file is by its first bytes, and by its name where they are damaged.
 DatasetFormat FormatOfFile(const fs::path& path) {
   std::array<std::uint8_t, 16> begin{};
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(begin.data()), begin.size());
   const std::span<const std::uint8_t> bytes(begin.data(), static_cast<std::size_t>(file.gcount()));
-  if (BeginsAsBag(bytes) || path.extension() == ".bag") return DatasetFormat::kBag;
-  if (BeginsAsMcap(bytes) || path.extension() == ".mcap") return DatasetFormat::kMcap;
+  if (BeginsAsBag(bytes)) return DatasetFormat::kBag;
+  if (BeginsAsMcap(bytes)) return DatasetFormat::kMcap;
+  if (path.extension() == ".bag") return DatasetFormat::kBag;
+  if (path.extension() == ".mcap") return DatasetFormat::kMcap;
   return DatasetFormat::kVideo;
 }
 

@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// How a recorded sequence is stored: a file tells by its first bytes or the end of its name, and is
-// a video otherwise, a folder by the names in it; nullopt where there is none.
+// How a recorded sequence is stored: a file tells by its first bytes, else by the end of its name,
+// and is a video otherwise, a folder by the names in it; nullopt where there is none.
 std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
 
 // Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and

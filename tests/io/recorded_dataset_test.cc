@@ -123,6 +123,33 @@ TEST(Recordings, ReadsMcapOfAllDialects) {
   }
 }
 
+TEST(Recordings, AreKnownByTheirFirstBytesWhateverTheirNames) {
+  const ScratchFolder folder;
+  const std::string bag = StereoBag().Finish();
+  McapWriter mcap;
+  mcap.Add("/camera/info",
+           "sensor_msgs/CameraInfo",
+           "ros1",
+           1,
+           CalibrationMessageOf(Dialect::kRos1, {}));
+  mcap.Add("/camera/image",
+           "sensor_msgs/Image",
+           "ros1",
+           2,
+           RawImageMessage(Dialect::kRos1, Gray(kSecond, 'a')));
+  const std::string other = mcap.Finish();
+  for (const char* name : {"x.bag", "x.mcap", "x.avi", "x"}) {
+    EXPECT_EQ(FindFormat(folder.Write(name, bag)), DatasetFormat::kBag) << name;
+    EXPECT_EQ(OpenDataset(folder / name)->size(), 2U) << name;
+    EXPECT_EQ(FindFormat(folder.Write(name, other)), DatasetFormat::kMcap) << name;
+    EXPECT_EQ(OpenDataset(folder / name)->size(), 1U) << name;
+  }
+  // Neither's: the name tells.
+  EXPECT_EQ(FindFormat(folder.Write("y.bag", "damaged")), DatasetFormat::kBag);
+  EXPECT_EQ(FindFormat(folder.Write("y.mcap", "damaged")), DatasetFormat::kMcap);
+  EXPECT_EQ(FindFormat(folder.Write("y.avi", "damaged")), DatasetFormat::kVideo);
+}
+
 TEST(Recordings, TurnsColourIntoGreyAsImageFilesDo) {
   const ScratchFolder folder;
   BagWriter bag;
