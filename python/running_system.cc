@@ -3,6 +3,7 @@
 #include "running_system.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/io/text_rows.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/version.h"
@@ -168,6 +169,10 @@ void RunningSystem::CheckFrame(const SensorFrame& frame) const {
 }
 
 void RunningSystem::CheckStamp(std::int64_t stamp_ns) {
+  if (!IsReadableStamp(stamp_ns)) {
+    throw InputError(fmt::format(
+        "stamp_ns: expected a stamp within {} ns of 0, found {}", kLatestStampNs, stamp_ns));
+  }
   if (last_stamp_ns_ && stamp_ns <= *last_stamp_ns_) {
     throw InputError(fmt::format(
         "stamp_ns: expected a frame after {} ns, found one of {} ns", *last_stamp_ns_, stamp_ns));

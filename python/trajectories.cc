@@ -5,14 +5,18 @@
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/alignment.h"
+#include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"
 #include "bindings.h"
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -20,6 +24,23 @@
 
 namespace plumbline::python {
 namespace {
+
+// Places as far away as those that are read from files may be.
+std::vector<Eigen::Vector3d> ReadPlaces(py::handle value, const char* name) {
+  std::vector<Eigen::Vector3d> places = ReadVectors3(value, name);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Eigen::Index axis = 0;
+    if (places[i].cwiseAbs().maxCoeff(&axis) <= kFarthest) continue;
+    throw InputError(
+        fmt::format("{}: expected coordinates within {:g} of 0, found {:g} at [{}, {}]",
+                    name,
+                    kFarthest,
+                    places[i](axis),
+                    i,
+                    axis));
+  }
+  return places;
+}
 
 Trajectory MakeTrajectory(py::handle stamps_ns, py::handle positions, py::handle quaternions) {
   const py::array stamps = py::array::ensure(stamps_ns);
@@ -31,7 +52,7 @@ Trajectory MakeTrajectory(py::handle stamps_ns, py::handle positions, py::handle
   }
   // An empty array may be of any type, of which not all turn into whole numbers.
   const Integers stamp = stamps.size() > 0 ? Integers::ensure(stamps) : Integers(0);
-  const std::vector<Eigen::Vector3d> centres = ReadVectors3(positions, "positions");
+  const std::vector<Eigen::Vector3d> centres = ReadPlaces(positions, "positions");
   const Doubles turns = ReadDoubles(quaternions, "quaternions", {kAny, 4});
   CheckCount("positions", static_cast<std::size_t>(stamp.size()), centres.size());
   CheckCount("quaternions", centres.size(), static_cast<std::size_t>(turns.shape(0)));
@@ -45,6 +66,10 @@ Trajectory MakeTrajectory(py::handle stamps_ns, py::handle positions, py::handle
           fmt::format("quaternions: expected a norm of 1, found {:.3g} at [{}]", q.norm(), i));
     }
     const std::int64_t ns = stamp.data()[row];
+    if (!IsReadableStamp(ns)) {
+      throw InputError(fmt::format(
+          "stamps_ns: expected stamps within {} ns of 0, found {} at [{}]", kLatestStampNs, ns, i));
+    }
     if (!poses.empty() && ns <= poses.back().stamp_ns) {
       throw InputError(
           fmt::format("stamps_ns: expected ascending stamps, found {} after {} at [{}]",
@@ -142,8 +167,8 @@ py::dict Compare(const PoseList& reference,
 }
 
 py::tuple Align(py::handle source, py::handle target, bool with_scale) {
-  const auto from = ReadVectors3(source, "source");
-  const auto to = ReadVectors3(target, "target");
+  const auto from = ReadPlaces(source, "source");
+  const auto to = ReadPlaces(target, "target");
   CheckCount("target", from.size(), to.size());
   const auto alignment =
       AlignPoints(from, to, with_scale ? AlignmentScale::kFree : AlignmentScale::kFixed);
@@ -201,7 +226,7 @@ void BindTrajectories(py::module_& module) {
            R"(Trajectory(stamps_ns, positions, quaternions)
 
 stamps (N,) in nanoseconds, camera centres (N, 3) in the world, quaternions (N, 4) x y z w of
-world_from_camera.)")
+world_from_camera. Stamps until the year 2096 and places within 10^9 m, as load reads them.)")
       .def_static(
           "load",
           [](const std::filesystem::path& path) { return PoseList{ReadTrajectory(path).poses}; },

@@ -49,6 +49,10 @@ Eigen::Vector3d PlaceFields(const std::filesystem::path& path,
 
 // The latest time stamp that is read, in the year 2096. The sum of two fits into 64 bits.
 constexpr std::int64_t kLatestStampNs = 4'000'000'000'000'000'000;
+// Whether a trajectory that has this stamp is read again: its times may be before 0.
+constexpr bool IsReadableStamp(std::int64_t stamp_ns) {
+  return stamp_ns >= -kLatestStampNs && stamp_ns <= kLatestStampNs;
+}
 
 // A time not before 0 and not after kLatestStampNs as nanoseconds, read from the decimal text
 // without loss (rounded to the nearest nanosecond where there are more than nine decimals):

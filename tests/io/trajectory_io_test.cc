@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/trajectory_io.h"
 
+#include "plumbline/io/text_rows.h"
+
 #include "tests/io/scratch_folder.h"
 #include <cmath>
 #include <string>
@@ -142,6 +144,22 @@ TEST(ReadKittiPoses, RefusesWrongCountsAndMatrices) {
   const auto cut = folder.Write("cut.txt", "1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(MessageOf([&] { ReadKittiPoses(cut, {1}); }),
               HasSubstr("cut.txt:1: expected 12 numbers, a 3x4 matrix, found 11 columns"));
+}
+
+TEST(WriteTum, StampsThatAreReadableAreRead) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(IsReadableStamp(kLatestStampNs));
+  EXPECT_TRUE(IsReadableStamp(-kLatestStampNs));
+  EXPECT_FALSE(IsReadableStamp(kLatestStampNs + 1));
+  EXPECT_FALSE(IsReadableStamp(-kLatestStampNs - 1));
+  const Trajectory trajectory = {{-kLatestStampNs, Rigid3()}, {kLatestStampNs, Rigid3()}};
+  WriteTum(folder / "t.txt", trajectory);
+  const Trajectory read = ReadTrajectory(folder / "t.txt").poses;
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read.front().stamp_ns, -kLatestStampNs);
+  EXPECT_EQ(read.back().stamp_ns, kLatestStampNs);
+  WriteTum(folder / "t.txt", {{kLatestStampNs + 1, Rigid3()}});
+  EXPECT_THROW(ReadTrajectory(folder / "t.txt"), InputError);
 }
 
 }  // namespace

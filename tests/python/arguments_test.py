@@ -129,6 +129,8 @@ CASES = {
                                  "stamp_ns: expected a frame after 1 ns, found one of 1 ns"),
     "stamp to feed": (lambda: system().feed(GRAY, "now"), "found str"),
     "image to feed": (lambda: system().feed([1, 2], 0), "images: expected 1 for mono, found 2"),
+    "stamp beyond what is read": (lambda: system().process(GRAY, 4 * 10**18 + 1),
+                                  "stamp_ns: expected a stamp within 4000000000000000000 ns of 0"),
     "no reason to skip": (lambda: system(frames=1).skip(10**18, ""), "reason: expected why"),
     "stamp to skip": (lambda: system(frames=1).skip(0, "x"), "expected a frame after 0 ns"),
     # Order of calls.
@@ -197,6 +199,17 @@ CASES = {
     # Trajectories.
     "stamps of floats": (lambda: trajectory(stamps=[0.5, 1.5]),
                          "stamps_ns: expected whole numbers"),
+    "stamps beyond what is read": (lambda: trajectory(stamps=[0, 4 * 10**18 + 1]),
+                                   r"stamps_ns: expected stamps within 4000000000000000000 ns of "
+                                   r"0, found 4000000000000000001 at \[1\]"),
+    "stamps before what is read": (lambda: trajectory(stamps=[-2**63, 0]), "stamps_ns: expected"),
+    "positions out of reach": (lambda: trajectory(positions=[[0, 0, 0], [0, -1e200, 0]]),
+                               r"positions: expected coordinates within 1e\+09 of 0, found "
+                               r"-1e\+200 at \[1, 1\]"),
+    "source out of reach": (lambda: plumbline.align_points(1e200 * np.eye(3), np.eye(3)),
+                            "source: expected coordinates within"),
+    "target out of reach": (lambda: plumbline.align_points(np.eye(3), 1e200 * np.eye(3)),
+                            "target: expected coordinates within"),
     "stamps that descend": (lambda: trajectory(stamps=[1, 0]), "found 0 after 1"),
     "positions of two": (lambda: trajectory(positions=[[0, 0], [1, 1]]),
                          r"positions: expected numbers of shape \(N, 3\), found an array of int64 "
@@ -392,6 +405,14 @@ def test_options_that_hold_themselves_are_refused():
         plumbline.options(**endless)
     with pytest.raises(plumbline.InputError, match="expected at most 16 dictionaries"):
         plumbline.Synth("room", **endless)
+
+
+def test_what_is_saved_is_read(tmp_path):
+    made = trajectory(stamps=[-4 * 10**18, 4 * 10**18], positions=[[0, 1e9, 0], [-1e9, 0, 0]])
+    made.save(tmp_path / "t.txt")
+    read = plumbline.Trajectory.load(tmp_path / "t.txt")
+    assert list(read.stamps_ns) == [-4 * 10**18, 4 * 10**18]
+    assert (read.positions == made.positions).all()
 
 
 def test_names_of_files_that_are_no_text_are_told():
