@@ -3,10 +3,12 @@
 #include "plumbline/io/orb_slam_settings.h"
 
 #include "plumbline/base/printable.h"
+#include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/camera_section.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +61,34 @@ void ReadDistortion(const YamlSection& root,
   if (ideal && !fisheye) intrinsics.model = DistortionModel::kNone;
 }
 
+// The numbers of a camera that stand at keys of their own.
+constexpr std::array<const char*, 4> kIntrinsics = {"fx", "fy", "cx", "cy"};
+
+// Whether the file has any of these: a key that is missing is one of its own then.
+bool HasCamera(const YamlSection& root, const std::string& prefix) {
+  return std::any_of(kIntrinsics.begin(), kIntrinsics.end(), [&](const char* name) {
+    return root.Has(prefix + name);
+  });
+}
+
+// Fails at the key of the first number that no real camera has. They are looked at one by one: the
+// later ones are those of a plausible camera meanwhile.
+void CheckEachIntrinsic(const YamlSection& root,
+                        const std::string& prefix,
+                        const CameraIntrinsics& intrinsics) {
+  CameraIntrinsics looked_at;
+  looked_at.width = intrinsics.width;
+  looked_at.height = intrinsics.height;
+  looked_at.fx = looked_at.fy = std::max(intrinsics.width, intrinsics.height);
+  looked_at.cx = looked_at.cy = 0;
+  constexpr std::array kNumbers = {
+      &CameraIntrinsics::fx, &CameraIntrinsics::fy, &CameraIntrinsics::cx, &CameraIntrinsics::cy};
+  for (std::size_t i = 0; i < kNumbers.size(); ++i) {
+    looked_at.*kNumbers[i] = intrinsics.*kNumbers[i];
+    if (const auto fault = IntrinsicsFault(looked_at)) root.Fail(prefix + kIntrinsics[i], *fault);
+  }
+}
+
 Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection projection) {
   CameraIntrinsics intrinsics;
   intrinsics.width = ReadLength(root, "Camera.width", "LEFT.width");
@@ -67,6 +97,7 @@ Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection
   intrinsics.fy = root.Number(prefix + "fy");
   intrinsics.cx = root.Number(prefix + "cx");
   intrinsics.cy = root.Number(prefix + "cy");
+  CheckEachIntrinsic(root, prefix, intrinsics);
   ReadDistortion(root, prefix, projection, intrinsics);
   const std::string width = root.Has("Camera.width") ? "Camera.width" : "LEFT.width";
   return CheckedCamera(root, {width, prefix + "fx", prefix + "k1"}, intrinsics);
@@ -145,9 +176,9 @@ Calibration ReadOrbSlamSettings(const YamlSection& root) {
     return calibration;
   }
   const Projection projection = ReadProjection(root);
-  const std::string first = root.Has("Camera1.fx") ? "Camera1." : "Camera.";
+  const std::string first = HasCamera(root, "Camera1.") ? "Camera1." : "Camera.";
   calibration.left = ReadCamera(root, first, projection);
-  if (root.Has("Camera2.fx")) {
+  if (HasCamera(root, "Camera2.")) {
     calibration.right = ReadCamera(root, "Camera2.", projection);
     const bool old = root.Has("Tlr") && !root.Has("Stereo.T_c1_c2");
     calibration.right_from_left =

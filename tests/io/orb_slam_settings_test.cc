@@ -146,6 +146,19 @@ TEST(ReadOrbSlamSettings, BadFilesAreNamedByLineAndKey) {
   EXPECT_THAT(
       message(kOld, "fx: 500", "fx: -500"),
       HasSubstr("settings.yaml:2: Camera.fx: expected fx from 6.4 to 640000 px, found -500"));
+  EXPECT_THAT(
+      message(kOld, "fy: 510", "fy: -510"),
+      HasSubstr("settings.yaml:3: Camera.fy: expected fy from 6.4 to 640000 px, found -510"));
+  EXPECT_THAT(message(kOld, "cx: 320", "cx: 32000"),
+              HasSubstr("settings.yaml:4: Camera.cx: expected cx from -6400 to 7040 px"));
+  EXPECT_THAT(message(kOld, "cy: 240", "cy: 1e9"),
+              HasSubstr("settings.yaml:5: Camera.cy: expected cy from -6400 to 7040 px"));
+  EXPECT_THAT(message(kOld, "Camera.fy: 510\n", ""),
+              HasSubstr("Camera.fy: expected a value, found none"));
+  EXPECT_THAT(message(kFisheye, "Camera1.fx: 190\n", ""),
+              HasSubstr("Camera1.fx: expected a value, found none"));
+  EXPECT_THAT(message(kFisheye, "Camera2.fx: 180\n", ""),
+              HasSubstr("Camera2.fx: expected a value, found none"));
   EXPECT_THAT(message(kOld, "Camera.cx: 320\n", ""),
               HasSubstr("Camera.cx: expected a value, found none"));
   EXPECT_THAT(message(kOld, "Camera.width: 640\n", ""),
