@@ -334,11 +334,7 @@ SynthOptions DefaultsOf(const YamlSection& root) {
   const YamlSection section = root.Child("options");
   OptionTable table(options);
   for (const std::string& key : section.Keys()) {
-    try {
-      table.Set(key + "=" + section.Text(key));
-    } catch (const InputError& error) {
-      section.Fail(key, error.what());
-    }
+    table.Set(key, section.Text(key), section.Where(key));
   }
   return options;
 }

@@ -212,9 +212,7 @@ bool OptionTable::IsFixedAt(const std::string& key, const std::string& text) con
   return text == fixed->second || (found && found == ParseNumber<double>(fixed->second));
 }
 
-void OptionTable::SetField(const std::string& key,
-                           const std::string& text,
-                           const std::string& where) {
+void OptionTable::Set(const std::string& key, const std::string& text, const std::string& where) {
   for (const OptionField& field : fields_) {
     if (field.key != key) continue;
     if (std::visit(Store{field, text}, field.target)) return;
@@ -262,7 +260,7 @@ void OptionTable::LoadText(const std::string& text, const std::string& source) {
     if (setting.text && IsFixedAt(setting.key, *setting.text)) continue;
     // A group without options, e.g. all of them commented out, is allowed.
     if (setting.text || !IsGroup(setting.key)) {
-      SetField(setting.key, setting.text.value_or(""), where);
+      Set(setting.key, setting.text.value_or(""), where);
     }
   }
 }
@@ -272,9 +270,9 @@ void OptionTable::Set(std::string_view assignment) {
   if (equals == std::string_view::npos || equals == 0) {
     throw InputError("--set: expected KEY=VALUE, found " + InQuotes(assignment));
   }
-  SetField(std::string(assignment.substr(0, equals)),
-           std::string(assignment.substr(equals + 1)),
-           "--set " + Printable(assignment));
+  Set(std::string(assignment.substr(0, equals)),
+      std::string(assignment.substr(equals + 1)),
+      "--set " + Printable(assignment));
 }
 
 void OptionTable::CheckRanges() const {

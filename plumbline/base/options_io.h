@@ -61,8 +61,10 @@ class OptionTable {
   void LoadFile(const std::filesystem::path& path);
   // Loads options from text; `source` stands for the file name in messages.
   void LoadText(const std::string& text, const std::string& source);
-  // One setting "key=value".
+  // One setting "key=value" of the command line.
   void Set(std::string_view assignment);
+  // One setting that somebody else read; messages begin with `where`, such as "room.yaml:7".
+  void Set(const std::string& key, const std::string& text, const std::string& where);
 
   // Throws InputError where a number lies outside the range of its option: one that was set in the
   // struct itself, which nobody checks.
@@ -145,7 +147,6 @@ class OptionTable {
     }
   }
 
-  void SetField(const std::string& key, const std::string& text, const std::string& where);
   bool IsGroup(std::string_view key) const;
   // Whether a text has what is no option any more at the value that it is fixed at.
   bool IsFixedAt(const std::string& key, const std::string& text) const;

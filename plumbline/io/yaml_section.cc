@@ -74,8 +74,12 @@ struct YamlSection::Place {
   [[noreturn]] void Fail(const YAML::Node& at,
                          const std::string& key,
                          const std::string& message) const {
+    throw InputError(fmt::format("{}: {}{}: {}", Where(at), prefix, key, message));
+  }
+
+  std::string Where(const YAML::Node& at) const {
     const int line = at.IsDefined() ? at.Mark().line : node.Mark().line;
-    throw InputError(fmt::format("{}:{}: {}{}: {}", source, line + 1, prefix, key, message));
+    return fmt::format("{}:{}", source, line + 1);
   }
 
   std::string Scalar(const std::string& key, const YAML::Node& value) const {
@@ -107,6 +111,10 @@ bool YamlSection::Has(const std::string& key) const { return place_->node[key].I
 
 void YamlSection::Fail(const std::string& key, const std::string& message) const {
   place_->Fail(place_->node[key], key, message);
+}
+
+std::string YamlSection::Where(const std::string& key) const {
+  return place_->Where(place_->node[key]);
 }
 
 YamlSection YamlSection::Child(const std::string& key) const {

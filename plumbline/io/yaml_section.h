@@ -25,6 +25,8 @@ class YamlSection {
 
   bool Has(const std::string& key) const;
   [[noreturn]] void Fail(const std::string& key, const std::string& message) const;
+  // The line of a key that is there: "source:line".
+  std::string Where(const std::string& key) const;
 
   YamlSection Child(const std::string& key) const;
   // The groups of a list of groups, in the order of the file; messages call them key[0], key[1],

@@ -232,6 +232,23 @@ TEST(OptionTable, BadSettingsOfTheCommandLineAreNamed) {
   EXPECT_EQ(ErrorOfSet("lines=1"), "--set lines=1: lines: expected true or false, found '1'");
 }
 
+TEST(OptionTable, SettingsOfOtherReadersAreNamedByTheirPlace) {
+  const auto error_of = [](const std::string& key, const std::string& text) {
+    OuterOptions options;
+    OptionTable table(options);
+    try {
+      table.Set(key, text, "den.yaml:7");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return "no error, huber_px " + table.Value("ba.huber_px");
+  };
+  EXPECT_EQ(error_of("ba.huber_px", "3"), "no error, huber_px 3");
+  EXPECT_EQ(error_of("lines", "1"), "den.yaml:7: lines: expected true or false, found '1'");
+  EXPECT_EQ(error_of("hubber_px", "1"),
+            "den.yaml:7: unknown option 'hubber_px'; did you mean 'ba.huber_px'?");
+}
+
 TEST(OptionTable, ReadsWhatWasAnOptionAtItsValueOnly) {
   EXPECT_EQ(ErrorOfYaml("ba: {damping: 0.50, iterations: 3, loss: {kind: huber}}"), "no error");
   EXPECT_EQ(ErrorOfYaml("ba:\n  damping: 0.6"),

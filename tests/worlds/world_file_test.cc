@@ -23,6 +23,7 @@ namespace plumbline {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kShapes = R"(shapes:
   - {shape: room, size: [4, 3, 2.5], wall: plaster, floor: planks}
@@ -194,8 +195,15 @@ std::vector<BadFile> BadPathsAndTheRest() {
       {"two kinds of lamp",
        kShapes + kPath + "lamps: [{centre: [0, 0, 2], size: [1, 1], u: [1, 0, 0], power: 1}]\n",
        "lamps[0].u: expected either size"},
-      {"an unknown option", kShapes + kPath + "options: {rate: 10}\n", "options.rate: "},
-      {"an option out of range", kShapes + kPath + "options: {rate_hz: -1}\n", "options.rate_hz: "},
+      {"an unknown option",
+       "options:\n  rate: 10\n" + kShapes + kPath,
+       "den.yaml:2: unknown option 'rate'"},
+      {"an option out of range",
+       "options:\n  seed: 3\n  rate_hz: -1\n" + kShapes + kPath,
+       "den.yaml:3: rate_hz: expected a number, 0.1 to 1000, found '-1'"},
+      {"an option of many values",
+       "options:\n  rate_hz: [1, 2]\n" + kShapes + kPath,
+       "den.yaml:2: options.rate_hz: expected one value"},
   };
 }
 
@@ -208,6 +216,7 @@ TEST(WorldFile, SaysWhatIsWrongAndWhere) {
       ADD_FAILURE() << bad.what << " was accepted";
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("den.yaml")) << bad.what;
+      EXPECT_THAT(error.what(), Not(HasSubstr("--set"))) << bad.what;
       EXPECT_THAT(error.what(), HasSubstr(bad.message)) << bad.what;
     }
   }
