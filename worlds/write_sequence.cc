@@ -9,12 +9,15 @@
 #include "plumbline/io/true_world.h"
 #include "worlds/sequence_formats.h"
 
+#include <array>
 #include <iomanip>
 #include <locale>
 #include <mutex>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace plumbline {
@@ -46,6 +49,52 @@ bool IsRendered(const fs::path& folder) {
   return begins(part) || part == "";
 }
 
+// What a sequence is made of, of all formats.
+constexpr std::array kNames = {kWorldFile,
+                               "mav0",
+                               "rgb",
+                               "depth",
+                               "rgb.txt",
+                               "depth.txt",
+                               "groundtruth.txt",
+                               "camera.yaml",
+                               "imu.csv",
+                               "imu_ideal.csv",
+                               "lines.csv",
+                               "surfaces.csv",
+                               kDescriptionFile};
+
+// Whether a file in one of its folders has a name that rendering gives, or gave while it wrote.
+bool IsRenderedName(const std::string& path) {
+  static const std::regex rendered(
+      R"(mav0/(cam[01]|depth0)/(sensor\.yaml|data\.csv|data/[0-9]+\.png)|)"
+      R"(mav0/imu0/(sensor\.yaml|data\.csv|data_ideal\.csv)|)"
+      R"(mav0/state_groundtruth_estimate0/data\.csv|)"
+      R"((rgb|depth)/[0-9]+\.[0-9]{9}\.png|)"
+      R"((.+/)?\.[^/]+\.[0-9]+\.tmp(\.[a-z]+)?)");
+  return std::regex_match(path, rendered);
+}
+
+// The first file by name that somebody put into the folders of a sequence.
+std::optional<fs::path> ForeignFile(const fs::path& folder) {
+  std::error_code error;
+  std::optional<fs::path> foreign;
+  for (const char* name : kNames) {
+    if (!fs::is_directory(folder / name, error)) continue;
+    fs::recursive_directory_iterator entry(folder / name, error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+      const fs::path& path = entry->path();
+      if (fs::is_directory(entry->symlink_status(error))) continue;
+      if (IsRenderedName(path.lexically_relative(folder).generic_string())) continue;
+      if (!foreign || path < *foreign) foreign = path;
+    }
+    if (error) {
+      throw InputError("cannot look into " + (folder / name).string() + ": " + error.message());
+    }
+  }
+  return foreign;
+}
+
 // Takes away what an earlier call left, whole or not; refuses to touch anything else.
 void ClearFolder(const fs::path& folder) {
   std::error_code error;
@@ -58,19 +107,12 @@ void ClearFolder(const fs::path& folder) {
                      ": expected an empty folder or one with a rendered sequence (world.yaml), "
                      "found other files");
   }
-  for (const char* name : {kWorldFile,
-                           "mav0",
-                           "rgb",
-                           "depth",
-                           "rgb.txt",
-                           "depth.txt",
-                           "groundtruth.txt",
-                           "camera.yaml",
-                           "imu.csv",
-                           "imu_ideal.csv",
-                           "lines.csv",
-                           "surfaces.csv",
-                           kDescriptionFile}) {
+  if (const auto foreign = ForeignFile(folder)) {
+    throw InputError(foreign->string() +
+                     ": not of a rendered sequence, and would be removed with the one in this "
+                     "folder; move it away or choose another folder");
+  }
+  for (const char* name : kNames) {
     fs::remove_all(folder / name, error);
     if (error)
       throw InputError("cannot remove " + (folder / name).string() + ": " + error.message());

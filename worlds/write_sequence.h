@@ -24,7 +24,8 @@ constexpr auto EnumNames(std::type_identity<SequenceFormat>) {
 }
 
 // Makes a folder ready to be written to: it is made where it is missing, a rendered sequence in it,
-// whole or not, is removed. Throws InputError when it holds anything else or cannot be written to.
+// whole or not, is removed. Throws InputError when it holds anything else, or such a file lies in
+// the folders of the sequence, or it cannot be written to.
 // WriteSequence does this first; called before the work of preparing a sequence, it saves the wait.
 void PrepareSequenceFolder(const std::filesystem::path& folder);
 

@@ -214,6 +214,35 @@ TEST(WriteSequence, AWorldOfAUserIsNoRenderedSequence) {
   }
 }
 
+TEST(WriteSequence, AFileThatAUserPutIntoASequenceIsNotRemoved) {
+  const ScratchFolder folder;
+  SynthOptions options = Small();
+  options.frames = 1;
+  options.depth = true;
+  const SyntheticSequence sequence("room", options, 1);
+  for (const SequenceFormat format : {SequenceFormat::kEuroc, SequenceFormat::kTum}) {
+    const bool euroc = format == SequenceFormat::kEuroc;
+    const fs::path room = folder / NameOf(format);
+    WriteSequence(sequence, format, room, 1);
+    const std::string images = euroc ? "mav0/cam0/data/" : "rgb/";
+    for (const std::string& name : {images + "notes.txt", images + "mine/1.png"}) {
+      const fs::path mine = folder.Write(std::string(NameOf(format)) + "/" + name, "mine");
+      EXPECT_THAT(MessageOf([&] { WriteSequence(sequence, format, room, 1); }),
+                  testing::StartsWith(mine.string() + ": not of a rendered sequence"));
+      EXPECT_EQ(ReadInputFile(mine), "mine");
+      EXPECT_TRUE(fs::exists(room / "world.yaml"));
+      EXPECT_TRUE(OpenDataset(room)->Read(0));
+      fs::remove(mine);
+    }
+    // Beside the sequence it is in nobody's way; what a call that was killed left is ours.
+    folder.Write(std::string(NameOf(format)) + "/notes.txt", "mine");
+    folder.Write(std::string(NameOf(format)) + "/" + images + ".1.png.123.tmp.png", "half");
+    WriteSequence(sequence, format, room, 1);
+    EXPECT_EQ(ReadInputFile(room / "notes.txt"), "mine");
+    EXPECT_FALSE(fs::exists(room / images / ".1.png.123.tmp.png"));
+  }
+}
+
 TEST(WriteSequence, WhatACallLeftThatEndedAtOnceIsReplaced) {
   const ScratchFolder folder;
   PrepareSequenceFolder(folder / "room");
