@@ -214,8 +214,8 @@ the pose of a camera. segments (N, 2, 3): ends in the camera's frame, before it;
 or (N,): of the measured lines across; other_information (6, 6): what else tells of the pose, for the
 left perturbation [rotation, translation].
 
-method: "none", "greedy", "greedy_sweeps", "joint" or "drop" (of drop_share of the lines);
-information: "independent", "printed" or "correlated".
+method: "none", "greedy", "greedy_sweeps", "joint" or "drop" (of drop_share of the lines; it keeps
+at least 4, as fewer fix no pose); information: "independent", "printed" or "correlated".
 
 "ratios" (N, 2): the piece from (1 - a) start + a end at the first to that at the second ratio;
 "used" (N,): False where a line is left out; "log_det_whole", "log_det_cut": logarithm of the

@@ -85,7 +85,10 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
         "deviation with inverse_depth: of the inverse depth [1/m], of column and row in units of "
         "the focal length (the second paper simulates 0.005 and 0.015)",
         Range{1e-6, 1});
-  visit("drop_share", o.drop_share, "of the lines that drop leaves out", Range{0, 1});
+  visit("drop_share",
+        o.drop_share,
+        "of the lines that drop leaves out; at least 4 stay",
+        Range{0, 1});
   visit("budget",
         o.budget,
         "points and lines that decide about the pose of a frame, chosen together by what they tell "

@@ -154,6 +154,8 @@ def test_cutting_gains_information():
     np.testing.assert_array_equal(whole["ratios"], np.tile([0.0, 1.0], (12, 1)))
     assert whole["log_det_cut"] == whole["log_det_whole"]
     assert plumbline.cut_lines(*problem, method="drop", drop_share=0.25)["used"].sum() == 9
+    assert plumbline.cut_lines(*problem, method="drop", drop_share=1)["used"].sum() == 4
+    assert "keeps at least 4, as fewer" in " ".join(plumbline.cut_lines.__doc__.split())
     known = plumbline.cut_lines(*problem, method="none", other_information=1e6 * np.eye(6))
     assert known["log_det_whole"] > whole["log_det_whole"]
     blurred = plumbline.cut_lines(*problem, sigma_px=[5.0] * 12, method="none")
