@@ -134,27 +134,20 @@ struct ExportedMap {
   LineMapOptions line_map;
 };
 
-// The options of the line map that the run which made the map had; the default ones, with a remark,
-// where this version of the program does not know them.
-LineMapOptions LineMapOptionsOf(const AtlasContext& context, const std::string& name) {
-  try {
-    return SavedOptions(context, name).mapping.line_map;
-  } catch (const InputError& error) {
-    std::cerr << error.what() << "; lines as by default\n";
-    return {};
-  }
-}
-
 ExportedMap LoadExportedMap(const CommandLine& line) {
   const std::string& name = line.Positional(0);
   SavedAtlas saved = LoadAtlas(name);
   const AtlasContext& context = saved.context;
+  const SlamOptions options =
+      SavedOptionsOrDefault(context, name, "lines as by default", [](const std::string& text) {
+        std::cerr << text << '\n';
+      });
   return {{context.camera,
            context.rectified_from_left,
            std::move(ChooseMap(line, saved.atlas)),
            saved.file_version},
           {context.camera, context.octave_scale},
-          LineMapOptionsOf(context, name)};
+          options.mapping.line_map};
 }
 
 // The lines that a run gives out, too.

@@ -50,15 +50,11 @@ std::string WhyNotMerged(MergeRefusal refusal) {
 
 // The options that the first map was made with, as far as this program does what they say.
 SlamOptions OptionsOf(const std::string& name, const AtlasContext& first, const Remark& remark) {
-  try {
-    SlamOptions options = SavedOptions(first, name);
-    ChooseLineMethod(options);
-    CheckOptions(options);
-    return options;
-  } catch (const InputError& error) {
-    remark(fmt::format("{}; merging with the default options", error.what()));
-    return {};
-  }
+  return SavedOptionsOrDefault(
+      first, name, "merging with the default options", remark, [](SlamOptions& options) {
+        ChooseLineMethod(options);
+        CheckOptions(options);
+      });
 }
 
 // Throws where a transform moves a map farther than coordinates of files may lie from the origin,

@@ -18,6 +18,7 @@
 #include "apps/command_line.h"
 #include "bindings.h"
 #include <map>
+#include <string>
 #include <vector>
 
 namespace plumbline::python {
@@ -34,17 +35,10 @@ constexpr auto EnumNames(std::type_identity<ExportFormat>) {
                     std::pair{ExportFormat::kColmap, "colmap"}};
 }
 
-// The options of the line map that the run which made the map had; the default ones, with a warning
-// of Python, where this version does not know them.
-LineMapOptions LineMapOptionsOf(const AtlasContext& context) {
-  try {
-    return SavedOptions(context, "options of the map").mapping.line_map;
-  } catch (const InputError& error) {
-    const py::gil_scoped_acquire acquire;
-    const std::string warning = std::string(error.what()) + "; lines as by default";
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
-    return {};
-  }
+// A warning of Python, from code that does not hold the GIL.
+void Warn(const std::string& text) {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
 std::vector<Segment3> LinesOf(const PyMap& map) {
@@ -81,8 +75,10 @@ void WriteColmap(const PyMap& map, const std::filesystem::path& path) {
 
 std::vector<MappedLine> MappedLinesOf(const PyMap& map, const StopCheck& stop) {
   const AtlasContext& context = map.saved->context;
+  const SlamOptions options =
+      SavedOptionsOrDefault(context, "options of the map", "lines as by default", Warn);
   return MakeLineMap(
-      *map.map, {context.camera, context.octave_scale}, LineMapOptionsOf(context), stop);
+      *map.map, {context.camera, context.octave_scale}, options.mapping.line_map, stop);
 }
 
 Trajectory KeyFrameTrajectoryOf(const PyMap& map) {

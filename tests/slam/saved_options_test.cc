@@ -4,7 +4,9 @@
 
 #include "plumbline/base/error.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +26,28 @@ TEST(SavedOptions, AreThoseOfTheMapsOrTheDefaultOnes) {
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()).find("m.plb:1: unknown option 'mapping.of_a_later"), 0U);
   }
+}
+
+TEST(SavedOptionsOrDefault, AreTheDefaultOnesWithARemarkWhereTheyAreNotKnown) {
+  std::vector<std::string> remarks;
+  const auto remark = [&](const std::string& text) { remarks.push_back(text); };
+  AtlasContext context;
+  context.options_yaml = "mapping: {line_map: {min_keyframes: 7}}";
+  const auto keyframes = [&](const std::function<void(SlamOptions&)>& accept) {
+    return SavedOptionsOrDefault(context, "m.plb", "lines as by default", remark, accept)
+        .mapping.line_map.min_keyframes;
+  };
+  EXPECT_EQ(keyframes({}), 7);
+  EXPECT_EQ(keyframes([](SlamOptions& options) { options.mapping.line_map.min_keyframes = 9; }), 9);
+  EXPECT_TRUE(remarks.empty());
+  const int usual = SlamOptions{}.mapping.line_map.min_keyframes;
+  EXPECT_EQ(keyframes([](SlamOptions&) { throw InputError("none of ours"); }), usual);
+  context.options_yaml = "mapping: {of_a_later_version: 7}";
+  EXPECT_EQ(keyframes({}), usual);
+  ASSERT_EQ(remarks.size(), 2U);
+  EXPECT_EQ(remarks[0], "none of ours; lines as by default");
+  EXPECT_EQ(remarks[1].find("m.plb:1: unknown option 'mapping.of_a_later_version'"), 0U);
+  EXPECT_NE(remarks[1].find("; lines as by default"), std::string::npos);
 }
 
 }  // namespace
