@@ -18,6 +18,7 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/files_beside.h"
 #include "apps/line_method.h"
 #include "apps/run_frames.h"
 #include "apps/run_results.h"
@@ -35,7 +36,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -240,19 +240,12 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
   return input;
 }
 
-// What the run reads. Options that come from a pipe have no place.
+// What the run reads.
 std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) {
-  std::vector<RunInput> inputs;
-  if (!LiveKindOf(line.Positional(0))) inputs.push_back({line.Positional(0)});
-  std::error_code error;
-  const auto add = [&](const std::filesystem::path& path) {
-    if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
-  };
-  if (const auto camera = line.Value("--camera")) add(*camera);
+  std::vector<RunInput> inputs = FilesBeside(line, dataset);
+  if (!LiveKindOf(line.Positional(0))) inputs.insert(inputs.begin(), RunInput{line.Positional(0)});
   if (const auto map = line.Value("--map")) inputs.push_back({*map, true});
   if (const auto checkpoint = line.Value("--resume")) inputs.push_back({*checkpoint, true});
-  for (const std::string& config : line.Values("--config")) add(config);
-  if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
   return inputs;
 }
 

@@ -17,6 +17,7 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/files_beside.h"
 #include "apps/progress.h"
 #include "apps/start_drawing.h"
 #include "apps/stop_signal.h"
@@ -211,20 +212,6 @@ StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& pl
       });
 }
 
-// What the command reads. Options that come from a pipe have no place.
-std::vector<RunInput> ReadByStarts(const CommandLine& line, const Dataset& dataset) {
-  std::vector<RunInput> inputs = {{line.Positional(0)}};
-  std::error_code error;
-  const auto add = [&](const std::filesystem::path& path) {
-    if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
-  };
-  if (const auto camera = line.Value("--camera")) add(*camera);
-  if (const auto poses = line.Value("--poses")) add(*poses);
-  for (const std::string& config : line.Values("--config")) add(config);
-  if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
-  return inputs;
-}
-
 // Whether an earlier call wrote the results of a folder: its starts.csv begins as ours do.
 bool HasStarts(const std::filesystem::path& folder) {
   std::error_code error;
@@ -274,7 +261,9 @@ int StartsCommand(std::span<const std::string> arguments) {
     throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
   }
   StartPlan plan = ReadPlan(line, *dataset);
-  CheckApart(setup.folder, ReadByStarts(line, *dataset));
+  std::vector<RunInput> inputs = FilesBeside(line, *dataset);
+  inputs.insert(inputs.begin(), RunInput{line.Positional(0)});
+  CheckApart(setup.folder, inputs);
   RefuseForeignFiles(setup.folder);
   PrepareFolder(setup, line.Has("--draw"));
   if (line.Has("--draw")) DrawMaps(*dataset, setup, plan);

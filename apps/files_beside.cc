@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/files_beside.h"
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace plumbline {
+
+std::vector<RunInput> FilesBeside(const CommandLine& line, const Dataset& dataset) {
+  std::vector<RunInput> inputs;
+  std::error_code error;
+  const auto add = [&](const std::filesystem::path& path) {
+    if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
+  };
+  for (const char* option : {"--camera", "--poses", "--config"}) {
+    for (const std::string& path : line.Values(option)) add(path);
+  }
+  if (dataset.info().ground_truth) add(dataset.info().ground_truth->path);
+  return inputs;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/files_beside.h"
+
+#include "tests/io/scratch_folder.h"
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace files_beside_test {
+
+// Without images, with a ground truth of this file.
+class TrueDataset : public Dataset {
+ public:
+  explicit TrueDataset(const std::filesystem::path& truth) : Dataset(Info(truth)) {}
+  Expected<SensorFrame, ImageFailure> Read(std::size_t) const override {
+    return ImageFailure{"none.png", "no such file"};
+  }
+
+ private:
+  static DatasetInfo Info(const std::filesystem::path& truth) {
+    DatasetInfo info;
+    info.ground_truth.emplace();
+    info.ground_truth->path = truth;
+    return info;
+  }
+};
+
+std::vector<std::filesystem::path> PathsOf(const std::vector<std::string>& arguments,
+                                           const Dataset& dataset) {
+  const CommandSyntax syntax = {
+      "x",
+      "",
+      {"PATH"},
+      {{"--camera", "FILE", ""}, {"--poses", "FILE", ""}, {"--config", "FILE", "may be repeated"}}};
+  std::vector<std::filesystem::path> paths;
+  for (const RunInput& input : FilesBeside(CommandLine(syntax, arguments), dataset)) {
+    EXPECT_FALSE(input.may_lie_in_out);
+    paths.push_back(input.path);
+  }
+  return paths;
+}
+
+TEST(FilesBeside, AreThoseOfOptionsAndTheGroundTruth) {
+  const ScratchFolder folder;
+  const std::filesystem::path truth = folder.Write("truth.csv", "");
+  const TrueDataset dataset(truth);
+  const std::string a = folder.Write("a.yaml", "").string(),
+                    b = folder.Write("b.yaml", "").string(),
+                    poses = folder.Write("poses.txt", "").string();
+  EXPECT_THAT(PathsOf({"data"}, dataset), testing::ElementsAre(truth));
+  EXPECT_THAT(PathsOf({"data", "--config", a, "--poses", poses, "--config", b}, dataset),
+              testing::ElementsAre(poses, a, b, truth));
+  // A built-in camera and what is no file have no place.
+  EXPECT_THAT(PathsOf({"data", "--camera", "tum_fr1", "--config", "/dev/null"}, dataset),
+              testing::ElementsAre(truth));
+}
+
+}  // namespace files_beside_test
+}  // namespace plumbline
