@@ -128,6 +128,12 @@ Rigid3 PoseOf(const double* numbers, const char* name) {
   return {RotationOf(matrix.topLeftCorner<3, 3>(), name), matrix.topRightCorner<3, 1>()};
 }
 
+// Whether it is one number: of Python or of numpy, or an array without axes.
+bool IsScalar(py::handle value) {
+  return py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value) ||
+         (py::hasattr(value, "ndim") && value.attr("ndim").cast<int>() == 0);
+}
+
 }  // namespace
 
 std::string Describe(py::handle value) {
@@ -183,12 +189,6 @@ std::vector<int> ReadIndices(py::handle value, const char* name, std::size_t lim
     indices.push_back(static_cast<int>(index));
   }
   return indices;
-}
-
-// Whether it is one number: of Python or of numpy, or an array without axes.
-static bool IsScalar(py::handle value) {
-  return py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value) ||
-         (py::hasattr(value, "ndim") && value.attr("ndim").cast<int>() == 0);
 }
 
 std::vector<double> ReadSigmas(py::handle value, const char* name, std::size_t count) {
