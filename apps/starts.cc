@@ -214,11 +214,7 @@ StartResults Run(const Dataset& dataset, const Setup& setup, const StartPlan& pl
 
 // Whether an earlier call wrote the results of a folder: its starts.csv begins as ours do.
 bool HasStarts(const std::filesystem::path& folder) {
-  std::error_code error;
-  const std::filesystem::path records = folder / kRecords;
-  if (!std::filesystem::is_regular_file(records, error)) return false;
-  const auto text = ReadFileIfThere(records);
-  return text && text->starts_with(FormatStarts({}));
+  return FileBeginsWith(folder / kRecords, FormatStarts({}));
 }
 
 // Files that the command would replace must be of an earlier call.

@@ -41,12 +41,9 @@ std::string WorldYaml(const SyntheticSequence& sequence, SequenceFormat format) 
 // Whether an earlier call wrote a folder, whole or not; its world.yaml begins as ours do. What a
 // call that ended early left to begin with is empty.
 bool IsRendered(const fs::path& folder) {
-  const auto begins = [](const std::optional<std::string>& text) {
-    return text && text->starts_with(kRendered);
-  };
-  if (fs::exists(folder / kWorldFile)) return begins(ReadFileIfThere(folder / kWorldFile));
-  const auto part = ReadFileIfThere(folder / kPartFile);
-  return begins(part) || part == "";
+  if (fs::exists(folder / kWorldFile)) return FileBeginsWith(folder / kWorldFile, kRendered);
+  const fs::path part = folder / kPartFile;
+  return FileBeginsWith(part, kRendered) || ReadFileIfThere(part) == "";
 }
 
 // What a sequence is made of, of all formats.
