@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/cutting/cut_lines.h"
 
-#include "plumbline/base/options_io.h"
 #include "plumbline/cutting/pose_information.h"
 
 #include "tests/cutting/random_lines.h"
@@ -75,16 +74,6 @@ TEST(CutLines, LeavesOutTheMostUncertain) {
   }
   const auto all = CutLines(problem, {.method = CuttingMethod::kDrop, .drop_share = 1});
   EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const LineCut& c) { return c.used; }), 4);
-}
-
-TEST(CutLines, TheOptionTellsHowManyLinesDropKeeps) {
-  CuttingOptions options;
-  for (const OptionField& field : OptionTable(options).fields()) {
-    if (field.key != "drop_share") continue;
-    EXPECT_EQ(field.help, "of the lines that drop leaves out; at least 4 stay");
-    return;
-  }
-  FAIL() << "no option drop_share";
 }
 
 TEST(CutLines, DoesNothingUnlessAsked) {
