@@ -26,8 +26,8 @@ RectifiedCamera OneCamera() {
 }
 
 double Paint(const Eigen::Vector2d& wall) {
-  return 120 + 40 * std::sin(14 * wall.x() + 6 * wall.y()) +
-         40 * std::cos(5 * wall.x() - 15 * wall.y());
+  return 120 + 40 * std::sin(22 * wall.x() + 10 * wall.y()) +
+         40 * std::cos(8 * wall.x() - 24 * wall.y());
 }
 
 // Seen from `forward` metres nearer.
