@@ -36,8 +36,8 @@ inline constexpr Gate kMachineHallMono{
 inline constexpr Gate kFloorMono{
     "tum/rgbd_dataset_freiburg1_floor_first90", "--sensor mono", 90, 0, 0.0037};
 inline constexpr Gate kOfficeMono{
-    "icl/office_kt3_first600", "--sensor mono --camera icl_nuim", 600, 0, 0.009};
-inline constexpr Gate kRoadMono{"kitti/06_first51", "--sensor mono", 51, 0, 0.045};
+    "icl/office_kt3_first600", "--sensor mono --camera icl_nuim", 600, 0, 0.006};
+inline constexpr Gate kRoadMono{"kitti/06_first51", "--sensor mono", 51, 0, 0.04};
 // Lines only: above all, that the track is kept.
 inline constexpr Gate kMachineHallLines{
     "euroc/MH_01_easy_first250", "--set features.points=false", 249, 1, 0.01};
