@@ -204,9 +204,12 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
   constexpr std::size_t kBitDepth = 24, kColorType = 25;  // where the header of a PNG file has them
+  std::array<std::uint8_t, kColorType + 1> header{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(header.data()), header.size())) return std::nullopt;
+  if (!IsPng(header) || header[kBitDepth] != 16 || header[kColorType] != 0) return std::nullopt;
   const auto bytes = ReadBytes(path);
-  if (!bytes || !IsPng(*bytes) || bytes->size() <= kColorType) return std::nullopt;
-  if ((*bytes)[kBitDepth] != 16 || (*bytes)[kColorType] != 0) return std::nullopt;
+  if (!bytes) return std::nullopt;
   const auto mat = DecodeMat(path, *bytes, cv::IMREAD_UNCHANGED, std::nullopt);
   if (!mat || mat->type() != CV_16UC1) return std::nullopt;
   int brightest = 0;
