@@ -222,7 +222,7 @@ std::string EvaluationTable(const Evaluation& evaluation) {
   }
   if (error.degenerate) {
     table << " (not determined by the positions: " << DegeneracyName(*error.degenerate)
-          << "; the first pose is used)";
+          << "; orientations decide the rest)";
   }
   table << "\nwindow      " << WindowName(evaluation.options.window) << "\n\n";
   table << std::setw(24) << "RMSE" << std::setw(10) << "mean" << std::setw(10) << "median"

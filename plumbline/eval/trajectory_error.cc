@@ -8,6 +8,9 @@
 #include <cmath>
 #include <span>
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
 namespace plumbline {
 namespace {
 
@@ -53,14 +56,44 @@ PathSpread SpreadOf(std::span<const EvaluatedPose> poses) {
   return {Spread(reference), Spread(estimate)};
 }
 
-// For positions that do not determine the rotation: that of the first pair of poses.
-Similarity3 AlignFirstPose(const std::vector<EvaluatedPose>& poses, double scale) {
-  const Rigid3& reference = poses.front().reference;
-  const Rigid3& estimate = poses.front().estimate;
+// Returns the alignment of poses whose positions do not determine all of it. The positions decide
+// what they can, which is a line's direction, the scale along it and the mean; the orientations
+// decide what is left, with a weight that moves nothing else: the turn about the line, or the whole
+// rotation where all positions are in one place. The rotation is that of Umeyama's eq. 40, for
+// which only the sum of both correlations is needed.
+Similarity3 AlignByOrientations(std::span<const EvaluatedPose> poses, bool free_scale) {
+  constexpr double kWeight = 1e-9;     // of orientations, where that of positions is 1
+  constexpr double kRounding = 1e-12;  // of a spread, relative to the coordinates
+  const double share = 1 / static_cast<double>(poses.size());
+  Eigen::Vector3d source = Eigen::Vector3d::Zero(), target = source;
+  for (const EvaluatedPose& pose : poses) {
+    source += share * pose.estimate.translation;
+    target += share * pose.reference.translation;
+  }
+  Eigen::Matrix3d positions = Eigen::Matrix3d::Zero(), orientations = positions;
+  for (const EvaluatedPose& pose : poses) {
+    positions += share * (pose.reference.translation - target) *
+                 (pose.estimate.translation - source).transpose();
+    orientations +=
+        share * (pose.reference.rotation * pose.estimate.rotation.conjugate()).toRotationMatrix();
+  }
+  const PathSpread spread = SpreadOf(poses);
+  const bool moves = spread.estimate > kRounding * (1e-3 + source.norm()) &&
+                     spread.reference > kRounding * (1e-3 + target.norm());
+  Eigen::Matrix3d correlation = kWeight * orientations;
+  if (moves) correlation += positions / (spread.reference * spread.estimate);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign(1, 1, 1);
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
+  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
   Similarity3 result;
-  result.scale = scale;
-  result.rotation = (reference.rotation * estimate.rotation.conjugate()).normalized();
-  result.translation = reference.translation - scale * (result.rotation * estimate.translation);
+  result.rotation = Eigen::Quaterniond(rotation).normalized();
+  if (moves && free_scale) {  // eq. 42
+    const double along = (rotation.transpose() * positions).trace();
+    if (along > 0) result.scale = along / (spread.estimate * spread.estimate);
+  }
+  result.translation = target - result.scale * (result.rotation * source);
   return result;
 }
 
@@ -79,10 +112,7 @@ void Align(TrajectoryAlignment alignment, TrajectoryError& result) {
     return;
   }
   result.degenerate = aligned.error();
-  const double source_spread = Spread(source), target_spread = Spread(target);
-  const bool usable = free_scale && source_spread > 0 && target_spread > 0;
-  result.reference_from_estimate =
-      AlignFirstPose(result.poses, usable ? target_spread / source_spread : 1.0);
+  result.reference_from_estimate = AlignByOrientations(result.poses, free_scale);
 }
 
 void ApplyAlignment(TrajectoryError& result) {
@@ -193,7 +223,8 @@ std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
   if (result.poses.empty()) return std::nullopt;
   Align(options.alignment, result);
   ApplyAlignment(result);
-  if (options.alignment == TrajectoryAlignment::kSim3) {
+  const bool has_scale = !result.degenerate || result.degenerate == AlignmentFailure::kCollinear;
+  if (options.alignment == TrajectoryAlignment::kSim3 && has_scale) {
     result.scale_drift = ScaleDrift(result.poses);
   }
   CompareMotions(estimate, options.window, result);

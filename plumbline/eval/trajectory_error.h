@@ -97,9 +97,9 @@ struct TrajectoryError {
 // Compares an estimated trajectory with a reference.
 //
 // ATE: distances of corresponding positions after the alignment that minimises their squares
-// (Umeyama), over all associated poses. Where the positions lie on a line or in one place, the
-// first pair of poses gives the rotation instead, and the ratio of the spreads the scale (1 without
-// spread); `degenerate` says so.
+// (Umeyama), over all associated poses. Where the positions lie on a line or in one place,
+// `degenerate` says so, and what they leave open comes from the orientations of all poses: the turn
+// about the line, or all of the rotation. The scale is 1 where there is no spread.
 //
 // RPE and ROE (relative position and orientation error): for every pair (a, b) of associated poses
 // one window apart, E = (A_ref^-1 B_ref)^-1 (A_est^-1 B_est); |translation of E| and rotation angle

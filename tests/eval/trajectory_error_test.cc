@@ -286,6 +286,47 @@ TEST(TrajectoryError, DegenerateAlignmentsAreReported) {
   EXPECT_FALSE(error->rpe);
 }
 
+// A straight road on which the estimate wanders by 1 cm. Least squares of the positions tell all
+// but the turn about the road, whatever the orientations say of its direction.
+TEST(TrajectoryError, StraightPathsAreAlignedByAllPositions) {
+  Trajectory road, estimate;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d wander(std::sin(1.3 * i), std::cos(2.1 * i), std::sin(0.7 * i));
+    road.push_back(At(i, {0, 0, 0.5 * i}));
+    // The first orientation is off by half a degree.
+    estimate.push_back(At(i, Vector3d(0, 0, 0.5 * i) + 0.01 * wander, {i == 0 ? 0.01 : 0.0, 0, 0}));
+  }
+  for (const auto alignment : {TrajectoryAlignment::kSe3, TrajectoryAlignment::kSim3}) {
+    const auto error = CompareTrajectories(road, estimate, {.alignment = alignment});
+    ASSERT_TRUE(error && error->degenerate);
+    EXPECT_LT(error->ate.rmse, 0.0125);
+    // The same when a wobble of a tenth of a millimetre, far below what the estimate is off, gives
+    // the road a second direction.
+    Trajectory wobbly = road;
+    for (std::size_t i = 0; i < wobbly.size(); ++i) {
+      wobbly[i].world_from_camera.translation.x() += 1e-4 * static_cast<double>(i % 2);
+    }
+    const auto determined = CompareTrajectories(wobbly, estimate, {.alignment = alignment});
+    ASSERT_TRUE(determined && !determined->degenerate);
+    EXPECT_NEAR(error->ate.rmse, determined->ate.rmse, 1e-3);
+    EXPECT_NEAR(
+        error->reference_from_estimate.scale, determined->reference_from_estimate.scale, 1e-5);
+  }
+}
+
+// A path without extent has no scale, and none that drifts, wherever it lies.
+TEST(TrajectoryError, APathInOnePlaceHasNoScale) {
+  Trajectory path, still;
+  for (int i = 0; i < 20; ++i) {
+    path.push_back(At(i, {0.1 * i, 0.01 * i * i, 0}));
+    still.push_back(At(i, {1, 1, 1}));
+  }
+  const auto error = CompareTrajectories(path, still, {.alignment = TrajectoryAlignment::kSim3});
+  ASSERT_TRUE(error && error->degenerate);
+  EXPECT_DOUBLE_EQ(error->reference_from_estimate.scale, 1);
+  EXPECT_FALSE(error->scale_drift);
+}
+
 TEST(TrajectoryError, BodyAndCameraDifferByTheLeverArm) {
   const Rigid3 body_from_camera{ExpSo3({0.1, 0.2, 0.3}), {0.05, 0, 0}};
   const Trajectory body = {At(0, {1, 2, 3}, {0, 0, 0.5 * std::numbers::pi})};
