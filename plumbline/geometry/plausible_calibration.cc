@@ -6,6 +6,7 @@
 #include "plumbline/base/units.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -84,16 +85,17 @@ std::optional<std::string> SizeFault(double width, double height) {
               static_cast<std::int64_t>(height));
 }
 
-std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& in) {
+std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& in, std::size_t* number) {
   const double side = std::max(in.width, in.height);
-  for (const auto& [name, focal] : {std::pair{"fx", in.fx}, std::pair{"fy", in.fy}}) {
-    if (auto fault = RangeFault(name, focal, kMinFocal * side, kMaxFocal * side, " px")) {
-      return fault;
-    }
-  }
-  for (const auto& [name, centre] : {std::pair{"cx", in.cx}, std::pair{"cy", in.cy}}) {
-    const double far = kFarthestCentre * side;
-    if (auto fault = RangeFault(name, centre, -far, side + far, " px")) return fault;
+  const double far = kFarthestCentre * side;
+  const std::array faults = {RangeFault("fx", in.fx, kMinFocal * side, kMaxFocal * side, " px"),
+                             RangeFault("fy", in.fy, kMinFocal * side, kMaxFocal * side, " px"),
+                             RangeFault("cx", in.cx, -far, side + far, " px"),
+                             RangeFault("cy", in.cy, -far, side + far, " px")};
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    if (!faults[i]) continue;
+    if (number != nullptr) *number = i;
+    return faults[i];
   }
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 
 #include "plumbline/geometry/calibration.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,7 +31,9 @@ constexpr double kMinDepthFactor = 1e-3, kMaxDepthFactor = 1e7;
 std::optional<std::string> SizeFault(double width, double height);
 
 // Focal lengths and the principal point against the size of the image, which SizeFault took.
-std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& intrinsics);
+// `number`, where given, becomes the place among fx, fy, cx, cy of the first that is at fault.
+std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& intrinsics,
+                                           std::size_t* number = nullptr);
 
 // Whether the lens model has a ray for at least half of the image, whose intrinsics IntrinsicsFault
 // took. O(1).

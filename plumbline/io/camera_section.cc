@@ -7,6 +7,7 @@
 #include "plumbline/geometry/plausible_calibration.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -60,7 +61,8 @@ Camera ReadListedCamera(const YamlSection& section,
         keys.coefficients, radtan ? std::vector<std::size_t>{4, 5} : std::vector<std::size_t>{4});
     std::copy(d.begin(), d.end(), intrinsics.distortion.begin());
   }
-  return CheckedCamera(section, keys, intrinsics);
+  const std::string& key = keys.intrinsics;
+  return CheckedCamera(section, {keys.size, {key, key, key, key}, keys.coefficients}, intrinsics);
 }
 
 Camera ReadModelCamera(const YamlSection& section,
@@ -81,12 +83,15 @@ void CheckPinhole(const YamlSection& section, const std::string& key) {
 }
 
 Camera CheckedCamera(const YamlSection& section,
-                     const CameraListKeys& keys,
+                     const CameraKeys& keys,
                      const CameraIntrinsics& intrinsics) {
   if (const auto fault = SizeFault(intrinsics.width, intrinsics.height)) {
     section.Fail(keys.size, *fault);
   }
-  if (const auto fault = IntrinsicsFault(intrinsics)) section.Fail(keys.intrinsics, *fault);
+  std::size_t number = 0;
+  if (const auto fault = IntrinsicsFault(intrinsics, &number)) {
+    section.Fail(keys.intrinsics[number], *fault);
+  }
   if (const auto fault = DistortionFault(intrinsics)) section.Fail(keys.coefficients, *fault);
   return Camera(intrinsics);
 }

@@ -5,6 +5,7 @@
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/io/yaml_section.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,17 @@ Camera ReadModelCamera(const YamlSection& section,
 // Fails unless the text of `key` is pinhole.
 void CheckPinhole(const YamlSection& section, const std::string& key);
 
+// Keys of a camera whose intrinsics stand at keys of their own, or at the same one.
+struct CameraKeys {
+  std::string size;
+  std::array<std::string, 4> intrinsics;  // of fx, fy, cx, cy
+  std::string coefficients;
+};
+
 // Camera(intrinsics) where the numbers can be those of a camera (plausible_calibration.h);
-// InputError at the keys of its size, its first intrinsics or its first coefficients otherwise.
+// InputError at the key of its size, of the first number at fault or of its coefficients otherwise.
 Camera CheckedCamera(const YamlSection& section,
-                     const CameraListKeys& keys,
+                     const CameraKeys& keys,
                      const CameraIntrinsics& intrinsics);
 
 // A width or height as `key` gives it: InputError unless it is a whole number of pixels.

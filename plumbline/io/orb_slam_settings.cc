@@ -61,32 +61,14 @@ void ReadDistortion(const YamlSection& root,
   if (ideal && !fisheye) intrinsics.model = DistortionModel::kNone;
 }
 
-// The numbers of a camera that stand at keys of their own.
-constexpr std::array<const char*, 4> kIntrinsics = {"fx", "fy", "cx", "cy"};
+std::array<std::string, 4> IntrinsicsKeys(const std::string& prefix) {
+  return {prefix + "fx", prefix + "fy", prefix + "cx", prefix + "cy"};
+}
 
 // Whether the file has any of these: a key that is missing is one of its own then.
 bool HasCamera(const YamlSection& root, const std::string& prefix) {
-  return std::any_of(kIntrinsics.begin(), kIntrinsics.end(), [&](const char* name) {
-    return root.Has(prefix + name);
-  });
-}
-
-// Fails at the key of the first number that no real camera has. They are looked at one by one: the
-// later ones are those of a plausible camera meanwhile.
-void CheckEachIntrinsic(const YamlSection& root,
-                        const std::string& prefix,
-                        const CameraIntrinsics& intrinsics) {
-  CameraIntrinsics looked_at;
-  looked_at.width = intrinsics.width;
-  looked_at.height = intrinsics.height;
-  looked_at.fx = looked_at.fy = std::max(intrinsics.width, intrinsics.height);
-  looked_at.cx = looked_at.cy = 0;
-  constexpr std::array kNumbers = {
-      &CameraIntrinsics::fx, &CameraIntrinsics::fy, &CameraIntrinsics::cx, &CameraIntrinsics::cy};
-  for (std::size_t i = 0; i < kNumbers.size(); ++i) {
-    looked_at.*kNumbers[i] = intrinsics.*kNumbers[i];
-    if (const auto fault = IntrinsicsFault(looked_at)) root.Fail(prefix + kIntrinsics[i], *fault);
-  }
+  const auto keys = IntrinsicsKeys(prefix);
+  return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return root.Has(key); });
 }
 
 Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection projection) {
@@ -97,10 +79,9 @@ Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection
   intrinsics.fy = root.Number(prefix + "fy");
   intrinsics.cx = root.Number(prefix + "cx");
   intrinsics.cy = root.Number(prefix + "cy");
-  CheckEachIntrinsic(root, prefix, intrinsics);
   ReadDistortion(root, prefix, projection, intrinsics);
   const std::string width = root.Has("Camera.width") ? "Camera.width" : "LEFT.width";
-  return CheckedCamera(root, {width, prefix + "fx", prefix + "k1"}, intrinsics);
+  return CheckedCamera(root, {width, IntrinsicsKeys(prefix), prefix + "k1"}, intrinsics);
 }
 
 // A camera of the old stereo form, and how it is turned and shifted into the rectified pair.
@@ -111,9 +92,10 @@ struct RectifiedBy {
 };
 
 RectifiedBy ReadRectification(const YamlSection& root, const std::string& side) {
-  const Eigen::MatrixXd K = root.Matrix(side + "K", 3, 3);
+  const std::string key = side + "K";
+  const Eigen::MatrixXd K = root.Matrix(key, 3, 3);
   const bool pinhole = K(0, 1) == 0 && K(1, 0) == 0 && K.row(2) == Eigen::RowVector3d(0, 0, 1);
-  if (!pinhole) root.Fail(side + "K", "expected fx 0 cx, 0 fy cy, 0 0 1");
+  if (!pinhole) root.Fail(key, "expected fx 0 cx, 0 fy cy, 0 0 1");
   CameraIntrinsics intrinsics;
   intrinsics.fx = K(0, 0);
   intrinsics.fy = K(1, 1);
@@ -130,7 +112,7 @@ RectifiedBy ReadRectification(const YamlSection& root, const std::string& side) 
   if (!(P(0, 0) > 0) || P(1, 3) != 0 || P(2, 3) != 0) {
     root.Fail(side + "P", "expected the projection of a camera shifted along x");
   }
-  return {CheckedCamera(root, {side + "width", side + "K", side + "D"}, intrinsics),
+  return {CheckedCamera(root, {side + "width", {key, key, key, key}, side + "D"}, intrinsics),
           root.Rotation(side + "R"),
           P(0, 3) / P(0, 0)};
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/geometry/plausible_calibration.h"
 
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -87,6 +88,18 @@ TEST(IntrinsicsFault, TakesRealCamerasOnly) {
     CameraIntrinsics in = Intrinsics();
     in.distortion[4] = value;
     EXPECT_THAT(DistortionFault(in), Optional(HasSubstr("expected coefficients from -1e+06 to ")));
+  }
+}
+
+TEST(IntrinsicsFault, TellsWhichNumberIsAtFault) {
+  const std::vector<double CameraIntrinsics::*> numbers = {
+      &CameraIntrinsics::fx, &CameraIntrinsics::fy, &CameraIntrinsics::cx, &CameraIntrinsics::cy};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    CameraIntrinsics in = Intrinsics();
+    for (std::size_t k = i; k < numbers.size(); ++k) in.*numbers[k] = 1e9;
+    std::size_t number = numbers.size();
+    EXPECT_TRUE(IntrinsicsFault(in, &number));
+    EXPECT_EQ(number, i);
   }
 }
 
