@@ -31,7 +31,6 @@
 #include <regex>
 #include <span>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -218,19 +217,12 @@ bool HasStarts(const std::filesystem::path& folder) {
 }
 
 // Files that the command would replace must be of an earlier call.
-void RefuseForeignFiles(const std::filesystem::path& folder) {
+void RefuseFilesOfOthers(const std::filesystem::path& folder) {
   static const std::regex written(R"(starts\.csv|summary\.json|start_[0-9]{6,}\.png)");
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error) || HasStarts(folder)) return;
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (std::regex_match(name, written)) names.push_back(name);
-  }
-  if (names.empty()) return;
-  throw InputError((folder / *std::min_element(names.begin(), names.end())).string() +
-                   ": not written by an earlier call of starts, which would replace it; move it "
-                   "away or choose another --out");
+  if (HasStarts(folder)) return;
+  RefuseForeignFiles(folder, "call of starts", [](const std::string& name) {
+    return std::regex_match(name, written);
+  });
 }
 
 // The folder for the results. With drawings it has starts.csv from the beginning, so that they are
@@ -260,7 +252,7 @@ int StartsCommand(std::span<const std::string> arguments) {
   std::vector<RunInput> inputs = FilesBeside(line, *dataset);
   inputs.insert(inputs.begin(), RunInput{line.Positional(0)});
   CheckApart(setup.folder, inputs);
-  RefuseForeignFiles(setup.folder);
+  RefuseFilesOfOthers(setup.folder);
   PrepareFolder(setup, line.Has("--draw"));
   if (line.Has("--draw")) DrawMaps(*dataset, setup, plan);
   CatchStopSignals();

@@ -3,14 +3,11 @@
 #include "lab/experiments/results_folder.h"
 
 #include "lab/experiments/figure_list.h"
-#include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace plumbline {
@@ -28,19 +25,8 @@ bool HasResults(const fs::path& out) {
          FileBeginsWith(out / kResults, "[\n\n]");
 }
 
-// The first plot by name; nullopt: there is none.
-std::optional<fs::path> PlotIn(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> plots;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".svg") plots.push_back(entry.path());
-  }
-  if (plots.empty()) return std::nullopt;
-  return *std::min_element(plots.begin(), plots.end());
-}
-
-// A file that the tables would replace.
-std::optional<fs::path> FileInTheWay(const fs::path& out) {
+// Whether the tables have a file of this name.
+bool IsTable(const std::string& name) {
   constexpr std::array kNames = {kResults,
                                  "table.md",
                                  "table.html",
@@ -49,22 +35,17 @@ std::optional<fs::path> FileInTheWay(const fs::path& out) {
                                  "ratios.json",
                                  "starts.csv",
                                  "gate.md"};
-  for (const char* name : kNames) {
-    std::error_code error;
-    if (fs::exists(fs::symlink_status(out / name, error))) return out / name;
-  }
-  return PlotIn(out / "plots");
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
+
+bool IsPlot(const std::string& name) { return fs::path(name).extension() == ".svg"; }
 
 }  // namespace
 
 void CheckResultsFolder(const fs::path& out) {
   if (HasResults(out)) return;
-  const auto file = FileInTheWay(out);
-  if (!file) return;
-  throw InputError(file->string() +
-                   ": not written by an earlier experiment, and this one would replace it; move it "
-                   "away or choose another --out");
+  RefuseForeignFiles(out, "experiment", IsTable);
+  RefuseForeignFiles(out / "plots", "experiment", IsPlot);
 }
 
 }  // namespace plumbline

@@ -89,4 +89,23 @@ bool FileBeginsWith(const fs::path& path, std::string_view text) {
   return file && start == text;
 }
 
+void RefuseForeignFiles(const fs::path& folder,
+                        std::string_view writer,
+                        const std::function<bool(const std::string& name)>& is_foreign) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  std::optional<std::string> first;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (is_foreign(name) && (!first || name < *first)) first = name;
+  }
+  if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
+  if (!first) return;
+  throw InputError(fmt::format(
+      "{}: not written by an earlier {}, and this one would replace it; move it away or "
+      "choose another --out",
+      (folder / *first).string(),
+      writer));
+}
+
 }  // namespace plumbline

@@ -3,6 +3,7 @@
 #include "plumbline/report/run_folder.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/path_overlap.h"
 
@@ -186,7 +187,10 @@ void RunFolder::Open() {
   }
   MakeFolder(folder_);
   lock_.emplace(folder_, kHeld);
-  RefuseForeignFiles();
+  const auto here = ReadRunManifest(folder_).value_or(RunManifest{});
+  RefuseForeignFiles(folder_, "run", [&](const std::string& name) {
+    return IsRunFile(name) && !IsOurs(here, folder_, name);
+  });
   TakeCareOfPart();
   StartPart();
 }
@@ -216,15 +220,6 @@ void RunFolder::TakeCareOfPart() {
                                  folder_.string(),
                                  kept.string()));
     return;
-  }
-}
-
-void RunFolder::RefuseForeignFiles() const {
-  const auto here = ReadRunManifest(folder_).value_or(RunManifest{});
-  if (const auto name = Foreign(folder_, here, RunFilesIn(folder_))) {
-    throw InputError((folder_ / *name).string() +
-                     ": not written by an earlier run, and a run would replace it; move it away or "
-                     "choose another --out");
   }
 }
 

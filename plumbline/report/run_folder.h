@@ -100,7 +100,6 @@ class RunFolder {
 
   void Open();
   void TakeCareOfPart();
-  void RefuseForeignFiles() const;
   void StartPart();
   void RemoveFolders();
 

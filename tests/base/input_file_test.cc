@@ -83,5 +83,25 @@ TEST(FileBeginsWith, ReadsTheBeginningOfFilesOnly) {
   EXPECT_TRUE(FileBeginsWith(file, "a,b\n"));
 }
 
+TEST(RefuseForeignFiles, NamesTheFirstOfTheNamesThatAreTaken) {
+  const ScratchFolder folder;
+  const auto is_foreign = [](const std::string& name) { return name != "notes.txt"; };
+  const auto message = [&] {
+    return MessageOf([&] { RefuseForeignFiles(folder / "out", "run", is_foreign); });
+  };
+  EXPECT_NO_THROW(RefuseForeignFiles(folder / "none", "run", is_foreign));
+  folder.Write("out/notes.txt", "mine\n");
+  EXPECT_NO_THROW(RefuseForeignFiles(folder / "out", "run", is_foreign));
+  folder.Write("out/b.csv", "mine\n");
+  const auto refused = [&](const char* name) {
+    return (folder / "out" / name).string() +
+           ": not written by an earlier run, and this one would replace it; move it away or choose "
+           "another --out";
+  };
+  EXPECT_EQ(message(), refused("b.csv"));
+  std::filesystem::create_symlink(folder / "nowhere", folder / "out/a.csv");
+  EXPECT_EQ(message(), refused("a.csv"));
+}
+
 }  // namespace
 }  // namespace plumbline
