@@ -16,9 +16,9 @@
 #include "plumbline/version.h"
 #include "plumbline/view/viewer.h"
 
+#include "apps/command_inputs.h"
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/files_beside.h"
 #include "apps/line_method.h"
 #include "apps/run_frames.h"
 #include "apps/run_results.h"
@@ -242,8 +242,7 @@ RunFrames OpenInput(const CommandLine& line, const RunSetup& setup) {
 
 // What the run reads.
 std::vector<RunInput> InputsOf(const CommandLine& line, const Dataset& dataset) {
-  std::vector<RunInput> inputs = FilesBeside(line, dataset);
-  if (!LiveKindOf(line.Positional(0))) inputs.insert(inputs.begin(), RunInput{line.Positional(0)});
+  std::vector<RunInput> inputs = CommandInputs(line, dataset);
   if (const auto map = line.Value("--map")) inputs.push_back({*map, true});
   if (const auto checkpoint = line.Value("--resume")) inputs.push_back({*checkpoint, true});
   return inputs;

@@ -15,9 +15,9 @@
 #include "plumbline/report/run_folder.h"
 #include "plumbline/version.h"
 
+#include "apps/command_inputs.h"
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/files_beside.h"
 #include "apps/progress.h"
 #include "apps/start_drawing.h"
 #include "apps/stop_signal.h"
@@ -249,9 +249,7 @@ int StartsCommand(std::span<const std::string> arguments) {
     throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
   }
   StartPlan plan = ReadPlan(line, *dataset);
-  std::vector<RunInput> inputs = FilesBeside(line, *dataset);
-  inputs.insert(inputs.begin(), RunInput{line.Positional(0)});
-  CheckApart(setup.folder, inputs);
+  CheckApart(setup.folder, CommandInputs(line, *dataset));
   RefuseFilesOfOthers(setup.folder);
   PrepareFolder(setup, line.Has("--draw"));
   if (line.Has("--draw")) DrawMaps(*dataset, setup, plan);

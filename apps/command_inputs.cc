@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/files_beside.h"
+#include "apps/command_inputs.h"
+
+#include "plumbline/live/live_source.h"
 
 #include <filesystem>
 #include <string>
@@ -8,8 +10,9 @@
 
 namespace plumbline {
 
-std::vector<RunInput> FilesBeside(const CommandLine& line, const Dataset& dataset) {
+std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& dataset) {
   std::vector<RunInput> inputs;
+  if (!LiveKindOf(line.Positional(0))) inputs.push_back({line.Positional(0)});
   std::error_code error;
   const auto add = [&](const std::filesystem::path& path) {
     if (std::filesystem::is_regular_file(path, error)) inputs.push_back({path});
