@@ -48,30 +48,38 @@ std::vector<std::string> With(std::vector<std::string> settings,
   return settings;
 }
 
-Experiment RipplTable1() {
+// What tables 1 and 2 have in common: all data but for the last world, what is told of runs but for
+// the last metric; the first variant is the reference.
+Experiment RipplTable(std::vector<SequenceChoice> sequences,
+                      const char* last_world,
+                      std::vector<Variant> variants,
+                      const char* last_metric) {
   Experiment e;
-  e.name = "rippl-table1";
-  e.help = "Lee and Hwang 2019, table 1: one camera, 2000 points, by the way the map begins";
-  e.sequences = RipplSequences(true);
-  Append(e.sequences,
-         {"euroc/*",
-          "icl/*",
-          "kitti/*",
-          "worlds/room",
-          "worlds/office",
-          "worlds/planar",
-          "worlds/forward"});
+  e.sequences = std::move(sequences);
+  Append(
+      e.sequences,
+      {"euroc/*", "icl/*", "kitti/*", "worlds/room", "worlds/office", "worlds/planar", last_world});
+  e.reference = variants.front().name;
+  e.variants = std::move(variants);
+  e.metrics = {
+      "ate", "rpe_pairs", "ate_causal", "scale_drift", "start_frames", "lost", "maps", last_metric};
+  e.full_runs = 10;
+  return e;
+}
+
+Experiment RipplTable1() {
   const auto settings = [](const char* method) {
     return With(StartSettings(method), {"features.lines=false", "features.point_count=2000"});
   };
-  e.variants = {{"proposed", settings("rank1"), kMono},
-                {"conventional", settings("two_view"), kMono}};
-  e.metrics = {
-      "ate", "rpe_pairs", "ate_causal", "scale_drift", "start_frames", "lost", "maps", "keyframes"};
+  Experiment e = RipplTable(
+      RipplSequences(true),
+      "worlds/forward",
+      {{"proposed", settings("rank1"), kMono}, {"conventional", settings("two_view"), kMono}},
+      "keyframes");
+  e.name = "rippl-table1";
+  e.help = "Lee and Hwang 2019, table 1: one camera, 2000 points, by the way the map begins";
   e.plots = {"ate", "rpe_pairs"};
   e.runs = 2;
-  e.full_runs = 10;
-  e.reference = "proposed";
   return e;
 }
 
@@ -95,25 +103,11 @@ std::vector<Variant> RipplSystems() {
 }
 
 Experiment RipplTable2() {
-  Experiment e;
+  Experiment e = RipplTable(RipplSequences(false), "worlds/lowtexture", RipplSystems(), "lines");
   e.name = "rippl-table2";
   e.help = "Lee and Hwang 2019, table 2: one camera, 500 points and 300 lines, by kind of line";
-  e.sequences = RipplSequences(false);
-  Append(e.sequences,
-         {"euroc/*",
-          "icl/*",
-          "kitti/*",
-          "worlds/room",
-          "worlds/office",
-          "worlds/planar",
-          "worlds/lowtexture"});
-  e.variants = RipplSystems();
-  e.metrics = {
-      "ate", "rpe_pairs", "ate_causal", "scale_drift", "start_frames", "lost", "maps", "lines"};
   e.plots = {"ate"};
   e.runs = 1;
-  e.full_runs = 10;
-  e.reference = "RIPPL";
   return e;
 }
 
