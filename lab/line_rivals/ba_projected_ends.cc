@@ -6,8 +6,7 @@ namespace plumbline {
 namespace {
 
 inline Segment3 ToCamera(const BaPose& pose, const Segment3& ends) {
-  return {pose.R * ends.start + pose.cam_from_world.translation,
-          pose.R * ends.end + pose.cam_from_world.translation};
+  return {pose.ToCamera(ends.start), pose.ToCamera(ends.end)};
 }
 
 }  // namespace
@@ -52,7 +51,7 @@ double BaLineEnd::Chi2(const RectifiedCamera&,
                        const BaPose& pose,
                        const Place& place,
                        const Term& term) {
-  const Eigen::Vector3d p = pose.R * place + pose.cam_from_world.translation;
+  const Eigen::Vector3d p = pose.ToCamera(place);
   if (!(p.z() > kMinDepth) || term.line.isZero(0)) return std::numeric_limits<double>::infinity();
   const double r = (term.line.dot(p) + term.line.x() * term.shift) / p.z();
   return r * r;
@@ -64,7 +63,7 @@ bool BaLineEnd::Add(const RectifiedCamera&,
                     const Term& term,
                     double huber,
                     const Target& target) {
-  const Eigen::Vector3d p = pose.R * view.point + pose.cam_from_world.translation;
+  const Eigen::Vector3d p = pose.ToCamera(view.point);
   if (!(p.z() > kMinDepth) || term.line.isZero(0)) return false;
   const double iz = 1 / p.z();
   const double r = (term.line.dot(p) + term.line.x() * term.shift) * iz;

@@ -22,7 +22,7 @@ bool BaPoint::Add(const RectifiedCamera& camera,
                   const Term& term,
                   double huber,
                   const Target& target) {
-  const Eigen::Vector3d p = pose.R * view + pose.cam_from_world.translation;
+  const Eigen::Vector3d p = pose.ToCamera(view);
   PointLinearization a;
   if (!LinearizePoint(camera, term, p, a)) return false;
   const double w = HuberWeight(a.r.squaredNorm(), huber);

@@ -24,6 +24,10 @@ struct BaPose {
     cam_from_world = value;
     R = value.rotation.toRotationMatrix();
   }
+  // A point of the world in the camera.
+  Eigen::Vector3d ToCamera(const Eigen::Vector3d& point) const {
+    return R * point + cam_from_world.translation;
+  }
 };
 
 struct BaPoint {
@@ -47,8 +51,8 @@ struct BaPoint {
                      const BaPose& pose,
                      const Place& place,
                      const Term& term) {
-    const Eigen::Vector3d p = pose.R * place + pose.cam_from_world.translation;
-    return PointChi2(camera, term, p).value_or(std::numeric_limits<double>::infinity());
+    return PointChi2(camera, term, pose.ToCamera(place))
+        .value_or(std::numeric_limits<double>::infinity());
   }
 
   using Target = BaTarget<kDof>;
