@@ -4,10 +4,11 @@
 // Time of the adjustment that ends a run, on maps that runs wrote: final_adjustment MAP.plb...
 #include "plumbline/mapping/final_adjustment.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/io/map_io.h"
 
+#include "bench/run_bench.h"
 #include <chrono>
-#include <exception>
 
 #include <fmt/format.h>
 
@@ -39,11 +40,8 @@ void Measure(const char* path) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  try {
+  return plumbline::bench::RunBench("final_adjustment", [&] {
+    if (count < 2) throw plumbline::InputError("expected MAP...");
     for (int i = 1; i < count; ++i) Measure(arguments[i]);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "final_adjustment: {}\n", error.what());
-    return 2;
-  }
-  return count > 1 ? 0 : 2;
+  });
 }

@@ -10,6 +10,7 @@
 // away, all grey values times 0.6 or 1.4. Then another run: the first 60 frames of SEQUENCE, black,
 // and OTHER to its end from the first place that is not known: a new map is to begin, and to become
 // one with the old. KEY=VALUE are options of runs.
+#include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/alignment.h"
@@ -17,12 +18,12 @@
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/slam/system.h"
 
+#include "bench/run_bench.h"
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <exception>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -234,6 +235,7 @@ void JumpWhereItIsNot(const Source& first, const Source& other, const SlamOption
 }
 
 void Run(int count, char** arguments) {
+  if (count < 3) throw InputError("expected SEQUENCE OTHER [SEED [KEY=VALUE...]]");
   SlamOptions options;
   options.slam.mode = RunMode::kInline;
   OptionTable table(options);
@@ -247,15 +249,5 @@ void Run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count < 3) {
-    fmt::print(stderr, "usage: kidnapped SEQUENCE OTHER [SEED [KEY=VALUE...]]\n");
-    return 2;
-  }
-  try {
-    Run(count, arguments);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "kidnapped: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return bench::RunBench("kidnapped", [&] { Run(count, arguments); });
 }

@@ -17,6 +17,7 @@
 
 #include "bench/descriptor_precision.h"
 #include "bench/line_correspondence.h"
+#include "bench/run_bench.h"
 #include "bench/sequence_images.h"
 #include <algorithm>
 #include <cmath>
@@ -240,7 +241,7 @@ void Draw(const std::string& data, const std::string& out) {
   }
 }
 
-int Main(const std::vector<std::string>& arguments) {
+void Main(const std::vector<std::string>& arguments) {
   cv::setNumThreads(1);
   if ((arguments.size() == 2 || arguments.size() == 3) && arguments[0] == "detectors") {
     Detectors(arguments[1], arguments.size() == 3 ? arguments[2] : "");
@@ -251,22 +252,16 @@ int Main(const std::vector<std::string>& arguments) {
   } else if (arguments.size() == 3 && arguments[0] == "draw") {
     Draw(arguments[1], arguments[2]);
   } else {
-    fmt::print(stderr,
-               "usage: line_front_end detectors DATA [NAME] | descriptors DATA | speed DATA | "
-               "draw DATA OUT\n");
-    return 2;
+    throw InputError(
+        "expected detectors DATA [NAME] | descriptors DATA | speed DATA | draw DATA OUT");
   }
-  return 0;
 }
 
 }  // namespace
 }  // namespace plumbline::bench
 
 int main(int argc, char** argv) {
-  try {
-    return plumbline::bench::Main({argv + 1, argv + argc});
-  } catch (const plumbline::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
+  return plumbline::bench::RunBench("line_front_end", [&] {
+    plumbline::bench::Main({argv + 1, argv + argc});
+  });
 }

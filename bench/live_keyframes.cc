@@ -19,6 +19,7 @@
 #include "plumbline/slam/system.h"
 
 #include "bench/replay_arguments.h"
+#include "bench/run_bench.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -202,11 +203,7 @@ class LiveKeyFrames {
 }  // namespace plumbline
 
 int main(int count, char** arguments) {
-  try {
+  return plumbline::bench::RunBench("live_keyframes", [&] {
     plumbline::LiveKeyFrames(plumbline::ReadSetup(count, arguments)).Play();
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "live_keyframes: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -16,6 +16,7 @@
 #include "plumbline/base/error.h"
 
 #include "bench/discarding_viewer.h"
+#include "bench/run_bench.h"
 #include "tests/support/free_port.h"
 #include <algorithm>
 #include <atomic>
@@ -371,13 +372,9 @@ void Measure(const Setup& setup) {
 }  // namespace plumbline
 
 int main(int count, char** arguments) {
-  try {
+  return plumbline::bench::RunBench("live_under_load", [&] {
     const plumbline::Setup setup = plumbline::ReadSetup(count, arguments);
     plumbline::KeepTo(setup.processors);
     plumbline::Measure(setup);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "live_under_load: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -21,12 +21,12 @@
 #include "plumbline/map/covisibility.h"
 #include "plumbline/slam/system.h"
 
+#include "bench/run_bench.h"
 #include "view_truth.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -423,8 +423,7 @@ Arguments Parse(int count, char** words) {
     }
   }
   if (arguments.sequence.empty()) {
-    throw InputError(
-        "usage: loop_gates [--mono] [--from K] [--beside MAP] [--verbose] SEQUENCE [FRAMES]");
+    throw InputError("expected [--mono] [--from K] [--beside MAP] [--verbose] SEQUENCE [FRAMES]");
   }
   return arguments;
 }
@@ -433,11 +432,6 @@ Arguments Parse(int count, char** words) {
 }  // namespace plumbline::bench
 
 int main(int count, char** words) {
-  try {
-    plumbline::bench::Run(plumbline::bench::Parse(count, words));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "loop_gates: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  using namespace plumbline::bench;  // NOLINT: a program of one file
+  return RunBench("loop_gates", [&] { Run(Parse(count, words)); });
 }

@@ -9,6 +9,7 @@
 //
 // True pairs: 10 s apart, closer than 1 m and 30 degrees by ground truth, and sharing no landmarks.
 // False pairs: further apart than 8 m. PAIRS of each kind (default 200), spread evenly.
+#include "plumbline/base/error.h"
 #include "plumbline/geometry/alignment.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
@@ -17,10 +18,10 @@
 #include "plumbline/loop/verify_loop.h"
 #include "plumbline/map/covisibility.h"
 
+#include "bench/run_bench.h"
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <exception>
 #include <map>
 #include <string>
 #include <vector>
@@ -242,14 +243,10 @@ void Run(const char* map_path, const char* sequence, std::size_t most) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count < 3) return 2;
-  try {
+  return bench::RunBench("loop_pairs", [&] {
+    if (count < 3) throw InputError("expected MAP SEQUENCE [PAIRS]");
     Run(arguments[1],
         arguments[2],
         count > 3 ? static_cast<std::size_t>(std::atoi(arguments[3])) : 200);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "loop_pairs: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -12,16 +12,17 @@
 // with a right one among the first 1, 5 and 10 candidates; the share whose first candidate is right
 // and scores higher than any wrong first candidate (recall at full precision, with no
 // verification); that score; CPU time of a query.
+#include "plumbline/base/error.h"
 #include "plumbline/base/units.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/trajectory_io.h"
 
+#include "bench/run_bench.h"
 #include "place_rivals.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <ctime>
-#include <exception>
 #include <optional>
 #include <string>
 #include <utility>
@@ -181,27 +182,18 @@ void Run(const Sequence& known, const Sequence* images) {
   }
 }
 
+void Run(int count, char** arguments) {
+  if (count < 3 || count > 5) throw InputError("expected MAP TRUTH [MAP2 [TRUTH2]]");
+  const Sequence known = Load(arguments[1], arguments[2]);
+  fmt::print("{}: {} keyframes\n", arguments[1], known.views.size());
+  if (count == 3) return Run(known, nullptr);
+  const Sequence images = Load(arguments[3], arguments[4]);  // ends with null
+  Run(known, &images);
+}
+
 }  // namespace
 }  // namespace plumbline
 
 int main(int count, char** arguments) {
-  if (count < 3 || count > 5) {
-    fmt::print(stderr, "usage: place_recall MAP TRUTH [MAP2 [TRUTH2]]\n");
-    return 2;
-  }
-  try {
-    const plumbline::Sequence known = plumbline::Load(arguments[1], arguments[2]);
-    fmt::print("{}: {} keyframes\n", arguments[1], known.views.size());
-    if (count == 3) {
-      plumbline::Run(known, nullptr);
-    } else {
-      const plumbline::Sequence images =
-          plumbline::Load(arguments[3], arguments[4]);  // ends with null
-      plumbline::Run(known, &images);
-    }
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "place_recall: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return plumbline::bench::RunBench("place_recall", [&] { plumbline::Run(count, arguments); });
 }

@@ -12,6 +12,7 @@
 // An error is that of the first pose that is reported, as such: the map is aligned with the ground
 // truth by its keyframes, so that what the map is off counts. Beside it that against the nearest
 // keyframe, where it does not.
+#include "plumbline/base/error.h"
 #include "plumbline/base/options_io.h"
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/alignment.h"
@@ -20,12 +21,12 @@
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/slam/system.h"
 
+#include "bench/run_bench.h"
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <ctime>
-#include <exception>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -223,6 +224,9 @@ std::vector<std::size_t> DrawStarts(std::size_t size, std::size_t count, std::ui
 }
 
 void Run(int count, char** arguments) {
+  if (count < 4) {
+    throw InputError("expected MAP MAPPED SEQUENCE [STARTS [SEED [KEY=VALUE...]]]");
+  }
   SlamOptions options;
   options.slam.mode = RunMode::kInline;
   OptionTable table(options);
@@ -245,16 +249,5 @@ void Run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count < 4) {
-    fmt::print(stderr,
-               "usage: relocalization MAP MAPPED SEQUENCE [STARTS [SEED [KEY=VALUE...]]]\n");
-    return 2;
-  }
-  try {
-    Run(count, arguments);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "relocalization: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return bench::RunBench("relocalization", [&] { Run(count, arguments); });
 }

@@ -20,6 +20,7 @@
 #include "worlds/sensor.h"
 
 #include "bench/replay_arguments.h"
+#include "bench/run_bench.h"
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -319,11 +320,7 @@ class Rounds {
 }  // namespace plumbline
 
 int main(int count, char** arguments) {
-  try {
+  return plumbline::bench::RunBench("rounds_of_a_room", [&] {
     plumbline::Rounds(plumbline::ReadSetup(count, arguments)).Play();
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "rounds_of_a_room: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  });
 }

@@ -16,6 +16,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
 
+#include "bench/run_bench.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -255,12 +256,9 @@ void Print(const std::string& name, const Numbers& numbers) {
   std::fflush(stdout);
 }
 
-int Main(const std::vector<std::string>& arguments) {
+void Main(const std::vector<std::string>& arguments) {
   cv::setNumThreads(1);
-  if (arguments.empty()) {
-    fmt::print(stderr, "usage: synth_realism FOLDER[=CAMERA]...\n");
-    return 2;
-  }
+  if (arguments.empty()) throw InputError("expected FOLDER[=CAMERA]...");
   PrintHeader();
   for (const std::string& argument : arguments) {
     const std::size_t equals = argument.find('=');
@@ -270,17 +268,13 @@ int Main(const std::vector<std::string>& arguments) {
     if (dataset->size() < 2) throw InputError(argument + ": expected two images, found fewer");
     Print(dataset->info().name, Measure(*dataset));
   }
-  return 0;
 }
 
 }  // namespace
 }  // namespace plumbline::bench
 
 int main(int argc, char** argv) {
-  try {
-    return plumbline::bench::Main({argv + 1, argv + argc});
-  } catch (const plumbline::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
+  return plumbline::bench::RunBench("synth_realism", [&] {
+    plumbline::bench::Main({argv + 1, argv + argc});
+  });
 }
