@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/colmap_folder.h"
 #include "plumbline/io/colmap_model.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/dxf.h"
 #include "plumbline/io/keyframe_images.h"
-#include "plumbline/io/limap_lines.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/nerfstudio.h"
 #include "plumbline/io/ply.h"
@@ -46,13 +46,6 @@ constexpr auto EnumNames(std::type_identity<ExportFormat>) {
                     std::pair{ExportFormat::kTum, "tum"},
                     std::pair{ExportFormat::kColmap, "colmap"},
                     std::pair{ExportFormat::kNerfstudio, "nerfstudio"}};
-}
-
-enum class ColmapFiles { kText, kBinary, kBoth };
-constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
-  return std::array{std::pair{ColmapFiles::kText, "text"},
-                    std::pair{ColmapFiles::kBinary, "binary"},
-                    std::pair{ColmapFiles::kBoth, "both"}};
 }
 
 CommandSyntax MapExportSyntax() {
@@ -152,19 +145,10 @@ ExportedMap LoadExportedMap(const CommandLine& line) {
 
 // The lines that a run gives out, too.
 std::vector<Segment3> LinesOf(const ExportedMap& map) {
-  std::vector<Segment3> segments;
-  for (const MappedLine& line :
-       MakeLineMap(map.saved.map, map.imaging, map.line_map, StopRequested)) {
-    segments.push_back(line.segment);
-  }
+  std::vector<Segment3> segments =
+      SegmentsOf(MakeLineMap(map.saved.map, map.imaging, map.line_map, StopRequested));
   StopIfAsked();
   return segments;
-}
-
-std::vector<Eigen::Vector3d> PointsOf(const Map& map) {
-  std::vector<Eigen::Vector3d> points;
-  for (const auto& [id, point] : map.points()) points.push_back(point.position);
-  return points;
 }
 
 // Writes the image of each keyframe into a folder. Returns the mean grey of each point in them.
@@ -196,7 +180,7 @@ PointGreys WriteImages(const SavedMap& saved,
   return greys;
 }
 
-// sparse/0/ with the model, lines/ with the lines, images/.
+// WriteColmapFolder, and images/ where there are any.
 void ExportColmap(const SavedMap& saved, const ExportRequest& request) {
   const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
   std::optional<KeyFrameImages> images;
@@ -205,12 +189,7 @@ void ExportColmap(const SavedMap& saved, const ExportRequest& request) {
   PointGreys greys;
   if (images) greys = WriteImages(saved, *images, names, folder.temporary_path() / "images");
   const ColmapModel model = MakeColmapModel(saved, names, greys);
-  const std::filesystem::path sparse = folder.temporary_path() / "sparse" / "0";
-  MakeFolder(sparse);
-  if (request.colmap_files != ColmapFiles::kBinary) WriteColmapText(sparse, model);
-  if (request.colmap_files != ColmapFiles::kText) WriteColmapBinary(sparse, model);
-  MakeFolder(folder.temporary_path() / "lines");
-  WriteLimapLines(folder.temporary_path() / "lines", saved.map, names);
+  WriteColmapFolder(folder.temporary_path(), saved.map, model, names, request.colmap_files);
   folder.Commit();
   const std::size_t left_out = saved.map.points().size() - model.points.size();
   std::cout << fmt::format(
@@ -230,7 +209,7 @@ void ExportNerfstudio(const SavedMap& saved, const ExportRequest& request) {
   const PointGreys greys = WriteImages(saved, images, names, folder.temporary_path() / "images");
   std::vector<std::uint8_t> brightness;
   for (const auto& [id, point] : saved.map.points()) brightness.push_back(greys.at(id));
-  WritePly(folder.temporary_path() / "points.ply", PointsOf(saved.map), {}, brightness);
+  WritePly(folder.temporary_path() / "points.ply", PointPositions(saved.map), {}, brightness);
   WriteNerfstudioTransforms(
       folder.temporary_path() / "transforms.json", saved, "images", names, "points.ply");
   folder.Commit();
@@ -255,7 +234,7 @@ void ExportFile(const ExportedMap& map, const ExportRequest& request) {
   const std::vector<Segment3> lines = LinesOf(map);
   std::string what;
   if (request.format == ExportFormat::kPly) {
-    WritePly(request.out, PointsOf(saved.map), lines);
+    WritePly(request.out, PointPositions(saved.map), lines);
     what = fmt::format("{} points, ", saved.map.points().size());
   } else if (request.format == ExportFormat::kObj) {
     WriteObjLines(request.out, lines);

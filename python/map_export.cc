@@ -4,10 +4,10 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/colmap_folder.h"
 #include "plumbline/io/colmap_model.h"
 #include "plumbline/io/dxf.h"
 #include "plumbline/io/keyframe_images.h"
-#include "plumbline/io/limap_lines.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/path_overlap.h"
 #include "plumbline/io/ply.h"
@@ -41,19 +41,7 @@ void Warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
-std::vector<Segment3> LinesOf(const PyMap& map) {
-  std::vector<Segment3> segments;
-  for (const MappedLine& line : MappedLinesOf(map, {})) {
-    segments.push_back(line.segment);
-  }
-  return segments;
-}
-
-void WritePointsAndLines(const PyMap& map, const std::filesystem::path& path) {
-  std::vector<Eigen::Vector3d> points;
-  for (const auto& [id, point] : map.map->points()) points.push_back(point.position);
-  WritePly(path, points, LinesOf(map));
-}
+std::vector<Segment3> LinesOf(const PyMap& map) { return SegmentsOf(MappedLinesOf(map, {})); }
 
 void WriteColmap(const PyMap& map, const std::filesystem::path& path) {
   const AtlasContext& context = map.saved->context;
@@ -61,13 +49,7 @@ void WriteColmap(const PyMap& map, const std::filesystem::path& path) {
       context.camera, context.rectified_from_left, *map.map, map.saved->file_version};
   const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
   AtomicFolder folder(path);
-  const ColmapModel model = MakeColmapModel(saved, names);
-  const std::filesystem::path sparse = folder.temporary_path() / "sparse" / "0";
-  MakeFolder(sparse);
-  WriteColmapText(sparse, model);
-  WriteColmapBinary(sparse, model);
-  MakeFolder(folder.temporary_path() / "lines");
-  WriteLimapLines(folder.temporary_path() / "lines", saved.map, names);
+  WriteColmapFolder(folder.temporary_path(), saved.map, MakeColmapModel(saved, names), names);
   folder.Commit();
 }
 
@@ -93,7 +75,7 @@ void ExportMap(const PyMap& map, const std::filesystem::path& path, const std::s
   }
   switch (chosen) {
     case ExportFormat::kPly:
-      return WritePointsAndLines(map, path);
+      return WritePly(path, PointPositions(*map.map), LinesOf(map));
     case ExportFormat::kObj:
       return WriteObjLines(path, LinesOf(map));
     case ExportFormat::kDxf:

@@ -377,4 +377,10 @@ void Map::CheckInvariants() const {
   }
 }
 
+std::vector<Eigen::Vector3d> PointPositions(const Map& map) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& [id, point] : map.points()) positions.push_back(point.position);
+  return positions;
+}
+
 }  // namespace plumbline

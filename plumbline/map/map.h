@@ -12,6 +12,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace plumbline {
 
@@ -102,5 +105,8 @@ class Map {
   IdTable<PointId, PointId> merged_points_;  // what is gone, and what it became
   IdTable<LineId, LineId> merged_lines_;
 };
+
+// Where the points of a map are in the world, in the order of their ids.
+std::vector<Eigen::Vector3d> PointPositions(const Map& map);
 
 }  // namespace plumbline

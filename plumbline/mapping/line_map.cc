@@ -221,6 +221,12 @@ std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
   return lines;
 }
 
+std::vector<Segment3> SegmentsOf(const std::vector<MappedLine>& lines) {
+  std::vector<Segment3> segments;
+  for (const MappedLine& line : lines) segments.push_back(line.segment);
+  return segments;
+}
+
 std::vector<MappedLine> MakeLineMap(const Map& map,
                                     const ImagingModel& imaging,
                                     const LineMapOptions& options,

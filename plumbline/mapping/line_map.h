@@ -20,6 +20,9 @@ struct MappedLine {
   int keyframes = 0;  // that show some of it
 };
 
+// What is drawn of lines: their segments.
+std::vector<Segment3> SegmentsOf(const std::vector<MappedLine>& lines);
+
 // An infinite line with what shows it and what is fit to be given out of it.
 struct WellSeenLine {
   PluckerLine line;  // world

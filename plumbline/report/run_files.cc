@@ -88,19 +88,13 @@ RunFile FramesFile(const std::string& name,
 }
 
 std::vector<Segment3> LinesToSave(const System& system) {
-  std::vector<Segment3> lines;
-  if (const auto main = system.MainMap()) {
-    for (const MappedLine& line : system.LineMap(*main)) lines.push_back(line.segment);
-  }
-  return lines;
+  const auto main = system.MainMap();
+  return main ? SegmentsOf(system.LineMap(*main)) : std::vector<Segment3>();
 }
 
 void WriteMapPly(const System& system, const std::filesystem::path& path) {
   std::vector<Eigen::Vector3d> points;
-  if (const auto main = system.MainMap()) {
-    const Map& map = system.maps().at(*main);
-    for (const auto& [id, point] : map.points()) points.push_back(point.position);
-  }
+  if (const auto main = system.MainMap()) points = PointPositions(system.maps().at(*main));
   WritePly(path, points, LinesToSave(system));
 }
 

@@ -42,6 +42,16 @@ TEST(Map, LandmarksAndKeyFramesKnowOfEachOther) {
   EXPECT_EQ(map.NextKeyFrameId(), kF3);
 }
 
+TEST(Map, PointPositionsAreInTheOrderOfIds) {
+  Map map = ChainOfKeyFrames(2);
+  EXPECT_TRUE(PointPositions(map).empty());
+  MapPoint first = PointSeenBy(0, {{kF0, 4}}), second = PointSeenBy(1, {{kF1, 5}});
+  first.position = {1, 2, 3};
+  second.position = {4, 5, 6};
+  map.Apply({edit::AddPoint{first}, edit::AddPoint{second}});
+  EXPECT_EQ(PointPositions(map), (std::vector<Eigen::Vector3d>{first.position, second.position}));
+}
+
 TEST(Map, IdsAreNeverUsedTwice) {
   Map map = ChainOfKeyFrames(2);
   map.Apply({edit::AddPoint{PointSeenBy(0, {{kF0, 4}})}, edit::RemovePoint{kP0}});

@@ -70,6 +70,14 @@ TEST(LineMap, HasTheFirstLinesWhenItIsStopped) {
   }
 }
 
+TEST(LineMap, SegmentsOfLinesAreInTheirOrder) {
+  const MappedLine first{{{0, 0, 1}, {1, 0, 1}}}, second{{{0, 1, 1}, {0, 2, 1}}};
+  const std::vector<Segment3> segments = SegmentsOf({first, second});
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[0].end, first.segment.end);
+  EXPECT_EQ(segments[1].end, second.segment.end);
+}
+
 TEST(LineMap, HasALineOnceHoweverOftenItIsInTheMap) {
   const SyntheticWorld world = MakeSyntheticWorld(0, 60);
   TrueMap scene = Scene(world);

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/io/colmap_model.h"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace plumbline {
+
+// Which files a COLMAP model is written as.
+enum class ColmapFiles { kText, kBinary, kBoth };
+constexpr auto EnumNames(std::type_identity<ColmapFiles>) {
+  return std::array{std::pair{ColmapFiles::kText, "text"},
+                    std::pair{ColmapFiles::kBinary, "binary"},
+                    std::pair{ColmapFiles::kBoth, "both"}};
+}
+
+// What COLMAP and LIMAP read of a map, in a folder that exists: sparse/0/ with the model `files`,
+// lines/ with the lines (WriteLimapLines). Images are not written. Throws InputError when a folder
+// or file cannot be.
+void WriteColmapFolder(const std::filesystem::path& folder,
+                       const Map& map,
+                       const ColmapModel& model,
+                       const std::map<KeyFrameId, std::string>& names,
+                       ColmapFiles files = ColmapFiles::kBoth);
+
+}  // namespace plumbline
