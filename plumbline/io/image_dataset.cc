@@ -57,21 +57,6 @@ class ImageDataset : public Dataset {
   std::vector<FrameFiles> files_;
 };
 
-// Grey levels of 16 bits lose the lower 8, and a camera of 12 bits whose levels are not shifted up
-// is almost black then. Said of the first image that is there.
-std::optional<std::string> NoteOn16Bits(const std::vector<FrameFiles>& files) {
-  const auto first = std::find_if(
-      files.begin(), files.end(), [](const FrameFiles& frame) { return PathExists(frame.left); });
-  if (first == files.end()) return std::nullopt;
-  const std::optional<int> brightest = BrightestOf16Bits(first->left);
-  if (!brightest) return std::nullopt;
-  return fmt::format(
-      "the images have 16 bits, of which the upper 8 are used: the brightest level of the first "
-      "one, {} of 65535, becomes {} of 255",
-      *brightest,
-      *brightest / 256);
-}
-
 std::string_view DigitRun(std::string_view text) {
   const auto end = std::find_if_not(
       text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -200,10 +185,21 @@ std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFil
     info.notes.push_back(
         fmt::format("{} of {} {} images do not exist", missing_other, files.size(), other));
   }
-  if (auto note = NoteOn16Bits(files)) info.notes.push_back(*std::move(note));
+  const auto first = std::find_if(
+      files.begin(), files.end(), [](const FrameFiles& frame) { return PathExists(frame.left); });
+  if (first != files.end()) NoteBits(BrightestOf16Bits(first->left), info);
   auto dataset = std::make_unique<ImageDataset>(std::move(info), std::move(files));
   CheckFirstFrame(*dataset);
   return dataset;
+}
+
+void NoteBits(std::optional<int> brightest, DatasetInfo& info) {
+  if (!brightest) return;
+  info.notes.push_back(
+      fmt::format("the images have 16 bits, of which the upper 8 are used: the brightest level of "
+                  "the first one, {} of 65535, becomes {} of 255",
+                  *brightest,
+                  *brightest / 256));
 }
 
 DatasetInfo DescribeDataset(const fs::path& path,

@@ -48,6 +48,11 @@ ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted);
 // InputError when none can.
 void CheckFirstFrame(const Dataset& dataset);
 
+// Grey levels of 16 bits lose the lower 8, and a camera of 12 bits whose levels are not shifted up
+// is almost black then: adds a note where the first image has 16 bits, whose brightest level is
+// `brightest` (BrightestOf16Bits).
+void NoteBits(std::optional<int> brightest, DatasetInfo& info);
+
 // Fills name, path, format, available and sensor: the sensor asked for, or the richest. InputError
 // when the data does not offer it.
 DatasetInfo DescribeDataset(const std::filesystem::path& path,

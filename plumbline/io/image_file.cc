@@ -137,6 +137,13 @@ Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
   return *size;
 }
 
+// By the header of a file, which ends within its first kPngStart bytes as far as it is asked.
+constexpr std::size_t kBitDepth = 24, kColorType = 25, kPngStart = 26;
+bool IsGreyPngOf16Bits(Bytes bytes) {
+  return bytes.size() >= kPngStart && IsPng(bytes) && bytes[kBitDepth] == 16 &&
+         bytes[kColorType] == 0;
+}
+
 // Grey levels of 16 bits in 8.
 GrayImage UpperBytes(const cv::Mat& mat) {
   GrayImage gray(mat.cols, mat.rows);
@@ -203,14 +210,17 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 }
 
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
-  constexpr std::size_t kBitDepth = 24, kColorType = 25;  // where the header of a PNG file has them
-  std::array<std::uint8_t, kColorType + 1> header{};
+  std::array<std::uint8_t, kPngStart> start{};
   std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(header.data()), header.size())) return std::nullopt;
-  if (!IsPng(header) || header[kBitDepth] != 16 || header[kColorType] != 0) return std::nullopt;
+  if (!file.read(reinterpret_cast<char*>(start.data()), start.size())) return std::nullopt;
+  if (!IsGreyPngOf16Bits(start)) return std::nullopt;
   const auto bytes = ReadBytes(path);
-  if (!bytes) return std::nullopt;
-  const auto mat = DecodeMat(path, *bytes, cv::IMREAD_UNCHANGED, std::nullopt);
+  return bytes ? BrightestOf16Bits(Bytes(*bytes)) : std::nullopt;
+}
+
+std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes) {
+  if (!IsGreyPngOf16Bits(bytes)) return std::nullopt;
+  const auto mat = DecodeMat({}, bytes, cv::IMREAD_UNCHANGED, std::nullopt);
   if (!mat || mat->type() != CV_16UC1) return std::nullopt;
   int brightest = 0;
   for (int y = 0; y < mat->rows; ++y) {

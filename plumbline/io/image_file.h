@@ -35,6 +35,8 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 // The brightest level of a PNG file with one channel of 16 bits; nullopt for any other file, and
 // where none can be decoded.
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
+// The same of the bytes of a file.
+std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes);
 
 // Decodes a 16-bit depth image to metres, value / factor; 0 stays 0 (no measurement).
 Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,

@@ -182,6 +182,14 @@ void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& in
   info.notes.push_back(fmt::format("topics: {}", fmt::join(names, ", ")));
 }
 
+// NoteBits of an image.
+void NoteBitsOf(const Recording& file, const StoredMessage& place, DatasetInfo& info) {
+  const auto bytes = file.Message(place);
+  if (!bytes) return;
+  const auto image = ParseImage(*FormOf(file.channels()[place.channel]), *bytes);
+  if (image && image->compressed) NoteBits(BrightestOf16Bits(image->data), info);
+}
+
 std::optional<RecordedCamera> FindCameraInfo(const RecordedTopics& topics,
                                              const RecordedTopic& image) {
   const auto* found = CalibrationFor(topics, image);
@@ -261,6 +269,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
     frames = Join(*chosen.left, *used.back(), info);
   }
   NoteTopics(used, info);
+  if (!frames.empty()) NoteBitsOf(*topics.file, frames.front().left, info);
   auto dataset =
       std::make_unique<RecordedDataset>(std::move(info), std::move(topics.file), std::move(frames));
   CheckFirstFrame(*dataset);

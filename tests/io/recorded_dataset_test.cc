@@ -214,6 +214,21 @@ TEST(Recordings, TakeThePictureThatIsNotPacked) {
   EXPECT_EQ(OpenDataset(path, {.topics = {"/c/image/compressed"}})->Read(0)->left.at(0, 0), 'b');
 }
 
+TEST(Recordings, TellOnceOfImagesOf16Bits) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  for (const int i : {1, 2}) {
+    AddPacked(bag, "/c/image/compressed", {i * kSecond, "png", 0, 0, 0, Png(8, 6, 4095)});
+  }
+  const auto dataset = OpenDataset(Write(folder, bag));
+  EXPECT_THAT(dataset->info().notes,
+              ElementsAre("topics: /c/image/compressed",
+                          "the images have 16 bits, of which the upper 8 are used: the brightest "
+                          "level of the first one, 4095 of 65535, becomes 15 of 255"));
+  EXPECT_EQ(dataset->Read(0)->left.at(0, 0), 15);
+}
+
 TEST(Recordings, ListTopicsWhereTheChoiceIsNotClear) {
   const ScratchFolder folder;
   BagWriter bag;
