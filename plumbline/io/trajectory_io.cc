@@ -116,6 +116,25 @@ TrajectoryFormat FormatOf(const path& file) {
          Count(row.fields.size()));
 }
 
+// What ReadTrajectory would refuse of the pose at place i; nullopt where it reads it.
+std::optional<std::string> FaultOf(const Trajectory& trajectory, std::size_t i) {
+  const std::int64_t stamp_ns = trajectory[i].stamp_ns;
+  if (!IsReadableStamp(stamp_ns)) {
+    return fmt::format(
+        "expected a time stamp within {} ns of 0, found {}", kLatestStampNs, stamp_ns);
+  }
+  if (i > 0 && stamp_ns <= trajectory[i - 1].stamp_ns) {
+    return fmt::format("expected ascending time stamps, found {} ns after {} ns",
+                       stamp_ns,
+                       trajectory[i - 1].stamp_ns);
+  }
+  for (const double x : trajectory[i].world_from_camera.translation) {
+    if (std::abs(x) <= kFarthest) continue;  // not so for NaN
+    return fmt::format("expected coordinates within {:g} of 0, found {:g}", kFarthest, x);
+  }
+  return std::nullopt;
+}
+
 // Fixed decimals, without a minus sign before zero.
 std::string Fixed(double value) {
   std::string text = fmt::format("{:.9f}", value);
@@ -189,6 +208,11 @@ std::string FormatTum(const Trajectory& trajectory) {
 }
 
 void WriteTum(const path& file, const Trajectory& trajectory) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    if (const auto fault = FaultOf(trajectory, i)) {
+      throw WriteError(file, fmt::format("pose {} (from 0): {}", i, *fault));
+    }
+  }
   WriteFileAtomically(file, FormatTum(trajectory));
 }
 

@@ -41,7 +41,8 @@ std::vector<std::int64_t> ReadKittiTimes(const std::filesystem::path& path);
 // A trajectory in TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. No header.
 std::string FormatTum(const Trajectory& trajectory);
 // Writes FormatTum(trajectory) to a file, whole or not at all. Throws InputError "cannot write
-// ...".
+// <path>: ...", also where ReadTrajectory would refuse the file: for stamps that do not increase or
+// are beyond the year 2096, and for places that are not finite or more than 10^9 m away.
 void WriteTum(const std::filesystem::path& path, const Trajectory& trajectory);
 
 // Time stamp as seconds with 9 decimals, exact: 1305031102175304000 -> "1305031102.175304000".

@@ -6,6 +6,8 @@
 
 #include "tests/io/scratch_folder.h"
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -158,8 +160,26 @@ TEST(WriteTum, StampsThatAreReadableAreRead) {
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read.front().stamp_ns, -kLatestStampNs);
   EXPECT_EQ(read.back().stamp_ns, kLatestStampNs);
-  WriteTum(folder / "t.txt", {{kLatestStampNs + 1, Rigid3()}});
-  EXPECT_THROW(ReadTrajectory(folder / "t.txt"), InputError);
+}
+
+TEST(WriteTum, RefusesWhatWouldNotBeRead) {
+  const ScratchFolder folder;
+  const auto message = [&](const Trajectory& trajectory) {
+    return MessageOf([&] { WriteTum(folder / "t.txt", trajectory); });
+  };
+  const std::string start = "cannot write " + (folder / "t.txt").string() + ": pose ";
+  EXPECT_EQ(message({{kLatestStampNs + 1, Rigid3()}}),
+            start +
+                "0 (from 0): expected a time stamp within 4000000000000000000 ns of 0, found "
+                "4000000000000000001");
+  EXPECT_EQ(message({{1, Rigid3()}, {7, Rigid3()}, {7, Rigid3()}}),
+            start + "2 (from 0): expected ascending time stamps, found 7 ns after 7 ns");
+  const auto at = [](double y) { return Rigid3{Eigen::Quaterniond::Identity(), {0, y, 0}}; };
+  EXPECT_EQ(message({{1, Rigid3()}, {2, at(-2e9)}}),
+            start + "1 (from 0): expected coordinates within 1e+09 of 0, found -2e+09");
+  EXPECT_EQ(message({{1, at(std::numeric_limits<double>::quiet_NaN())}}),
+            start + "0 (from 0): expected coordinates within 1e+09 of 0, found nan");
+  EXPECT_FALSE(std::filesystem::exists(folder / "t.txt"));
 }
 
 }  // namespace
