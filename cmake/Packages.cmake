@@ -12,7 +12,6 @@ set(debian_package_Threads "libc6-dev")
 set(debian_package_embree "libembree-dev")
 set(debian_package_fmt "libfmt-dev")
 set(debian_package_nlohmann_json "nlohmann-json3-dev")
-set(debian_package_spdlog "libspdlog-dev")
 set(debian_package_yaml-cpp "libyaml-cpp-dev")
 set(debian_package_zstd "libzstd-dev")
 
