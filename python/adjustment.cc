@@ -127,8 +127,7 @@ py::dict SolveCameraPose(const RectifiedCamera& camera,
     }
   }
   PoseOnlyOptions options;
-  OptionTable table(options);
-  SetOptions(given, table);
+  SetOptions(given, options);
   PoseOnlyResult result;
   {
     const py::gil_scoped_release release;
@@ -197,8 +196,7 @@ py::dict Adjust(const RectifiedCamera& camera,
   AddPoints(landmarks.points, landmarks.point_observations, problem);
   AddLines(landmarks.lines, landmarks.line_observations, problem);
   LocalBaOptions options;
-  OptionTable table(options);
-  SetOptions(given, table);
+  SetOptions(given, options);
   BaResult result;
   RunInterruptibly([&](const StopCheck& stop) { result = SolveLocalBa(problem, options, stop); });
   std::vector<PluckerLine> lines;

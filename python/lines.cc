@@ -123,8 +123,7 @@ DetectionRequest ReadRequest(py::handle image,
                                  request.image.height(),
                                  request.image.width()));
   }
-  OptionTable table(request.options);
-  SetOptions(given, table);
+  SetOptions(given, request.options);
   return request;
 }
 
@@ -205,8 +204,7 @@ py::tuple MatchPair(const RectifiedCamera& camera,
                     py::handle right,
                     const py::kwargs& given) {
   StereoLineOptions options;
-  OptionTable table(options);
-  SetOptions(given, table);
+  SetOptions(given, options);
   if (!(camera.baseline > 0)) {
     throw InputError("camera: expected a baseline greater than 0, found 0");
   }

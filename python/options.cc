@@ -74,10 +74,9 @@ py::dict GroupOf(py::dict values, const std::string& key) {
 
 py::dict OptionsOfRun(const py::kwargs& given) {
   SlamOptions options;
-  OptionTable table(options);
-  SetOptions(given, table);
+  SetOptions(given, options);
   CheckOptions(options);
-  return ValuesOf(table);
+  return ValuesOf(OptionTable(options));
 }
 
 std::string HelpOfOptions() {
@@ -87,7 +86,7 @@ std::string HelpOfOptions() {
 
 }  // namespace
 
-void SetOptions(const py::dict& options, OptionTable& table) { SetAll(options, "", 0, table); }
+void SetInTable(const py::dict& given, OptionTable& table) { SetAll(given, "", 0, table); }
 
 py::dict ValuesOf(const OptionTable& table) {
   py::dict values;

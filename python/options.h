@@ -10,7 +10,12 @@ namespace plumbline::python {
 
 // Sets options from keyword arguments: groups are dictionaries, {"features": {"line_count": 100}};
 // dotted keys mean the same. Throws the InputError of `--set KEY=VALUE`.
-void SetOptions(const pybind11::dict& options, OptionTable& table);
+void SetInTable(const pybind11::dict& given, OptionTable& table);
+template <OptionGroup T>
+void SetOptions(const pybind11::dict& given, T& options) {
+  OptionTable table(options);
+  SetInTable(given, table);
+}
 
 // The values of all options, in groups.
 pybind11::dict ValuesOf(const OptionTable& table);

@@ -34,8 +34,7 @@ int Threads() { return std::max(1, static_cast<int>(std::thread::hardware_concur
 
 SynthOptions ReadSynthOptions(const std::string& world, const py::kwargs& given) {
   SynthOptions options = OpenWorld(world).defaults;
-  OptionTable table(options);
-  SetOptions(given, table);
+  SetOptions(given, options);
   return options;
 }
 

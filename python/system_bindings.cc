@@ -31,8 +31,7 @@ namespace {
 
 std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration, const py::kwargs& given) {
   SlamOptions options;
-  OptionTable table(options);
-  SetOptions(given, table);
+  SetOptions(given, options);
   CheckOptions(options);
   const py::gil_scoped_release release;
   return std::make_unique<RunningSystem>(calibration, options);
