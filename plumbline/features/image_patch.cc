@@ -76,11 +76,11 @@ std::optional<ImagePatch> MakePatch(const PatchSamples& wide, int radius) {
   return patch;
 }
 
-std::optional<Eigen::Vector2d> AlignShift(const ImagePatch& patch,
-                                          const GrayImage& image,
-                                          const Eigen::Vector2d& start,
-                                          const Eigen::Matrix2d& axes,
-                                          const PatchShiftLimits& limits) {
+std::optional<PatchPlace> AlignShift(const ImagePatch& patch,
+                                     const GrayImage& image,
+                                     const Eigen::Vector2d& start,
+                                     const Eigen::Matrix2d& axes,
+                                     const PatchShiftLimits& limits) {
   const Eigen::LDLT<Eigen::Matrix2d> tensor(patch.tensor);
   const Eigen::Matrix2d inverse_axes = axes.inverse();
   Eigen::Vector2d px = start;
@@ -91,10 +91,16 @@ std::optional<Eigen::Vector2d> AlignShift(const ImagePatch& patch,
     const Eigen::Vector2d step =
         tensor.solve(patch.gradient.transpose() * (*seen - patch.samples).matrix());
     px -= axes * step;
-    if ((inverse_axes * (px - start)).norm() > limits.max_shift_px) return std::nullopt;
+    const Eigen::Vector2d shift = inverse_axes * (px - start);
+    if (shift.norm() > limits.max_shift_px) return std::nullopt;
     if (step.norm() > limits.converged_px) continue;
     if (correlation < limits.min_correlation) return std::nullopt;
-    return px;
+    // Both patches have the length one, so that the sum of squared residuals is 2 - 2 *
+    // correlation. Shift, brightness and contrast were estimated from the samples.
+    constexpr double kEstimated = 4;
+    const double variance =
+        2 * (1 - correlation) / (static_cast<double>(patch.samples.size()) - kEstimated);
+    return PatchPlace{px, shift, variance * tensor.solve(Eigen::Matrix2d::Identity())};
   }
   return std::nullopt;
 }

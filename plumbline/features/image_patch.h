@@ -48,14 +48,23 @@ struct PatchShiftLimits {
   double converged_px = 0.01;    // the search ends at a step that is shorter, in steps of the grid
 };
 
-// The place near `start` where the image looks like the patch under the map `axes` of its grid,
-// brightness and contrast apart (Lucas and Kanade 1981, in the inverse form of Baker and Matthews
-// 2004: gradients are those of the patch). nullopt where the search leaves the image or the limits,
-// or does not end. Cost: some ten microseconds at a radius of 5.
-std::optional<Eigen::Vector2d> AlignShift(const ImagePatch& patch,
-                                          const GrayImage& image,
-                                          const Eigen::Vector2d& start,
-                                          const Eigen::Matrix2d& axes,
-                                          const PatchShiftLimits& limits);
+// Where a patch was found in another image.
+struct PatchPlace {
+  Eigen::Vector2d px;
+  Eigen::Vector2d shift;       // from where the search began, in steps of the grid
+  Eigen::Matrix2d covariance;  // of the shift, as far as the residuals of the samples tell
+};
+
+// Finds the place near `start` where the image looks like the patch under the map `axes` of its
+// grid, brightness and contrast apart (Lucas and Kanade 1981, in the inverse form of Baker and
+// Matthews 2004: gradients are those of the patch). The covariance is the variance of the residuals
+// times the inverse of the tensor; what all samples have in common, as a wrong map of the grid, it
+// does not know. nullopt where the search leaves the image or the limits, or does not end. Cost:
+// some ten microseconds at a radius of 5.
+std::optional<PatchPlace> AlignShift(const ImagePatch& patch,
+                                     const GrayImage& image,
+                                     const Eigen::Vector2d& start,
+                                     const Eigen::Matrix2d& axes,
+                                     const PatchShiftLimits& limits);
 
 }  // namespace plumbline

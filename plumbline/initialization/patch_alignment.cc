@@ -107,7 +107,7 @@ TrackedPixels AlignPatches(const GrayImage& reference_image,
     if (!patch || !patch->IsRound(options.min_roundness)) continue;
     const Eigen::Matrix2d axes = step * linear;
     const auto shifted = AlignShift(*patch, image, *guesses[k], axes * warps[k], shift);
-    if (shifted) places[k] = AlignAffine(*patch, image, *shifted, axes, options, warps[k]);
+    if (shifted) places[k] = AlignAffine(*patch, image, shifted->px, axes, options, warps[k]);
     if (!places[k]) warps[k].setIdentity();
   }
   return places;

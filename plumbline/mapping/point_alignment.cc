@@ -23,6 +23,10 @@ constexpr PatchShiftLimits kLimits{.converged_px = 0.03};
 constexpr double kMinRoundness = 0.15;
 // Views whose areas differ by more have little in common to be compared.
 constexpr double kMaxAreaRatio = 50;
+// Deviation of the place of a corner, in pixels of its octave. What alignment moves corners by says
+// 0.3 px. They count for more, since errors of alignment are common to the points of a surface,
+// those of corners are not (docs/log/single-camera.md).
+constexpr double kCornerSigma = 0.2;
 
 const PyramidLevel& LevelOf(const ImagePyramid& pyramid, int level) {
   return pyramid[static_cast<std::size_t>(
@@ -57,6 +61,13 @@ void TakePatch(const PointFeature& feature, const ImagePyramid& pyramid, std::ui
       *row++ = static_cast<std::uint8_t>((1 - fy) * upper + fy * lower + 0.5F);
     }
   }
+}
+
+// Returns the shift from a corner that corner and patch say together, each by its covariance.
+Eigen::Vector2d WeighedWithCorner(const PatchPlace& place) {
+  const Eigen::Matrix2d corner = Eigen::Matrix2d::Identity() * (kCornerSigma * kCornerSigma);
+  const Eigen::Matrix2d both = corner + place.covariance;
+  return corner * both.inverse() * place.shift;
 }
 
 std::optional<ImagePatch> PatchOf(const KeyFramePatches& patches, std::size_t feature) {
@@ -133,8 +144,10 @@ std::optional<Eigen::Vector2d> PointAligner::Find(const Reference& reference,
   const double octave_now = math::Log(shrink) / math::Log(octave_scale_);
   const PyramidLevel& level = LevelOf(pyramid, static_cast<int>(std::lround(octave_now)));
   const Eigen::Matrix2d axes = level.scale.cwiseInverse().asDiagonal() * motion * step.asDiagonal();
-  const auto found = AlignShift(*patch, level.image, level.FromFull(px), axes, kLimits);
-  return found ? std::optional(level.ToFull(*found)) : std::nullopt;
+  const Eigen::Vector2d corner = level.FromFull(px);
+  const auto found = AlignShift(*patch, level.image, corner, axes, kLimits);
+  if (!found) return std::nullopt;
+  return level.ToFull(corner + axes * WeighedWithCorner(*found));
 }
 
 void PointAligner::Remember(KeyFrameId id, const Features& features, const ImagePyramid& pyramid) {

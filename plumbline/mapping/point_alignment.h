@@ -37,9 +37,10 @@ struct KeyFramePatches {
 // comes nearer moves with each octave it is found in. Along a road all points do, and the scale of
 // a map of one camera falls (docs/log/single-camera.md). So the patch around the corner in the
 // oldest of the recent keyframes that show the landmark, warped by the depth and the poses as if
-// it faced that camera, is shifted until it fits the new image (AlignShift), and the place of the
-// feature is taken from there. It is a reference to later keyframes in turn: all observations of a
-// landmark speak of the point that the first of them shows.
+// it faced that camera, is shifted until it fits the new image (AlignShift), and the feature is
+// moved to the mean of its corner and that place, weighed by their covariances. It is a reference
+// to later keyframes in turn: all observations of a landmark speak of the point that the first of
+// them shows.
 class PointAligner {
  public:
   static constexpr std::size_t kRecent = 20;  // keyframes whose patches are kept

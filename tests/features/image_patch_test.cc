@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/image_patch.h"
 
+#include "plumbline/base/random.h"
+
 #include <cmath>
 #include <cstdint>
 #include <functional>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -70,12 +73,35 @@ TEST(AlignShift, FindsThePlaceWhateverTheBrightness) {
   const Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
   const auto found = AlignShift(*patch, darker, truth + Eigen::Vector2d(0.8, 0.5), axes, {});
   ASSERT_TRUE(found.has_value());
-  EXPECT_LT((*found - truth).norm(), 0.03);
+  EXPECT_LT((found->px - truth).norm(), 0.03);
   // Too far, and something else.
   EXPECT_FALSE(
       AlignShift(*patch, darker, truth + Eigen::Vector2d(0.8, 0.5), axes, {.max_shift_px = 0.5}));
   const GrayImage other = Picture([](const Eigen::Vector2d& p) { return 255 - Waves(p); });
   EXPECT_FALSE(AlignShift(*patch, other, {50, 50}, axes, {}));
+}
+
+// Noise in the image moves the place as the covariance says: the mean of chi2 with two degrees of
+// freedom is 2. Blurring by interpolation makes the noise of neighbours alike, which the covariance
+// does not know.
+TEST(AlignShift, KnowsHowFarNoiseMovesIt) {
+  const auto patch = PatchAt(Picture(Waves), {50, 50});
+  ASSERT_TRUE(patch.has_value());
+  const Eigen::Vector2d shift(1.4, -0.7);
+  double sum = 0;
+  constexpr int kRuns = 200;
+  for (int run = 0; run < kRuns; ++run) {
+    Rng rng(static_cast<std::uint64_t>(run));
+    const GrayImage noisy =
+        Picture([&](const Eigen::Vector2d& p) { return Waves(p - shift) + rng.Normal(6); });
+    const auto found = AlignShift(*patch, noisy, {51.2, 49.5}, Eigen::Matrix2d::Identity(), {});
+    ASSERT_TRUE(found.has_value());
+    EXPECT_LT((found->shift - (found->px - Eigen::Vector2d(51.2, 49.5))).norm(), 1e-12);
+    const Eigen::Vector2d error = found->px - Eigen::Vector2d(50, 50) - shift;
+    sum += error.dot(found->covariance.inverse() * error);
+  }
+  EXPECT_GT(sum / kRuns, 1);
+  EXPECT_LT(sum / kRuns, 4);
 }
 
 }  // namespace image_patch_test

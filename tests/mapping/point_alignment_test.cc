@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/point_alignment.h"
 
+#include "plumbline/base/random.h"
+
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -108,6 +111,36 @@ TEST(PointAligner, LaterCornersShowWhatTheFirstOnesShow) {
     EXPECT_EQ(aligned->features.points[0].octave, octave);
   }
   EXPECT_EQ(aligner.recent().size(), 4U);
+}
+
+// What the corner says counts as far as noise makes the place of the patch uncertain.
+TEST(PointAligner, NoiseLeavesMoreToTheCorner) {
+  std::vector<double> moved;
+  for (const double noise : {0.0, 25.0}) {
+    WallMap wall;
+    PointAligner aligner(OneCamera(), 1.2);
+    aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), View(0));
+    const KeyFrameId id = wall.Add(1, {0.8, 0}, 1);
+    GrayImage image = View(1);
+    Rng rng(7);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const double grey = image.at(x, y) + rng.Normal(noise);
+        image.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
+      }
+    }
+    const auto aligned = aligner.Align(wall.map, id, image);
+    ASSERT_NE(aligned, nullptr);
+    double sum = 0;
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+      sum +=
+          wall.map.Find(id)->frame.features().points[i].px.x() - aligned->features.points[i].px.x();
+    }
+    moved.push_back(sum / static_cast<double>(kPlaces.size()));
+  }
+  EXPECT_NEAR(moved[0], 0.8, 0.1);
+  EXPECT_LT(moved[1], 0.9 * moved[0]);
+  EXPECT_GT(moved[1], 0.2 * moved[0]);
 }
 
 TEST(PointAligner, GoesOnFromWhatItRemembers) {
