@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/evaluate_report.h"
 
-#include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 
 #include <algorithm>
@@ -22,18 +21,6 @@ std::string WindowName(const RelativeWindow& window) {
   std::ostringstream text;
   text << static_cast<double>(window.duration_ns) * 1e-9 << "s";
   return text.str();
-}
-
-std::string DegeneracyName(AlignmentFailure failure) {
-  switch (failure) {
-    case AlignmentFailure::kTooFewPoints:
-      return "fewer than three poses";
-    case AlignmentFailure::kCoincident:
-      return "all positions in one place";
-    case AlignmentFailure::kCollinear:
-      return "all positions on a line";
-  }
-  throw BugError("a failure without a name");
 }
 
 nlohmann::ordered_json ToJson(const std::optional<ErrorStatistics>& statistics, double factor) {
@@ -221,7 +208,7 @@ std::string EvaluationTable(const Evaluation& evaluation) {
     }
   }
   if (error.degenerate) {
-    table << " (not determined by the positions: " << DegeneracyName(*error.degenerate)
+    table << " (not determined by the positions: " << NameOf(*error.degenerate)
           << "; orientations decide the rest)";
   }
   table << "\nwindow      " << WindowName(evaluation.options.window) << "\n\n";
@@ -253,7 +240,7 @@ std::string EvaluationJson(const Evaluation& evaluation) {
   json["scale_drift"] = nullptr;
   if (error.scale_drift) json["scale_drift"] = *error.scale_drift;
   json["degenerate"] = nullptr;
-  if (error.degenerate) json["degenerate"] = DegeneracyName(*error.degenerate);
+  if (error.degenerate) json["degenerate"] = NameOf(*error.degenerate);
   json["ate_m"] = ToJson(error.ate, 1);
   json["rpe_m_per_s"] = ToJson(error.rpe, 1);
   json["roe_deg_per_s"] = ToJson(error.roe, kDegrees);

@@ -172,11 +172,12 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
   if (const auto error = CompareWithGroundTruth(system, dataset)) {
     const double scale = error->reference_from_estimate.scale;
     const bool mono = dataset.sensor() == SensorKind::kMono;
-    std::cout << fmt::format("ATE {:.4f} m RMSE{} over {} poses, coverage {:.1f} %\n",
-                             error->ate.rmse,
-                             mono ? fmt::format(" (scale {:.4g})", scale) : std::string(),
-                             error->poses.size(),
-                             100.0 * counts.tracked / std::max(counts.frames, 1));
+    std::cout << fmt::format(
+        "ATE {:.4f} m RMSE{} over {} poses, coverage {:.1f} %\n",
+        error->ate.rmse,
+        mono ? fmt::format(" (scale {:.4g})", scale) : std::string(),
+        error->poses.size(),
+        100.0 * static_cast<double>(error->estimated) / std::max(counts.frames, 1));
   } else if (counts.tracked > 0) {
     std::cout << (dataset.info().ground_truth ? "no errors: the ground truth covers no pose\n"
                                               : "no errors: no ground truth with the data\n");

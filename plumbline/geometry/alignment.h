@@ -5,7 +5,10 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/sim3.h"
 
+#include <array>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -16,6 +19,11 @@ enum class AlignmentFailure {
   kCoincident,    // all points of a set in one place: neither rotation nor scale
   kCollinear,     // points on one line: the rotation about it is free
 };
+constexpr auto EnumNames(std::type_identity<AlignmentFailure>) {
+  return std::array{std::pair{AlignmentFailure::kTooFewPoints, "fewer than three poses"},
+                    std::pair{AlignmentFailure::kCoincident, "all positions in one place"},
+                    std::pair{AlignmentFailure::kCollinear, "all positions on a line"}};
+}
 
 struct Alignment {
   Similarity3 target_from_source;

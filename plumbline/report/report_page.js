@@ -36,10 +36,10 @@ function shedWork() {
       .map(([count, what, of]) => `${plural(count, of)} ${what}`);
 }
 
-function percentTracked() {
-  const {tracked, frames: all} = data.counts;
+function percentOfFrames(count) {
+  const all = data.counts.frames;
   // Rounded down: 100 % means every frame.
-  return all > 0 ? Math.floor(1000 * tracked / all) / 10 : 0;
+  return all > 0 ? Math.floor(1000 * count / all) / 10 : 0;
 }
 
 function verdict() {
@@ -52,7 +52,7 @@ function verdict() {
     parts.push(
         `ATE ${metres(error.ate.rmse)} (RMSE over ${plural(error.ate.count, "pose")}` +
         `${scene.maps.length > 1 ? " of the largest map" : ""}, ${error.alignment} alignment, ` +
-        `coverage ${percentTracked()} %)`);
+        `coverage ${percentOfFrames(mainMap.frames.length)} %)`);
   }
   if (events.length) parts.push(eventCounts().join(", "));
   if (shedWork().length) parts.push(`behind the camera: ${shedWork().join(", ")}`);
@@ -121,7 +121,7 @@ function buildHeader() {
       make(
           "div", {class: "tiles"},
           tile(
-              "Frames tracked", `${percentTracked()} %`, "",
+              "Frames tracked", `${percentOfFrames(c.tracked)} %`, "",
               `${whole(c.tracked)} of ${whole(c.frames)}`,
               missingFrames().join(", ") || "none lost, none skipped"),
           accuracyTiles(),

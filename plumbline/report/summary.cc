@@ -32,7 +32,7 @@ Json Statistics(const ErrorStatistics& s, double factor, const char* unit) {
           {"unit", unit}};
 }
 
-Json Accuracy(const TrajectoryError& error, SensorKind sensor, const RunCounts& counts) {
+Json Accuracy(const TrajectoryError& error, SensorKind sensor, int frames) {
   Json json;
   json["alignment"] = sensor == SensorKind::kMono ? "sim3" : "se3";
   if (sensor == SensorKind::kMono) {
@@ -41,7 +41,8 @@ Json Accuracy(const TrajectoryError& error, SensorKind sensor, const RunCounts& 
   }
   json["association"] = "interpolate";
   json["associated"] = error.poses.size();
-  json["coverage"] = counts.frames > 0 ? static_cast<double>(counts.tracked) / counts.frames : 0.0;
+  json["coverage"] = frames > 0 ? static_cast<double>(error.estimated) / frames : 0.0;
+  json["degenerate"] = error.degenerate ? Json(NameOf(*error.degenerate)) : Json(nullptr);
   json["ate"] = Statistics(error.ate, 1, "m");
   json["relative_window"] = "3s";
   if (error.rpe) json["rpe"] = Statistics(*error.rpe, 1, "m/s");
@@ -113,9 +114,12 @@ std::optional<double> SecondsSinceProcessStart() {
 
 RunCounts CountRun(const System& system) {
   RunCounts counts;
+  const auto main = system.MainMap();
   for (const FrameRecord& frame : system.frames()) {
     ++counts.frames;
     counts.tracked += frame.status == FrameStatus::kTracked;
+    counts.in_trajectory +=
+        frame.status == FrameStatus::kTracked && system.atlas().Current(frame.map) == main;
     counts.lost += frame.status == FrameStatus::kLost;
     counts.skipped += frame.status == FrameStatus::kSkipped;
     counts.dropped += frame.shed == Shed::kFrame;
@@ -126,7 +130,7 @@ RunCounts CountRun(const System& system) {
     counts.initializing += frame.status == FrameStatus::kInitializing;
   }
   counts.maps = static_cast<int>(system.maps().size());
-  if (const auto main = system.MainMap()) {
+  if (main) {
     const Map& map = system.maps().at(*main);
     counts.keyframes = static_cast<int>(map.keyframes().size());
     counts.points = static_cast<int>(map.points().size());
@@ -217,6 +221,7 @@ std::string FormatSummary(const RunDescription& description,
   json["frames"] = {{"of", description.frames_chosen},
                     {"in", counts.frames},
                     {"tracked", counts.tracked},
+                    {"in_trajectory", counts.in_trajectory},
                     {"lost", counts.lost},
                     {"skipped", counts.skipped},
                     {"dropped", counts.dropped},
@@ -232,10 +237,11 @@ std::string FormatSummary(const RunDescription& description,
   json["lines"] = counts.lines;
   AddEvents(system.events(), json);
   const auto error = CompareWithGroundTruth(system, dataset);
-  json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts) : Json(nullptr);
+  json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts.frames) : Json(nullptr);
   const auto main = system.MainMap();
   const auto causal = main ? Compare(system.CausalTrajectory(*main), dataset) : std::nullopt;
-  json["accuracy_causal"] = causal ? Accuracy(*causal, dataset.sensor(), counts) : Json(nullptr);
+  json["accuracy_causal"] =
+      causal ? Accuracy(*causal, dataset.sensor(), counts.frames) : Json(nullptr);
   json["timing"] = Timing(system.frames());
   json["first_pose_seconds"] = OrNull(resources.first_pose_seconds);
   json["wall_seconds"] = resources.wall_seconds;

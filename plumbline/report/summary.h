@@ -30,7 +30,8 @@ std::optional<double> SecondsSinceProcessStart();
 
 struct RunCounts {
   int frames = 0, tracked = 0, lost = 0, skipped = 0, initializing = 0;
-  int dropped = 0;  // of the skipped ones, those that a live run had no time for
+  int in_trajectory = 0;  // of the tracked ones, those in the main map: poses of trajectory.txt
+  int dropped = 0;        // of the skipped ones, those that a live run had no time for
   // Frames of a live run by what it left undone last, in the order of Shed.
   int shed_mapping = 0, shed_lines = 0, shed_points = 0;
   int demoted = 0;  // keyframes that mapping had no time for

@@ -11,6 +11,7 @@
 #include "tests/report/poster_run.h"
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -227,6 +228,77 @@ TEST(Summary, SaysNullWithoutGroundTruth) {
       nlohmann::json::parse(FormatSummary({}, run.system(), PosterDataset(6, false), {}));
   EXPECT_TRUE(json["accuracy"].is_null());
   EXPECT_TRUE(json["accuracy_causal"].is_null());
+}
+
+// Sees the left end of the poster, is lost for long, sees the right end in a map of its own, and is
+// found again at the left end.
+class AwayAndBack {
+ public:
+  static constexpr int kStretch = 12, kFrames = 3 * kStretch + 14 + 4;
+
+  AwayAndBack() : system_(MovingPoster::MakeCalibration(), Options()) {
+    Show(0, kStretch);
+    Show(std::nullopt, 14);
+    Show(120, kStretch);
+    Show(std::nullopt, 4);
+    Show(0, kStretch);
+    system_.Finish();
+  }
+  const System& system() const { return system_; }
+
+ private:
+  static SlamOptions Options() {
+    SlamOptions options;
+    options.slam.mode = RunMode::kInline;
+    options.loop.enabled = false;  // or the two ends, which share some corners, would be joined
+    return options;
+  }
+  // The poster from this frame of it on, or nothing to be seen.
+  void Show(std::optional<int> first, int frames) {
+    for (int i = 0; i < frames; ++i) {
+      SensorFrame frame = first ? poster_.Frame(*first + i) : MovingPoster::BlindFrame(0);
+      frame.stamp_ns = MovingPoster::StampNs(shown_++);
+      system_.Process(std::move(frame));
+    }
+  }
+
+  MovingPoster poster_;
+  System system_;
+  int shown_ = 0;
+};
+
+TEST(Summary, CoverageIsThatOfTheTrajectoryWhoseErrorsItTells) {
+  const AwayAndBack run;
+  const System& system = run.system();
+  const RunCounts counts = CountRun(system);
+  ASSERT_EQ(counts.frames, AwayAndBack::kFrames);
+  ASSERT_EQ(counts.maps, 2);
+  const MapId main = system.MainMap().value();
+  const auto poses = static_cast<double>(system.FinalTrajectory(main).size());
+  EXPECT_EQ(counts.in_trajectory, poses);
+  EXPECT_LT(counts.in_trajectory, counts.tracked);  // the others are in the other map
+  const auto json =
+      nlohmann::json::parse(FormatSummary({}, system, PosterDataset(AwayAndBack::kFrames), {}));
+  EXPECT_EQ(json["frames"]["in_trajectory"], poses);
+  EXPECT_NEAR(json["accuracy"]["coverage"], poses / AwayAndBack::kFrames, 1e-9);
+  EXPECT_NEAR(json["accuracy_causal"]["coverage"],
+              static_cast<double>(system.CausalTrajectory(main).size()) / AwayAndBack::kFrames,
+              1e-9);
+}
+
+TEST(Summary, SaysWhetherThePositionsDetermineTheAlignment) {
+  const PosterRun run;
+  DatasetInfo info = PosterDataset(6).info();
+  const auto degenerate = [&] {
+    const PosterDataset dataset(info);
+    return nlohmann::json::parse(
+        FormatSummary({}, run.system(), dataset, {}))["accuracy"]["degenerate"];
+  };
+  EXPECT_EQ(degenerate(), "all positions on a line");  // the truth is straight
+  for (std::size_t i = 0; i < 6; ++i) {
+    info.ground_truth->poses[i].world_from_camera.translation.y() = i % 2 == 0 ? 0.01 : 0;
+  }
+  EXPECT_TRUE(degenerate().is_null());
 }
 
 std::vector<RunFile> AllFiles(const System& system) {

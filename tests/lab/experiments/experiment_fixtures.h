@@ -74,12 +74,13 @@ inline Plan PlanOfTwo(const ScratchFolder& folder) {
 // summary.json of a run, as far as it is read.
 inline std::string Summary(double ate_m, int tracked = 10, int frames = 10) {
   return fmt::format(
-      R"({{"frames": {{"in": {}, "tracked": {}, "lost": {}, "skipped": 0, "dropped": 0,
+      R"({{"frames": {{"in": {}, "tracked": {}, "in_trajectory": {}, "lost": {}, "skipped": 0, "dropped": 0,
          "initializing": 0}}, "maps": 1, "keyframes": 3, "points": 100, "lines": 20,
          "accuracy": {{"ate": {{"rmse": {}}}}}, "accuracy_causal": null,
          "timing": {{"total": {{"median_ms": 20, "p95_ms": 30}}}}, "first_pose_seconds": 0.2,
          "wall_seconds": 2, "cpu_seconds": 1, "peak_memory_mb": 100}})",
       frames,
+      tracked,
       tracked,
       frames - tracked,
       ate_m);

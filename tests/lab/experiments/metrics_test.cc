@@ -27,6 +27,18 @@ TEST(Metrics, AreReadInTheirUnits) {
   EXPECT_EQ(figures->trajectory, "1.0 0 0 0 0 0 0 1\n");
 }
 
+// Poses in another map than that of the trajectory are not covered by its error.
+TEST(Metrics, CoverageCountsThePosesOfTheTrajectory) {
+  const ScratchFolder folder;
+  folder.Write("summary.json",
+               R"({"frames": {"in": 100, "tracked": 90, "in_trajectory": 55, "lost": 10},
+                   "keyframes": 1, "wall_seconds": 1})");
+  const auto figures = ReadFigures(folder.path());
+  ASSERT_TRUE(figures.has_value());
+  EXPECT_DOUBLE_EQ(figures->values.at("coverage"), 55);
+  EXPECT_DOUBLE_EQ(figures->values.at("tracked"), 90);
+}
+
 TEST(Metrics, OfARunThatWasInterruptedAreNone) {
   const ScratchFolder folder;
   const auto write = [&](const std::string& interrupted) {
