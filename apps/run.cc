@@ -401,7 +401,7 @@ int RunCommand(std::span<const std::string> arguments) {
   CheckApart(setup.folder, inputs);
   CheckFilesApart(setup, std::move(inputs));
   System system(input.dataset->calibration(), setup.options);
-  system.DescribeSession(PLUMBLINE_VERSION, input.dataset->info().name);
+  system.DescribeSession(PLUMBLINE_VERSION);
   const std::vector<std::string> map_notes = LoadMapInto(system, setup);
   ResumeFrom(setup, system, input);
   RunFolder folder(setup.folder);

@@ -40,7 +40,7 @@ RunningSystem::RunningSystem(const Calibration& calibration, const SlamOptions& 
       pipeline_(system_, [this](const FrameRecord& record, const FrameView& view) {
         Observe(record, view);
       }) {
-  system_.DescribeSession(PLUMBLINE_VERSION, "");
+  system_.DescribeSession(PLUMBLINE_VERSION);
 }
 
 void RunningSystem::Feed(SensorFrame frame) {
@@ -101,11 +101,6 @@ std::vector<std::string> RunningSystem::Continue(SavedAtlas saved, bool read_onl
     throw InputError("continue_in: expected a system before its first frame, found one that runs");
   }
   return system_.Continue(std::move(saved), read_only);
-}
-
-void RunningSystem::Describe(const std::string& data) {
-  const auto lock = Enter("run");
-  system_.DescribeSession(PLUMBLINE_VERSION, data);
 }
 
 void RunningSystem::KeepViews(const std::vector<std::size_t>& frames) {

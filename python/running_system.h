@@ -37,7 +37,6 @@ class RunningSystem {
   // Of the frames that were tracked since the last call, in order.
   std::vector<FrameRecord> TakeRecords();
   std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
-  void Describe(const std::string& data);
   // From now on views of some of these frames are kept, for the report.
   void KeepViews(const std::vector<std::size_t>& frames);
   void Finish(const StopCheck& stop);

@@ -399,7 +399,7 @@ that camera at the first keyframe of each map. One thread at a time; several sys
 several threads.)");
   BindFeeding(system);
   BindResults(system);
-  system.def("_describe", &RunningSystem::Describe).def("_keep_views", &RunningSystem::KeepViews);
+  system.def("_keep_views", &RunningSystem::KeepViews);
   py::class_<RunFolder>(module, "_RunFolder").def(py::init(&OpenFolder));
   module.def("_write_run", &WriteRun);
 }

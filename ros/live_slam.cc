@@ -72,7 +72,7 @@ class Session {
         observer_(std::move(observer)),
         pipeline_(system_,
                   [this](const FrameRecord& record, const FrameView&) { Observe(record); }) {
-    system_.DescribeSession(PLUMBLINE_ROS_VERSION, "ROS");
+    system_.DescribeSession(PLUMBLINE_ROS_VERSION);
   }
 
   System& system() { return system_; }

@@ -26,7 +26,7 @@ Uuid UuidOf(const std::string& contents);
 struct Session {
   Uuid uuid;
   std::string program;  // version that ran
-  std::string data;     // name of the data set, empty where it has none
+  std::string data;     // name of the data set, in files of earlier versions; runs leave it empty
   std::int64_t first_stamp_ns = 0;
   std::int64_t last_stamp_ns = 0;
 };

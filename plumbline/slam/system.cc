@@ -477,10 +477,7 @@ Session System::session() const {
   return session;
 }
 
-void System::DescribeSession(const std::string& program, const std::string& data) {
-  session_.program = program;
-  session_.data = data;
-}
+void System::DescribeSession(const std::string& program) { session_.program = program; }
 
 std::optional<MapId> System::MainMap() const {
   std::map<MapId, int> frames;

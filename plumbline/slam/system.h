@@ -149,8 +149,9 @@ class System {
   // This run of the camera so far. Its id is made of the first frame's features and stamp, the rig
   // and the options: the same input, wherever it lies, is the same session.
   Session session() const;
-  // What map files say of the session: version of the program, name of the data.
-  void DescribeSession(const std::string& program, const std::string& data);
+  // What map files say of the session beside that: the version of the program. Not where the data
+  // lie: the same input by another name gives the same file.
+  void DescribeSession(const std::string& program);
   // The options that the system was made with.
   const SlamOptions& options() const { return options_; }
   // Who does the work of a live run.

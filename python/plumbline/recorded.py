@@ -171,7 +171,6 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
         raise InputError("localize: expected map as well")
     frames = _choose_frames(dataset, start, stop, stride)
     system = System(dataset.calibration, **options)
-    system._describe(dataset.name)
     atlas = map if map is None or isinstance(map, Atlas) else _plumbline.load_map(map)
     folder = None
     if out is not None:

@@ -55,6 +55,26 @@ TEST(Run, WritesTheSameBytesEveryTime) {
   }
 }
 
+// A copy, a link and another working directory are the same input.
+TEST(Run, WritesTheSameBytesByWhateverNameTheDataGo) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 6);
+  fs::create_directory_symlink(sequence, folder / "other name");
+  const std::pair<fs::path, std::string> runs[] = {
+      {sequence, ""}, {folder / "other name", ""}, {".", "cd " + Quoted(sequence) + " && "}};
+  int number = 0;
+  for (const auto& [path, before] : runs) {
+    const fs::path out = folder / std::to_string(number++);
+    const Outcome outcome =
+        RunProgram(folder, "run " + Quoted(path) + " --quiet --out " + Quoted(out), before);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const std::string& name : FilesOf(out)) {
+      if (!IsRepeatable(name)) continue;
+      EXPECT_TRUE(Contents(out / name) == Contents(folder / "0" / name)) << name << " of " << path;
+    }
+  }
+}
+
 TEST(Run, ThePeakOfMemoryIsNotThatOfWhoeverStartedIt) {
   constexpr std::size_t kMegabytes = 512;
   const ScratchFolder folder;

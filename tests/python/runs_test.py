@@ -52,6 +52,13 @@ def test_modes_that_promise_it_give_the_same_bytes(dataset, finished):
     assert inline.trajectory.to_tum() == finished.trajectory.to_tum()
 
 
+def test_a_map_has_the_same_bytes_whatever_the_data_are_called(sequence, finished, tmp_path):
+    finished.maps.save(tmp_path / "map.plb")
+    (tmp_path / "other name").symlink_to(sequence.resolve())
+    plumbline.run(tmp_path / "other name").maps.save(tmp_path / "other.plb")
+    assert (tmp_path / "map.plb").read_bytes() == (tmp_path / "other.plb").read_bytes()
+
+
 def test_a_live_run_follows_the_clock(dataset):
     run = plumbline.run(dataset, stop=4, slam={"mode": "live"})
     assert len(run.results) == 4

@@ -28,7 +28,7 @@ TEST(SystemContext, SaysWhatTheMapsWereMadeWith) {
   options.slam.seed = 5;
   options.features.orb.scale_factor = 1.25;
   auto system = RunPoster(0, 4, options);
-  system->DescribeSession("0.1", "poster");
+  system->DescribeSession("0.1");
   const AtlasContext context = system->Context();
   EXPECT_EQ(context.camera.fx, system->camera().fx);
   EXPECT_EQ(context.octave_scale, 1.25);
@@ -37,7 +37,7 @@ TEST(SystemContext, SaysWhatTheMapsWereMadeWith) {
   EXPECT_EQ(context.front_end, FingerprintOf(options.features));
   ASSERT_EQ(context.sessions.size(), 1U);
   EXPECT_EQ(context.sessions[0].program, "0.1");
-  EXPECT_EQ(context.sessions[0].data, "poster");
+  EXPECT_EQ(context.sessions[0].data, "");
   EXPECT_EQ(context.sessions[0].first_stamp_ns, MovingPoster::StampNs(0));
   EXPECT_EQ(context.sessions[0].last_stamp_ns, MovingPoster::StampNs(3));
   ASSERT_EQ(context.maps.size(), 1U);
