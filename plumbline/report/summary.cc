@@ -225,6 +225,7 @@ std::string FormatSummary(const RunDescription& description,
                     {"lost", counts.lost},
                     {"skipped", counts.skipped},
                     {"dropped", counts.dropped},
+                    {"relocalized", system.events().relocalizations.size()},
                     {"initializing", counts.initializing}};
   json["shed"] = {{"mapping", counts.shed_mapping},
                   {"lines", counts.shed_lines},

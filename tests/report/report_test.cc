@@ -286,6 +286,14 @@ TEST(Summary, CoverageIsThatOfTheTrajectoryWhoseErrorsItTells) {
               1e-9);
 }
 
+TEST(Summary, CountsTheFramesAtWhichTheCameraWasFoundAgain) {
+  const AwayAndBack run;
+  const auto json = nlohmann::json::parse(
+      FormatSummary({}, run.system(), PosterDataset(AwayAndBack::kFrames), {}));
+  EXPECT_GE(json["frames"]["relocalized"], 1);
+  EXPECT_EQ(json["frames"]["relocalized"], json["relocalizations"].size());
+}
+
 TEST(Summary, SaysWhetherThePositionsDetermineTheAlignment) {
   const PosterRun run;
   DatasetInfo info = PosterDataset(6).info();
