@@ -120,6 +120,16 @@ std::filesystem::path EstimateFile(const std::filesystem::path& path) {
                    "trajectory.txt in it");
 }
 
+// How many frames the estimate had; nullopt: unknown, as where there are more poses than frames,
+// which are of something else then.
+std::optional<std::size_t> FramesDelivered(const std::filesystem::path& estimate_file,
+                                           const ReferenceTrajectory& reference,
+                                           const Trajectory& estimate) {
+  std::optional<std::size_t> frames = FramesOfRun(estimate_file);
+  if (!frames) frames = reference.frames;
+  return frames && *frames >= estimate.size() ? frames : std::nullopt;
+}
+
 LineMapFiles FilesOfLines(const CommandLine& line) {
   LineMapFiles files;
   files.reference = line.Positional(0);
@@ -255,8 +265,7 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   const auto error = CompareTrajectories(evaluation.reference.poses, estimate, evaluation.options);
   if (!error) FailNoOverlap(evaluation.reference.poses, estimate);
   evaluation.error = *error;
-  evaluation.frames_delivered = FramesOfRun(estimate_file);
-  if (!evaluation.frames_delivered) evaluation.frames_delivered = evaluation.reference.frames;
+  evaluation.frames_delivered = FramesDelivered(estimate_file, evaluation.reference, estimate);
   EvaluateLines(line, evaluation);
 
   if (const auto path = line.Value("--json"))

@@ -7,7 +7,9 @@
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/text_rows.h"
+#include "plumbline/report/run_manifest.h"
 
+#include <string>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -58,6 +60,21 @@ std::optional<std::size_t> FramesBeside(const ReferenceTrajectory& reference) {
   return std::nullopt;
 }
 
+// The folder of the run that wrote this trajectory; nullopt: none that says so. Files of other runs
+// may lie beside a trajectory that was copied.
+std::optional<fs::path> FolderOfItsRun(const fs::path& trajectory) {
+  const fs::path folder = fs::absolute(trajectory).parent_path();
+  try {
+    const std::optional<RunManifest> manifest = ReadRunManifest(folder);
+    const std::string name = trajectory.filename().string();
+    // What a run that was killed left has no list.
+    const bool its = manifest && (manifest->complete ? manifest->Lists(name) : IsRunFile(name));
+    return its ? std::optional(folder) : std::nullopt;
+  } catch (const InputError&) {  // something else of that name
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 ReferenceTrajectory LoadReference(const fs::path& path, std::optional<ReferenceFrame> frame) {
@@ -84,13 +101,14 @@ ReferenceTrajectory LoadReference(const fs::path& path, std::optional<ReferenceF
 }
 
 std::optional<std::size_t> FramesOfRun(const fs::path& trajectory) {
-  return RowsWithNumbers(fs::absolute(trajectory).parent_path() / "frames.csv", ',');
+  const auto folder = FolderOfItsRun(trajectory);
+  return folder ? RowsWithNumbers(*folder / "frames.csv", ',') : std::nullopt;
 }
 
 bool IsMonocularRun(const fs::path& trajectory) {
-  const fs::path summary = fs::absolute(trajectory).parent_path() / "summary.json";
-  if (!IsFile(summary)) return false;
-  const auto json = nlohmann::json::parse(ReadInputFile(summary), nullptr, false);
+  const auto folder = FolderOfItsRun(trajectory);
+  if (!folder || !IsFile(*folder / "summary.json")) return false;
+  const auto json = nlohmann::json::parse(ReadInputFile(*folder / "summary.json"), nullptr, false);
   return json.is_object() && json.contains("sensor") && json["sensor"] == "mono";
 }
 

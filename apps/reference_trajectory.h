@@ -38,11 +38,12 @@ struct ReferenceTrajectory {
 ReferenceTrajectory LoadReference(const std::filesystem::path& path,
                                   std::optional<ReferenceFrame> frame);
 
-// Number of frames a run was given, from the frames.csv beside its trajectory; nullopt without one.
+// Number of frames a run was given, from the frames.csv beside its trajectory; nullopt without one,
+// and where the manifest beside it (RunManifest) does not list the trajectory.
 std::optional<std::size_t> FramesOfRun(const std::filesystem::path& trajectory);
 
 // Whether the summary.json beside a trajectory says that it is that of a single camera, whose scale
-// is free; false without one.
+// is free; false without one, and where the manifest beside it does not list the trajectory.
 bool IsMonocularRun(const std::filesystem::path& trajectory);
 
 }  // namespace plumbline

@@ -4,6 +4,7 @@
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/ply.h"
 #include "plumbline/io/true_world.h"
+#include "plumbline/report/run_manifest.h"
 
 #include "apps/commands.h"
 #include "apps/evaluate_report.h"
@@ -14,6 +15,7 @@
 #include "tests/support/data_folder.h"
 #include "tests/support/true_map.h"
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -87,9 +89,15 @@ TEST(Reference, SaysWhatIsMissing) {
               HasSubstr("no such file or folder"));
 }
 
+// The folder of a run says that these files are of it.
+void WriteManifest(const ScratchFolder& folder, std::vector<std::string> files) {
+  WriteRunManifest(folder.path(), {true, std::move(files)});
+}
+
 TEST(Reference, FramesOfARunAreThoseOfItsTable) {
   const ScratchFolder folder;
   const auto trajectory = folder.Write("trajectory.txt", kTum);
+  WriteManifest(folder, {"frames.csv", "trajectory.txt"});
   EXPECT_FALSE(FramesOfRun(trajectory));
   folder.Write("frames.csv", "timestamp,state\n1.0,tracked\n1.05,tracked\n");
   EXPECT_EQ(FramesOfRun(trajectory), 2U);
@@ -98,6 +106,7 @@ TEST(Reference, FramesOfARunAreThoseOfItsTable) {
 TEST(Evaluate, KnowsTheRunOfASingleCamera) {
   const ScratchFolder folder;
   const auto trajectory = folder.Write("trajectory.txt", kTum);
+  WriteManifest(folder, {"summary.json", "trajectory.txt"});
   EXPECT_FALSE(IsMonocularRun(trajectory));
   for (const std::string other : {"{\"sensor\": \"stereo\"}", "{\"sensor\": 1}", "[]", "no json"}) {
     folder.Write("summary.json", other);
@@ -105,6 +114,39 @@ TEST(Evaluate, KnowsTheRunOfASingleCamera) {
   }
   folder.Write("summary.json", "{\"sensor\": \"mono\"}");
   EXPECT_TRUE(IsMonocularRun(trajectory));
+}
+
+TEST(Evaluate, BelievesATableOfFramesOnlyOfItsOwnRun) {
+  const ScratchFolder folder;
+  folder.Write("frames.csv", "timestamp,state\n1.0,tracked\n1.05,tracked\n1.1,lost\n");
+  folder.Write("summary.json", "{\"sensor\": \"mono\"}");
+  const auto copy = folder.Write("copy.txt", kTum), own = folder.Write("trajectory.txt", kTum);
+  EXPECT_FALSE(FramesOfRun(own));  // nobody says whose they are
+  EXPECT_FALSE(IsMonocularRun(own));
+  WriteManifest(folder, {"frames.csv", "summary.json", "trajectory.txt"});
+  EXPECT_EQ(FramesOfRun(own), 3U);
+  EXPECT_TRUE(IsMonocularRun(own));
+  EXPECT_FALSE(FramesOfRun(copy));
+  EXPECT_FALSE(IsMonocularRun(copy));
+  folder.Write(".plumbline-run", "{}");  // none of ours
+  EXPECT_FALSE(FramesOfRun(own));
+  EXPECT_FALSE(IsMonocularRun(own));
+  WriteRunManifest(folder.path(), {});  // a run that was killed has no list yet
+  EXPECT_EQ(FramesOfRun(own), 3U);
+  EXPECT_FALSE(FramesOfRun(copy));
+}
+
+// More poses than frames: the frames are those of something else.
+TEST(Evaluate, CoverageIsNeverMoreThanAll) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  folder.Write("rgb.txt", "1.000 a.png\n1.050 b.png\n");
+  const std::string json = (folder / "out.json").string();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(EvaluateMessage({reference, reference, "--json", json}), "no error");
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              HasSubstr("3 with a pose of an unknown number, 3 compared"));
+  EXPECT_THAT(Contents(json), HasSubstr("\"coverage\": null"));
 }
 
 TEST(Evaluate, WritesTableJsonAndFigures) {
