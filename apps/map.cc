@@ -53,12 +53,18 @@ const MapCommandRow& FindCommand(const std::string& name) {
 
 }  // namespace
 
-void RefuseToReplaceInput(const std::filesystem::path& output, const std::filesystem::path& input) {
+void CheckMapOutput(std::string_view option,
+                    const std::filesystem::path& output,
+                    std::span<const std::string> inputs,
+                    const FileKind& kind) {
   std::error_code error;
-  if (std::filesystem::equivalent(output, input, error)) {
-    throw InputError("--out " + output.string() + ": expected another file than " + input.string() +
-                     ", which is read");
+  for (const std::string& input : inputs) {
+    if (!std::filesystem::equivalent(output, input, error)) continue;
+    throw InputError(fmt::format(
+        "{} {}: expected another file than {}, which is read", option, output.string(), input));
   }
+  CheckKeepsResults(option, output);
+  CheckReplacesItsKind(option, output, kind);
 }
 
 int MapCommand(std::span<const std::string> arguments) {

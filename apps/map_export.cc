@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/colmap_folder.h"
 #include "plumbline/io/colmap_model.h"
@@ -80,6 +81,32 @@ void RefuseWithout(const CommandLine& line, const char* option, bool fits, const
   }
 }
 
+// Throws InputError where something else than a file of this form would be replaced. Folders have
+// to be new or empty.
+void CheckOutput(const std::filesystem::path& out, ExportFormat format, const std::string& map) {
+  const auto check = [&](const FileKind& kind) { CheckMapOutput("--out", out, {&map, 1}, kind); };
+  switch (format) {
+    case ExportFormat::kPly:
+      return check({"a PLY file", "ply\n"});
+    case ExportFormat::kObj:
+      return check({"lines that were exported", "# Plumbline line segments"});
+    case ExportFormat::kDxf:
+      return check({"a DXF file", "0\nSECTION\n"});
+    case ExportFormat::kTum: {
+      // Ours begin with a time, ground truth with a comment.
+      std::string begin = "-";
+      for (char digit = '0'; digit <= '9'; ++digit) {
+        if (FileBeginsWith(out, std::string(1, digit))) begin = digit;
+      }
+      return check({"a trajectory", begin});
+    }
+    case ExportFormat::kColmap:
+    case ExportFormat::kNerfstudio:
+      return check({"a folder", {}});
+  }
+  throw BugError("a form without a kind of file");
+}
+
 ExportRequest ReadExportRequest(const CommandLine& line) {
   const auto to = line.Value("--to");
   const auto out = line.Value("--out");
@@ -109,7 +136,7 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
         "--to nerfstudio: expected --images PATH, the data that the map was made from: a data set "
         "of nerfstudio consists of images");
   }
-  RefuseToReplaceInput(request.out, line.Positional(0));
+  CheckOutput(request.out, request.format, line.Positional(0));
   return request;
 }
 

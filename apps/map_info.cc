@@ -29,9 +29,10 @@ int MapInfoCommand(std::span<const std::string> arguments) {
     return 0;
   }
   const std::string& path = line.Positional(0);
+  const auto json = line.Value("--json");
+  if (json) CheckMapOutput("--json", *json, {&path, 1}, {"JSON", "{"});
   const SavedAtlas saved = LoadAtlas(path);
-  if (const auto json = line.Value("--json")) {
-    RefuseToReplaceInput(*json, path);
+  if (json) {
     WriteFileAtomically(*json, MapInfoJson(path, saved));
   }
   std::cout << MapInfoTable(path, saved);

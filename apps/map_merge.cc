@@ -8,6 +8,7 @@
 #include "apps/command_line.h"
 #include "apps/map_commands.h"
 #include "apps/merge_atlases.h"
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <optional>
@@ -83,9 +84,7 @@ MergeRequest ReadMergeRequest(const CommandLine& line) {
   if (const auto transform = line.Value("--transform")) {
     request.first_from_second = ParseTransform(*transform);
   }
-  for (const std::string& file : {request.first, request.second}) {
-    RefuseToReplaceInput(*out, file);
-  }
+  CheckMapOutput("--out", *out, std::array{request.first, request.second}, {"a map", kMapMagic});
   return request;
 }
 

@@ -11,6 +11,7 @@
 #include "plumbline/io/reversed_dataset.h"
 #include "plumbline/live/live_source.h"
 #include "plumbline/live/open_live_source.h"
+#include "plumbline/recording/mcap.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/version.h"
@@ -18,6 +19,7 @@
 
 #include "apps/command_inputs.h"
 #include "apps/command_line.h"
+#include "apps/command_outputs.h"
 #include "apps/commands.h"
 #include "apps/line_method.h"
 #include "apps/run_frames.h"
@@ -301,6 +303,7 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
     CheckFileApart("--record", *setup.view.record, inputs);
     CheckNoResult("--record", *setup.view.record, setup.folder);
     CheckReplaceable(*setup.view.record);
+    CheckReplacesItsKind("--record", *setup.view.record, {"an MCAP file", kMcapMagic});
     inputs.push_back({*setup.view.record});
   }
   if (!setup.checkpoint) return;
@@ -309,6 +312,7 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
     std::erase_if(inputs, [&](const RunInput& input) { return input.path == *setup.resume; });
   }
   CheckFileApart("--checkpoint", *setup.checkpoint, inputs);
+  CheckReplacesItsKind("--checkpoint", *setup.checkpoint, {"a checkpoint", kCheckpointMagic});
 }
 
 // Before anything is done: that there is somewhere to listen, and to record to.

@@ -18,7 +18,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::string_view kMagic = "PLBRUN\r\n";  // line ends show a transfer as text
+constexpr std::string_view kMagic = kCheckpointMagic;
 // Grows with every change of what System::Save writes, too, and with that of map files.
 constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kPreambleBytes = 12;  // magic and version

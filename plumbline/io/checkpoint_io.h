@@ -5,8 +5,12 @@
 #include "plumbline/map/saved_run.h"
 
 #include <filesystem>
+#include <string_view>
 
 namespace plumbline {
+
+// What such files begin with; line ends show a transfer as text.
+inline constexpr std::string_view kCheckpointMagic = "PLBRUN\r\n";
 
 // Writes a run in the middle (System::Save) to a file, which is replaced whole once all of it is on
 // the disk: whatever happens meanwhile, the last complete one is there. Nothing is rounded, and the

@@ -23,7 +23,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::string_view kMagic = "PLBMAP\r\n";  // line ends show a transfer as text
+constexpr std::string_view kMagic = kMapMagic;
 constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kPreambleBytes = 12;  // magic and version
 

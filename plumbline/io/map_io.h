@@ -8,10 +8,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 #include <Eigen/Geometry>
 
 namespace plumbline {
+
+// What map files begin with; line ends show a transfer as text.
+inline constexpr std::string_view kMapMagic = "PLBMAP\r\n";
 
 // Writes an atlas with all that a run needs to go on with it as if it had never stopped, and with
 // what tells what it was made of (docs/adr/0009-map-file-format.md). Nothing is rounded, and the

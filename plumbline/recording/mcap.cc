@@ -16,7 +16,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+constexpr std::string_view kMagic = kMcapMagic;
 constexpr std::uint64_t kRecordHeader = 9;  // op, length
 constexpr std::uint64_t kChunkHeader = 32;  // in front of the records, without the compression
 constexpr std::uint64_t kMessageHeader = 22;

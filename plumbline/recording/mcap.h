@@ -8,8 +8,12 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string_view>
 
 namespace plumbline {
+
+// What MCAP files begin and end with.
+inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
 // Whether a file begins as an MCAP file does.
 bool BeginsAsMcap(std::span<const std::uint8_t> bytes);

@@ -5,6 +5,7 @@
 #include "plumbline/base/byte_stream.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
+#include "plumbline/recording/mcap.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -20,7 +21,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+constexpr std::string_view kMagic = kMcapMagic;
 constexpr int kZstdLevel = 1;
 
 enum Op : std::uint8_t {

@@ -153,6 +153,11 @@ TEST(CheckpointOfRun, IsRefusedForAnotherRunAndNothingIsTouched) {
   expect_refused("--record " + Quoted(run.folder.path()), "Is a directory");
   expect_refused("--record " + Quoted(run.folder / "out/map.plb"), "expected another name");
   expect_refused("--checkpoint " + Quoted(fs::path(Posters().sequence) / "c"), "which is read");
+  const fs::path notes = run.folder.Write("notes.txt", "mine");
+  expect_refused("--record " + Quoted(notes), "expected an MCAP file to replace, or a new file");
+  expect_refused("--checkpoint " + Quoted(notes),
+                 "expected a checkpoint to replace, or a new file");
+  EXPECT_EQ(Contents(notes), "mine");
   const std::string same = Quoted(run.folder / "same");
   expect_refused("--record " + same + " --checkpoint " + same, "expected another file");
   const std::string bytes = Contents(run.checkpoint());

@@ -264,7 +264,8 @@ TEST(MapCommands, RefuseOutputThatCannotBeWrittenOrIsRead) {
       folder,
       {{"export FOLDER/map.plb --to ply --out FOLDER/link.plb", "which is read"},
        {"export FOLDER/map.plb --to colmap --out FOLDER/map.plb", "which is read"},
-       {"info FOLDER/map.plb --json FOLDER/map.plb", "which is read"},
+       {"info FOLDER/map.plb --json FOLDER/map.plb",
+        "--json " + (folder / "map.plb").string() + ": expected another file than"},
        {"merge MAP FOLDER/link.plb --out FOLDER/map.plb" + transform, "which is read"},
        {"merge FOLDER/map.plb MAP --out FOLDER/./map.plb" + transform, "which is read"},
        {"export MAP --to ply --out FOLDER/none/x.ply", "none/x.ply: No such file or directory"},
@@ -280,6 +281,46 @@ TEST(MapCommands, RefuseOutputThatCannotBeWrittenOrIsRead) {
   EXPECT_EQ(FilesOf(folder.path()),
             (std::set<std::string>{"full", "link.plb", "map.plb", "stderr", "stdout"}));
   EXPECT_EQ(FilesOf(folder / "full"), (std::set<std::string>{"file"}));
+}
+
+// What a run has written, and what is of another kind, such as an image, is somebody's.
+TEST(MapCommands, ReplaceNoResultsAndNoFilesOfOtherKinds) {
+  const ScratchFolder folder;
+  fs::copy(Posters().out, folder / "out");
+  fs::copy_file(Posters().sequence / "mav0/cam0/data/0.png", folder / "0.png");
+  folder.Write("truth.txt", "# timestamp tx ty tz qx qy qz qw\n");
+  const std::string transform = " --transform '0 0 0 0 0 0 1'";
+  ExpectRefusals(
+      folder,
+      {{"info FOLDER/out/map.plb --json FOLDER/out/trajectory.txt", "expected another name"},
+       {"info FOLDER/out/map.plb --json FOLDER/0.png", "expected JSON to replace, or a new file"},
+       {"export FOLDER/out/map.plb --to obj --out FOLDER/out/frames.csv", "expected another name"},
+       {"export MAP --to ply --out FOLDER/0.png", "expected a PLY file to replace"},
+       {"export MAP --to obj --out FOLDER/0.png", "expected lines that were exported to replace"},
+       {"export MAP --to dxf --out FOLDER/0.png", "expected a DXF file to replace"},
+       {"export MAP --to tum --out FOLDER/0.png", "expected a trajectory to replace"},
+       {"export MAP --to tum --out FOLDER/truth.txt", "expected a trajectory to replace"},
+       {"merge MAP MAP --out FOLDER/out/summary.json" + transform, "expected another name"},
+       {"merge MAP MAP --out FOLDER/truth.txt" + transform, "expected a map to replace"}});
+  for (const std::string& name : FilesOf(Posters().out)) {
+    EXPECT_TRUE(Contents(folder / "out" / name) == Contents(Posters().out / name)) << name;
+  }
+  // Their own they replace.
+  for (int time = 0; time < 2; ++time) {
+    for (const std::string form : {"ply", "obj", "dxf", "tum"}) {
+      const Outcome outcome = RunProgram(folder,
+                                         "map export " + Quoted(Posters().map) + " --to " + form +
+                                             " --out " + Quoted(folder / ("x." + form)));
+      EXPECT_EQ(outcome.code, 0) << outcome.err;
+    }
+    const std::string maps = Quoted(Posters().map) + " " + Quoted(Posters().map);
+    for (const std::string& arguments :
+         {"info " + Quoted(Posters().map) + " --json " + Quoted(folder / "x.json"),
+          "merge " + maps + " --out " + Quoted(folder / "x.plb") + transform}) {
+      const Outcome outcome = RunProgram(folder, "map " + arguments);
+      EXPECT_EQ(outcome.code, 0) << outcome.err;
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/command_outputs.h"
+
+#include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
+#include "plumbline/report/run_folder.h"
+
+#include <system_error>
+
+#include <fmt/core.h>
+
+namespace plumbline {
+
+void CheckReplacesItsKind(std::string_view option,
+                          const std::filesystem::path& file,
+                          const FileKind& kind) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return;
+  if (std::filesystem::file_size(file, error) == 0 || FileBeginsWith(file, kind.begin)) return;
+  throw InputError(fmt::format("{} {}: expected {} to replace, or a new file, found another file",
+                               option,
+                               file.string(),
+                               kind.name));
+}
+
+void CheckKeepsResults(std::string_view option, const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::exists(folder / RunManifest::kFile, error)) return;
+  CheckNoResult(option, file, folder);
+}
+
+}  // namespace plumbline

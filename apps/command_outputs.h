@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace plumbline {
+
+// Files that a command writes to a place that users name.
+struct FileKind {
+  std::string_view name;   // "a map"
+  std::string_view begin;  // what each of them begins with
+};
+
+// Throws InputError, which names the option, when there is a file at `file` that is not empty and
+// of another kind: somebody else's would be lost. Touches nothing.
+void CheckReplacesItsKind(std::string_view option,
+                          const std::filesystem::path& file,
+                          const FileKind& kind);
+
+// Throws InputError, which names the option, when a file would take the place of a result of the
+// run whose folder it is to lie in (CheckNoResult). Touches nothing.
+void CheckKeepsResults(std::string_view option, const std::filesystem::path& file);
+
+}  // namespace plumbline
