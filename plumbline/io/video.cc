@@ -3,6 +3,7 @@
 #include "plumbline/io/video.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/opencv_modules.h"
@@ -13,10 +14,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +33,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Whether a file is a text by its first bytes, which FFmpeg would draw letter by letter as a
+// terminal does. Lists of videos and raw video with a line in front are none.
+bool IsText(const fs::path& path) {
+  for (const char* begin : {"#EXTM3U", "ffconcat", "v=0", "YUV4MPEG2 "}) {
+    if (FileBeginsWith(path, begin)) return false;
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string start(1024, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  constexpr std::string_view kInTexts = "\t\n\v\f\r\x1b";
+  return std::all_of(start.begin(), start.end(), [&](char c) {
+    return static_cast<unsigned char>(c) >= ' ' || kInTexts.find(c) != std::string_view::npos;
+  });
+}
+
 std::unique_ptr<VideoCapture> OpenCapture(const fs::path& path) {
   const DecoderCall call;
   std::unique_ptr<VideoCapture> capture = LoadOpenCvModules().NewVideoCapture();
@@ -42,6 +61,9 @@ std::unique_ptr<VideoCapture> OpenCapture(const fs::path& path) {
   if (!is_open) {
     throw InputError(path.string() +
                      ": expected a folder or a video, found a file that cannot be decoded");
+  }
+  if (IsText(path)) {
+    throw InputError(path.string() + ": expected a folder or a video, found a text");
   }
   capture->Set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
   return capture;

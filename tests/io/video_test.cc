@@ -100,6 +100,21 @@ TEST(Video, RefusesWhatDoesNotFit) {
               HasSubstr("cannot be decoded"));
 }
 
+// FFmpeg plays a text as a terminal would show it.
+TEST(Video, IsNoText) {
+  const ScratchFolder folder;
+  std::string poses;
+  for (int i = 0; i < 100; ++i) poses += std::to_string(i) + ".5 0 0 0 0 0 0 1\n";
+  EXPECT_THAT(OpeningSays(folder.Write("trajectory.txt", poses), {}),
+              HasSubstr("trajectory.txt: expected a folder or a video, found a text"));
+  // Raw video with a line in front, and no byte that a text could not have.
+  folder.Write("camera.yaml", kCamera);
+  const std::string frame = "FRAME\n" + std::string(kWidth * kHeight * 3 / 2, 'P');
+  const fs::path raw =
+      folder.Write("raw.y4m", "YUV4MPEG2 W160 H120 F25:1 Ip A1:1 C420jpeg\n" + frame + frame);
+  EXPECT_EQ(OpenDataset(raw, {})->size(), 2U);
+}
+
 TEST(Video, IsNotPlayedBackwards) {
   const ScratchFolder folder;
   const fs::path path = WriteVideo(folder);
