@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/report/timing.h"
 
+#include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/trajectory_io.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ std::vector<StageStatistics> TimingStatistics(const FrameLog& frames) {
     const double sum = std::accumulate(v.begin(), v.end(), 0.0);
     result.push_back({stage,
                       v.size(),
-                      Percentile(v, 0.5),
+                      StatisticsOf(v)->median,
                       Percentile(v, 0.95),
                       Percentile(v, 0.99),
                       v.back(),

@@ -11,6 +11,8 @@
 namespace plumbline {
 
 // Distribution of the time of one stage over the frames in which it ran, milliseconds.
+// Percentiles are values that occurred (nearest rank); the median of an even number of them is the
+// mean of the middle two.
 struct StageStatistics {
   std::string stage;
   std::size_t count = 0;
