@@ -60,6 +60,9 @@ std::optional<LineMapInput> LoadLineMaps(const LineMapFiles& files) {
   if (!truth || !lines) return std::nullopt;
   LineMapInput input;
   input.truth = ReadTrueLines(*truth);
+  if (files.true_lines && input.truth.empty()) {
+    throw InputError(truth->string() + ": expected lines, found no rows");
+  }
   if (surfaces) input.surfaces = ReadSurfaces(*surfaces);
   input.estimate = ReadLineMap(*lines);
   return input;

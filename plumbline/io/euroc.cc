@@ -75,6 +75,28 @@ std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
   return files;
 }
 
+// Fails at the resolution that is wrong; the images of the left camera tell which.
+[[noreturn]] void FailResolution(const fs::path& mav,
+                                 const YamlSection& left_root,
+                                 const YamlSection& right_root,
+                                 const Calibration& calibration) {
+  const Camera& left = calibration.left;
+  const auto size = ReadImageSize(ReadList(mav / "cam0").front().path);
+  if (size && (size->width != left.width() || size->height != left.height())) {
+    left_root.Fail("resolution",
+                   fmt::format("expected {}x{} pixels as the images have, found {}x{}",
+                               size->width,
+                               size->height,
+                               left.width(),
+                               left.height()));
+  }
+  right_root.Fail("resolution", PairFault(calibration).value());
+}
+
+YamlSection RootOf(const fs::path& file) {
+  return YamlSection::Parse(ReadInputFile(file, kLargestSettings), file.string());
+}
+
 CameraFile ReadCalibration(const fs::path& path,
                            const fs::path& mav,
                            const DatasetOptions& options,
@@ -87,17 +109,20 @@ CameraFile ReadCalibration(const fs::path& path,
     return *camera;
   }
   CameraFile camera{{}, left_file.string()};
-  const EurocSensor left = ReadEurocSensor(left_file);
+  const YamlSection left_root = RootOf(left_file);
+  const EurocSensor left = ReadEurocSensor(left_root);
   camera.calibration.left = left.camera;
   camera.calibration.rate_hz = left.rate_hz;
   camera.calibration.body_from_left = left.body_from_camera;
   if (sensor == SensorKind::kStereo) {
-    const fs::path right_file = mav / "cam1" / "sensor.yaml";
-    const YamlSection right_root =
-        YamlSection::Parse(ReadInputFile(right_file, kLargestSettings), right_file.string());
+    const YamlSection right_root = RootOf(mav / "cam1" / "sensor.yaml");
     const EurocSensor right = ReadEurocSensor(right_root);
     camera.calibration.right = right.camera;
     camera.calibration.right_from_left = Inverse(right.body_from_camera) * left.body_from_camera;
+    if (left.camera.width() != right.camera.width() ||
+        left.camera.height() != right.camera.height()) {
+      FailResolution(mav, left_root, right_root, camera.calibration);
+    }
     if (const auto fault = PairFault(camera.calibration)) right_root.Fail("T_BS", *fault);
     camera.source += " and that of cam1";
   }

@@ -32,26 +32,39 @@ struct Projection {
   int line = 0;
 };
 
+// The one row of this name; InputError where there is none, or another one.
+TextRow OnlyRow(const fs::path& file, const std::string& name) {
+  std::optional<TextRow> found;
+  for (const TextRow& row : ReadRows(file, ' ')) {
+    if (row.fields[0] != name) continue;
+    if (found) {
+      FailAt(file,
+             row.line,
+             fmt::format("one row '{}'", name),
+             fmt::format("another one after that of line {}", found->line));
+    }
+    found = row;
+  }
+  if (found) return *found;
+  throw InputError(fmt::format("{}: expected a row '{}', found none", file.string(), name));
+}
+
 // One row `P0: 12 numbers` of calib.txt, an ideal pinhole; InputError otherwise.
 Projection ReadProjection(const fs::path& file, const std::string& name) {
-  for (const TextRow& row : ReadRows(file, ' ')) {
-    if (row.fields[0] != name + ":") continue;
-    if (row.fields.size() != 13) {
-      FailAt(
-          file, row.line, "12 numbers after " + name + ":", std::to_string(row.fields.size() - 1));
-    }
-    Matrix34 p;
-    for (std::size_t i = 0; i < 12; ++i) {
-      p(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) =
-          NumberField(file, row, i + 1);
-    }
-    if (p(0, 0) <= 0 || p(1, 1) <= 0 || p(0, 1) != 0 || p(1, 0) != 0 ||
-        p.row(2).head<3>() != Eigen::RowVector3d(0, 0, 1)) {
-      FailAt(file, row.line, "the projection of a rectified camera", "another matrix");
-    }
-    return {p, row.line};
+  const TextRow row = OnlyRow(file, name + ":");
+  if (row.fields.size() != 13) {
+    FailAt(file, row.line, "12 numbers after " + name + ":", std::to_string(row.fields.size() - 1));
   }
-  throw InputError(file.string() + ": expected a row '" + name + ":', found none");
+  Matrix34 p;
+  for (std::size_t i = 0; i < 12; ++i) {
+    p(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) =
+        NumberField(file, row, i + 1);
+  }
+  if (p(0, 0) <= 0 || p(1, 1) <= 0 || p(0, 1) != 0 || p(1, 0) != 0 ||
+      p.row(2).head<3>() != Eigen::RowVector3d(0, 0, 1)) {
+    FailAt(file, row.line, "the projection of a rectified camera", "another matrix");
+  }
+  return {p, row.line};
 }
 
 // Throws InputError at the line of the file where there is a fault (plausible_calibration.h).
@@ -120,7 +133,21 @@ CameraFile ReadCalibration(const fs::path& path,
     calibration.right = ToCamera(right, file, width, height);
     const double baseline = -right.matrix(0, 3) / right.matrix(0, 0);
     if (!(baseline > 0) || right.matrix.leftCols<3>() != left.matrix.leftCols<3>()) {
-      FailAt(file, right.line, "P1 to be P0 with a baseline above 0", "another camera");
+      const bool same = right.matrix.leftCols<3>() == left.matrix.leftCols<3>();
+      FailAt(file,
+             right.line,
+             "P1 to be P0 with a baseline above 0",
+             same ? fmt::format("a baseline of {:g} m", baseline)
+                  : fmt::format("fx {:g} fy {:g} cx {:g} cy {:g} beside fx {:g} fy {:g} cx {:g} "
+                                "cy {:g}",
+                                right.matrix(0, 0),
+                                right.matrix(1, 1),
+                                right.matrix(0, 2),
+                                right.matrix(1, 2),
+                                left.matrix(0, 0),
+                                left.matrix(1, 1),
+                                left.matrix(0, 2),
+                                left.matrix(1, 2)));
     }
     calibration.right_from_left.translation.x() = -baseline;
     Refuse(PairFault(calibration), file, right.line);

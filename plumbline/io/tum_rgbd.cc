@@ -92,6 +92,9 @@ std::optional<CameraFile> ReadCalibration(const fs::path& path, const DatasetOpt
 }  // namespace
 
 std::unique_ptr<Dataset> OpenTum(const fs::path& path, const DatasetOptions& options) {
+  if (!PathExists(path / "rgb.txt")) {
+    throw InputError(path.string() + ": expected a TUM or ICL folder, found no rgb.txt in it");
+  }
   std::optional<CameraFile> camera = ReadCalibration(path, options);
   const bool has_depth = PathExists(path / "depth.txt") || PathExists(path / "depth");
   const bool has_factor = !camera || camera->calibration.depth_factor.has_value();

@@ -103,7 +103,10 @@ struct YamlSection::Place {
 
 YamlSection YamlSection::Parse(const std::string& yaml, const std::string& source) {
   const YAML::Node node = ParseYaml(IsOpenCvDialect(yaml) ? FromOpenCvDialect(yaml) : yaml, source);
-  if (!node.IsMap()) throw InputError(source + ":1: expected 'key: value' rows");
+  if (!node.IsMap()) {
+    const char* found = node.IsSequence() ? "a list" : node.IsScalar() ? "a text" : "nothing";
+    throw InputError(fmt::format("{}:1: expected 'key: value' rows, found {}", source, found));
+  }
   return YamlSection(std::make_shared<const Place>(Place{node, source, ""}));
 }
 
@@ -220,10 +223,17 @@ Rigid3 YamlSection::Motion(const std::string& key, int rows) const {
   const Eigen::MatrixXd matrix = Matrix(key, rows, 4);
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   const bool whole = rows == 3 || matrix.row(3) == Eigen::RowVector4d(0, 0, 0, 1);
-  if (!(OffRotation(rotation) <= kMaxOffRotation) || !whole) {
+  const double off = OffRotation(rotation);
+  if (!(off <= kMaxOffRotation) || !whole) {
     Fail(key,
-         rows == 3 ? "expected a rigid motion (rotation, translation)"
-                   : "expected a rigid motion (rotation, translation, last row 0 0 0 1)");
+         fmt::format("expected a rigid motion (rotation, translation{}), found {}",
+                     rows == 3 ? "" : ", last row 0 0 0 1",
+                     whole ? fmt::format("a matrix {:.3g} off a rotation", off)
+                           : fmt::format("the last row {:g} {:g} {:g} {:g}",
+                                         matrix(3, 0),
+                                         matrix(3, 1),
+                                         matrix(3, 2),
+                                         matrix(3, 3))));
   }
   return {Eigen::Quaterniond(rotation).normalized(), matrix.topRightCorner(3, 1)};
 }

@@ -496,6 +496,8 @@ TEST(EvaluateLines, NamesWhatIsMissing) {
       {{sequence, trajectory, "--surfaces", surfaces}, "(--lines FILE names one)"},
       {{data, folder, "--plot-lines", plot}, "--plot-lines: expected lines.csv in REFERENCE"},
       {{sequence, folder, "--lines", truth}, "lines.csv: expected a file name ending in .obj or"},
+      {{sequence, folder, "--true-lines", run.folder.Write("none.csv", "").string()},
+       "none.csv: expected lines, found no rows"},
       {{sequence, folder, "--true-lines", lines}, "lines.obj:2: expected 6 to 8 columns"},
       {{sequence, folder, "--lines", (run.folder / "no.obj").string()}, "no.obj: no such file"},
       {{sequence, folder, "--align-lines", "x"}, "--align-lines: expected trajectory or poses"},

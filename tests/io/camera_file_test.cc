@@ -89,7 +89,8 @@ TEST(ParseCamera, BadFilesAreNamedByLineAndKey) {
   const std::string mono = kMono;
   const std::string pair = "right_from_left: [1,0,0,-0.1, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n";
   const std::vector<Case> cases = {
-      {"", "c.yaml:1: expected 'key: value' rows"},
+      {"", "c.yaml:1: expected 'key: value' rows, found nothing"},
+      {"- 1\n", "c.yaml:1: expected 'key: value' rows, found a list"},
       {"a: [1", "c.yaml:"},
       {mono + "distorsion: none\n",
        "c.yaml:4: unknown key 'distorsion'; did you mean 'distortion'?"},

@@ -42,6 +42,12 @@ void ExpectErrors(void (*write)(const ScratchFolder&),
   }
 }
 
+std::string SensorOfSize(const std::string& size) {
+  std::string yaml = EurocSensorYaml(0.5, 0);
+  const std::string good = "[8, 6]";
+  return yaml.replace(yaml.find(good), good.size(), size);
+}
+
 TEST(OpenDataset, NamesFaultsOfEuroc) {
   const std::string csv = "mav0/cam0/data.csv";
   ExpectErrors(
@@ -76,6 +82,14 @@ TEST(OpenDataset, NamesFaultsOfEuroc) {
         "found it at (0, 0, 0) m"},
        {"mav0/cam1/sensor.yaml", EurocSensorYaml(0.5, 0.1), "found it at (0, 0.1, 0) m"},
        {"mav0/cam1/sensor.yaml", EurocSensorYaml(0.4, 0), "found it at (-0.1, 0, 0) m"},
+       // Of two sizes the images tell the wrong one.
+       {"mav0/cam0/sensor.yaml",
+        SensorOfSize("[9, 6]"),
+        "cam0/sensor.yaml:6: resolution: expected 8x6 pixels as the images have, found 9x6"},
+       {"mav0/cam1/sensor.yaml",
+        SensorOfSize("[9, 6]"),
+        "cam1/sensor.yaml:6: resolution: expected a right camera of 8x6 pixels like the left one, "
+        "found 9x6"},
        {"mav0/cam0/data/1.png",
         Png(9, 6, 1),
         "1.png: expected an image of 8x6 pixels as in the "
@@ -101,7 +115,14 @@ TEST(OpenDataset, NamesFaultsOfKitti) {
        {"calib.txt", "P0: 700 9 4 0 0 710 3 0 0 0 1 0\n", "the projection of a rectified camera"},
        {"calib.txt",
         "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 4 380 0 710 3 0 0 0 1 0\n",
-        "calib.txt:2: expected P1 to be P0 with a baseline above 0"},
+        "calib.txt:2: expected P1 to be P0 with a baseline above 0, found a baseline of -0.542857 "
+        "m"},
+       {"calib.txt",
+        "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 5 -380 0 710 3 0 0 0 1 0\n",
+        "found fx 700 fy 710 cx 5 cy 3 beside fx 700 fy 710 cx 4 cy 3"},
+       {"calib.txt",
+        "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP0: 700 0 4 0 0 710 3 0 0 0 1 0\n",
+        "calib.txt:2: expected one row 'P0:', found another one after that of line 1"},
        {"calib.txt",
         "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 4 -1e-9 0 710 3 0 0 0 1 0\n",
         "calib.txt:2: expected a baseline from 0.0001 to 1000 m, found 1.42857e-12"},
@@ -125,6 +146,15 @@ TEST(OpenDataset, NamesFaultsOfKitti) {
         Png(4, 3, 1),
         "image_0/000000.png: expected an image of 8x6 pixels as in the calibration, found 4x3"},
        {"poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n", "poses.txt: expected 3 poses"}});
+}
+
+TEST(OpenDataset, NamesTheListThatAnotherFolderHasNot) {
+  const ScratchFolder folder;
+  WriteEuroc(folder);
+  DatasetOptions options;
+  options.format = DatasetFormat::kTum;
+  EXPECT_EQ(MessageOf([&] { OpenDataset(folder.path(), options); }),
+            folder.path().string() + ": expected a TUM or ICL folder, found no rgb.txt in it");
 }
 
 TEST(OpenDataset, NamesFaultsOfTum) {

@@ -48,6 +48,9 @@ TEST(ReadEurocSensor, BadFilesAreNamed) {
   EXPECT_THAT(message("equidistant", "fov"),
               HasSubstr("sensor.yaml:9: distortion_model: expected"));
   EXPECT_THAT(message("T_BS", "T_SB"), HasSubstr("T_BS: expected a group of keys"));
+  EXPECT_THAT(message("0,0,0,1]", "0,0,0,2]"),
+              HasSubstr("last row 0 0 0 1), found the last row 0 0 0 2"));
+  EXPECT_THAT(message("[1,0,0,0,", "[2,0,0,0,"), HasSubstr("found a matrix 3 off a rotation"));
   EXPECT_THAT(message("0,0,0,1]", "0,0,0]"), HasSubstr("T_BS.data: expected 16 numbers, found 15"));
   EXPECT_THAT(message("rate_hz: 20", "rate_hz: 1e300"),
               HasSubstr("sensor.yaml:5: rate_hz: expected a rate from 0.0001 to 100000 Hz"));
