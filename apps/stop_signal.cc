@@ -24,10 +24,9 @@ extern "C" void RequestStop(int signal) {
 }  // namespace
 
 void CatchStopSignals() {
+  std::signal(SIGINT, RequestStop);
   std::signal(SIGTERM, RequestStop);
-  for (const int signal : {SIGINT, SIGHUP}) {
-    if (std::signal(signal, RequestStop) == SIG_IGN) std::signal(signal, SIG_IGN);
-  }
+  if (std::signal(SIGHUP, RequestStop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 bool StopRequested() { return signal_count.load() > 0; }

@@ -10,7 +10,7 @@
 namespace plumbline {
 
 // From now on SIGINT, SIGTERM and SIGHUP do not end the program: they make StopRequested() true. A
-// SIGHUP that is ignored (nohup) stays so, and a SIGINT (a script's command with &).
+// SIGHUP that is ignored (nohup) stays so.
 void CatchStopSignals();
 bool StopRequested();
 

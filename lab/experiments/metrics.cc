@@ -21,6 +21,7 @@ struct Source {
   const char* number = nullptr;
   double factor = 1;
   const char* divisor = nullptr;
+  const char* earlier = nullptr;  // in the files of versions that have no `number`
 };
 
 struct Entry {
@@ -42,7 +43,7 @@ constexpr std::array kEntries = {
     Entry{{"ate_causal", "mm", "the same of the poses as first reported", kLower, false, 2},
           {"/accuracy_causal/ate/rmse", 1000}},
     Entry{{"coverage", "%", "poses of the final trajectory of frames delivered", kHigher, false, 1},
-          {"/frames/in_trajectory", 100, "/frames/in"}},
+          {"/frames/in_trajectory", 100, "/frames/in", "/frames/tracked"}},
     Entry{{"rpe_mean", "m/s", "error of relative positions over 3 s, mean", kLower, false, 5},
           {"/accuracy/rpe/mean"}},
     Entry{{"rpe_rmse", "m/s", "error of relative positions over 3 s, RMSE", kLower, false, 5},
@@ -242,7 +243,8 @@ std::optional<double> NumberAt(const Json& summary, const char* where) {
 }
 
 std::optional<double> Evaluate(const Json& summary, const Source& source) {
-  const auto number = source.number == nullptr ? std::nullopt : NumberAt(summary, source.number);
+  auto number = source.number == nullptr ? std::nullopt : NumberAt(summary, source.number);
+  if (!number && source.earlier != nullptr) number = NumberAt(summary, source.earlier);
   if (!number || source.divisor == nullptr) {
     return number ? std::optional(source.factor * *number) : std::nullopt;
   }

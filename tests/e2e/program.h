@@ -26,9 +26,6 @@ struct Outcome {
 
 inline std::string Quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
-// Whoever runs the tests may ignore Ctrl-C (a script's command with &); what they start does not.
-inline const auto kInterruptBefore = std::signal(SIGINT, SIG_DFL);
-
 // Runs the program that was built, after commands of the shell. `folder` takes its output.
 inline Outcome RunProgram(const ScratchFolder& folder,
                           const std::string& arguments,

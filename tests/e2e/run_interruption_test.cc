@@ -92,28 +92,23 @@ TEST_P(Interrupted, ARunWritesEverythingAndSaysSo) {
   }
 }
 
-// As nohup, and as a shell does for commands with & in scripts.
-void ExpectToGoOnIfIgnored(int signal) {
+TEST(Interruption, AHangupThatIsIgnoredStaysSo) {
   const ScratchFolder folder;
   const fs::path sequence = WritePosterSequence(folder, 300);
   const fs::path out = folder / "out";
   struct sigaction ignore {};
   struct sigaction before {};
   ignore.sa_handler = SIG_IGN;
-  ASSERT_EQ(::sigaction(signal, &ignore, &before), 0);
+  ASSERT_EQ(::sigaction(SIGHUP, &ignore, &before), 0);
   const pid_t child = StartProgram({"run", sequence.string(), "--quiet", "--out", out.string()});
-  ::sigaction(signal, &before, nullptr);
+  ::sigaction(SIGHUP, &before, nullptr);
   EXPECT_TRUE(WaitForFile(out / ".part/trajectory_causal.txt"));
-  ::kill(child, signal);
+  ::kill(child, SIGHUP);
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_EQ(nlohmann::json::parse(Contents(out / "summary.json"))["frames"]["in"], 300);
 }
-
-TEST(Interruption, AHangupThatIsIgnoredStaysSo) { ExpectToGoOnIfIgnored(SIGHUP); }
-
-TEST(Interruption, AnInterruptThatIsIgnoredStaysSo) { ExpectToGoOnIfIgnored(SIGINT); }
 
 // The reader ends at once, while the run says something for every frame.
 TEST(Interruption, ListenersMayGoAway) {
