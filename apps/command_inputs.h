@@ -11,9 +11,8 @@
 namespace plumbline {
 
 // What a command reads: the data set, which is the first positional argument, the files of
-// --camera,
-// --poses and --config, as far as they are given, and the ground truth. A live source, what comes
-// from a pipe, and a camera that is built in have no place.
+// --camera, --poses and --config, as far as they are given, and the ground truth. A live source,
+// what comes from a pipe, and a camera that is built in have no place.
 std::vector<RunInput> CommandInputs(const CommandLine& line, const Dataset& dataset);
 
 }  // namespace plumbline

@@ -17,7 +17,8 @@ void CheckReplacesItsKind(std::string_view option,
                           const FileKind& kind) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return;
-  if (std::filesystem::file_size(file, error) == 0 || FileBeginsWith(file, kind.begin)) return;
+  if (std::filesystem::file_size(file, error) == 0) return;
+  if (FileBeginsWith(file, kind.begin) && (kind.is_one == nullptr || kind.is_one(file))) return;
   throw InputError(fmt::format("{} {}: expected {} to replace, or a new file, found another file",
                                option,
                                file.string(),
@@ -27,7 +28,10 @@ void CheckReplacesItsKind(std::string_view option,
 void CheckKeepsResults(std::string_view option, const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  if (!std::filesystem::exists(folder / RunManifest::kFile, error)) return;
+  // A list that is damaged protects results as well; runs of older versions have none.
+  const bool of_run = std::filesystem::exists(folder / RunManifest::kFile, error) ||
+                      ReadRunManifest(folder).has_value();
+  if (!of_run) return;
   CheckNoResult(option, file, folder);
 }
 

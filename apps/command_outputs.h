@@ -11,6 +11,8 @@ namespace plumbline {
 struct FileKind {
   std::string_view name;   // "a map"
   std::string_view begin;  // what each of them begins with
+  // Whether a file that begins so is one; null: it is.
+  bool (*is_one)(const std::filesystem::path& file) = nullptr;
 };
 
 // Throws InputError, which names the option, when there is a file at `file` that is not empty and

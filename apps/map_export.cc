@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
-#include "plumbline/base/input_file.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/colmap_folder.h"
 #include "plumbline/io/colmap_model.h"
@@ -25,9 +24,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <optional>
+#include <regex>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -81,25 +82,31 @@ void RefuseWithout(const CommandLine& line, const char* option, bool fits, const
   }
 }
 
+// Whether the first row of a file is as FormatTum writes it: a time and seven numbers, each with
+// nine decimals.
+bool BeginsAsOurTrajectory(const std::filesystem::path& path) {
+  constexpr std::size_t kLongestRow = 400;
+  static const std::regex row(R"(-?[0-9]+\.[0-9]{9}( -?[0-9]+\.[0-9]{9}){7})");
+  std::ifstream file(path, std::ios::binary);
+  std::string start(kLongestRow, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return std::regex_match(start.substr(0, start.find('\n')), row);
+}
+
 // Throws InputError where something else than a file of this form would be replaced. Folders have
 // to be new or empty.
 void CheckOutput(const std::filesystem::path& out, ExportFormat format, const std::string& map) {
   const auto check = [&](const FileKind& kind) { CheckMapOutput("--out", out, {&map, 1}, kind); };
   switch (format) {
     case ExportFormat::kPly:
-      return check({"a PLY file", "ply\n"});
+      return check({"a PLY file by plumbline", "ply\n"});
     case ExportFormat::kObj:
       return check({"lines that were exported", "# Plumbline line segments"});
     case ExportFormat::kDxf:
-      return check({"a DXF file", "0\nSECTION\n"});
-    case ExportFormat::kTum: {
-      // Ours begin with a time, ground truth with a comment.
-      std::string begin = "-";
-      for (char digit = '0'; digit <= '9'; ++digit) {
-        if (FileBeginsWith(out, std::string(1, digit))) begin = digit;
-      }
-      return check({"a trajectory", begin});
-    }
+      return check({"a DXF file by plumbline", "0\nSECTION\n"});
+    case ExportFormat::kTum:
+      return check({"a trajectory by plumbline", "", &BeginsAsOurTrajectory});
     case ExportFormat::kColmap:
     case ExportFormat::kNerfstudio:
       return check({"a folder", {}});

@@ -30,7 +30,7 @@ int MapInfoCommand(std::span<const std::string> arguments) {
   }
   const std::string& path = line.Positional(0);
   const auto json = line.Value("--json");
-  if (json) CheckMapOutput("--json", *json, {&path, 1}, {"JSON", "{"});
+  if (json) CheckMapOutput("--json", *json, {&path, 1}, {"JSON of map info", "{\n  \"file\": "});
   const SavedAtlas saved = LoadAtlas(path);
   if (json) {
     WriteFileAtomically(*json, MapInfoJson(path, saved));

@@ -11,7 +11,7 @@
 #include "plumbline/io/reversed_dataset.h"
 #include "plumbline/live/live_source.h"
 #include "plumbline/live/open_live_source.h"
-#include "plumbline/recording/mcap.h"
+#include "plumbline/recording/mcap_file_writer.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/version.h"
@@ -303,7 +303,8 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
     CheckFileApart("--record", *setup.view.record, inputs);
     CheckNoResult("--record", *setup.view.record, setup.folder);
     CheckReplaceable(*setup.view.record);
-    CheckReplacesItsKind("--record", *setup.view.record, {"an MCAP file", kMcapMagic});
+    const std::string beginning = McapFileWriter::Beginning();
+    CheckReplacesItsKind("--record", *setup.view.record, {"a recording by plumbline", beginning});
     inputs.push_back({*setup.view.record});
   }
   if (!setup.checkpoint) return;

@@ -95,8 +95,8 @@ void RefuseForeignFiles(const fs::path& folder,
   std::error_code error;
   if (!fs::is_directory(folder, error)) return;
   std::optional<std::string> first;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
     if (is_foreign(name) && (!first || name < *first)) first = name;
   }
   if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());

@@ -92,13 +92,16 @@ std::string LastReason() {
 
 }  // namespace
 
+std::string McapFileWriter::Beginning() {
+  return std::string(kMagic) + Record(kHeader, Fields().Text("").Text("plumbline"));
+}
+
 McapFileWriter::McapFileWriter(std::filesystem::path path)
     : path_(std::move(path)), part_(path_.string() + ".part") {
   errno = 0;
   file_.open(part_, std::ios::binary);
   if (!file_) throw InputError("cannot write " + part_.string() + ": " + LastReason());
-  Append(std::string(kMagic));
-  Append(Record(kHeader, Fields().Text("").Text("plumbline")));
+  Append(Beginning());
 }
 
 McapFileWriter::~McapFileWriter() {

@@ -30,6 +30,9 @@ class McapFileWriter {
  public:
   static constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
+  // What every file begins with: the format's magic, and a header that names this library.
+  static std::string Beginning();
+
   // InputError where it cannot be written; so throw all functions.
   explicit McapFileWriter(std::filesystem::path path);
   // Completes the file, and says nothing where that fails.

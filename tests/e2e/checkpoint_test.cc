@@ -154,10 +154,16 @@ TEST(CheckpointOfRun, IsRefusedForAnotherRunAndNothingIsTouched) {
   expect_refused("--record " + Quoted(run.folder / "out/map.plb"), "expected another name");
   expect_refused("--checkpoint " + Quoted(fs::path(Posters().sequence) / "c"), "which is read");
   const fs::path notes = run.folder.Write("notes.txt", "mine");
-  expect_refused("--record " + Quoted(notes), "expected an MCAP file to replace, or a new file");
+  expect_refused("--record " + Quoted(notes),
+                 "expected a recording by plumbline to replace, or a new file");
   expect_refused("--checkpoint " + Quoted(notes),
                  "expected a checkpoint to replace, or a new file");
   EXPECT_EQ(Contents(notes), "mine");
+  // A recording that a camera made.
+  const std::string recorded = "\x89MCAP0\r\n\x01 of others";
+  const fs::path camera = run.folder.Write("camera.mcap", recorded);
+  expect_refused("--record " + Quoted(camera), "expected a recording by plumbline to replace");
+  EXPECT_EQ(Contents(camera), recorded);
   const std::string same = Quoted(run.folder / "same");
   expect_refused("--record " + same + " --checkpoint " + same, "expected another file");
   const std::string bytes = Contents(run.checkpoint());

@@ -289,17 +289,22 @@ TEST(MapCommands, ReplaceNoResultsAndNoFilesOfOtherKinds) {
   fs::copy(Posters().out, folder / "out");
   fs::copy_file(Posters().sequence / "mav0/cam0/data/0.png", folder / "0.png");
   folder.Write("truth.txt", "# timestamp tx ty tz qx qy qz qw\n");
+  folder.Write("poses.txt", "1.0e+00 0 0 0 0 1 0 0 0 0 1 0\n");
+  folder.Write("package.json", "{\"name\": \"mine\"}\n");
   const std::string transform = " --transform '0 0 0 0 0 0 1'";
   ExpectRefusals(
       folder,
       {{"info FOLDER/out/map.plb --json FOLDER/out/trajectory.txt", "expected another name"},
-       {"info FOLDER/out/map.plb --json FOLDER/0.png", "expected JSON to replace, or a new file"},
+       {"info FOLDER/out/map.plb --json FOLDER/0.png", "expected JSON of map info to replace"},
+       {"info MAP --json FOLDER/package.json", "expected JSON of map info to replace"},
+       {"export MAP --to tum --out FOLDER/poses.txt", "expected a trajectory by plumbline"},
        {"export FOLDER/out/map.plb --to obj --out FOLDER/out/frames.csv", "expected another name"},
-       {"export MAP --to ply --out FOLDER/0.png", "expected a PLY file to replace"},
+       {"export MAP --to ply --out FOLDER/0.png", "expected a PLY file by plumbline to replace"},
        {"export MAP --to obj --out FOLDER/0.png", "expected lines that were exported to replace"},
-       {"export MAP --to dxf --out FOLDER/0.png", "expected a DXF file to replace"},
-       {"export MAP --to tum --out FOLDER/0.png", "expected a trajectory to replace"},
-       {"export MAP --to tum --out FOLDER/truth.txt", "expected a trajectory to replace"},
+       {"export MAP --to dxf --out FOLDER/0.png", "expected a DXF file by plumbline to replace"},
+       {"export MAP --to tum --out FOLDER/0.png", "expected a trajectory by plumbline to replace"},
+       {"export MAP --to tum --out FOLDER/truth.txt",
+        "expected a trajectory by plumbline to replace"},
        {"merge MAP MAP --out FOLDER/out/summary.json" + transform, "expected another name"},
        {"merge MAP MAP --out FOLDER/truth.txt" + transform, "expected a map to replace"}});
   for (const std::string& name : FilesOf(Posters().out)) {

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -48,6 +49,14 @@ TEST(McapFileWriter, WhatIsWrittenIsRead) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a.mcap.part"));
   EXPECT_EQ(RowsOf(path), rows);
+}
+
+TEST(McapFileWriter, FilesBeginAlike) {
+  const ScratchFolder folder;
+  { McapFileWriter file(folder / "a.mcap"); }
+  EXPECT_THAT(plumbline::Contents(folder / "a.mcap"),
+              testing::StartsWith(McapFileWriter::Beginning()));
+  EXPECT_THAT(McapFileWriter::Beginning(), testing::HasSubstr("plumbline"));
 }
 
 TEST(McapFileWriter, AFileWithoutMessagesIsOne) {
