@@ -32,12 +32,12 @@ struct Projection {
   int line = 0;
 };
 
-// The one row of this name; InputError where there is none, or another one.
+// The one row of this name; InputError where there is none, or another one that differs.
 TextRow OnlyRow(const fs::path& file, const std::string& name) {
   std::optional<TextRow> found;
   for (const TextRow& row : ReadRows(file, ' ')) {
     if (row.fields[0] != name) continue;
-    if (found) {
+    if (found && found->fields != row.fields) {
       FailAt(file,
              row.line,
              fmt::format("one row '{}'", name),

@@ -3,7 +3,6 @@
 #include "plumbline/io/video.h"
 
 #include "plumbline/base/error.h"
-#include "plumbline/base/input_file.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/image/opencv_modules.h"
@@ -14,12 +13,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,21 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether a file is a text by its first bytes, which FFmpeg would draw letter by letter as a
-// terminal does. Lists of videos and raw video with a line in front are none.
-bool IsText(const fs::path& path) {
-  for (const char* begin : {"#EXTM3U", "ffconcat", "v=0", "YUV4MPEG2 "}) {
-    if (FileBeginsWith(path, begin)) return false;
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string start(1024, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  constexpr std::string_view kInTexts = "\t\n\v\f\r\x1b";
-  return std::all_of(start.begin(), start.end(), [&](char c) {
-    return static_cast<unsigned char>(c) >= ' ' || kInTexts.find(c) != std::string_view::npos;
-  });
-}
+// The decoder by which FFmpeg draws a text letter by letter, as a terminal does.
+constexpr int kTerminal = 'a' | 'n' << 8 | 's' << 16 | 'i' << 24;
 
 std::unique_ptr<VideoCapture> OpenCapture(const fs::path& path) {
   const DecoderCall call;
@@ -62,7 +46,7 @@ std::unique_ptr<VideoCapture> OpenCapture(const fs::path& path) {
     throw InputError(path.string() +
                      ": expected a folder or a video, found a file that cannot be decoded");
   }
-  if (IsText(path)) {
+  if (static_cast<int>(capture->Get(cv::CAP_PROP_FOURCC)) == kTerminal) {
     throw InputError(path.string() + ": expected a folder or a video, found a text");
   }
   capture->Set(cv::CAP_PROP_ORIENTATION_AUTO, 0);

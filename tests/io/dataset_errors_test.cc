@@ -121,7 +121,7 @@ TEST(OpenDataset, NamesFaultsOfKitti) {
         "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 5 -380 0 710 3 0 0 0 1 0\n",
         "found fx 700 fy 710 cx 5 cy 3 beside fx 700 fy 710 cx 4 cy 3"},
        {"calib.txt",
-        "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP0: 700 0 4 0 0 710 3 0 0 0 1 0\n",
+        "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP0: 700 0 5 0 0 710 3 0 0 0 1 0\n",
         "calib.txt:2: expected one row 'P0:', found another one after that of line 1"},
        {"calib.txt",
         "P0: 700 0 4 0 0 710 3 0 0 0 1 0\nP1: 700 0 4 -1e-9 0 710 3 0 0 0 1 0\n",

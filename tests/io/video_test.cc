@@ -113,6 +113,10 @@ TEST(Video, IsNoText) {
   const fs::path raw =
       folder.Write("raw.y4m", "YUV4MPEG2 W160 H120 F25:1 Ip A1:1 C420jpeg\n" + frame + frame);
   EXPECT_EQ(OpenDataset(raw, {})->size(), 2U);
+  // An image with a text before its pixels, which are as bright as letters of other languages.
+  const fs::path bright =
+      folder.Write("bright.pgm", "P5\n160 120\n255\n" + std::string(kWidth * kHeight, '\xc8'));
+  EXPECT_EQ(OpenDataset(bright, {})->size(), 1U);
 }
 
 TEST(Video, IsNotPlayedBackwards) {
