@@ -60,15 +60,17 @@ std::optional<std::size_t> FramesBeside(const ReferenceTrajectory& reference) {
   return std::nullopt;
 }
 
-// The folder of the run that wrote this trajectory; nullopt: none that says so. Files of other runs
-// may lie beside a trajectory that was copied.
+// The folder of the run that wrote this trajectory; nullopt: none. Files of other runs may lie
+// beside a trajectory that was copied: the list of the run's files says whether it is one of them.
+// Where there is no list, as in a folder to which some results of a run were copied, its name does.
 std::optional<fs::path> FolderOfItsRun(const fs::path& trajectory) {
   const fs::path folder = fs::absolute(trajectory).parent_path();
   try {
     const std::optional<RunManifest> manifest = ReadRunManifest(folder);
     const std::string name = trajectory.filename().string();
-    // What a run that was killed left has no list.
-    const bool its = manifest && (manifest->complete ? manifest->Lists(name) : IsRunFile(name));
+    // What a run that was killed left has no list either.
+    const bool listed = manifest && manifest->complete;
+    const bool its = listed ? manifest->Lists(name) : IsRunFile(name);
     return its ? std::optional(folder) : std::nullopt;
   } catch (const InputError&) {  // something else of that name
     return std::nullopt;

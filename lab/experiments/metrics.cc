@@ -21,7 +21,6 @@ struct Source {
   const char* number = nullptr;
   double factor = 1;
   const char* divisor = nullptr;
-  const char* earlier = nullptr;  // in the files of versions that have no `number`
 };
 
 struct Entry {
@@ -43,7 +42,7 @@ constexpr std::array kEntries = {
     Entry{{"ate_causal", "mm", "the same of the poses as first reported", kLower, false, 2},
           {"/accuracy_causal/ate/rmse", 1000}},
     Entry{{"coverage", "%", "poses of the final trajectory of frames delivered", kHigher, false, 1},
-          {"/frames/in_trajectory", 100, "/frames/in", "/frames/tracked"}},
+          {"/frames/in_trajectory", 100, "/frames/in"}},
     Entry{{"rpe_mean", "m/s", "error of relative positions over 3 s, mean", kLower, false, 5},
           {"/accuracy/rpe/mean"}},
     Entry{{"rpe_rmse", "m/s", "error of relative positions over 3 s, RMSE", kLower, false, 5},
@@ -243,8 +242,7 @@ std::optional<double> NumberAt(const Json& summary, const char* where) {
 }
 
 std::optional<double> Evaluate(const Json& summary, const Source& source) {
-  auto number = source.number == nullptr ? std::nullopt : NumberAt(summary, source.number);
-  if (!number && source.earlier != nullptr) number = NumberAt(summary, source.earlier);
+  const auto number = source.number == nullptr ? std::nullopt : NumberAt(summary, source.number);
   if (!number || source.divisor == nullptr) {
     return number ? std::optional(source.factor * *number) : std::nullopt;
   }
@@ -299,12 +297,17 @@ const Metric* FindMetric(std::string_view name) {
 std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
   const auto text = ReadFileIfThere(folder / "summary.json");
   if (!text) return std::nullopt;
-  const Json summary = Json::parse(*text, nullptr, false);
+  Json summary = Json::parse(*text, nullptr, false);
   if (!summary.is_object() || !(IsSummaryOfRun(summary) || IsSummaryOfStarts(summary))) {
     return std::nullopt;
   }
   const auto interrupted = summary.find("interrupted");
   if (interrupted != summary.end() && !interrupted->is_null()) return std::nullopt;
+  // Earlier versions of the program, which experiments compare with, do not count them.
+  const auto rows = ReadFileIfThere(folder / "trajectory.txt");
+  if (rows && !NumberAt(summary, "/frames/in_trajectory")) {
+    summary["frames"]["in_trajectory"] = std::count(rows->begin(), rows->end(), '\n');
+  }
   RunFigures figures;
   for (const Entry& entry : kEntries) {
     const std::string name(entry.metric.name);

@@ -205,7 +205,7 @@ function buildTrajectory() {
   if (mainMap && mainMap.error && mainMap.error.degenerate) {
     texts.push(
         "The positions do not determine the alignment (all in one place or on one line): " +
-        "the first pose of both gives the rotation.");
+        "the orientations of all poses decide what is left.");
   }
   if (scene.maps.length > 1) {
     texts.push(

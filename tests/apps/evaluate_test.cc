@@ -121,8 +121,11 @@ TEST(Evaluate, BelievesATableOfFramesOnlyOfItsOwnRun) {
   folder.Write("frames.csv", "timestamp,state\n1.0,tracked\n1.05,tracked\n1.1,lost\n");
   folder.Write("summary.json", "{\"sensor\": \"mono\"}");
   const auto copy = folder.Write("copy.txt", kTum), own = folder.Write("trajectory.txt", kTum);
-  EXPECT_FALSE(FramesOfRun(own));  // nobody says whose they are
-  EXPECT_FALSE(IsMonocularRun(own));
+  // Results that were copied to a folder without the list of the run's files go by their names.
+  EXPECT_EQ(FramesOfRun(own), 3U);
+  EXPECT_TRUE(IsMonocularRun(own));
+  EXPECT_FALSE(FramesOfRun(copy));
+  EXPECT_FALSE(IsMonocularRun(copy));
   WriteManifest(folder, {"frames.csv", "summary.json", "trajectory.txt"});
   EXPECT_EQ(FramesOfRun(own), 3U);
   EXPECT_TRUE(IsMonocularRun(own));

@@ -37,11 +37,12 @@ TEST(Metrics, CoverageCountsThePosesOfTheTrajectory) {
   ASSERT_TRUE(figures.has_value());
   EXPECT_DOUBLE_EQ(figures->values.at("coverage"), 55);
   EXPECT_DOUBLE_EQ(figures->values.at("tracked"), 90);
-  // An earlier version of the program counts all frames with a pose.
+  // An earlier version of the program does not count them, but wrote them.
   folder.Write("summary.json",
                R"({"frames": {"in": 100, "tracked": 90, "lost": 10}, "keyframes": 1,
                    "wall_seconds": 1})");
-  EXPECT_DOUBLE_EQ(ReadFigures(folder.path())->values.at("coverage"), 90);
+  folder.Write("trajectory.txt", "1.0 0 0 0 0 0 0 1\n1.1 0 0 0 0 0 0 1\n");
+  EXPECT_DOUBLE_EQ(ReadFigures(folder.path())->values.at("coverage"), 2);
 }
 
 TEST(Metrics, OfARunThatWasInterruptedAreNone) {
