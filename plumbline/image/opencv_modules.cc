@@ -4,6 +4,12 @@
 
 #include "plumbline/base/error.h"
 
+#include <algorithm>
+#include <array>
+#include <new>
+#include <string>
+#include <string_view>
+
 #include <dlfcn.h>
 
 namespace plumbline {
@@ -12,12 +18,21 @@ namespace {
 constexpr const char* kLibrary = "libplumbline_opencv.so";
 constexpr const char* kFunction = "PlumblineOpenCvModules";
 
+// Whether a library could not be loaded for want of memory, by what glibc says of it.
+bool IsOutOfMemory(std::string_view reason) {
+  constexpr std::array kReasons{"failed to map segment", "annot allocate", "cannot map zero-fill"};
+  return std::any_of(kReasons.begin(), kReasons.end(), [&](const char* text) {
+    return reason.find(text) != std::string_view::npos;
+  });
+}
+
 const OpenCvModules& Load() {
   // The folder is in the search path of whoever links this module (CMakeLists.txt). The library
   // stays until the process ends, since threads of its libraries may.
   void* library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     const char* reason = dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread, in glibc
+    if (IsOutOfMemory(reason)) throw std::bad_alloc();
     throw InputError(std::string("expected the library ") + kLibrary +
                      ", which decodes videos and rare kinds of images, found: " + reason);
   }
