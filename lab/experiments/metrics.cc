@@ -303,8 +303,9 @@ std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
   }
   const auto interrupted = summary.find("interrupted");
   if (interrupted != summary.end() && !interrupted->is_null()) return std::nullopt;
-  // Earlier versions of the program, which experiments compare with, do not count them.
   const auto rows = ReadFileIfThere(folder / "trajectory.txt");
+  // Earlier versions of the program, which experiments compare with, wrote the poses of the
+  // trajectory but did not count them in summary.json.
   if (rows && !NumberAt(summary, "/frames/in_trajectory")) {
     summary["frames"]["in_trajectory"] = std::count(rows->begin(), rows->end(), '\n');
   }
@@ -317,9 +318,7 @@ std::optional<RunFigures> ReadFigures(const std::filesystem::path& folder) {
       figures.reasons[name] = WhyMissing(summary, entry.source.number);
     }
   }
-  for (const char* name : {"trajectory.txt", "starts.csv"}) {
-    figures.trajectory += ReadFileIfThere(folder / name).value_or("");
-  }
+  figures.trajectory = rows.value_or("") + ReadFileIfThere(folder / "starts.csv").value_or("");
   return figures;
 }
 

@@ -137,7 +137,8 @@ Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
   return *size;
 }
 
-// By the header of a file, which ends within its first kPngStart bytes as far as it is asked.
+// Whether these are the first bytes of a PNG file with one channel of 16 bits. Its header says both
+// within the first kPngStart bytes; fewer bytes are no such file.
 constexpr std::size_t kBitDepth = 24, kColorType = 25, kPngStart = 26;
 bool IsGreyPngOf16Bits(Bytes bytes) {
   return bytes.size() >= kPngStart && IsPng(bytes) && bytes[kBitDepth] == 16 &&

@@ -35,7 +35,7 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 // The brightest level of a PNG file with one channel of 16 bits; nullopt for any other file, and
 // where none can be decoded.
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
-// The same of the bytes of a file.
+// The brightest level of such a file whose bytes are given, as a recording holds them.
 std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes);
 
 // Decodes a 16-bit depth image to metres, value / factor; 0 stays 0 (no measurement).

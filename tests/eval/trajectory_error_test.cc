@@ -300,8 +300,8 @@ TEST(TrajectoryError, StraightPathsAreAlignedByAllPositions) {
     const auto error = CompareTrajectories(road, estimate, {.alignment = alignment});
     ASSERT_TRUE(error && error->degenerate);
     EXPECT_LT(error->ate.rmse, 0.0125);
-    // The same when a wobble of a tenth of a millimetre, far below what the estimate is off, gives
-    // the road a second direction.
+    // A wobble of a tenth of a millimetre gives the road a second direction. It is far below what
+    // the estimate is off, so that it must not change the error.
     Trajectory wobbly = road;
     for (std::size_t i = 0; i < wobbly.size(); ++i) {
       wobbly[i].world_from_camera.translation.x() += 1e-4 * static_cast<double>(i % 2);

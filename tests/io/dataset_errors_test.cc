@@ -82,7 +82,7 @@ TEST(OpenDataset, NamesFaultsOfEuroc) {
         "found it at (0, 0, 0) m"},
        {"mav0/cam1/sensor.yaml", EurocSensorYaml(0.5, 0.1), "found it at (0, 0.1, 0) m"},
        {"mav0/cam1/sensor.yaml", EurocSensorYaml(0.4, 0), "found it at (-0.1, 0, 0) m"},
-       // Of two sizes the images tell the wrong one.
+       // Where the cameras have different sizes, the images tell which camera's size is wrong.
        {"mav0/cam0/sensor.yaml",
         SensorOfSize("[9, 6]"),
         "cam0/sensor.yaml:6: resolution: expected 8x6 pixels as the images have, found 9x6"},
