@@ -3,13 +3,11 @@
 #include "plumbline/eval/trajectory_error.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/geometry/rotation_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
-
-#include <Eigen/LU>
-#include <Eigen/SVD>
 
 namespace plumbline {
 namespace {
@@ -82,11 +80,7 @@ Similarity3 AlignByOrientations(std::span<const EvaluatedPose> poses, bool free_
                      spread.reference > kRounding * (1e-3 + target.norm());
   Eigen::Matrix3d correlation = kWeight * orientations;
   if (moves) correlation += positions / (spread.reference * spread.estimate);
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign(1, 1, 1);
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
-  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d rotation = FitRotation(correlation).rotation;
   Similarity3 result;
   result.rotation = Eigen::Quaterniond(rotation).normalized();
   if (moves && free_scale) {  // eq. 42

@@ -3,13 +3,11 @@
 #include "plumbline/geometry/alignment.h"
 
 #include "plumbline/geometry/eigenpairs.h"
+#include "plumbline/geometry/rotation_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-
-#include <Eigen/LU>
-#include <Eigen/SVD>
 
 namespace plumbline {
 namespace {
@@ -82,21 +80,17 @@ Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3
   if (const auto failure = DegeneracyOf(m.source_covariance, m.source_mean)) return *failure;
   if (const auto failure = DegeneracyOf(m.target_covariance, m.target_mean)) return *failure;
 
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const RotationFit fit = FitRotation(m.cross);
   // Sets that do not correspond can have a common direction only.
-  if (!(svd.singularValues()(1) > 1e-13 * svd.singularValues()(0))) {
+  if (!(fit.singular_values(1) > 1e-13 * fit.singular_values(0))) {
     return AlignmentFailure::kCollinear;
   }
-  Eigen::Vector3d sign(1, 1, 1);
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
-  const Eigen::Matrix3d R =
-      svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();  // eq. 40, 43
 
   Alignment result;
   Similarity3& similarity = result.target_from_source;
-  similarity.rotation = Eigen::Quaterniond(R).normalized();
+  similarity.rotation = Eigen::Quaterniond(fit.rotation).normalized();
   if (scale == AlignmentScale::kFree) {  // eq. 42
-    similarity.scale = svd.singularValues().dot(sign) / m.source_covariance.trace();
+    similarity.scale = fit.singular_values.sum() / m.source_covariance.trace();
     // Uncorrelated sets can end with a scale that is not positive; there is no similarity then.
     if (!(similarity.scale > 0)) return AlignmentFailure::kCoincident;
   }

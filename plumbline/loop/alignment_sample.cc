@@ -3,11 +3,11 @@
 #include "plumbline/loop/alignment_sample.h"
 
 #include "plumbline/geometry/basis_across.h"
+#include "plumbline/geometry/rotation_fit.h"
 
 #include <cstddef>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 
 namespace plumbline {
 namespace {
@@ -23,11 +23,9 @@ class TurnedVectors {
   // nullopt where the vectors lie along one line.
   std::optional<Eigen::Quaterniond> Rotation() const {
     constexpr double kLeast = 1e-3;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum_, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    if (!(svd.singularValues()(1) > kLeast * svd.singularValues()(0))) return std::nullopt;
-    Eigen::Matrix3d U = svd.matrixU();
-    if (U.determinant() * svd.matrixV().determinant() < 0) U.col(2) = -U.col(2);
-    return Eigen::Quaterniond(U * svd.matrixV().transpose()).normalized();
+    const RotationFit fit = FitRotation(sum_);
+    if (!(fit.singular_values(1) > kLeast * fit.singular_values(0))) return std::nullopt;
+    return Eigen::Quaterniond(fit.rotation).normalized();
   }
 
  private:

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace plumbline {
+
+struct RotationFit {
+  Eigen::Matrix3d rotation;
+  // Of the correlation, the largest first; the last is negative where an improper rotation (with a
+  // reflection) would fit better. Only where the second is positive is the rotation determined.
+  Eigen::Vector3d singular_values;
+};
+
+// The rotation R that turns vectors s_i best into t_i, from their correlation sum w_i t_i s_i^T: it
+// maximises trace(R^T correlation), and so minimises sum w_i |t_i - R s_i|^2.
+//
+// Umeyama, Least-squares estimation of transformation parameters between two point patterns, PAMI
+// 1991, eq. 40 and 43.
+RotationFit FitRotation(const Eigen::Matrix3d& correlation);
+
+}  // namespace plumbline
