@@ -8,8 +8,9 @@ namespace plumbline {
 
 struct RotationFit {
   Eigen::Matrix3d rotation;
-  // Of the correlation, the largest first; the last is negative where an improper rotation (with a
-  // reflection) would fit better. Only where the second is positive is the rotation determined.
+  // Singular values of the correlation, the largest first. The last one is given a negative sign
+  // where a reflection would fit the vectors better than any rotation. The rotation is determined
+  // only where the sum of the last two is positive.
   Eigen::Vector3d singular_values;
 };
 

@@ -37,7 +37,7 @@ TEST(FitRotation, GivesNoReflectionForMirroredVectors) {
   const RotationFit fit = FitRotation(CorrelationOf(sources, mirrored));
   EXPECT_NEAR(fit.rotation.determinant(), 1, 1e-12);
   EXPECT_NEAR(fit.singular_values(2), -1, 1e-12);
-  // What it gives away is the shortest direction.
+  // No rotation fits all three mirrored vectors. The best one fits the two longest of them.
   EXPECT_LT((fit.rotation - kTurn).norm(), 1e-12);
 }
 
