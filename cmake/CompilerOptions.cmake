@@ -19,6 +19,9 @@ target_compile_definitions(plumbline_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
 # Eigen cuts large products into blocks that suit the processor's caches, and sums in their order: blocks
 # of one size give the same bytes on every processor.
 target_compile_definitions(plumbline_flags INTERFACE EIGEN_NO_CPUID)
+# GCC collects its garbage less often: a tenth less time, up to 0.4 GB more memory a file.
+target_compile_options(plumbline_flags INTERFACE
+                       $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>>)
 if(PLUMBLINE_MARCH)
   target_compile_options(plumbline_flags INTERFACE $<BUILD_INTERFACE:-march=${PLUMBLINE_MARCH}>)
 endif()

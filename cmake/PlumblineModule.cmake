@@ -10,8 +10,8 @@ function(plumbline_compile_together target)
   endif()
 endfunction()
 
-# For tests, and for modules where a run spends less than a hundredth of its time: -O1 in place of -O3 takes a compiler a third to a
-# half less.
+# For modules where a run spends less than a hundredth of its time, and for tests that compute much by themselves: -O1 in place of -O3
+# takes a compiler a third to a half less.
 function(plumbline_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
 endfunction()
@@ -47,11 +47,12 @@ function(plumbline_module)
 endfunction()
 
 # plumbline_tests(NAME geometry SOURCES se3_test.cc ... [LIBS lib ...] [LABELS unit] [TIMEOUT 120]
-#                 [REAL_DATA] [ALONE se3_test.cc ...])
+#                 [REAL_DATA] [LONG] [ALONE se3_test.cc ...])
 # One test executable for one module; every TEST() becomes a CTest test. REAL_DATA: it looks for the
-# recorded sequences (tests/support/data_folder.h). ALONE: as for modules.
+# recorded sequences (tests/support/data_folder.h). LONG: the tests compute so much by themselves that
+# they run several times as long where a compiler optimizes nothing. ALONE: as for modules.
 function(plumbline_tests)
-  cmake_parse_arguments(ARG "REAL_DATA" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_DATA;LONG" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS;ALONE" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -61,9 +62,14 @@ function(plumbline_tests)
   set(target ${ARG_NAME}_test)
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE ${ARG_LIBS} plumbline_warnings GTest::gmock GTest::gtest_main)
-  plumbline_use_precompiled(${target} plumbline_test_headers)
   plumbline_compile_together(${target} ${ARG_ALONE})
-  plumbline_compile_quickly(${target})
+  if(ARG_LONG)
+    plumbline_use_precompiled(${target} plumbline_long_test_headers)
+    plumbline_compile_quickly(${target})
+  else()
+    plumbline_use_precompiled(${target} plumbline_test_headers)
+    plumbline_optimize_nothing(${target})
+  endif()
   if(ARG_REAL_DATA)
     target_compile_definitions(
       ${target} PRIVATE PLUMBLINE_DATA_BESIDE_SOURCE="${PROJECT_SOURCE_DIR}/../shared/data")

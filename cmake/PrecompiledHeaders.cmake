@@ -19,11 +19,18 @@ function(plumbline_precompile target position_independent libraries headers)
   target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
+# For tests whose time is that of the modules: -O0 in place of -O1 takes a compiler half the time.
+function(plumbline_optimize_nothing target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O0>)
+endfunction()
+
 if(PLUMBLINE_PRECOMPILED_HEADERS)
   plumbline_precompile(plumbline_module_headers ON "" "${precompiled_headers}")
   if(PLUMBLINE_TESTS)
-    plumbline_precompile(plumbline_test_headers OFF GTest::gmock
-                         "${precompiled_headers};<gmock/gmock.h>;<gtest/gtest.h>")
+    set(test_headers "${precompiled_headers};<gmock/gmock.h>;<gtest/gtest.h>")
+    plumbline_precompile(plumbline_test_headers OFF GTest::gmock "${test_headers}")
+    plumbline_optimize_nothing(plumbline_test_headers)
+    plumbline_precompile(plumbline_long_test_headers OFF GTest::gmock "${test_headers}")
   endif()
 endif()
 

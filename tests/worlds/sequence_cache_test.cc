@@ -34,7 +34,7 @@ SynthOptions Tiny() {
   return options;
 }
 
-const std::string kWorld = Worlds().front().name;
+const std::string kWorld = "planar";  // prepared in a moment
 
 std::set<std::string> NamesIn(const fs::path& folder) {
   std::set<std::string> names;
@@ -97,7 +97,7 @@ TEST(SequenceCache, AnEndInTheMiddleLeavesNothing) {
 TEST(SequenceCache, RefusesWhatItCannotMake) {
   const ScratchFolder folder;
   EXPECT_THAT(MessageOf([&] { CachedSequence(folder.path(), "attic", Tiny(), 1); }),
-              HasSubstr("world: expected one of " + kWorld));
+              HasSubstr(std::string("world: expected one of ") + Worlds().front().name));
   folder.Write("file", "text");
   EXPECT_THAT(MessageOf([&] { CachedSequence(folder / "file", kWorld, Tiny(), 1); }),
               HasSubstr("cannot make the folder"));

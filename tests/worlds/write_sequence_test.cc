@@ -22,10 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Images of a quarter of the camera's width.
 SynthOptions Small() {
   SynthOptions options;
   options.frames = 3;
   options.texel = 20;
+  options.scale = 0.25;
+  return options;
+}
+
+SynthOptions Whole() {
+  SynthOptions options = Small();
+  options.scale = 1;
   return options;
 }
 
@@ -63,7 +71,7 @@ TEST(SyntheticSequence, BytesDoNotDependOnThreads) {
 // not round in another way.
 TEST(SyntheticSequence, ImagesAreTheSameOnEveryProcessor) {
   const auto checksum = [](const char* world) {
-    const GrayImage image = SyntheticSequence(world, Small(), 1).RenderImage(0, 0);
+    const GrayImage image = SyntheticSequence(world, Whole(), 1).RenderImage(0, 0);
     return Crc32({image.data(), static_cast<std::size_t>(image.width() * image.height())});
   };
   EXPECT_EQ(checksum("room"), 3981160820U);
@@ -86,7 +94,7 @@ TEST(SyntheticSequence, OpensAsEurocWithTheSameGeometry) {
     SynthOptions options = Small();
     options.frames = 2;
     options.distortion = distortion;
-    const SyntheticSequence sequence("room", options, 1);
+    const SyntheticSequence sequence("planar", options, 1);
     WriteSequence(sequence, SequenceFormat::kEuroc, folder / "room", 1);
     const auto dataset = OpenDataset(folder / "room");
     EXPECT_EQ(dataset->sensor(), SensorKind::kStereo);
@@ -125,7 +133,7 @@ TEST(WriteSequence, TumFolderHasDepthAndTheSamePoses) {
   const ScratchFolder folder;
   SynthOptions options = Small();
   options.depth_noise = 0;
-  const SyntheticSequence sequence("room", options, 1);
+  const SyntheticSequence sequence("planar", options, 1);
   WriteSequence(sequence, SequenceFormat::kTum, folder / "room", 1);
   const auto dataset = OpenDataset(folder / "room");
   EXPECT_EQ(dataset->sensor(), SensorKind::kRgbd);
@@ -154,7 +162,8 @@ TEST(WriteSequence, EurocFolderHasDepthWhereAskedFor) {
   SynthOptions options = Small();
   options.frames = 1;
   options.depth = true;
-  WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kEuroc, folder / "room", 1);
+  WriteSequence(
+      SyntheticSequence("planar", options, 1), SequenceFormat::kEuroc, folder / "room", 1);
   EXPECT_TRUE(fs::exists(folder / "room" / "mav0" / "depth0" / "data" / "1500000000000000000.png"));
   EXPECT_TRUE(fs::exists(folder / "room" / "mav0" / "depth0" / "data.csv"));
 }
@@ -163,16 +172,17 @@ TEST(WriteSequence, WorldYamlSaysHowItWasMade) {
   const ScratchFolder folder;
   SynthOptions options = Small();
   options.frames = 1;
-  WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kEuroc, folder / "room", 1);
+  WriteSequence(
+      SyntheticSequence("planar", options, 1), SequenceFormat::kEuroc, folder / "room", 1);
   const std::string world = ReadInputFile(folder / "room" / "world.yaml");
-  EXPECT_THAT(world, testing::HasSubstr("world: room\nformat: euroc\n"));
+  EXPECT_THAT(world, testing::HasSubstr("world: planar\nformat: euroc\n"));
   EXPECT_THAT(world, testing::HasSubstr("\nframes: 1"));
   EXPECT_FALSE(fs::exists(folder / "room" / "world.yaml.part"));
 }
 
 TEST(WriteSequence, ABrokenCallLeavesNothingThatLooksWhole) {
   const ScratchFolder folder;
-  const SyntheticSequence sequence("room", Small(), 1);
+  const SyntheticSequence sequence("planar", Small(), 1);
   const auto broken = [](int done) {
     if (done == 2) throw InputError("killed");
   };
@@ -192,7 +202,7 @@ TEST(WriteSequence, TouchesNoFolderOfOthers) {
   const ScratchFolder folder;
   MakeFolder(folder / "mine");
   WriteFileAtomically(folder / "mine" / "diary.txt", "dear");
-  const SyntheticSequence sequence("room", Small(), 1);
+  const SyntheticSequence sequence("planar", Small(), 1);
   for (const char* name : {"mine", "mine/diary.txt"}) {
     EXPECT_THROW(WriteSequence(sequence, SequenceFormat::kEuroc, folder / name, 1), InputError);
   }
@@ -201,7 +211,7 @@ TEST(WriteSequence, TouchesNoFolderOfOthers) {
 
 TEST(WriteSequence, AWorldOfAUserIsNoRenderedSequence) {
   const ScratchFolder folder;
-  const SyntheticSequence sequence("room", Small(), 1);
+  const SyntheticSequence sequence("planar", Small(), 1);
   for (const char* name : {"world.yaml", "world.yaml.part"}) {
     fs::remove_all(folder / "mine");
     folder.Write(std::string("mine/") + name, "lamps: []\n");
@@ -219,7 +229,7 @@ TEST(WriteSequence, AFileThatAUserPutIntoASequenceIsNotRemoved) {
   SynthOptions options = Small();
   options.frames = 1;
   options.depth = true;
-  const SyntheticSequence sequence("room", options, 1);
+  const SyntheticSequence sequence("planar", options, 1);
   for (const SequenceFormat format : {SequenceFormat::kEuroc, SequenceFormat::kTum}) {
     const bool euroc = format == SequenceFormat::kEuroc;
     const fs::path room = folder / NameOf(format);
@@ -263,15 +273,14 @@ TEST(SyntheticSequence, RefusesWhatCannotBe) {
 }
 
 TEST(SyntheticSequence, ScaleMakesTheSameImageSmaller) {
-  SynthOptions options = Small();
+  SynthOptions options = Whole();
   options.noise = 0;
   options.vignetting = 0;
-  options.samples = 16;
-  options.texel = 1;
-  const Image<float> whole = SyntheticSequence("room", options, 2).RenderIdeal(1, 0).light;
+  options.texel = 2;
+  const Image<float> whole = SyntheticSequence("planar", options, 2).RenderIdeal(1, 0).light;
   options.scale = 0.5;
-  options.texel = 0.5;  // of a pixel twice as large
-  const Image<float> half = SyntheticSequence("room", options, 2).RenderIdeal(1, 0).light;
+  options.texel = 1;  // of a pixel twice as large
+  const Image<float> half = SyntheticSequence("planar", options, 2).RenderIdeal(1, 0).light;
   ASSERT_EQ(half.width(), 376);
   ASSERT_EQ(half.height(), 240);
   double difference = 0, contrast = 0;
