@@ -133,7 +133,7 @@ TEST(WriteSequence, TumFolderHasDepthAndTheSamePoses) {
   const ScratchFolder folder;
   SynthOptions options = Small();
   options.depth_noise = 0;
-  const SyntheticSequence sequence("planar", options, 1);
+  const SyntheticSequence sequence("room", options, 1);
   WriteSequence(sequence, SequenceFormat::kTum, folder / "room", 1);
   const auto dataset = OpenDataset(folder / "room");
   EXPECT_EQ(dataset->sensor(), SensorKind::kRgbd);
@@ -276,11 +276,12 @@ TEST(SyntheticSequence, ScaleMakesTheSameImageSmaller) {
   SynthOptions options = Whole();
   options.noise = 0;
   options.vignetting = 0;
-  options.texel = 2;
-  const Image<float> whole = SyntheticSequence("planar", options, 2).RenderIdeal(1, 0).light;
+  options.samples = 16;
+  options.texel = 1;
+  const Image<float> whole = SyntheticSequence("room", options, 2).RenderIdeal(1, 0).light;
   options.scale = 0.5;
-  options.texel = 1;  // of a pixel twice as large
-  const Image<float> half = SyntheticSequence("planar", options, 2).RenderIdeal(1, 0).light;
+  options.texel = 0.5;  // of a pixel twice as large
+  const Image<float> half = SyntheticSequence("room", options, 2).RenderIdeal(1, 0).light;
   ASSERT_EQ(half.width(), 376);
   ASSERT_EQ(half.height(), 240);
   double difference = 0, contrast = 0;
