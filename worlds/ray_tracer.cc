@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <embree3/rtcore.h>
 
 namespace plumbline {
@@ -18,13 +19,50 @@ namespace {
 
 using Eigen::Vector3f;
 
+// Embree multiplies by approximate reciprocals, which every make of processor rounds in its own
+// way: of two surfaces that a ray meets at the same place, as in a corner, it may find either one
+// first, and a thing that just touches the end of a way may be in it or not. All that is so near is
+// found, therefore, and what decides between them are distances from divisions in double precision.
+constexpr float kNear = 1e-5F;  // relative to a distance; what Embree rounds is a hundredth of it
+
+// With the instruction set that every processor of the architecture has, Embree's tests of where a
+// ray passes the sides of a surface, which need no reciprocals, are the same everywhere.
+constexpr const char* kDeviceSettings = "threads=1,isa=sse2";
+
+struct Ray {
+  Vector3f from, direction;
+};
+
+// The plane of a surface in the frame of its tree.
+struct Plane {
+  Eigen::Vector3d normal;
+  double offset = 0;  // of its points along the normal
+
+  // How far along a ray its plane is, in lengths of the direction.
+  double Distance(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const {
+    return (offset - normal.dot(from)) / normal.dot(direction);
+  }
+};
+
+// The first surface that a ray meets: the nearest one, of equals that of the smallest index.
+struct Meeting {
+  double distance = std::numeric_limits<double>::infinity();
+  unsigned surface = RayTracer::kNothing;
+
+  void Take(double other_distance, unsigned other_surface) {
+    if (std::pair(other_distance, other_surface) >= std::pair(distance, surface)) return;
+    distance = other_distance;
+    surface = other_surface;
+  }
+};
+
 // The quads of one rigid thing in its own frame.
 class Tree {
  public:
   // `surfaces` are indices into the scene's.
   Tree(RTCDevice device, const Scene& scene, std::vector<unsigned> surfaces)
       : tree_(rtcNewScene(device)), surfaces_(std::move(surfaces)) {
-    rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     const std::size_t count = surfaces_.size();
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -32,6 +70,7 @@ class Tree {
     auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), count));
     PLUMBLINE_CHECK(count == 0 || (vertices != nullptr && indices != nullptr), "geometry buffers");
+    Eigen::AlignedBox3f box;
     for (std::size_t i = 0; i < count; ++i) {
       const Surface& surface = scene.surfaces[surfaces_[i]];
       const Eigen::Vector3d corners[4] = {surface.PointAt(0, 0),
@@ -41,15 +80,22 @@ class Tree {
       for (std::size_t k = 0; k < 4; ++k) {
         indices[4 * i + k] = static_cast<unsigned>(4 * i + k);
         Eigen::Map<Vector3f>(vertices + 3 * (4 * i + k)) = corners[k].cast<float>();
+        box.extend(Eigen::Map<Vector3f>(vertices + 3 * (4 * i + k)));
       }
+      const Eigen::Vector3d normal = surface.side_u.cross(surface.side_v);
+      planes_.push_back({normal, normal.dot(corners[0])});
     }
+    if (count > 0) ball_ = {box.center(), kAround * box.diagonal().norm() / 2};
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(tree_, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(tree_);
   }
   Tree(Tree&& other) noexcept
-      : tree_(std::exchange(other.tree_, nullptr)), surfaces_(std::move(other.surfaces_)) {}
+      : tree_(std::exchange(other.tree_, nullptr)),
+        surfaces_(std::move(other.surfaces_)),
+        planes_(std::move(other.planes_)),
+        ball_(other.ball_) {}
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
   Tree& operator=(Tree&&) = delete;
@@ -57,85 +103,147 @@ class Tree {
     if (tree_ != nullptr) rtcReleaseScene(tree_);
   }
 
-  unsigned SurfaceOf(unsigned primitive) const { return surfaces_[primitive]; }
-  RTCScene scene() const { return tree_; }
+  const RayTracer::Ball& ball() const { return ball_; }
+
+  // What those of some rays meet first that are in use (-1, others 0), where it is nearer than what
+  // they are known to meet.
+  void Trace(const Ray* rays, const int* in_use, Meeting* meetings) const;
+
+  // Whether something is on the way from a ray's begin to the end of its direction.
+  bool Blocks(const Ray& ray) const;
 
  private:
+  struct Search;
+  static void KeepNearest(const RTCFilterFunctionNArguments* found);
+  static void RefuseBeyond(const RTCFilterFunctionNArguments* found);
+  double Distance(const RTCFilterFunctionNArguments& found, unsigned i) const;
+
+  static constexpr float kAround = 1.001F;  // more than what is rounded
+
   RTCScene tree_ = nullptr;
   std::vector<unsigned> surfaces_;
+  std::vector<Plane> planes_;
+  RayTracer::Ball ball_;  // has all surfaces inside
 };
 
-struct Step {
-  Vector3f from, step;
+// What Embree hands to the functions that it calls for each surface that a ray meets.
+struct Tree::Search {
+  RTCIntersectContext context;
+  const Tree* tree = nullptr;
+  Meeting* meetings = nullptr;
+
+  Search(const Tree& of, RTCFilterFunctionN filter, Meeting* of_rays)
+      : tree(&of), meetings(of_rays) {
+    rtcInitIntersectContext(&context);
+    context.filter = filter;
+  }
+  static const Search& Of(const RTCFilterFunctionNArguments& found) {
+    return *reinterpret_cast<const Search*>(found.context);
+  }
 };
 
-// From one point to another, shortened by a margin at both ends.
-Step Shortened(const Vector3f& from, const Vector3f& to, float margin) {
+double Tree::Distance(const RTCFilterFunctionNArguments& found, unsigned i) const {
+  const unsigned n = found.N;
+  const Eigen::Vector3d from(RTCRayN_org_x(found.ray, n, i),
+                             RTCRayN_org_y(found.ray, n, i),
+                             RTCRayN_org_z(found.ray, n, i));
+  const Eigen::Vector3d direction(RTCRayN_dir_x(found.ray, n, i),
+                                  RTCRayN_dir_y(found.ray, n, i),
+                                  RTCRayN_dir_z(found.ray, n, i));
+  return planes_[RTCHitN_primID(found.hit, n, i)].Distance(from, direction);
+}
+
+// Refuses all, so that Embree goes on to the others that are as near.
+void Tree::KeepNearest(const RTCFilterFunctionNArguments* found) {
+  const Search& search = Search::Of(*found);
+  for (unsigned i = 0; i < found->N; ++i) {
+    if (found->valid[i] != -1) continue;
+    found->valid[i] = 0;
+    const unsigned primitive = RTCHitN_primID(found->hit, found->N, i);
+    search.meetings[RTCRayN_id(found->ray, found->N, i)].Take(search.tree->Distance(*found, i),
+                                                              search.tree->surfaces_[primitive]);
+  }
+}
+
+void Tree::RefuseBeyond(const RTCFilterFunctionNArguments* found) {
+  for (unsigned i = 0; i < found->N; ++i) {
+    if (found->valid[i] == -1 && Search::Of(*found).tree->Distance(*found, i) > 1) {
+      found->valid[i] = 0;
+    }
+  }
+}
+
+void Tree::Trace(const Ray* rays, const int* in_use, Meeting* meetings) const {
+  alignas(32) int valid[RayTracer::kPacket];
+  RTCRayHit8 packet;
+  for (unsigned i = 0; i < RayTracer::kPacket; ++i) {
+    valid[i] = in_use[i];
+    packet.ray.org_x[i] = rays[i].from.x();
+    packet.ray.org_y[i] = rays[i].from.y();
+    packet.ray.org_z[i] = rays[i].from.z();
+    packet.ray.dir_x[i] = rays[i].direction.x();
+    packet.ray.dir_y[i] = rays[i].direction.y();
+    packet.ray.dir_z[i] = rays[i].direction.z();
+    packet.ray.tnear[i] = 0;
+    packet.ray.tfar[i] = (1 + kNear) * static_cast<float>(meetings[i].distance);
+    packet.ray.time[i] = 0;
+    packet.ray.mask[i] = ~0U;
+    packet.ray.id[i] = i;
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RayTracer::kNothing;
+    packet.hit.primID[i] = RayTracer::kNothing;
+    packet.hit.instID[0][i] = RayTracer::kNothing;
+  }
+  Search first(*this, nullptr, nullptr);
+  first.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, tree_, &first.context, &packet);
+  for (unsigned i = 0; i < RayTracer::kPacket; ++i) {
+    if (packet.hit.geomID[i] == RayTracer::kNothing) valid[i] = 0;
+    packet.ray.tnear[i] = (1 - kNear) * packet.ray.tfar[i];
+    packet.ray.tfar[i] *= 1 + kNear;
+    packet.hit.geomID[i] = RayTracer::kNothing;
+  }
+  Search second(*this, &Tree::KeepNearest, meetings);
+  second.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, tree_, &second.context, &packet);
+}
+
+bool Tree::Blocks(const Ray& way) const {
+  RTCRay ray{};
+  ray.org_x = way.from.x();
+  ray.org_y = way.from.y();
+  ray.org_z = way.from.z();
+  ray.dir_x = way.direction.x();
+  ray.dir_y = way.direction.y();
+  ray.dir_z = way.direction.z();
+  ray.tfar = 1 + kNear;
+  ray.mask = ~0U;
+  Search search(*this, &Tree::RefuseBeyond, nullptr);
+  rtcOccluded1(tree_, &search.context, &ray);
+  return ray.tfar < 0;  // minus infinity when something is in the way
+}
+
+// The way from one point to another, shortened by a margin at both ends.
+Ray Shortened(const Vector3f& from, const Vector3f& to, float margin) {
   const Vector3f whole = to - from;
   const float length = whole.norm();
   const float cut = length > 2 * margin ? margin / length : 0;
   return {from + cut * whole, (1 - 2 * cut) * whole};
 }
 
-void Intersect(RTCScene tree, const int* valid, RTCRayHit8& packet) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, tree, &context, &packet);
+Ray InFrameOf(const RayTracer::Moment::Pose& body, const Ray& ray) {
+  return {body.rotation * ray.from + body.translation, body.rotation * ray.direction};
 }
 
-// Whether something is on the way.
-bool Blocks(RTCScene tree, const Step& way) {
-  RTCRay ray{};
-  ray.org_x = way.from.x();
-  ray.org_y = way.from.y();
-  ray.org_z = way.from.z();
-  ray.dir_x = way.step.x();
-  ray.dir_y = way.step.y();
-  ray.dir_z = way.step.z();
-  ray.tfar = 1;
-  ray.mask = ~0U;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(tree, &context, &ray);
-  return ray.tfar < 0;  // minus infinity when something is in the way
+// Whether a ray meets a ball, or nearly so.
+bool Meets(const Ray& ray, const RayTracer::Ball& ball) {
+  const Vector3f way = ball.centre - ray.from;
+  const float outside = way.squaredNorm() - ball.radius * ball.radius;
+  const float along = way.dot(ray.direction);
+  return outside <= 0 || (along > 0 && outside * ray.direction.squaredNorm() <= along * along);
 }
 
 }  // namespace
-
-// All bodies where they are at one time: instances of their trees, numbered as the bodies are.
-class BodyTree {
- public:
-  BodyTree(RTCDevice device,
-           const std::vector<Tree>& trees,
-           const std::vector<Rigid3>& world_from_body)
-      : tree_(rtcNewScene(device)) {
-    rtcSetSceneFlags(tree_, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(tree_, RTC_BUILD_QUALITY_LOW);
-    for (std::size_t i = 0; i < world_from_body.size(); ++i) {
-      RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcSetGeometryInstancedScene(instance, trees[i].scene());
-      const Eigen::Matrix4f matrix = world_from_body[i].Matrix().cast<float>();
-      rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, matrix.data());
-      rtcCommitGeometry(instance);
-      rtcAttachGeometryByID(tree_, instance, static_cast<unsigned>(i));
-      rtcReleaseGeometry(instance);
-    }
-    rtcCommitScene(tree_);
-  }
-  BodyTree(const BodyTree&) = delete;
-  BodyTree& operator=(const BodyTree&) = delete;
-  ~BodyTree() { rtcReleaseScene(tree_); }
-
-  RTCScene scene() const { return tree_; }
-
- private:
-  RTCScene tree_;
-};
-
-// Embree rounds in another way with each of its instruction sets. With the one that every processor
-// of the architecture has, a world has the same images everywhere.
-constexpr const char* kDeviceSettings = "threads=1,isa=sse2";
 
 class RayTracer::Implementation {
  public:
@@ -162,62 +270,55 @@ class RayTracer::Implementation {
 
   Moment At(double time) const {
     Moment moment;
-    if (bodies_.empty()) return moment;
-    std::vector<Rigid3> world_from_body;
-    for (const Body& body : bodies_) {
-      world_from_body.push_back(body.world_from_body(time));
-      const Rigid3 body_from_world = Inverse(world_from_body.back());
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      const Rigid3 world_from_body = bodies_[k].world_from_body(time);
+      const Ball& ball = body_trees_[k].ball();
+      moment.balls.push_back(
+          {(world_from_body * ball.centre.cast<double>()).cast<float>(), ball.radius});
+      const Rigid3 body_from_world = Inverse(world_from_body);
       moment.bodies.push_back({body_from_world.rotation.toRotationMatrix().cast<float>(),
                                body_from_world.translation.cast<float>()});
     }
-    moment.tree = std::make_shared<const BodyTree>(device_, body_trees_, world_from_body);
     return moment;
   }
 
   void Trace(const Rays& rays, const Moment& moment, unsigned* hits) const {
-    alignas(32) int valid[kPacket];
-    RTCRayHit8 packet;
+    Ray in_world[kPacket], in_body[kPacket];
+    int in_use[kPacket] = {};
+    Meeting meetings[kPacket];
     for (int i = 0; i < kPacket; ++i) {
-      const Vector3f& direction =
-          rays.directions[static_cast<std::size_t>(std::min(i, rays.count - 1))];
-      valid[i] = i < rays.count ? -1 : 0;
-      packet.ray.org_x[i] = rays.origin.x();
-      packet.ray.org_y[i] = rays.origin.y();
-      packet.ray.org_z[i] = rays.origin.z();
-      packet.ray.dir_x[i] = direction.x();
-      packet.ray.dir_y[i] = direction.y();
-      packet.ray.dir_z[i] = direction.z();
-      packet.ray.tnear[i] = 0;
-      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-      packet.ray.time[i] = 0;
-      packet.ray.mask[i] = ~0U;
-      packet.ray.id[i] = 0;
-      packet.ray.flags[i] = 0;
-      packet.hit.geomID[i] = kNothing;
-      packet.hit.primID[i] = kNothing;
-      packet.hit.instID[0][i] = kNothing;
+      in_world[i] = {rays.origin,
+                     rays.directions[static_cast<std::size_t>(std::min(i, rays.count - 1))]};
+      in_use[i] = i < rays.count ? -1 : 0;
     }
-    Intersect(still_->scene(), valid, packet);
-    if (moment.tree) Intersect(moment.tree->scene(), valid, packet);
-    for (int i = 0; i < rays.count; ++i) {
-      const unsigned body = packet.hit.instID[0][i], primitive = packet.hit.primID[i];
-      if (packet.hit.geomID[i] == kNothing) {
-        hits[i] = kNothing;
-      } else {
-        hits[i] = (body == kNothing ? *still_ : body_trees_[body]).SurfaceOf(primitive);
+    still_->Trace(in_world, in_use, meetings);
+    for (std::size_t k = 0; k < moment.bodies.size(); ++k) {
+      bool any = false;
+      for (int i = 0; i < kPacket; ++i) {
+        in_use[i] = i < rays.count && Meets(in_world[i], moment.balls[k]) ? -1 : 0;
+        any = any || in_use[i] != 0;
       }
+      if (!any) continue;
+      for (int i = 0; i < kPacket; ++i) in_body[i] = InFrameOf(moment.bodies[k], in_world[i]);
+      body_trees_[k].Trace(in_body, in_use, meetings);
     }
+    for (int i = 0; i < rays.count; ++i) hits[i] = meetings[i].surface;
   }
 
   bool StillSees(const Vector3f& from, const Vector3f& to, float margin) const {
-    return !Blocks(still_->scene(), Shortened(from, to, margin));
+    return !still_->Blocks(Shortened(from, to, margin));
   }
 
-  static bool BodiesLetPass(const Vector3f& from,
-                            const Vector3f& to,
-                            float margin,
-                            const Moment& moment) {
-    return !moment.tree || !Blocks(moment.tree->scene(), Shortened(from, to, margin));
+  bool BodiesLetPass(const Vector3f& from,
+                     const Vector3f& to,
+                     float margin,
+                     const Moment& moment) const {
+    const Ray way = Shortened(from, to, margin);
+    for (std::size_t k = 0; k < moment.bodies.size(); ++k) {
+      if (!Meets(way, moment.balls[k])) continue;
+      if (body_trees_[k].Blocks(InFrameOf(moment.bodies[k], way))) return false;
+    }
+    return true;
   }
 
  private:
@@ -245,7 +346,7 @@ bool RayTracer::BodiesLetPass(const Vector3f& from,
                               const Vector3f& to,
                               float margin,
                               const Moment& moment) const {
-  return Implementation::BodiesLetPass(from, to, margin, moment);
+  return implementation_->BodiesLetPass(from, to, margin, moment);
 }
 
 }  // namespace plumbline

@@ -19,6 +19,11 @@ class RayTracer {
   static constexpr int kPacket = 8;
   static constexpr unsigned kNothing = ~0U;
 
+  struct Ball {
+    Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+    float radius = 0;
+  };
+
   // Where the bodies of the scene are at some time.
   struct Moment {
     struct Pose {
@@ -26,7 +31,7 @@ class RayTracer {
       Eigen::Vector3f translation = Eigen::Vector3f::Zero();
     };
     std::vector<Pose> bodies;
-    std::shared_ptr<const class BodyTree> tree;  // to find what rays meet; none without bodies
+    std::vector<Ball> balls;  // each has a body inside; world
   };
 
   // Some rays from one point.
