@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -85,7 +86,10 @@ class Tree {
       const Eigen::Vector3d normal = surface.side_u.cross(surface.side_v);
       planes_.push_back({normal, normal.dot(corners[0])});
     }
-    if (count > 0) ball_ = {box.center(), kAround * box.diagonal().norm() / 2};
+    if (count > 0) {
+      centre_ = box.center();
+      radius_ = kAround * box.diagonal().norm() / 2;
+    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(tree_, geometry);
     rtcReleaseGeometry(geometry);
@@ -95,7 +99,8 @@ class Tree {
       : tree_(std::exchange(other.tree_, nullptr)),
         surfaces_(std::move(other.surfaces_)),
         planes_(std::move(other.planes_)),
-        ball_(other.ball_) {}
+        centre_(other.centre_),
+        radius_(other.radius_) {}
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
   Tree& operator=(Tree&&) = delete;
@@ -103,7 +108,8 @@ class Tree {
     if (tree_ != nullptr) rtcReleaseScene(tree_);
   }
 
-  const RayTracer::Ball& ball() const { return ball_; }
+  const Vector3f& centre() const { return centre_; }
+  float radius() const { return radius_; }
 
   // What those of some rays meet first that are in use (-1, others 0), where it is nearer than what
   // they are known to meet.
@@ -123,7 +129,8 @@ class Tree {
   RTCScene tree_ = nullptr;
   std::vector<unsigned> surfaces_;
   std::vector<Plane> planes_;
-  RayTracer::Ball ball_;  // has all surfaces inside
+  Vector3f centre_ = Vector3f::Zero();  // of a ball that has all surfaces inside
+  float radius_ = 0;
 };
 
 // What Embree hands to the functions that it calls for each surface that a ray meets.
@@ -235,12 +242,28 @@ Ray InFrameOf(const RayTracer::Moment::Pose& body, const Ray& ray) {
   return {body.rotation * ray.from + body.translation, body.rotation * ray.direction};
 }
 
-// Whether a ray meets a ball, or nearly so.
-bool Meets(const Ray& ray, const RayTracer::Ball& ball) {
-  const Vector3f way = ball.centre - ray.from;
-  const float outside = way.squaredNorm() - ball.radius * ball.radius;
-  const float along = way.dot(ray.direction);
-  return outside <= 0 || (along > 0 && outside * ray.direction.squaredNorm() <= along * along);
+// Below or at zero for each ball that a ray meets.
+Eigen::Array4f Beside(const Ray& ray, const RayTracer::FourBalls& balls) {
+  const Eigen::Array4f x = balls.x - ray.from.x();
+  const Eigen::Array4f y = balls.y - ray.from.y();
+  const Eigen::Array4f z = balls.z - ray.from.z();
+  const Eigen::Array4f outside = x * x + y * y + z * z - balls.squared_radius;
+  const Eigen::Array4f along =
+      x * ray.direction.x() + y * ray.direction.y() + z * ray.direction.z();
+  return outside.min(outside * ray.direction.squaredNorm() - along * along.abs());
+}
+
+// Calls a function with the index of each body whose ball a ray meets, or nearly so, until it
+// returns false.
+template <class Function>
+void ForBodiesNear(const Ray& ray, const RayTracer::Moment& moment, const Function& function) {
+  for (std::size_t group = 0; group < moment.balls.size(); ++group) {
+    const Eigen::Array4f beside = Beside(ray, moment.balls[group]);
+    if (beside.minCoeff() > 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      if (beside[i] <= 0 && !function(4 * group + static_cast<std::size_t>(i))) return;
+    }
+  }
 }
 
 }  // namespace
@@ -270,11 +293,17 @@ class RayTracer::Implementation {
 
   Moment At(double time) const {
     Moment moment;
+    moment.balls.resize((bodies_.size() + 3) / 4);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       const Rigid3 world_from_body = bodies_[k].world_from_body(time);
-      const Ball& ball = body_trees_[k].ball();
-      moment.balls.push_back(
-          {(world_from_body * ball.centre.cast<double>()).cast<float>(), ball.radius});
+      const Tree& tree = body_trees_[k];
+      const Vector3f centre = (world_from_body * tree.centre().cast<double>()).cast<float>();
+      FourBalls& balls = moment.balls[k / 4];
+      const auto i = static_cast<Eigen::Index>(k % 4);
+      balls.x[i] = centre.x();
+      balls.y[i] = centre.y();
+      balls.z[i] = centre.z();
+      balls.squared_radius[i] = tree.radius() * tree.radius();
       const Rigid3 body_from_world = Inverse(world_from_body);
       moment.bodies.push_back({body_from_world.rotation.toRotationMatrix().cast<float>(),
                                body_from_world.translation.cast<float>()});
@@ -286,19 +315,15 @@ class RayTracer::Implementation {
     Ray in_world[kPacket], in_body[kPacket];
     int in_use[kPacket] = {};
     Meeting meetings[kPacket];
+    std::set<std::size_t> near;  // bodies
     for (int i = 0; i < kPacket; ++i) {
-      in_world[i] = {rays.origin,
-                     rays.directions[static_cast<std::size_t>(std::min(i, rays.count - 1))]};
+      const int some = std::min(i, rays.count - 1);
+      in_world[i] = {rays.origin, rays.directions[static_cast<std::size_t>(some)]};
       in_use[i] = i < rays.count ? -1 : 0;
+      ForBodiesNear(in_world[i], moment, [&](std::size_t k) { return near.insert(k), true; });
     }
     still_->Trace(in_world, in_use, meetings);
-    for (std::size_t k = 0; k < moment.bodies.size(); ++k) {
-      bool any = false;
-      for (int i = 0; i < kPacket; ++i) {
-        in_use[i] = i < rays.count && Meets(in_world[i], moment.balls[k]) ? -1 : 0;
-        any = any || in_use[i] != 0;
-      }
-      if (!any) continue;
+    for (const std::size_t k : near) {
       for (int i = 0; i < kPacket; ++i) in_body[i] = InFrameOf(moment.bodies[k], in_world[i]);
       body_trees_[k].Trace(in_body, in_use, meetings);
     }
@@ -314,11 +339,11 @@ class RayTracer::Implementation {
                      float margin,
                      const Moment& moment) const {
     const Ray way = Shortened(from, to, margin);
-    for (std::size_t k = 0; k < moment.bodies.size(); ++k) {
-      if (!Meets(way, moment.balls[k])) continue;
-      if (body_trees_[k].Blocks(InFrameOf(moment.bodies[k], way))) return false;
-    }
-    return true;
+    bool pass = true;
+    ForBodiesNear(way, moment, [&](std::size_t k) {
+      return pass = !body_trees_[k].Blocks(InFrameOf(moment.bodies[k], way));
+    });
+    return pass;
   }
 
  private:

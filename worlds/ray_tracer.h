@@ -19,9 +19,10 @@ class RayTracer {
   static constexpr int kPacket = 8;
   static constexpr unsigned kNothing = ~0U;
 
-  struct Ball {
-    Eigen::Vector3f centre = Eigen::Vector3f::Zero();
-    float radius = 0;
+  // Four balls, compared with a ray at once.
+  struct FourBalls {
+    Eigen::Array4f x = Eigen::Array4f::Zero(), y = x, z = x;           // centres; world, metres
+    Eigen::Array4f squared_radius = Eigen::Array4f::Constant(-1e30F);  // as it is: met by nothing
   };
 
   // Where the bodies of the scene are at some time.
@@ -31,7 +32,8 @@ class RayTracer {
       Eigen::Vector3f translation = Eigen::Vector3f::Zero();
     };
     std::vector<Pose> bodies;
-    std::vector<Ball> balls;  // each has a body inside; world
+    std::vector<FourBalls>
+        balls;  // around the bodies: around body i the ball i % 4 of balls[i / 4]
   };
 
   // Some rays from one point.
