@@ -25,6 +25,7 @@ using Eigen::Vector3f;
 // first, and a thing that just touches the end of a way may be in it or not. All that is so near is
 // found, therefore, and what decides between them are distances from divisions in double precision.
 constexpr float kNear = 1e-5F;  // relative to a distance; what Embree rounds is a hundredth of it
+constexpr float kNearest = 0.01F;  // the least distance for this: a ray may begin on a surface
 
 // With the instruction set that every processor of the architecture has, Embree's tests of where a
 // ray passes the sides of a surface, which need no reciprocals, are the same everywhere.
@@ -39,9 +40,10 @@ struct Plane {
   Eigen::Vector3d normal;
   double offset = 0;  // of its points along the normal
 
-  // How far along a ray its plane is, in lengths of the direction.
-  double Distance(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const {
-    return (offset - normal.dot(from)) / normal.dot(direction);
+  // How far along a ray the plane is, in lengths of the direction.
+  double Distance(const Ray& ray) const {
+    return (offset - normal.dot(ray.from.cast<double>())) /
+           normal.dot(ray.direction.cast<double>());
   }
 };
 
@@ -151,13 +153,13 @@ struct Tree::Search {
 
 double Tree::Distance(const RTCFilterFunctionNArguments& found, unsigned i) const {
   const unsigned n = found.N;
-  const Eigen::Vector3d from(RTCRayN_org_x(found.ray, n, i),
-                             RTCRayN_org_y(found.ray, n, i),
-                             RTCRayN_org_z(found.ray, n, i));
-  const Eigen::Vector3d direction(RTCRayN_dir_x(found.ray, n, i),
-                                  RTCRayN_dir_y(found.ray, n, i),
-                                  RTCRayN_dir_z(found.ray, n, i));
-  return planes_[RTCHitN_primID(found.hit, n, i)].Distance(from, direction);
+  const Ray ray{{RTCRayN_org_x(found.ray, n, i),
+                 RTCRayN_org_y(found.ray, n, i),
+                 RTCRayN_org_z(found.ray, n, i)},
+                {RTCRayN_dir_x(found.ray, n, i),
+                 RTCRayN_dir_y(found.ray, n, i),
+                 RTCRayN_dir_z(found.ray, n, i)}};
+  return planes_[RTCHitN_primID(found.hit, n, i)].Distance(ray);
 }
 
 // Refuses all, so that Embree goes on to the others that are as near.
@@ -205,9 +207,15 @@ void Tree::Trace(const Ray* rays, const int* in_use, Meeting* meetings) const {
   first.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(valid, tree_, &first.context, &packet);
   for (unsigned i = 0; i < RayTracer::kPacket; ++i) {
-    if (packet.hit.geomID[i] == RayTracer::kNothing) valid[i] = 0;
-    packet.ray.tnear[i] = (1 - kNear) * packet.ray.tfar[i];
-    packet.ray.tfar[i] *= 1 + kNear;
+    if (packet.hit.geomID[i] == RayTracer::kNothing) {
+      valid[i] = 0;
+      continue;
+    }
+    const unsigned primitive = packet.hit.primID[i];
+    meetings[i].Take(planes_[primitive].Distance(rays[i]), surfaces_[primitive]);
+    const float around = kNear * (packet.ray.tfar[i] + kNearest);
+    packet.ray.tnear[i] = std::max(0.0F, packet.ray.tfar[i] - around);
+    packet.ray.tfar[i] += around;
     packet.hit.geomID[i] = RayTracer::kNothing;
   }
   Search second(*this, &Tree::KeepNearest, meetings);

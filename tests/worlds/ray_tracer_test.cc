@@ -63,6 +63,21 @@ TEST(RayTracer, OfSurfacesAtOnePlaceFindsTheOneOfTheSmallestIndex) {
   }
 }
 
+// Points of light maps lie on walls, and some of these in corners.
+TEST(RayTracer, FindsWhatARayBeginsOn) {
+  Scene scene;
+  scene.surfaces = {SquareAt(4), SquareAt(1.1), SquareAt(2)};
+  for (int i = 0; i < 100; ++i) {
+    const auto angle = static_cast<float>(0.37 * i);
+    const Vector3f from(0.9F * std::cos(angle), 0.7F * std::sin(angle), 1.1F);
+    const Vector3f direction(0.1F * std::sin(3 * angle), 0.1F, 0.8F);
+    const unsigned first = FirstOf(scene, from, from + direction);
+    EXPECT_TRUE(first == 1 || first == 2) << first << ", the surface itself or the next one";
+    EXPECT_EQ(FirstOf(scene, from - 1e-6F * direction, from + direction), 1U);
+    EXPECT_EQ(FirstOf(scene, from + 1e-6F * direction, from + direction), 2U);
+  }
+}
+
 TEST(RayTracer, FindsBodiesWhereTheyAre) {
   Scene scene;
   scene.surfaces = {SquareAt(5), SquareAt(0, 0), SquareAt(0, 1)};
