@@ -9,6 +9,7 @@
 #include "plumbline/solvers/absolute_pose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -80,6 +81,17 @@ ProjectionSearchOptions FirstSearch(double factor) {
   return search;
 }
 
+bool MoreThanChance(int agreeing, int matches) {
+  constexpr int kFitted = 3;  // so many points agree with the pose that they fix
+  // The gate of a corner that is known to half a pixel, 1.2 px, covers a tenth of the window of 4
+  // px in which the map is searched.
+  constexpr double kByChance = 0.1;
+  constexpr double kDeviations = 3;
+  const double mean = kByChance * std::max(0, matches - kFitted);
+  return agreeing >=
+         std::min(matches, kFitted) + mean + kDeviations * std::sqrt(mean * (1 - kByChance));
+}
+
 PoseSearch::PoseSearch(const ImagingModel& imaging,
                        const TrackingOptions& options,
                        const PoseEstimator& estimator)
@@ -130,7 +142,7 @@ std::optional<PoseEstimate> PoseSearch::SearchLast(const Frame& frame,
   if (matches < kFewestInliers) return std::nullopt;
   const PoseEstimate estimate =
       estimator_.Estimate(frame.features(), predicted.cam_from_world, predicted, association);
-  if (!Accepted(estimate) || estimate.Inliers() * 3 < matches) return std::nullopt;
+  if (!Accepted(estimate) || !MoreThanChance(estimate.Inliers(), matches)) return std::nullopt;
   return estimate;
 }
 

@@ -50,6 +50,12 @@ inline constexpr double kWideFactor = 3;
 // `factor`.
 ProjectionSearchOptions FirstSearch(double factor = 1);
 
+// Whether more matches agree with a pose than chance explains. A pose that is fitted to three
+// points agrees with these whether it is right or wrong. Each of the other matches agrees with a
+// wrong pose where it happens to lie within its gate, so that their number is binomial. The number
+// that agrees has to be three standard deviations above its mean.
+bool MoreThanChance(int agreeing, int matches);
+
 // Finds what a frame shows and its pose from it: first the landmarks of the last frame near where a
 // prediction puts them, or without one by descriptor, then the rest of the local map. Keeps nothing
 // from frame to frame.
@@ -61,7 +67,7 @@ class PoseSearch {
 
   // From the landmarks that the last frame showed, and points and lines of its depths, near where
   // `predicted` puts them; of more uncertain depths where the others do not fix the pose or are
-  // few. nullopt where no pose is accepted that at least a third of its matches agree with.
+  // few. nullopt where no pose is accepted that more matches agree with than chance would let.
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const PosePrior& predicted,
                                              const LastFrame& last,
@@ -92,15 +98,11 @@ class PoseSearch {
   bool Accepted(const PoseEstimate& pose) const {
     return pose.Accepted(kFewestInliers, options_.max_pose_sigma);
   }
-  // Whether enough matches agree with a pose; false when few do and most points disagree. Lines do
-  // not count against it: they are easily taken for their neighbours, so that many disagree with
-  // right poses as well.
-  bool Agreed(const PoseEstimate& pose, const FrameCounts& counts) const {
-    constexpr int kFewPoints = 10;           // fewer matched points say nothing about the pose
-    constexpr int kSureInliers = 30;         // so many do not agree by chance
-    constexpr double kMinInlierRatio = 0.4;  // of the matched points; fewer may agree by chance
-    return pose.Inliers() >= kSureInliers || counts.matched_points < kFewPoints ||
-           pose.inlier_points >= kMinInlierRatio * counts.matched_points;
+  // Whether more matches agree with a pose than chance lets agree with a wrong one. Lines do not
+  // count against it: they are easily taken for their neighbours, so that many disagree with right
+  // poses as well.
+  static bool Agreed(const PoseEstimate& pose, const FrameCounts& counts) {
+    return MoreThanChance(pose.Inliers(), counts.matched_points + pose.inlier_lines);
   }
 
  private:

@@ -137,17 +137,37 @@ TEST(PoseSearch, FindsByAppearanceThoughMostMatchesAreWrong) {
   EXPECT_LT(2 * pose->inlier_points, counts.matched_points);
 }
 
-TEST(PoseSearch, APoseOfFewNeedsAPartOfTheMatchedPoints) {
-  const PoseSearch search = Scene().Search();
+// Of 13, 33, 103 and 1003 matches three fix the pose. Of the others chance lets 1, 3, 10 and 100
+// agree, give or take three times 0.95, 1.64, 3 and 9.5.
+TEST(MoreThanChance, IsThreeStandardDeviationsMoreBesideThreeMatches) {
+  EXPECT_FALSE(MoreThanChance(6, 13));
+  EXPECT_TRUE(MoreThanChance(7, 13));
+  EXPECT_FALSE(MoreThanChance(10, 33));
+  EXPECT_TRUE(MoreThanChance(11, 33));
+  EXPECT_FALSE(MoreThanChance(21, 103));
+  EXPECT_TRUE(MoreThanChance(22, 103));
+  EXPECT_FALSE(MoreThanChance(131, 1003));
+  EXPECT_TRUE(MoreThanChance(132, 1003));
+}
+
+TEST(MoreThanChance, IsAllOfVeryFew) {
+  for (const int few : {1, 2, 3, 4, 5}) {
+    EXPECT_TRUE(MoreThanChance(few, few)) << few;
+    EXPECT_FALSE(MoreThanChance(few - 1, few)) << few;
+  }
+  EXPECT_TRUE(MoreThanChance(5, 6));
+  EXPECT_TRUE(MoreThanChance(0, 0)) << "nothing disagrees";
+}
+
+TEST(PoseSearch, LinesThatDisagreeDoNotCountAgainstAPose) {
   PoseEstimate pose;
-  pose.inlier_points = 12;
-  pose.inlier_lines = 10;
-  EXPECT_TRUE(search.Agreed(pose, {.matched_points = 30, .matched_lines = 50}));
-  EXPECT_FALSE(search.Agreed(pose, {.matched_points = 31, .matched_lines = 10}));
-  pose.inlier_lines = 40;  // of many
-  EXPECT_TRUE(search.Agreed(pose, {.matched_points = 1000, .matched_lines = 100}));
-  pose.inlier_points = 0;  // lines only
-  EXPECT_TRUE(search.Agreed(pose, {.matched_points = 0, .matched_lines = 100}));
+  pose.inlier_points = 11;
+  EXPECT_TRUE(PoseSearch::Agreed(pose, {.matched_points = 33, .matched_lines = 500}));
+  EXPECT_FALSE(PoseSearch::Agreed(pose, {.matched_points = 40, .matched_lines = 0}));
+  pose.inlier_lines = 40;  // which count for it
+  EXPECT_TRUE(PoseSearch::Agreed(pose, {.matched_points = 200, .matched_lines = 100}));
+  pose.inlier_points = 0;
+  EXPECT_TRUE(PoseSearch::Agreed(pose, {.matched_points = 0, .matched_lines = 100}));
 }
 
 TEST(PoseSearch, FindsMoreOfTheLastFrameFromAFirstPose) {
