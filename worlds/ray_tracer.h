@@ -32,8 +32,8 @@ class RayTracer {
       Eigen::Vector3f translation = Eigen::Vector3f::Zero();
     };
     std::vector<Pose> bodies;
-    std::vector<FourBalls>
-        balls;  // around the bodies: around body i the ball i % 4 of balls[i / 4]
+    // A ball around each body: that of body i is number i % 4 of balls[i / 4].
+    std::vector<FourBalls> balls;
   };
 
   // Some rays from one point.

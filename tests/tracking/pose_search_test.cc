@@ -137,8 +137,9 @@ TEST(PoseSearch, FindsByAppearanceThoughMostMatchesAreWrong) {
   EXPECT_LT(2 * pose->inlier_points, counts.matched_points);
 }
 
-// Of 13, 33, 103 and 1003 matches three fix the pose. Of the others chance lets 1, 3, 10 and 100
-// agree, give or take three times 0.95, 1.64, 3 and 9.5.
+// With 13 matches, three of them fix the pose, and of the other 10 one agrees by chance on average,
+// with a standard deviation of 0.95: 3 + 1 + 3 * 0.95 = 6.85 have to agree. With 33, 103 and 1003
+// matches the same sum is 10.9, 22 and 131.5.
 TEST(MoreThanChance, IsThreeStandardDeviationsMoreBesideThreeMatches) {
   EXPECT_FALSE(MoreThanChance(6, 13));
   EXPECT_TRUE(MoreThanChance(7, 13));
