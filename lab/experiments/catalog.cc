@@ -543,6 +543,7 @@ std::span<const Experiment> Experiments() {
     std::vector<Experiment> all = OwnExperiments();
     for (Experiment& experiment : PaperExperiments()) all.push_back(std::move(experiment));
     all.push_back(GateExperiment());
+    all.push_back(LineGateExperiment());
     return all;
   }();
   return kExperiments;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -18,8 +19,8 @@
 namespace plumbline {
 namespace {
 
-constexpr std::array<std::string_view, 7> kKeys = {
-    "experiment", "sequence", "variant", "metric", "unit", "at_most", "at_least"};
+constexpr std::array<std::string_view, 8> kKeys = {
+    "experiment", "sequence", "variant", "metric", "unit", "at_most", "at_least", "of"};
 
 class LimitReader {
  public:
@@ -37,7 +38,8 @@ class LimitReader {
                     Text("metric"),
                     Text("unit"),
                     Number("at_most"),
-                    Number("at_least")};
+                    Number("at_least"),
+                    IsOfMean()};
     if (limit.at_most.has_value() == limit.at_least.has_value()) {
       Fail("expected one of at_most and at_least");
     }
@@ -62,6 +64,13 @@ class LimitReader {
     return number;
   }
 
+  bool IsOfMean() const {
+    if (!node_["of"]) return false;
+    const std::string word = Text("of");
+    if (word != "mean" && word != "worst") Fail("of: expected mean or worst, found " + word);
+    return word == "mean";
+  }
+
   void Check(const GateLimit& limit) const {
     const Metric* metric = FindMetric(limit.metric);
     if (metric == nullptr) Fail("no metric is called " + limit.metric);
@@ -83,25 +92,41 @@ bool IsWithin(const GateLimit& limit, double value) {
   return limit.at_most ? value <= *limit.at_most : value >= *limit.at_least;
 }
 
-// Takes a run into account.
-void Add(const JobResult& result, GateCheck& check) {
-  if (!result.figures) {
-    check.reason = result.reason;
-    check.kept = false;
-    return;
+// The figure of a run; the reason where there is none.
+Expected<double, std::string> FigureOf(const JobResult& result, const std::string& metric) {
+  if (!result.figures) return result.reason;
+  const auto value = result.figures->values.find(metric);
+  if (value != result.figures->values.end()) return value->second;
+  const auto reason = result.figures->reasons.find(metric);
+  return reason == result.figures->reasons.end() ? "not measured" : reason->second;
+}
+
+// What a limit is held against.
+double Summary(const GateLimit& limit, const std::vector<double>& figures) {
+  if (limit.of_mean) {
+    return std::accumulate(figures.begin(), figures.end(), 0.0) /
+           static_cast<double>(figures.size());
   }
-  const auto value = result.figures->values.find(check.limit.metric);
-  if (value == result.figures->values.end()) {
-    const auto reason = result.figures->reasons.find(check.limit.metric);
-    check.reason = reason == result.figures->reasons.end() ? "not measured" : reason->second;
-    check.kept = false;
-    return;
+  const auto [least, most] = std::minmax_element(figures.begin(), figures.end());
+  return limit.at_most ? *most : *least;
+}
+
+// A limit and the runs that it is about.
+GateCheck CheckLimit(const GateLimit& limit, const std::vector<const JobResult*>& runs) {
+  GateCheck check{limit, std::nullopt, "", false};
+  std::vector<double> figures;
+  for (const JobResult* run : runs) {
+    const auto figure = FigureOf(*run, limit.metric);
+    if (figure) {
+      figures.push_back(*figure);
+    } else {
+      check.reason = figure.error();
+    }
   }
-  check.kept = check.kept && IsWithin(check.limit, value->second);
-  const bool low = check.limit.at_most.has_value();
-  if (!check.worst || (low ? value->second > *check.worst : value->second < *check.worst)) {
-    check.worst = value->second;
-  }
+  if (figures.empty()) return check;
+  check.figure = Summary(limit, figures);
+  check.kept = check.reason.empty() && IsWithin(limit, *check.figure);
+  return check;
 }
 
 std::string LineOf(const GateCheck& check) {
@@ -111,8 +136,9 @@ std::string LineOf(const GateCheck& check) {
       check.kept ? "kept" : "**broken**",
       limit.sequence,
       limit.variant,
-      limit.unit.empty() ? limit.metric : fmt::format("{} [{}]", limit.metric, limit.unit),
-      check.reason.empty() && check.worst ? fmt::format("{:.4g}", *check.worst) : check.reason,
+      (limit.of_mean ? "mean " : "") +
+          (limit.unit.empty() ? limit.metric : fmt::format("{} [{}]", limit.metric, limit.unit)),
+      check.reason.empty() && check.figure ? fmt::format("{:.4g}", *check.figure) : check.reason,
       limit.at_most ? fmt::format("at most {:g}", *limit.at_most)
                     : fmt::format("at least {:g}", *limit.at_least));
 }
@@ -138,18 +164,15 @@ std::vector<GateCheck> CheckGate(const std::vector<GateLimit>& limits,
                                  const std::vector<JobResult>& results) {
   std::vector<GateCheck> checks;
   for (const GateLimit& limit : limits) {
-    GateCheck check{limit, std::nullopt, "", true};
-    bool asked = false;
+    std::vector<const JobResult*> runs;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
       const Job& job = plan.jobs[i];
-      if (plan.SequenceOf(job).name != limit.sequence ||
-          plan.VariantOf(job).name != limit.variant) {
-        continue;
+      if (plan.SequenceOf(job).name == limit.sequence &&
+          plan.VariantOf(job).name == limit.variant) {
+        runs.push_back(&results[i]);
       }
-      asked = true;
-      Add(results[i], check);
     }
-    if (asked) checks.push_back(check);
+    if (!runs.empty()) checks.push_back(CheckLimit(limit, runs));
   }
   std::stable_partition(
       checks.begin(), checks.end(), [](const GateCheck& check) { return !check.kept; });

@@ -16,6 +16,7 @@ namespace plumbline {
 struct GateLimit {
   std::string experiment, sequence, variant, metric, unit;
   std::optional<double> at_most, at_least;  // one of them
+  bool of_mean = false;                     // of all runs, in place of the worst
 };
 
 // Throws InputError "name:line: ..." for text that is not of this form, or names an experiment,
@@ -27,13 +28,13 @@ std::vector<GateLimit> GateLimitsOf(const std::string& experiment);
 
 struct GateCheck {
   GateLimit limit;
-  std::optional<double> worst;  // of the runs
-  std::string reason;           // why there is none
+  std::optional<double> figure;  // the worst of the runs, or their mean
+  std::string reason;            // why there is none
   bool kept = false;
 };
 
-// Every limit that is about a sequence and a variant of the plan, with the worst of its runs. A run
-// without the figure breaks the limit. Limits on sequences that are not there are left out.
+// Every limit that is about a sequence and a variant of the plan, with the figure of its runs. A
+// run without one breaks the limit. Limits on sequences that are not there are left out.
 std::vector<GateCheck> CheckGate(const std::vector<GateLimit>& limits,
                                  const Plan& plan,
                                  const std::vector<JobResult>& results);

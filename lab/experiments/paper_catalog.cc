@@ -380,6 +380,20 @@ Experiment GateExperiment() {
   return e;
 }
 
+Experiment LineGateExperiment() {
+  Experiment e;
+  e.name = "gate_lines";
+  e.help = "the lines of a map in three worlds, the mean of some runs, with limits to keep";
+  for (const char* world : {"worlds/room", "worlds/lowtexture", "worlds/lateral"}) {
+    e.sequences.push_back({world, {"frames=100"}, "short"});
+  }
+  e.variants = {{"both", {}}};
+  e.metrics = {"line_recall", "line_precision", "ate"};
+  e.plots = {"line_recall", "line_precision"};
+  e.runs = 4;
+  return e;
+}
+
 std::span<const ExperimentGroup> ExperimentGroups() {
   static const std::vector<ExperimentGroup> kGroups = [] {
     std::vector<ExperimentGroup> groups = {

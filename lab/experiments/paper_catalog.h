@@ -20,6 +20,10 @@ std::vector<Experiment> PaperExperiments();
 // keep the limits of gate_limits.yaml (gate.h).
 Experiment GateExperiment();
 
+// The maps of lines of three worlds, in several runs: seeds of one world differ by a tenth, which
+// their mean does not.
+Experiment LineGateExperiment();
+
 std::span<const ExperimentGroup> ExperimentGroups();
 
 // nullptr for an unknown name.

@@ -9,18 +9,23 @@
 namespace plumbline {
 namespace {
 
-// The worlds, and the recorded sequences where they are there.
-TEST(ExperimentGate, KeepsItsLimits) {
+// Runs a gate of experiments and expects its limits to be kept.
+void ExpectLimitsKept(const std::string& experiment) {
   const ScratchFolder folder;
   const auto data = FindData(".");
   const std::string sources = data ? " --data " + Quoted(*data) : "";
   const Outcome outcome = RunProgram(
       folder,
-      "experiment gate --quiet --jobs 2 --time-limit 100000 --cache '" PLUMBLINE_RENDERED_FOLDER
-      "' --out " +
+      "experiment " + experiment +
+          " --quiet --jobs 2 --time-limit 100000 --cache '" PLUMBLINE_RENDERED_FOLDER "' --out " +
           Quoted(folder / "out") + sources);
   EXPECT_EQ(outcome.code, 0) << outcome.err << Contents(folder / "out/gate.md");
 }
+
+// The worlds, and the recorded sequences where they are there.
+TEST(ExperimentGate, KeepsItsLimits) { ExpectLimitsKept("gate"); }
+
+TEST(ExperimentGate, LinesKeepTheirLimits) { ExpectLimitsKept("gate_lines"); }
 
 }  // namespace
 }  // namespace plumbline

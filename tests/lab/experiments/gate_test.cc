@@ -37,12 +37,28 @@ TEST(Gate, HoldsTheWorstRunAgainstTheLimit) {
   ASSERT_EQ(checks.size(), 3U) << "sequences that are not there have nothing to keep";
   EXPECT_FALSE(checks[0].kept);
   EXPECT_EQ(checks[0].limit.at_most, 5.9);
-  EXPECT_EQ(checks[0].worst, 6);
+  EXPECT_EQ(checks[0].figure, 6);
   EXPECT_TRUE(checks[1].kept);
   EXPECT_TRUE(checks[2].kept);
   const std::string text = FormatGate(checks);
   EXPECT_THAT(text, HasSubstr("| **broken** | euroc/a | one | ate [mm] | 6 | at most 5.9 |"));
   EXPECT_THAT(text, HasSubstr("| kept | euroc/a | one | coverage [mm] | 100 | at least 99 |"));
+}
+
+TEST(Gate, HoldsTheMeanOfTheRunsAgainstALimitOfMeans) {
+  const ScratchFolder folder;
+  const Plan plan = PlanOfTwo(folder);
+  std::vector<JobResult> results(8, Success(4, "a"));
+  results[1] = Success(6, "b");  // euroc/a, one, run 2
+  GateLimit mean = AtMost("euroc/a", 5), broken = AtMost("euroc/a", 4.9);
+  mean.of_mean = broken.of_mean = true;
+  const auto checks = CheckGate({mean, broken}, plan, results);
+  ASSERT_EQ(checks.size(), 2U);
+  EXPECT_FALSE(checks[0].kept);
+  EXPECT_TRUE(checks[1].kept);
+  EXPECT_EQ(checks[1].figure, 5);
+  EXPECT_THAT(FormatGate(checks),
+              HasSubstr("| **broken** | euroc/a | one | mean ate [mm] | 5 | at most 4.9 |"));
 }
 
 TEST(Gate, ARunWithoutTheFigureBreaksTheLimit) {
@@ -61,13 +77,17 @@ TEST(Gate, ARunWithoutTheFigureBreaksTheLimit) {
 }
 
 TEST(GateLimits, AreWholeAndBelongToTheExperiment) {
-  const std::vector<GateLimit> limits = GateLimitsOf("gate");
-  EXPECT_GT(limits.size(), 10U);
-  std::vector<std::string> patterns;
-  for (const SequenceChoice& choice : FindExperiment("gate").sequences) {
-    patterns.push_back(choice.pattern + (choice.label.empty() ? "" : "@" + choice.label));
+  for (const char* experiment : {"gate", "gate_lines"}) {
+    const std::vector<GateLimit> limits = GateLimitsOf(experiment);
+    EXPECT_GT(limits.size(), 5U) << experiment;
+    std::vector<std::string> patterns;
+    for (const SequenceChoice& choice : FindExperiment(experiment).sequences) {
+      patterns.push_back(choice.pattern + (choice.label.empty() ? "" : "@" + choice.label));
+    }
+    for (const GateLimit& limit : limits) {
+      EXPECT_THAT(patterns, testing::Contains(limit.sequence));
+    }
   }
-  for (const GateLimit& limit : limits) EXPECT_THAT(patterns, testing::Contains(limit.sequence));
   EXPECT_TRUE(GateLimitsOf("sensors").empty());
 }
 
@@ -81,6 +101,8 @@ TEST(GateLimits, OtherTextIsRefusedWithItsPlace) {
               HasSubstr("limits.yaml:2: ate: expected the unit mm"));
   EXPECT_THAT(message(begin + "mm}\n"), HasSubstr("expected one of at_most and at_least"));
   EXPECT_THAT(message(begin + "mm, at_most: x}\n"), HasSubstr("at_most: expected a number"));
+  EXPECT_THAT(message(begin + "mm, at_most: 1, of: median}\n"),
+              HasSubstr("limits.yaml:2: of: expected mean or worst, found median"));
   EXPECT_THAT(message(begin + "mm, most: 1}\n"), HasSubstr("unknown key most"));
   EXPECT_THAT(message("limits: []\n"), HasSubstr("limits.yaml: expected a list of limits"));
   std::string other = begin + "mm, at_most: 1}\n";
