@@ -10,17 +10,12 @@ function(plumbline_compile_together target)
   endif()
 endfunction()
 
-# For modules where a run spends less than a hundredth of its time, and for tests that compute much by themselves: -O1 in place of -O3
-# takes a compiler a third to a half less.
-function(plumbline_compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
-endfunction()
-
 # plumbline_module(NAME geometry SOURCES a.cc ... [DEPS base ...] [PUBLIC lib ...] [PRIVATE lib ...] [ALONE a.cc ...]
 #                  [QUICKLY])
 # One folder, one library plumbline::<name>. DEPS are other modules; their order is checked by
 # tools/check_layering.py. A module without sources is header only. ALONE: sources that are not
-# compiled together with others. QUICKLY: plumbline_compile_quickly.
+# compiled together with others. QUICKLY: for a module where a run spends less than a hundredth of
+# its time; -O1 in place of -O3 takes a compiler a third to a half less.
 function(plumbline_module)
   cmake_parse_arguments(ARG "QUICKLY" "NAME" "SOURCES;DEPS;PUBLIC;PRIVATE;ALONE" ${ARGN})
   set(target plumbline_${ARG_NAME})
@@ -33,7 +28,7 @@ function(plumbline_module)
     plumbline_use_precompiled(${target} plumbline_module_headers)
     plumbline_compile_together(${target} ${ARG_ALONE})
     if(ARG_QUICKLY)
-      plumbline_compile_quickly(${target})
+      plumbline_optimize(${target} 1)
     endif()
     if(OpenCV_INCLUDE_DIRS)
       target_include_directories(${target} SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
@@ -65,10 +60,10 @@ function(plumbline_tests)
   plumbline_compile_together(${target} ${ARG_ALONE})
   if(ARG_LONG)
     plumbline_use_precompiled(${target} plumbline_long_test_headers)
-    plumbline_compile_quickly(${target})
+    plumbline_optimize(${target} 1)
   else()
     plumbline_use_precompiled(${target} plumbline_test_headers)
-    plumbline_optimize_nothing(${target})
+    plumbline_optimize(${target} 0)
   endif()
   if(ARG_REAL_DATA)
     target_compile_definitions(
