@@ -8,6 +8,11 @@
                                              monocular starts their numbers, with the command that made them,
                                              today's date and the commit that the program was built from (that
                                              checked out)
+  tools/results.py make --program PROGRAM --data DIR --out OUT [--earlier PROGRAM] [NAME...]
+                                             runs the commands of all files of docs/results again, or of those named,
+                                             with a program of the commit checked out, and records what comes out;
+                                             some experiments compare it with an earlier one. What is in OUT already
+                                             is not run again. About an hour on two fast cores
   tools/results.py fill                      writes all tables anew
   tools/results.py check                     exit status 1 where a table is not what its file says
 
@@ -26,11 +31,13 @@ One row for each variant: right starts in time of the possible ones (where those
 and by how many percent points more starts are right than with the first variant: mean over the sequences, with the 95 %
 interval of 2000 resamples of these.
 """
+import argparse
 import datetime
 import json
 import pathlib
 import random
 import re
+import shlex
 import subprocess
 import sys
 
@@ -62,6 +69,27 @@ def record(name, out, command, commit="HEAD"):
     folder = ROOT / "docs" / "results"
     folder.mkdir(exist_ok=True)
     (folder / f"{name}.json").write_text(json.dumps(kept, indent=1) + "\n")
+
+
+# A kept command with programs and folders in place of the words that stand for them.
+def runnable(command, words):
+    arguments = shlex.split(command)
+    unknown = [a for a in arguments if a in words and words[a] is None]
+    if unknown:
+        sys.exit(f"results: `{command}` needs an earlier program (--earlier)")
+    return [words.get(a, a) for a in arguments]
+
+
+def make(program, data, out, earlier, names):
+    words = {"plumbline": program, "DIR": data, "PROGRAM": earlier}
+    commands = {name: read(name)["command"] for name in names}
+    runs = {name: runnable(command, words) for name, command in commands.items()}
+    for name, run in runs.items():
+        print(f"{name}: {commands[name]}", flush=True)
+        folder = pathlib.Path(out) / name
+        cache = pathlib.Path(out) / "cache"
+        subprocess.run([*run, "--out", folder, "--cache", cache, "--jobs", "2", "--quiet"], check=True)
+        record(name, folder, commands[name])
 
 
 def cell(entry):
@@ -141,19 +169,15 @@ def filled(text):
     return TABLE.sub(anew, text)
 
 
-def main(arguments):
-    if arguments[:1] == ["record"] and len(arguments) in (4, 5):
-        record(*arguments[1:])
-        return 0
-    if arguments not in (["fill"], ["check"]):
-        sys.exit(__doc__)
+# Writes the tables anew, or only tells which differ: exit status 1 where one does.
+def fill(write):
     status = 0
     for document in sorted((ROOT / "docs").rglob("*.md")):
         text = document.read_text()
         made = filled(text)
         if made == text:
             continue
-        if arguments == ["fill"]:
+        if write:
             document.write_text(made)
         else:
             print(f"{document.relative_to(ROOT)}: a table is not what docs/results says; "
@@ -162,5 +186,30 @@ def main(arguments):
     return status
 
 
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    actions = parser.add_subparsers(dest="action", required=True)
+    recording = actions.add_parser("record")
+    for name in ("name", "out", "command"):
+        recording.add_argument(name)
+    recording.add_argument("commit", nargs="?", default="HEAD")
+    making = actions.add_parser("make")
+    for name in ("--program", "--data", "--out"):
+        making.add_argument(name, required=True)
+    making.add_argument("--earlier")
+    making.add_argument("names", nargs="*", metavar="NAME")
+    actions.add_parser("fill")
+    actions.add_parser("check")
+    asked = parser.parse_args()
+    if asked.action == "record":
+        record(asked.name, asked.out, asked.command, asked.commit)
+    elif asked.action == "make":
+        kept = sorted(file.stem for file in (ROOT / "docs" / "results").glob("*.json"))
+        make(asked.program, asked.data, asked.out, asked.earlier, asked.names or kept)
+    else:
+        return fill(write=asked.action == "fill")
+    return 0
+
+
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())
