@@ -380,10 +380,10 @@ Experiment LineControlExperiment(bool mono) {
 // What lines bring where lamps are switched. One seed of a world is one draw of lamps, furniture
 // and path: what holds for the situation shows in the interval over several.
 Experiment SwitchedLampsExperiment() {
-  constexpr int kSeeds = 12;
+  constexpr int kSeeds = 24;
   Experiment experiment;
   experiment.name = "lines_lights";
-  experiment.help = "points alone and with lines in `lights` of twelve seeds";
+  experiment.help = "points alone and with lines in `lights` of 24 seeds";
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const std::string number = std::to_string(seed);
     experiment.sequences.push_back({"worlds/lights", {"seed=" + number}, "seed" + number});
