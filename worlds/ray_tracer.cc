@@ -101,7 +101,7 @@ class Tree {
       : tree_(std::exchange(other.tree_, nullptr)),
         surfaces_(std::move(other.surfaces_)),
         planes_(std::move(other.planes_)),
-        centre_(other.centre_),
+        centre_(std::move(other.centre_)),
         radius_(other.radius_) {}
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
