@@ -109,6 +109,11 @@ if(python IN_LIST components)
   math(EXPR next_python_minor "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_python_minor}), python3-numpy, plumbline (= ${PROJECT_VERSION})")
+  # Byte code is written when the package is installed and goes with it.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      ${PROJECT_SOURCE_DIR}/cmake/packages/python3-plumbline/postinst
+      ${PROJECT_SOURCE_DIR}/cmake/packages/python3-plumbline/prerm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
   set(CPACK_DEBIAN_PYTHON_DESCRIPTION
 "visual SLAM with points and straight lines - Python module
 Plumbline computes where a camera went and what it saw, from the images of

@@ -31,7 +31,8 @@ class SlurmExperiment : public testing::Test {
     fs::rename(WritePosterSequence(folder_, 12), folder_ / "data/euroc/poster");
   }
 
-  // So long that there is time to do something meanwhile.
+  // So long that there is time to do something meanwhile: with slam.mode=live, a second for 20
+  // frames.
   void MakeLong(int frames) {
     for (const char* camera : {"cam0", "cam1"}) {
       folder_.Write("data/euroc/poster/mav0/" + std::string(camera) + "/data.csv",
@@ -110,7 +111,7 @@ TEST_F(SlurmExperiment, ACollectorThatIsKilledGoesOnWhereItWas) {
 }
 
 TEST_F(SlurmExperiment, ANodeThatDiesCostsATryAndTheRestGoesOn) {
-  MakeLong(600);
+  MakeLong(300);
   std::vector<std::string> words = {"experiment",
                                     "sensors",
                                     "--data",
@@ -125,6 +126,8 @@ TEST_F(SlurmExperiment, ANodeThatDiesCostsATryAndTheRestGoesOn) {
                                     "--cpus-per-task=1",
                                     "--runs",
                                     "1",
+                                    "--set",
+                                    "slam.mode=live",
                                     "--quiet"};
   const pid_t collector = StartProgram(words);
   const std::string node = NodeOfARun();
