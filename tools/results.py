@@ -12,7 +12,7 @@
                                              runs the commands of all files of docs/results again, or of those named,
                                              with a program of the commit checked out, and records what comes out;
                                              some experiments compare it with an earlier one. What is in OUT already
-                                             is not run again. About an hour on two fast cores
+                                             is not run again. About an hour and a half on two fast cores
   tools/results.py fill                      writes all tables anew
   tools/results.py check                     exit status 1 where a table is not what its file says
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/cutting_testbed_figures.h"
 
+#include "lab/experiments/mean.h"
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/options.h"
 
@@ -68,12 +69,6 @@ FigureRow Row(const std::string& sequence,
 double Quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
-
-double Mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
 }
 
 // Percent of the elements with a property.

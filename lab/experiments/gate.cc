@@ -3,6 +3,7 @@
 #include "lab/experiments/gate.h"
 
 #include "lab/experiments/catalog.h"
+#include "lab/experiments/mean.h"
 #include "lab/experiments/metrics.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/yaml_document.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -103,10 +103,7 @@ Expected<double, std::string> FigureOf(const JobResult& result, const std::strin
 
 // What a limit is held against.
 double Summary(const GateLimit& limit, const std::vector<double>& figures) {
-  if (limit.of_mean) {
-    return std::accumulate(figures.begin(), figures.end(), 0.0) /
-           static_cast<double>(figures.size());
-  }
+  if (limit.of_mean) return Mean(figures);
   const auto [least, most] = std::minmax_element(figures.begin(), figures.end());
   return limit.at_most ? *most : *least;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/paired_ratios.h"
 
+#include "lab/experiments/mean.h"
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/random.h"
 
@@ -52,12 +53,6 @@ std::optional<double> LogRatio(const JobResult& variant,
   if (!a || !b || !(*a > 0) || !(*b > 0)) return std::nullopt;
   if (std::abs(covered_a - covered_b) > kCoverageGap) return std::nullopt;
   return math::Log(*a / *b);
-}
-
-double Mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
 }
 
 // The mean over sequences of the means over their pairs.

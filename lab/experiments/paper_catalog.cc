@@ -37,6 +37,11 @@ void Append(std::vector<SequenceChoice>& choices, std::initializer_list<const ch
   for (const char* pattern : patterns) choices.push_back({pattern});
 }
 
+// The first 100 frames of rendered worlds.
+void AppendShort(std::vector<SequenceChoice>& choices, std::initializer_list<const char*> worlds) {
+  for (const char* world : worlds) choices.push_back({world, {"frames=100"}, "short"});
+}
+
 // One of the first paper's initial maps: by factorization of m frames, or of two views.
 std::vector<std::string> StartSettings(const char* method) {
   return {kNoLoops, std::string("initialization.method=") + method};
@@ -364,10 +369,7 @@ Experiment GateExperiment() {
   Experiment e;
   e.name = "gate";
   e.help = "a few minutes over worlds and what recordings there are, with limits to keep";
-  for (const char* world :
-       {"worlds/room", "worlds/lowtexture", "worlds/planar", "worlds/lateral"}) {
-    e.sequences.push_back({world, {"frames=100"}, "short"});
-  }
+  AppendShort(e.sequences, {"worlds/room", "worlds/lowtexture", "worlds/planar", "worlds/lateral"});
   Append(e.sequences,
          {"euroc/MH_01_easy_first250",
           "tum/rgbd_dataset_freiburg1_floor_first90",
@@ -384,9 +386,7 @@ Experiment LineGateExperiment() {
   Experiment e;
   e.name = "gate_lines";
   e.help = "the lines of a map in three worlds, the mean of some runs, with limits to keep";
-  for (const char* world : {"worlds/room", "worlds/lowtexture", "worlds/lateral"}) {
-    e.sequences.push_back({world, {"frames=100"}, "short"});
-  }
+  AppendShort(e.sequences, {"worlds/room", "worlds/lowtexture", "worlds/lateral"});
   e.variants = {{"both", {}}};
   e.metrics = {"line_recall", "line_precision", "ate"};
   e.plots = {"line_recall", "line_precision"};
