@@ -103,7 +103,7 @@ class WindowBuilder {
 
   // Fixes the oldest poses if fewer are fixed than the gauge needs: one, or with a single camera
   // two, since one alone leaves the scale of the window open against the rest of the map. Where the
-  // window is the whole map its scale is arbitrary, and the damping holds it.
+  // window is the whole map its scale is arbitrary, and KeepUnitOfTheOldest holds it.
   void HoldGauge() {
     auto& poses = window_.problem.poses;
     const bool depth = window_.problem.camera.baseline > 0;

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/final_adjustment.h"
 
-#include "plumbline/base/median.h"
 #include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
+#include "plumbline/mapping/unit_of_length.h"
 #include "plumbline/optimization/elimination_plan.h"
 #include "plumbline/optimization/pose_sigma.h"
 
@@ -80,49 +80,6 @@ BlockPattern SharingPoses(const BaProblem& problem) {
 // share landmarks. Only a problem of more keyframes can.
 bool TakesTooLong(const MapProblem& whole, int limit) {
   return FullSize(PlanElimination(SharingPoses(whole.problem))) > limit;
-}
-
-// Returns by which factor the depths of the points that a pose shows have changed, as the median
-// over these points; nullopt where there are too few of them.
-std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& depths) {
-  constexpr std::size_t kFew = 10;
-  std::vector<double> ratios;
-  for (const auto& [before, after] : depths) {
-    if (before > 0 && after > 0) ratios.push_back(after / before);
-  }
-  if (ratios.size() < kFew) return std::nullopt;
-  return UpperMedian(ratios);
-}
-
-// Returns the change of scale around each pose, which is 1 where lengths are measured. A pose that
-// shows too few points gets the scale of the pose before it; the first ones get that of the first
-// pose that shows enough.
-std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
-  std::vector<double> scales(problem.poses.size(), 1);
-  if (problem.camera.baseline > 0) return scales;
-  std::vector<std::vector<std::pair<double, double>>> depths(problem.poses.size());
-  for (const auto& o : problem.point_observations) {
-    const auto pose = static_cast<std::size_t>(o.pose);
-    const auto point = static_cast<std::size_t>(o.point);
-    depths[pose].emplace_back((problem.poses[pose].cam_from_world * problem.points[point]).z(),
-                              (result.poses[pose] * result.points[point]).z());
-  }
-  std::optional<double> last;
-  for (std::size_t k = 0; k < scales.size() && !last; ++k) last = ScaleAround(depths[k]);
-  for (std::size_t k = 0; k < scales.size() && last; ++k) {
-    scales[k] = ScaleAround(depths[k]).value_or(*last);
-    last = scales[k];
-  }
-  return scales;
-}
-
-// Scales the result of a single camera, which leaves the unit of the whole open, so that the scale
-// around the oldest keyframe stays as it was.
-void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
-  if (problem.camera.baseline > 0) return;
-  const double scale = 1 / ScalesOf(problem, result).front();
-  for (Rigid3& pose : result.poses) pose.translation *= scale;
-  for (Eigen::Vector3d& point : result.points) point *= scale;
 }
 
 // Adjusts poses and points, without lines, to a corrected lens, from where they are for one near

@@ -7,6 +7,7 @@
 #include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/mapping/unit_of_length.h"
 #include "plumbline/optimization/pose_sigma.h"
 
 #include <algorithm>
@@ -254,8 +255,12 @@ void LocalMapper::AlignPoints(Map& map, KeyFrameId id, const GrayImage& image) {
 void LocalMapper::Adjust(Map& map, KeyFrameId id) {
   BaWindow window = MakeBaWindow(map, imaging_, id, lines_, options_.window);
   BaProblem& problem = window.problem;
-  const std::optional<BaResult> result = SolveInOnePiece(
-      problem, options_.ba, lines_.method.adjust_window, options_.window.local_limits());
+  const std::optional<BaResult> result =
+      SolveInOnePiece(problem,
+                      options_.ba,
+                      lines_.method.adjust_window,
+                      options_.window.local_limits(),
+                      [&](BaResult& solution) { KeepUnitOfTheOldest(problem, solution); });
   if (!result) return;
   adjusted_lines_.count += problem.lines.size();
   adjusted_lines_.bytes += result->line_bytes;

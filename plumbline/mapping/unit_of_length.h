@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/optimization/local_ba_result.h"
+#include "plumbline/optimization/problem.h"
+
+#include <vector>
+
+namespace plumbline {
+
+// Returns for each pose the factor by which a solution has changed the depths of the points that
+// this pose shows, as the median over these points; 1 where lengths are measured. A pose that shows
+// fewer than ten points in front of it gets the factor of the pose before it; the first ones get
+// that of the first pose that shows enough.
+std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result);
+
+// Scales a solution for a single camera about the camera of its first pose, so that the depths that
+// this pose shows stay as they were in the median. Nothing where lengths are measured, and where
+// two poses or more are fixed: these hold the unit of length. Otherwise no measurement does, and
+// the damped steps of an adjustment leave it somewhere else: a map of twenty keyframes grew by two
+// thirds within a second of forward motion, and the poses reported before fitted no later ones.
+void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result);
+
+}  // namespace plumbline
