@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/final_adjustment.h"
 
-#include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/unit_of_length.h"
@@ -136,6 +135,7 @@ Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,
                           const MappingOptions& options,
+                          std::optional<LensCorrection>& lens,
                           const StopCheck& stop) {
   constexpr std::size_t kMinKeyFrames = 3;
   const int limit = options.final_adjustment_keyframes;
@@ -150,11 +150,12 @@ Correction AdjustWholeMap(const Map& map,
   // Long lines that are seen from far away can tie so many keyframes together that it takes too
   // long.
   if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weights(), {});
-  const LearnedLens lens =
-      options.lens_calibration ? LearnLens(whole.problem, stop) : LearnedLens{};
-  Correct(lens.correction, whole.problem);
+  const bool learn = options.lens_calibration && !lens;
+  const LearnedLens learned = learn ? LearnLens(whole.problem, stop) : LearnedLens{};
+  if (!lens) lens = learned.correction;
+  Correct(*lens, whole.problem);
   BaProblem problem = whole.problem;
-  if (!lens.poses.empty() && !BringToLens(lens, options, stop, problem)) return {};
+  if (!learned.poses.empty() && !BringToLens(learned, options, stop, problem)) return {};
   // The unit is changed by `whole`, in which the poses that are held are free: it changes for all.
   const std::optional<BaResult> result = SolveInOnePiece(
       problem,
@@ -165,6 +166,15 @@ Correction AdjustWholeMap(const Map& map,
       stop);
   if (!result) return {};
   return CorrectionOf(map, whole, *result);
+}
+
+Correction AdjustWholeMap(const Map& map,
+                          const ImagingModel& imaging,
+                          const LineOptions& lines,
+                          const MappingOptions& options,
+                          const StopCheck& stop) {
+  std::optional<LensCorrection> lens;
+  return AdjustWholeMap(map, imaging, lines, options, lens, stop);
 }
 
 }  // namespace plumbline

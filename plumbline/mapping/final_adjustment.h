@@ -7,7 +7,10 @@
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/correction.h"
+#include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/options.h"
+
+#include <optional>
 
 namespace plumbline {
 
@@ -24,11 +27,20 @@ namespace plumbline {
 //
 // With a single camera what the calibration has left of the lens's radial distortion is learned
 // from the points and taken out of all measurements first (LearnLens, mapping.lens_calibration).
+// `lens` is what an earlier adjustment of this map has learned, and is taken as it is; where there
+// is none, it is learned and kept there.
 //
 // Nothing for a map of less than three keyframes, or one whose equations take longer than those of
 // mapping.final_adjustment_keyframes that all share landmarks (FullSize), without the lines if
 // those make it so; nothing when `stop` says so before the end. Cost: FindWellSeenLines, and bundle
 // adjustment of the whole map, with the time of SchurSolver::Solve.
+Correction AdjustWholeMap(const Map& map,
+                          const ImagingModel& imaging,
+                          const LineOptions& lines,
+                          const MappingOptions& options,
+                          std::optional<LensCorrection>& lens,
+                          const StopCheck& stop = {});
+// The same for a map that is adjusted once.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,

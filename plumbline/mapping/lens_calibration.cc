@@ -143,12 +143,16 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
 }
 
 LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
-  constexpr double kStep = 0.002;  // relative to the width of the image
-  constexpr double kMost = 3;      // largest correction, in deviations of the prior
+  // Relative to the width of the image. Over four times as much, points far away stick on their way
+  // from one solution to the next, which takes many more steps and makes the profile too narrow.
+  constexpr double kStep = 0.0005;
+  constexpr double kMost = 3;  // largest correction, in deviations of the prior
   // In a map of a camera that goes straight on, 4.6 deviations spoke for a correction where there
   // was nothing to correct: an error of a corner is the same in all its views, but the cost takes
   // the views for independent.
   constexpr double kSigmas = 6;
+  constexpr double kWorthAnother =
+      0.5;  // share of that likelihood ratio; less will not become enough
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
   const double sigma = kPriorSigma * problem.camera.width;
   const double step = kStep * problem.camera.width;
@@ -157,6 +161,8 @@ LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
   if (!fit) return {};
   const double uncorrected = fit->middle_cost;
   double corrected = uncorrected - 0.5 * fit->curvature * fit->minimum * fit->minimum;
+  const auto ratio = [&] { return 2 * (uncorrected - corrected) / (kSigmas * kSigmas); };
+  if (ratio() < kWorthAnother) return {};
   // The profile is a parabola near its minimum only, so that a distant one is fitted again.
   if (std::abs(fit->minimum) > step) {
     fit = FitAround(profile, fit->minimum, step, kMost * sigma);
@@ -164,9 +170,8 @@ LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
     corrected = fit->middle_cost;
   }
   const double border = fit->minimum * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
-  const bool significant = 2 * (uncorrected - corrected) > kSigmas * kSigmas;
   const bool matters = std::abs(border) * MeanSize(problem) > kAllowed * problem.camera.width;
-  if (!significant || !matters) return {};
+  if (ratio() <= 1 || !matters) return {};
   const BaResult& nearest = profile.Nearest(border);
   return {{border}, nearest.poses, nearest.points};
 }

@@ -175,9 +175,10 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   if (stereo_change_.Running(map)) {
     map.Apply({edit::CorrectStereo{stereo_change_.state()->correction}});
   }
+  std::optional<LensCorrection> lens;
   for (int round = 0; round < kRounds; ++round) {
     Timed("finish", times, [&] {
-      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options_, stop), map));
+      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options_, lens, stop), map));
     });
   }
   return times;

@@ -7,6 +7,7 @@
 #include "tests/mapping/vertical_lines.h"
 #include "tests/support/true_map.h"
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -47,6 +48,27 @@ TEST(AdjustWholeMap, BringsKeyFramesToTheirPlaces) {
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.4 * before);
   EXPECT_LT(CentreDistance(scene.map.Find(KeyFrameId{0})->frame.cam_from_world, PoseOnPath(0)),
             1e-9);
+}
+
+// A map of one camera, whose lens has nothing left to correct.
+TEST(AdjustWholeMap, LearnsTheLensOnceAndTakesOneThatIsKnown) {
+  SyntheticWorld world = MakeSyntheticWorld(300, 0);
+  world.camera.baseline = 0;
+  const TrueMap scene = MakeTrueMap(world, TruePoses(), {.depth = false, .noise = 0.1});
+  const auto adjust = [&](std::optional<LensCorrection>& lens) {
+    return AdjustWholeMap(scene.map, world.Imaging(), {}, {}, lens);
+  };
+  std::optional<LensCorrection> lens;
+  const Correction learned = adjust(lens);
+  ASSERT_TRUE(lens);
+  EXPECT_EQ(lens->border_px, 0);
+  const auto place = [](const Correction& c) { return c.points.begin()->second.after; };
+  EXPECT_EQ(place(adjust(lens)), place(learned));
+
+  lens = LensCorrection{3};
+  const Correction corrected = adjust(lens);
+  EXPECT_EQ(lens->border_px, 3);
+  EXPECT_NE(place(corrected), place(learned));
 }
 
 TEST(AdjustWholeMap, ChangesNothingWhenItIsStopped) {
