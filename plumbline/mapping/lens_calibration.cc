@@ -35,6 +35,8 @@ class Profile {
 
   // Returns nullopt where the numbers are not finite, and when stopped.
   std::optional<double> At(double border_px) {
+    const auto known = solved_.find(border_px);
+    if (known != solved_.end()) return known->second.final_cost;
     BaProblem corrected = problem_;
     if (!solved_.empty()) TakePlaces(Nearest(border_px), corrected);
     Correct({border_px}, corrected);
@@ -80,6 +82,9 @@ struct Parabola {
   double middle_cost = 0;
   double minimum = 0;    // where the cost is least
   double curvature = 0;  // second derivative
+
+  // By how much the cost is lower at the minimum than without a correction.
+  double Gain() const { return 0.5 * curvature * minimum * minimum; }
 };
 
 // Returns the parabola through the costs at `middle` and at `step` before and after it.
@@ -143,35 +148,38 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
 }
 
 LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
-  // Relative to the width of the image. Over four times as much, points far away stick on their way
-  // from one solution to the next, which takes many more steps and makes the profile too narrow.
-  constexpr double kStep = 0.0005;
+  // Relative to the width of the image. Over the first step all points stay near where they were,
+  // which takes few iterations; the second leads to the places that a large correction asks for.
+  constexpr double kFirstStep = 0.0005;
+  constexpr double kStep = 0.002;
   constexpr double kMost = 3;  // largest correction, in deviations of the prior
   // In a map of a camera that goes straight on, 4.6 deviations spoke for a correction where there
   // was nothing to correct: an error of a corner is the same in all its views, but the cost takes
   // the views for independent.
   constexpr double kSigmas = 6;
-  constexpr double kWorthAnother =
-      0.5;  // share of that likelihood ratio; less will not become enough
+  constexpr double kEnough = 0.5 * kSigmas * kSigmas;  // by which a correction lowers the cost
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
   const double sigma = kPriorSigma * problem.camera.width;
   const double step = kStep * problem.camera.width;
   Profile profile(problem, stop);
-  std::optional<Parabola> fit = FitAround(profile, 0, step, kMost * sigma);
+  std::optional<Parabola> fit =
+      FitAround(profile, 0, kFirstStep * problem.camera.width, kMost * sigma);
+  if (!fit || fit->Gain() < 0.5 * kEnough) return {};
+  fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
   const double uncorrected = fit->middle_cost;
-  double corrected = uncorrected - 0.5 * fit->curvature * fit->minimum * fit->minimum;
-  const auto ratio = [&] { return 2 * (uncorrected - corrected) / (kSigmas * kSigmas); };
-  if (ratio() < kWorthAnother) return {};
-  // The profile is a parabola near its minimum only, so that a distant one is fitted again.
+  double gain = fit->Gain();
+  // The profile is a parabola near its minimum only, so that a distant one is fitted again. Where
+  // that leads elsewhere, points have stuck on the way.
   if (std::abs(fit->minimum) > step) {
-    fit = FitAround(profile, fit->minimum, step, kMost * sigma);
-    if (!fit) return {};
-    corrected = fit->middle_cost;
+    const double middle = fit->minimum;
+    fit = FitAround(profile, middle, step, kMost * sigma);
+    if (!fit || std::abs(fit->minimum - middle) > step) return {};
+    gain = uncorrected - fit->middle_cost;
   }
   const double border = fit->minimum * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
   const bool matters = std::abs(border) * MeanSize(problem) > kAllowed * problem.camera.width;
-  if (ratio() <= 1 || !matters) return {};
+  if (gain <= kEnough || !matters) return {};
   const BaResult& nearest = profile.Nearest(border);
   return {{border}, nearest.poses, nearest.points};
 }

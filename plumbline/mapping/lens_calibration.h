@@ -38,7 +38,8 @@ void Correct(const LensCorrection& correction, BaProblem& problem);
 // measured (a pair), or when `stop` says so.
 //
 //   problem  of a whole map: poses with their gauge held, points with all observations
-//   cost     that of three adjustments of the points alone, of six where there may be a correction
+//   cost     that of three adjustments of the points alone, of up to eight where there may be a
+//            correction
 struct LearnedLens {
   LensCorrection correction;
   // Adjusted to a correction near that, by their place in the problem; empty where there is none.

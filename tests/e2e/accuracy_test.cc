@@ -33,6 +33,7 @@ TEST(Accuracy, MachineHallMono) { Check(kMachineHallMono); }
 TEST(Accuracy, FloorMono) { Check(kFloorMono); }
 TEST(Accuracy, OfficeMono) { Check(kOfficeMono); }
 TEST(Accuracy, RoadMono) { Check(kRoadMono); }
+TEST(Accuracy, RoadTurnMono) { Check(kRoadTurnMono); }
 TEST(Accuracy, MachineHallWithLinesOnly) { Check(kMachineHallLines); }
 
 }  // namespace
