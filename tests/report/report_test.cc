@@ -239,7 +239,7 @@ class AwayAndBack {
   AwayAndBack() : system_(MovingPoster::MakeCalibration(), Options()) {
     Show(0, kStretch);
     Show(std::nullopt, 14);
-    Show(120, kStretch);
+    Show(118, kStretch);
     Show(std::nullopt, 4);
     Show(0, kStretch);
     system_.Finish();

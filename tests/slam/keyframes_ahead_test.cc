@@ -186,7 +186,8 @@ TEST_F(KeyFramesAhead, OneThatIsTakenOutLeavesNoTrace) {
   }
   EXPECT_GT(shared, 10);
   // What only it measured is gone from what is tracked against, and from the map.
-  for (const SnapshotPoint& point : With(waiting)->points) {
+  const auto tracked_against = With(waiting);
+  for (const SnapshotPoint& point : tracked_against->points) {
     const auto provisional = FindProvisional(point.id);
     EXPECT_FALSE(provisional && provisional->keyframe == KeyFrameId{1});
   }

@@ -12,7 +12,7 @@ namespace plumbline {
 namespace map_return_test {
 
 constexpr int kLeftEnd = 0,
-              kRightEnd = 120;  // first frames of stretches that share next to nothing
+              kRightEnd = 118;  // first frames of stretches that share next to nothing
 constexpr int kStretch = 12, kBlind = 14, kShortlyBlind = 4;  // frames
 
 SlamOptions InMode(RunMode mode) {

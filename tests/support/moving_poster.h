@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/image/image.h"
@@ -74,6 +75,7 @@ class MovingPoster {
     }
   }
   GrayImage Cut(int x0) const {
+    if (x0 < 0 || x0 + kWidth > picture_.width()) throw BugError("the camera has left the poster");
     GrayImage image(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y) {
       std::copy_n(picture_.row(y) + x0, kWidth, image.row(y));
