@@ -135,6 +135,9 @@ TEST(Interruption, ListenersMayGoAway) {
 
 // With so little address space the run fails before it begins, in its middle or not at all.
 TEST(Interruption, ShortMemoryLosesNothingThatWasDone) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer has all address space for itself";
+#endif
   const ScratchFolder folder;
   const fs::path sequence = WritePosterSequence(folder, 60);
   for (const int megabytes : {200, 300, 400, 500, 600, 800}) {
