@@ -40,7 +40,8 @@ Correction AdjustWholeMap(const Map& map,
                           const MappingOptions& options,
                           std::optional<LensCorrection>& lens,
                           const StopCheck& stop = {});
-// The same for a map that is adjusted once.
+// Adjusts the whole of a map as above, where no earlier adjustment has learned the lens; the lens
+// that this one learns is given up with its end.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,

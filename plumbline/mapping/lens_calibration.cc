@@ -83,7 +83,8 @@ struct Parabola {
   double minimum = 0;    // where the cost is least
   double curvature = 0;  // second derivative
 
-  // By how much the cost is lower at the minimum than without a correction.
+  // Returns by how much a correction at the minimum lowers the cost against a correction of zero,
+  // as a parabola that was fitted around zero says.
   double Gain() const { return 0.5 * curvature * minimum * minimum; }
 };
 
@@ -164,6 +165,7 @@ LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
   Profile profile(problem, stop);
   std::optional<Parabola> fit =
       FitAround(profile, 0, kFirstStep * problem.camera.width, kMost * sigma);
+  // Longer steps change what the short ones have found by far less than to its double.
   if (!fit || fit->Gain() < 0.5 * kEnough) return {};
   fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};

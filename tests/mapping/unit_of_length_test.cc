@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/unit_of_length.h"
 
+#include "plumbline/base/random.h"
 #include "plumbline/mapping/ba_window.h"
 #include "plumbline/optimization/local_ba.h"
 
 #include "tests/support/true_map.h"
 #include <cmath>
 #include <cstddef>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,12 +24,11 @@ BaProblem Scene() {
   for (int k = 0; k < 3; ++k) {
     problem.poses.push_back({PoseOnPath(3 + 8 * k), k == 0, true});
   }
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> across(-1, 1);
-  std::uniform_real_distribution<double> deep(2, 9);
+  Rng rng(1, "unit_of_length");
   for (int i = 0; i < 40; ++i) {
-    const double depth = deep(random);
-    const Eigen::Vector3d in_camera{depth * across(random), depth * across(random), depth};
+    const double depth = 2 + 7 * rng.Uniform();
+    const double x = 2 * rng.Uniform() - 1, y = 2 * rng.Uniform() - 1;
+    const Eigen::Vector3d in_camera{depth * x, depth * y, depth};
     problem.points.push_back(Inverse(problem.poses[1].cam_from_world) * in_camera);
     for (int pose = 0; pose < 3; ++pose) problem.point_observations.push_back({pose, i, {}});
   }
@@ -100,9 +99,8 @@ TEST(UnitOfLength, IsLostByAnAdjustmentAndKeptAfterIt) {
   for (int k = 0; k < 5; ++k) poses.push_back(PoseOnPath(6 * k));
   const TrueMap scene = MakeTrueMap(world, poses, {.depth = false, .noise = 0.5, .missed = 0});
   BaWindow window = MakeBaWindow(scene.map, world.Imaging(), KeyFrameId{4}, {}, {});
-  std::mt19937_64 random(2);
-  std::normal_distribution<double> noise(0, 0.2);
-  for (auto& point : window.problem.points) point *= 1 + noise(random);
+  Rng rng(2, "unit_of_length");
+  for (auto& point : window.problem.points) point *= 1 + 0.2 * rng.Normal();
   BaResult result = SolveLocalBa(window.problem, {});
   EXPECT_GT(std::abs(ScalesOf(window.problem, result).front() - 1), 1e-3);
   KeepUnitOfTheOldest(window.problem, result);
