@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace plumbline {
 
