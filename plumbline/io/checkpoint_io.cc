@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kMagic = kCheckpointMagic;
 // Grows with every change of what System::Save writes, too, and with that of map files.
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kPreambleBytes = 12;  // magic and version
 
 // After the sections of the maps: the input; the state, in as many sections as it needs; the end.

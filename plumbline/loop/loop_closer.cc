@@ -126,8 +126,7 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
                                            std::span<const KeyFrameId> candidates) {
   attempts_.clear();
   if (map.Find(newest) == nullptr) return std::nullopt;
-  const std::int64_t number = map.NumberOf(newest);
-  if (last_closed_ >= 0 && number < last_closed_ + options_.closing.pause) return std::nullopt;
+  if (IsPausing(map, newest)) return std::nullopt;
   Drifts drifts(map, imaging_.camera.baseline == 0, options_);
   std::vector<KeyFrameId> elsewhere;
   for (const KeyFrameId candidate : WorthTrying(map, newest, candidates)) {
@@ -135,10 +134,16 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
     auto closure = TryCandidate(map, newest, candidate, drifts);
     if (attempts_.back().beyond_drift) elsewhere.push_back(candidate);
     if (!closure) continue;
-    last_closed_ = number;
+    last_closed_ = newest;
     return closure;
   }
   return std::nullopt;
+}
+
+// Numbers of keyframes are those of their map: in another map there is nothing to wait for.
+bool LoopCloser::IsPausing(const Map& map, KeyFrameId newest) const {
+  return last_closed_.valid() && map.Knows(last_closed_) &&
+         map.NumberOf(newest) < map.NumberOf(last_closed_) + options_.closing.pause;
 }
 
 std::optional<LoopClosure> LoopCloser::TryCandidate(const Map& map,

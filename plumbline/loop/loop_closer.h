@@ -85,7 +85,7 @@ class LoopCloser {
   struct State {
     std::vector<LoopEdge> loops;
     std::vector<LoopEdge> waiting;
-    std::int64_t last_closed = -1;
+    KeyFrameId last_closed;
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -105,6 +105,7 @@ class LoopCloser {
   std::vector<KeyFrameId> WorthTrying(const Map& map,
                                       KeyFrameId newest,
                                       std::span<const KeyFrameId> candidates) const;
+  bool IsPausing(const Map& map, KeyFrameId newest) const;
   std::optional<LoopClosure> TryCandidate(const Map& map,
                                           KeyFrameId newest,
                                           KeyFrameId candidate,
@@ -130,7 +131,7 @@ class LoopCloser {
   std::vector<LoopEdge> loops_;
   std::vector<LoopEdge> waiting_;  // seen by one keyframe only, the newest last
   std::vector<LoopAttempt> attempts_;
-  std::int64_t last_closed_ = -1;  // KeyFrame::number of the last query that closed
+  KeyFrameId last_closed_;  // the last query that closed a loop, in whatever map it is
 };
 
 }  // namespace plumbline

@@ -128,6 +128,18 @@ TEST(LoopCloser, PausesAfterAClosure) {
   EXPECT_TRUE(closer.attempts().empty());
 }
 
+// Keyframes of each map are numbered from 0.
+TEST(LoopCloser, DoesNotPauseForALoopOfAnotherMap) {
+  const LoopScene scene = Drifted();
+  LoopCloser closer(scene.Imaging(), {});
+  LoopCloser::State state;
+  state.last_closed = KeyFrameId{1000};
+  closer.SetState(state);
+  const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
+  EXPECT_TRUE(closer.Try(scene.map, kQuery, candidates));
+  EXPECT_EQ(closer.state().last_closed, kQuery);
+}
+
 TEST(LoopCloser, ForgetsWhatIsWithdrawn) {
   const LoopScene scene = Drifted();
   LoopCloser closer(scene.Imaging(), {});
