@@ -112,6 +112,8 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
 void LocalMapper::GoOnInAnotherMap() { stereo_change_.GiveUp(); }
 
 void LocalMapper::FollowJoins(const Atlas& atlas) {
+  const auto& change = stereo_change_.state();
+  if (change && atlas.Find(change->map) == nullptr) stereo_change_.GiveUp();
   for (auto of_map = young_.begin(); of_map != young_.end();) {
     const MapId current = atlas.Current(of_map->first);
     if (current == of_map->first) {

@@ -23,6 +23,9 @@ void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext&
   for (const auto& [id, young] : mapper.young) {
     if (atlas.Find(id) != nullptr) context.maps[id].young = young;
   }
+  // A map that was loaded may be part of another one by now.
+  std::erase_if(context.maps,
+                [&](const auto& of_map) { return atlas.Find(of_map.first) == nullptr; });
 }
 
 std::map<MapId, YoungLandmarks> YoungOf(const AtlasContext& context) {

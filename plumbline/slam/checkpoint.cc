@@ -108,7 +108,10 @@ void System::CheckResumed(const Atlas& atlas, const MappingStage::Checkpoint& st
     const Map* map = atlas.Find(atlas.Current(record.map));
     if (map == nullptr || !map->Knows(record.reference)) Fail("a frame without its keyframe");
   }
-  const bool follows = atlas.empty() || atlas.Current(map_) == atlas.active_id();
+  // Maps that do not grow are all alike to a camera that is found in one of them.
+  const MapId map = atlas.Current(map_);
+  const bool follows =
+      atlas.empty() || (read_only_ ? atlas.Find(map) != nullptr : map == atlas.active_id());
   if (next_map_ != stage.history.next_map.value || !follows) {
     Fail("other maps");
   }

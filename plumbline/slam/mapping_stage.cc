@@ -141,13 +141,21 @@ void MappingStage::CheckFits(const Atlas& atlas, const Checkpoint& c) {
     }
     return true;
   };
+  const auto has = [&](MapId id) { return atlas.Find(atlas.Current(id)) != nullptr; };
   bool fits = ascend(c.dues) && ascend(c.versions) && ascend(c.outcomes) && c.submitted >= 0;
   fits = fits && !c.versions.empty() && c.versions.back().task == c.submitted;
   for (const Outcome& outcome : c.outcomes) {
-    fits = fits && outcome.outcome.found.has_value() == (outcome.outcome.snapshot != nullptr);
+    const auto& [found, snapshot] = outcome.outcome;
+    fits = fits && found.has_value() == (snapshot != nullptr);
+    fits = fits && (snapshot == nullptr || has(snapshot->map));
   }
   for (const MapId id : c.changed) fits = fits && atlas.Find(id) != nullptr;
-  for (const KeyFrameId id : c.centres) fits = fits && !atlas.empty() && atlas.active().Knows(id);
+  for (const KeyFrameId id : c.centres) {  // of any map: a lost camera was looked for in all
+    fits = fits && std::any_of(atlas.maps().begin(), atlas.maps().end(), [&](const auto& map) {
+             return map.second.Knows(id);
+           });
+  }
+  fits = fits && (!c.adjustment || has(c.adjustment->result.map));
   if (const auto& change = c.mapper.stereo_change) {
     fits = fits && atlas.Find(change->map) != nullptr && change->correction.IsFinite();
   }
@@ -292,9 +300,7 @@ void MappingStage::Finish(const StopCheck& stop) {
   while (versions_.size() > 1) versions_.pop_front();
   adjustment_.GiveUp();  // what follows does more
   for (const MapId id : std::exchange(changed_, {})) {
-    Map* map = atlas_.Find(id);
-    if (map == nullptr) continue;  // part of another one, which has changed, too
-    const std::vector<MappingStep> times = mapper_.Finish(*map, stop);
+    const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
     times_.insert(times_.end(), times.begin(), times.end());
   }
 }
@@ -411,12 +417,20 @@ void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<Mapp
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
   times.push_back({"recognize", taken.count()});
   if (!older) return;
-  mapper_.FollowJoins(atlas_);
+  FollowJoins();
   Map& map = atlas_.active();
   changed_.insert(map.id());
   const std::vector<MappingStep> more = mapper_.Tie(map, id, *older);
   times.insert(times.end(), more.begin(), more.end());
   adjustment_.Begin(map, frame + AdjustmentDelay(map));
+}
+
+// What is remembered of a map that was joined is of the one that it is part of.
+void MappingStage::FollowJoins() {
+  mapper_.FollowJoins(atlas_);
+  std::set<MapId> changed;
+  for (const MapId id : changed_) changed.insert(atlas_.Current(id));
+  changed_ = std::move(changed);
 }
 
 MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {

@@ -244,6 +244,7 @@ class MappingStage {
   Done Do(const Sighting& sighting, std::int64_t frame);
   Done Do(const Visit& visit, std::int64_t frame);
   void Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times);
+  void FollowJoins();
   void TakeCorrection(std::int64_t frame);
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
   std::int64_t LastDone() const { return versions_.back().task; }

@@ -274,5 +274,20 @@ TEST(LocalMapper, RemembersTheYoungLandmarksOfMapsThatAreLeftAndJoined) {
   EXPECT_EQ(young.at(MapId{2}).points, std::vector{PointId{4}});
 }
 
+// The map that took it in has a correction of its own.
+TEST(LocalMapper, GivesUpTheStereoChangeOfAMapThatWasJoined) {
+  Atlas atlas;
+  for (int i = 0; i < 2; ++i) atlas.Start();
+  LocalMapper mapper(SyntheticWorld().Imaging(), {}, {});
+  LocalMapper::State state;
+  state.stereo_change = StereoChange::State{MapId{1}, {}, KeyFrameId{7}};
+  mapper.SetState(state);
+  mapper.FollowJoins(atlas);
+  EXPECT_TRUE(mapper.state().stereo_change);
+  atlas.Join(MapId{0}, MapId{1}, {});
+  mapper.FollowJoins(atlas);
+  EXPECT_FALSE(mapper.state().stereo_change);
+}
+
 }  // namespace
 }  // namespace plumbline

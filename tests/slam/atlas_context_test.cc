@@ -45,6 +45,22 @@ TEST(SystemContext, SaysWhatTheMapsWereMadeWith) {
   EXPECT_FALSE(context.maps.at(MapId{0}).young.points.empty());
 }
 
+// A map file that tells of a map that is not there is refused.
+TEST(AddMaps, LeavesOutMapsThatBecamePartOfOthers) {
+  Atlas atlas;
+  for (int i = 0; i < 2; ++i) atlas.Start();
+  AtlasContext context;
+  context.sessions.emplace_back();
+  LocalMapper::State mapper;
+  mapper.young[MapId{1}].points = {PointId{3}};
+  AddMaps(atlas, mapper, context);
+  EXPECT_EQ(context.maps.size(), 2U);
+  atlas.Join(MapId{0}, MapId{1}, {});
+  AddMaps(atlas, mapper, context);
+  ASSERT_EQ(context.maps.size(), 1U);
+  EXPECT_TRUE(context.maps.contains(MapId{0}));
+}
+
 TEST(SystemContext, NamesASessionByItsInput) {
   const auto uuid = [](int from, const SlamOptions& options = {}) {
     return RunPoster(from, from + 3, options)->session().uuid;

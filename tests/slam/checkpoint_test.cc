@@ -216,6 +216,24 @@ TEST(Checkpoint, OfEveryStartOfAMapGoesOnAsIfNothingHadBeen) {
   }
 }
 
+// A camera that sees nothing until a second map begins, which is then known to show the first.
+Recording StereoWithAJoin() {
+  Recording recording;
+  recording.frames = 58;
+  recording.frame = [poster = std::make_shared<MovingPoster>()](int i) {
+    return i >= 20 && i < 40 ? MovingPoster::BlindFrame(i) : poster->Frame(i);
+  };
+  return recording;
+}
+
+TEST(Checkpoint, OfMapsThatWereJoinedGoesOnAsIfNothingHadBeen) {
+  const Recording recording = StereoWithAJoin();
+  System whole(recording.calibration, InMode(RunMode::kInline));
+  RunFrom(0, recording, whole);
+  ASSERT_EQ(whole.events().joins.size(), 1U);
+  ExpectToGoOnAsIfNothingHadBeen(recording, {57});
+}
+
 TEST(Checkpoint, OfOneDeterministicModeServesTheOther) {
   const Recording recording = StereoWithALoss();
   std::map<int, SavedRun> saved = At({14});

@@ -25,15 +25,26 @@ SlamOptions InMode(RunMode mode) {
 // Stamps go on whatever is shown.
 class Show {
  public:
-  explicit Show(RunMode mode)
-      : system_(std::make_unique<System>(MovingPoster::MakeCalibration(), InMode(mode))) {}
+  explicit Show(RunMode mode) : Show(InMode(mode)) {}
+  explicit Show(const SlamOptions& options)
+      : system_(std::make_unique<System>(MovingPoster::MakeCalibration(), options)) {}
 
   // The poster from this frame of it on.
   void Stretch(int first) {
     for (int i = 0; i < kStretch; ++i) Process(poster_.Frame(first + i));
   }
+  void One(int frame) { Process(poster_.Frame(frame)); }
   void Black(int frames) {
     for (int i = 0; i < frames; ++i) Process(MovingPoster::BlindFrame(0));
+  }
+  // Like Stretch; before each frame, another system goes on from what this one saves.
+  void StretchWithPauses(int first) {
+    for (int i = 0; i < kStretch; ++i) {
+      auto next = std::make_unique<System>(MovingPoster::MakeCalibration(), system_->options());
+      next->Resume(system_->Save());
+      system_ = std::move(next);
+      Process(poster_.Frame(first + i));
+    }
   }
   // Left end, long black, right end, a moment of black, left end again.
   void AwayAndBack() {
@@ -91,6 +102,29 @@ TEST(MapReturn, PosesAreInTheWorldOfThatMap) {
   EXPECT_LT((last.world_from_camera.translation - expected).norm(), 0.01);
 }
 
+// For one frame the camera sees the other map's place, and it is lost again before the answer is
+// there.
+TEST(MapReturn, AnAnswerIsOldWhereTheCameraWasTrackedSince) {
+  for (const RunMode mode : {RunMode::kInline, RunMode::kLockstep}) {
+    SlamOptions options = InMode(mode);
+    options.slam.lag = 2;
+    Show show(options);
+    show.Stretch(kLeftEnd);
+    show.Black(kBlind);
+    show.Stretch(kRightEnd);
+    show.One(kLeftEnd + 4);
+    EXPECT_EQ(show.Newest().status, FrameStatus::kLost);
+    show.One(kRightEnd + kStretch - 1);
+    EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
+    show.Black(1);
+    EXPECT_EQ(show.Newest().status, FrameStatus::kLost);
+    show.One(kRightEnd + kStretch - 1);
+    EXPECT_EQ(show.Newest().status, FrameStatus::kTracked);
+    EXPECT_EQ(show.Newest().map, MapId{1});
+    EXPECT_TRUE(show.system().relocalizations().empty()) << NameOf(mode);
+  }
+}
+
 // A map that is only read stays as it was saved, the one that would grow included.
 TEST(MapReturn, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
   Show show(RunMode::kInline);
@@ -107,6 +141,28 @@ TEST(MapReturn, ARunThatChangesNothingIsFoundInAnyMapOfAnAtlas) {
   EXPECT_EQ(localized.frames().back().status, FrameStatus::kTracked);
   EXPECT_EQ(localized.frames().back().map, MapId{0});
   EXPECT_EQ(localized.atlas().active_id(), MapId{1});
+  System resumed(MovingPoster::MakeCalibration(), InMode(RunMode::kInline));
+  resumed.Resume(localized.Save());
+  resumed.Process(poster.Frame(kLeftEnd + kStretch));
+  EXPECT_EQ(resumed.frames().back().map, MapId{0});
+}
+
+// A pause between the moment when the camera is found and that when its map is active again, too.
+TEST(MapReturn, ARunMayBePausedAtAnyFrame) {
+  Show show(RunMode::kInline), paused(RunMode::kInline);
+  show.AwayAndBack();
+  paused.Stretch(kLeftEnd);
+  paused.Black(kBlind);
+  paused.Stretch(kRightEnd);
+  paused.Black(kShortlyBlind);
+  paused.StretchWithPauses(kLeftEnd);
+  show.system().Finish();
+  paused.system().Finish();
+  EXPECT_EQ(paused.Newest().map, MapId{0});
+  const Trajectory a = show.system().FinalTrajectory(MapId{0});
+  const Trajectory b = paused.system().FinalTrajectory(MapId{0});
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(a.back().world_from_camera.translation, b.back().world_from_camera.translation);
 }
 
 TEST(MapReturn, LockstepDoesWhatInlineDoes) {
