@@ -114,6 +114,8 @@ void MonocularStart::MapStarted(MapId map, const MapStart& start) {
   initializer_->Reset();
 }
 
+void MonocularStart::MapLeft() { young_keyframes_ = 0; }
+
 void MonocularStart::Tracked(const TrackingResult& result) {
   if (young_keyframes_ == 0 || young_frames_ == 0) return;
   const Frame& frame = result.frame;

@@ -53,6 +53,9 @@ class MonocularStart {
   // The frames that wait belong to this map, which began so.
   void MapStarted(MapId map, const MapStart& start);
 
+  // What is tracked from now on is in a map of before.
+  void MapLeft();
+
   // Poses in the maps started since the last call, each map's newest frame first. Frames that
   // waited are searched near the place that their successors predict, those that were tracked near
   // their place of then, among the landmarks around the next keyframe and their own. Left out are

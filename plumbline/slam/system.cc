@@ -199,16 +199,27 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   if (!outcome) return nullptr;
   relocalizing_ = false;
   if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
+  if (TrackedSince(outcome->found->frame.id)) return nullptr;
   tracker_.Resume(*outcome->found, *outcome->snapshot);
   mapping_.Use(outcome->snapshot);
   if (outcome->snapshot->map != map_ && !read_only_) {
     mapping_.Submit(frame.value, MapReturn{outcome->snapshot->map, outcome->found->keyframe});
+    if (monocular_start_) monocular_start_->MapLeft();
   }
   relocalizations_.push_back({outcome->found->frame.id,
                               outcome->found->keyframe,
                               outcome->found->counts.inlier_points,
                               outcome->found->counts.inlier_lines});
   return outcome->snapshot;
+}
+
+// A camera that was lost, tracked again and lost once more is not where it was looked for: since
+// then it may have made keyframes, which the snapshot around that place does not know.
+bool System::TrackedSince(FrameId frame) const {
+  for (std::size_t i = frames_.size(); i-- > static_cast<std::size_t>(frame.value) + 1;) {
+    if (frames_[i].status == FrameStatus::kTracked) return true;
+  }
+  return false;
 }
 
 // Asks for the place of a lost frame, one at a time.

@@ -197,6 +197,7 @@ class System {
   void CheckResumed(const Atlas& atlas, const MappingStage::Checkpoint& stage) const;
   Rigid3 AsDelivered(const Rigid3& rectified_cam_from_world) const;
   std::shared_ptr<const MapSnapshot> TakeRelocalized(FrameId frame);
+  bool TrackedSince(FrameId frame) const;
   void Relocalize(const TrackingResult& result);
   // The number of this run of the camera among those that made the maps.
   SessionId session_id() const;

@@ -149,6 +149,16 @@ TEST(MonocularStart, AMapIsYoungUntilItIsLost) {
   EXPECT_EQ(located[0].id, FrameId{15});
 }
 
+TEST(MonocularStart, FramesInAMapOfBeforeAreNotThoseOfAYoungOne) {
+  YoungRun run;
+  run.Track(15);
+  run.start.MapLeft();
+  run.Track(16);
+  const std::vector<EarlierFrame> located = run.start.Locate(run.atlas);
+  ASSERT_EQ(located.size(), 1U);
+  EXPECT_EQ(located[0].id, FrameId{15});
+}
+
 TEST(MonocularStart, KeepsABoundedNumberOfFrames) {
   YoungRun run;
   TrackingResult blind = TrackedOf(run.world, 15, KeyFrameId{1}, 14);
