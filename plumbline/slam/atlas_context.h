@@ -11,15 +11,15 @@
 
 namespace plumbline {
 
-// The options as YAML, without what changes no result: inline is written as lockstep, and features
-// in one thread as in two.
+// Returns the options as YAML, without choices that change no result: the mode inline is written as
+// lockstep, and features measured in one thread as in two.
 std::string ResultOptionsYaml(const SlamOptions& options);
 
 // Adds to the context of a system what belongs to its maps: their ids, their young landmarks, and
 // what is known of the stereo pair.
 void AddMaps(const Atlas& atlas, const LocalMapper::State& mapper, AtlasContext& context);
 
-// The young landmarks of each map, as AddMaps has written them down.
+// Returns the young landmarks of each map, as AddMaps wrote them into the context.
 std::map<MapId, YoungLandmarks> YoungOf(const AtlasContext& context);
 
 }  // namespace plumbline

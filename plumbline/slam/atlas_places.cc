@@ -5,7 +5,8 @@
 namespace plumbline {
 namespace {
 
-// Keyframes are newer than all that came before, in whatever map they are.
+// Adds the keyframes after `newest`. Ids ascend over all maps of an atlas, so that a keyframe made
+// later has a greater id, whichever map it is in.
 void AddNew(const Map& map, KeyFrameId newest, PlaceIndex* index) {
   for (auto it = map.keyframes().upper_bound(newest); it != map.keyframes().end(); ++it) {
     index->Add(it->first, it->second.frame.features());

@@ -10,16 +10,16 @@
 
 namespace plumbline {
 
-// The map that has a keyframe; nullptr where none has it (any more).
+// Returns the map that has a keyframe; nullptr where no map has it or has it any more.
 const Map* MapOf(const Atlas& atlas, KeyFrameId id);
 
 // Brings an index up to date: afterwards it holds exactly the keyframes that the maps of the atlas
-// hold. So it answers as an index that is made anew, for instance by a run that goes on from a
-// saved map. Cost: that of adding what is new; and where keyframes have left, some tenths of a
-// microsecond for each one there is.
+// hold. It then answers like an index that is built anew, for instance by a run that goes on from a
+// saved map. Cost: that of adding the new keyframes; where keyframes have left, some tenths of a
+// microsecond for each keyframe in the index.
 void Follow(const Atlas& atlas, PlaceIndex* index);
 
-// The keyframes of a map that show what an image shows, most alike first.
+// Returns the keyframes of a map that show what an image shows, the most alike first.
 std::vector<KeyFrameId> MostAlike(const PlaceIndex& index,
                                   const Map& map,
                                   const Features& features,

@@ -11,8 +11,8 @@
 namespace plumbline {
 namespace {
 
-// Lets the other threads of this program go before the calling one. Where the system refuses,
-// nothing changes.
+// Lowers the priority of the calling thread, so that the program's other threads run first. Where
+// the operating system refuses, nothing changes.
 void LowerPriority() {
   constexpr int kLowest = 19;
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowest);

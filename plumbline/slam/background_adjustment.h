@@ -16,14 +16,16 @@
 
 namespace plumbline {
 
-// One correction of a whole map that is computed beside mapping, from a copy of the map.
+// Computes one correction of a whole map beside mapping, from a copy of the map.
 //
-// When a correction takes effect is part of the algorithm: it is due at a frame that its beginning
-// names, from the size of the problem, and whoever takes it at that frame waits for it. Only a live
-// run takes it whenever it is ready. A correction that begins while another one is computed takes
-// its place: the older one does not know what made the newer one necessary.
+// When a correction takes effect is part of the algorithm: Begin names the frame at which it is
+// due, which depends on the size of the problem, and whoever takes the correction at that frame
+// waits for it. Only a live run takes it whenever it is ready. A correction that begins while
+// another one is computed replaces it, because the older one does not know what made the newer one
+// necessary.
 //
-// All functions are for one thread. What the computation throws, taking rethrows.
+// All functions are for one thread. A failure of the computation is rethrown when the result is
+// taken.
 class BackgroundAdjustment {
  public:
   using Compute = std::function<Correction(const Map& map, const StopCheck& stop)>;
@@ -34,14 +36,15 @@ class BackgroundAdjustment {
     Correction correction;
   };
 
-  // Worker::kCaller computes when the result is taken.
+  // With Worker::kCaller the correction is computed in the caller's thread when it is taken.
   BackgroundAdjustment(Compute compute, Worker worker);
-  // Gives up what is being computed, and waits until it has noticed.
+  // Gives up what is being computed, and waits until the computation has stopped.
   ~BackgroundAdjustment();
   BackgroundAdjustment(const BackgroundAdjustment&) = delete;
   BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
 
-  // Copies the map, which shares with the copy what it does not change meanwhile.
+  // Begins a correction of a copy of the map. Copying is cheap: map and copy share what the map
+  // does not change meanwhile.
   void Begin(const Map& map, std::int64_t due_frame);
   void GiveUp();
   bool Running() const { return job_ != nullptr; }
@@ -56,14 +59,16 @@ class BackgroundAdjustment {
       visit(self.result.map, self.result.correction, self.due_frame);
     }
   };
-  // Completes what is being computed; it is to be taken as before. Rethrows what it threw.
+  // Completes the computation and returns the correction without taking it: it stays due as before.
+  // Rethrows what the computation threw.
   std::optional<Pending> Save();
-  // Goes on with what another one saved.
+  // Goes on with what another BackgroundAdjustment saved.
   void Resume(const std::optional<Pending>& pending);
 
-  // The correction that is due at `frame`, once; waits for it.
+  // Returns the correction once `frame` has reached the frame at which it is due, and waits for it.
+  // Returns it only once.
   std::optional<Result> TakeDue(std::int64_t frame);
-  // The correction if it is ready, once.
+  // Returns the correction if it is ready, and only once.
   std::optional<Result> TakeReady();
 
  private:
@@ -83,11 +88,11 @@ class BackgroundAdjustment {
   Compute compute_;
   Worker worker_;
   std::unique_ptr<Job> job_;
-  std::jthread thread_;  // last, so that it ends first
+  std::jthread thread_;  // declared last, so that it ends before what it uses
 };
 
-// Frames until the adjustment of a whole map takes effect in runs that do not depend on the speed
-// of the machine: about twice the time that it takes, at 20 frames a second.
+// Returns after how many frames the adjustment of a whole map takes effect in runs that do not
+// depend on the speed of the machine: about twice the time that it takes, at 20 frames a second.
 std::int64_t AdjustmentDelay(const Map& map);
 
 }  // namespace plumbline

@@ -28,7 +28,7 @@ void Transfer(Archive& archive, T& r) {
   TransferAll(archive, r.causal_world_from_camera, r.counts, r.keyframe, r.shed, r.demoted);
   Transfer(archive, r.times);
 }
-// As a list of records.
+// Writes the log as a list of its records.
 template <class Archive, Like<FrameLog> T>
 void Transfer(Archive& archive, T& log) {
   const std::size_t count = TransferCount(archive, log.size());

@@ -27,7 +27,7 @@ std::span<const std::uint8_t> BytesOf(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-// Throws where an option that decides about the results is not what it was.
+// Throws InputError where an option that decides about the results differs from the saved one.
 void CheckOptionsAgree(const std::string& saved_yaml, const SlamOptions& options) {
   SlamOptions before, now;
   OptionTable saved(before), given(now);
@@ -53,7 +53,8 @@ void CheckRigAgrees(const AtlasContext& saved, const Rectifier& rectifier) {
   throw InputError(std::string(kSource) + ": expected one that agrees with itself, found " + what);
 }
 
-// Which maps took others in. BugError would blame the program for what bytes say.
+// Restores which maps took others in. BugError becomes InputError, because the bytes are at fault
+// and not the program.
 void RestoreHistory(const Atlas::History& history, Atlas& atlas) {
   try {
     atlas.SetHistory(history);
@@ -62,7 +63,7 @@ void RestoreHistory(const Atlas::History& history, Atlas& atlas) {
   }
 }
 
-// What the mapper remembers of the maps stands with these.
+// Completes the mapper's state by what the maps' own context holds of it.
 LocalMapper::State MapperOf(const SavedAtlas& maps, LocalMapper::State mapper) {
   mapper.stereo_evidence = maps.context.stereo_evidence;
   mapper.young = YoungOf(maps.context);

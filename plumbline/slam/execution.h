@@ -7,15 +7,15 @@
 
 namespace plumbline {
 
-// Who does the work of a live run, and what time it is for it: threads and the clock of the
-// machine, or, step by step, the caller, who moves the clock.
+// Says who does the work of a live run, and what time it is: either threads and the clock of the
+// machine, or the caller, who does one step at a time and moves the clock.
 struct Execution {
   using Clock = std::chrono::steady_clock;
 
-  // False, for live runs alone: what would be a thread's work waits until Pipeline::WorkOnce and
-  // System::MapOnce are called.
+  // If false, no threads are made: their work waits until Pipeline::WorkOnce and System::MapOnce
+  // are called. For live runs only.
   bool threads = true;
-  // Called from the thread that feeds and from the one that tracks.
+  // Returns the time. It is called from the thread that feeds and from the one that tracks.
   std::function<Clock::time_point()> now = [] { return Clock::now(); };
 };
 

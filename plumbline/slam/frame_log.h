@@ -15,10 +15,10 @@
 
 namespace plumbline {
 
-// Words that come again and again, each by a small number.
+// Numbers words that come again and again, so that each can be stored as a small number.
 class WordTable {
  public:
-  // The number of a word; a word that is new gets the next one.
+  // Returns the number of a word; a new word gets the next free number.
   std::size_t NumberOf(const std::string& word);
   bool Contains(const std::string& word) const;
   std::size_t size() const { return words_.size(); }
@@ -28,24 +28,24 @@ class WordTable {
   std::vector<std::string> words_;
 };
 
-// The records of all frames of a run, in order, in as little as each needs: 168 bytes, and 5 for
-// each time. An hour with 30 frames a second and ten times each takes 24 MB. Times lose what single
-// precision does not hold; all else comes out as it went in.
+// Keeps the records of all frames of a run in order, in little memory: 168 bytes a frame, and 5 for
+// each time. An hour with 30 frames a second and ten times each takes 24 MB. Times are rounded to
+// single precision; everything else comes out as it went in.
 //
-// Used like a vector whose elements are made when they are asked for.
+// The log is used like a vector, but makes its elements when they are asked for.
 class FrameLog {
  public:
   FrameLog() = default;
   FrameLog(std::initializer_list<FrameRecord> records);
 
-  // Whether the record may be the next one: its id is the number of those before, and it says
-  // nothing that there is no room for (256 different stages, 65,536 different reasons).
+  // Whether the log can take the record next: the record's id must be the number of records so far,
+  // and its words must have room (256 different stages, 65,536 different reasons).
   bool Takes(const FrameRecord& record) const;
-  // At the end; BugError where it is not taken.
+  // Adds a record at the end; throws BugError where Takes() is false.
   void Add(const FrameRecord& record);
-  // Lets `change` alter the record of a frame, but for its id and times.
+  // Lets `change` alter the record of a frame; its id and times stay as they are.
   void Change(std::size_t frame, const std::function<void(FrameRecord&)>& change);
-  // Times that are known later, of the last frame.
+  // Adds times to the last frame, for work that ended after its record was added.
   void AddTimes(const std::vector<StageTime>& times);
 
   std::size_t size() const { return entries_.size(); }
@@ -54,13 +54,14 @@ class FrameLog {
   FrameRecord front() const { return (*this)[0]; }
   FrameRecord back() const { return (*this)[size() - 1]; }
 
-  // Single fields, without making the rest.
+  // Returns a single field without making the whole record.
   std::int64_t StampOf(std::size_t frame) const { return entries_[frame].stamp_ns; }
   KeyFrameId ReferenceOf(std::size_t frame) const { return KeyFrameId{entries_[frame].reference}; }
 
   class const_iterator {
    public:
-    using iterator_category = std::input_iterator_tag;  // there is no element to refer to
+    // An element is made on the spot, so that no reference to it exists.
+    using iterator_category = std::input_iterator_tag;
     using value_type = FrameRecord;
     using difference_type = std::ptrdiff_t;
     using pointer = const FrameRecord*;
@@ -82,18 +83,18 @@ class FrameLog {
   const_iterator begin() const { return {*this, 0}; }
   const_iterator end() const { return {*this, size()}; }
 
-  // Bytes.
+  // Returns the memory of the log in bytes.
   std::size_t Memory() const;
 
  private:
-  using Numbers = std::array<double, 7>;  // of a Rigid3
+  using Numbers = std::array<double, 7>;  // rotation (4) and translation (3) of a Rigid3
   struct Compact {
     std::int64_t stamp_ns = 0;
     Numbers from_reference{};
     double unit = 1;
     Numbers causal{};
     std::int64_t reference = -1;
-    std::uint32_t first_time = 0;  // in milliseconds_
+    std::uint32_t first_time = 0;  // index of the first of its times in milliseconds_
     std::int32_t map = -1;
     std::array<std::int32_t, 4> counts{};
     std::uint16_t reason = 0;
@@ -102,7 +103,7 @@ class FrameLog {
     bool demoted : 1 = false;
     bool has_causal : 1 = false;
   };
-  // A list that grows without moving what is in it.
+  // A list that grows without moving its elements.
   template <class T>
   class Chunks {
    public:
@@ -131,7 +132,7 @@ class FrameLog {
   void Store(const FrameRecord& record, Compact& entry);
 
   Chunks<Compact> entries_;
-  Chunks<std::uint8_t> stages_;  // of the times of all frames, one after the other
+  Chunks<std::uint8_t> stages_;  // one entry for each time in milliseconds_
   Chunks<float> milliseconds_;
   WordTable stage_names_, reasons_;
 };

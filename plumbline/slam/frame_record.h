@@ -18,7 +18,7 @@
 
 namespace plumbline {
 
-// What came of one input frame.
+// What became of an input frame.
 enum class FrameStatus { kTracked, kLost, kInitializing, kSkipped };
 constexpr auto EnumNames(std::type_identity<FrameStatus>) {
   return std::array{std::pair{FrameStatus::kTracked, "tracked"},
@@ -27,23 +27,28 @@ constexpr auto EnumNames(std::type_identity<FrameStatus>) {
                     std::pair{FrameStatus::kSkipped, "skipped"}};
 }
 
-// All that is kept of one frame.
+// All that is kept of one frame. Its pose is that of the keyframe `reference` and, relative to it,
+// `from_reference`, so that a later correction of the map moves it, too.
 struct FrameRecord {
   FrameId id;
   std::int64_t stamp_ns = 0;
   FrameStatus status = FrameStatus::kSkipped;
   std::string reason;  // why there is no pose; empty where there is one
-  MapId map;           // that the pose was reported in, where there is one (Atlas::Current)
+  // Map in which the pose was reported, which another may have taken in (Atlas::Current).
+  MapId map;
   KeyFrameId reference;
   RelativePose from_reference;
-  std::optional<Rigid3> causal_world_from_camera;  // as first reported, camera as delivered
-  FrameCounts counts;                              // of from_reference
+  // Pose world_from_camera of the left camera as delivered (before rectification), as it was first
+  // reported and before later corrections; none where the frame got its pose later.
+  std::optional<Rigid3> causal_world_from_camera;
+  FrameCounts counts;  // matches and inliers of the pose, or of the attempt that failed
   bool keyframe = false;
   Shed shed = Shed::kNothing;  // what a live run left undone for this frame
-  bool demoted = false;        // was a keyframe until mapping had no time for it
-  // In order. "total" is from the frame's arrival to its pose; after_* are what was done for the
-  // frame since (System::Complete). map_* are steps of mapping that ended since the last frame,
-  // inline within "map", otherwise beside.
+  bool demoted = false;        // the frame was a keyframe until mapping had no time for it
+  // Times of the frame, in order. "total" runs from the frame's arrival to its pose. after_* are
+  // what was done for the frame after its pose was known (System::Complete). map_* are steps of
+  // mapping that ended since the last frame: part of "map" in inline mode, in other modes beside
+  // the frame's own work.
   std::vector<StageTime> times;
 };
 

@@ -17,30 +17,29 @@
 
 namespace plumbline {
 
-// A frame with what the images by themselves give for its pose (ExtractFeatures).
+// A frame with the features that were measured in its images.
 struct MeasuredFrame {
   std::int64_t stamp_ns = 0;
   RectifiedFrame images;
   std::shared_ptr<const IndexedFeatures> indexed;
-  StageClock clock;  // goes on with the frame
+  StageClock clock;  // times the frame's stages, in later ones as well
   Shed shed = Shed::kNothing;
 };
 
-// From sensor to features: the stage that needs no map and no earlier frame.
+// Turns images into features: the stage that needs no map and no earlier frame.
 class FrontEnd {
  public:
   // Throws InputError for a calibration that cannot be used.
   FrontEnd(const Calibration& calibration, const FeatureOptions& features);
 
   // Rectifies the images and measures features. Throws InputError when an image has another size
-  // than the calibration says. Thread-safe; same frame, same features. Of lines and points, `shed`
-  // measures fewer.
+  // than the calibration says. Thread-safe; the same frame gives the same features. With `shed`,
+  // fewer lines or points are measured.
   MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
 
-  // Features of a frame, which may have been corrected since they were measured, with the places of
-  // its lines in the right image: what landmarks are made of, beside what a pose is found from.
-  // They are looked for once: features that have such places are returned as they are. `shed` is
-  // that of Measure.
+  // Returns the features together with the places of the lines in the right image, which are needed
+  // to make landmarks of lines. Features that have these places already are returned as they are.
+  // The features may have been corrected since they were measured. `shed` is that of Measure.
   std::shared_ptr<const IndexedFeatures> WithRightLines(
       const RectifiedFrame& images,
       Shed shed,
@@ -52,7 +51,7 @@ class FrontEnd {
   FeatureInput InputOf(const RectifiedFrame& images) const;
 
   FeatureOptions options_;
-  std::unique_ptr<HelperThread> helper_;  // none where features are measured in one thread
+  std::unique_ptr<HelperThread> helper_;  // null where features are measured in one thread
   Rectifier rectifier_;
   ValidRegion left_valid_;
   ValidRegion right_valid_;

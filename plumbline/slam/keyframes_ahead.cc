@@ -14,12 +14,13 @@ namespace plumbline {
 namespace {
 
 constexpr std::int64_t kFirstProvisional = std::int64_t{1} << 60;
-constexpr std::int64_t kFeatures = std::int64_t{1} << 20;  // of a keyframe, at most
+constexpr std::int64_t kFeatures = std::int64_t{1} << 20;  // most features of a keyframe
 
 const std::vector<PointId>& Matches(const Frame& frame, PointId) { return frame.points; }
 const std::vector<LineId>& Matches(const Frame& frame, LineId) { return frame.lines; }
 
-// The landmark that the keyframe of a provisional one shows by the same feature.
+// Returns the landmark that the map has in place of a provisional one: the landmark that its
+// keyframe, once mapped, shows by the same feature.
 template <class LandmarkId>
 LandmarkId ShownBy(const KeyFrame& keyframe, const ProvisionalLandmark& landmark) {
   return Matches(keyframe.frame, LandmarkId{}).at(landmark.feature);
@@ -42,9 +43,9 @@ Landmark* FindById(std::vector<Landmark>& sorted, LandmarkId id) {
   return at != sorted.end() && at->id == id ? &*at : nullptr;
 }
 
-// Counts what a keyframe shows of the snapshot. Matches with a provisional landmark that is one of
-// the map by now become matches with that, as far as the snapshot tells, and others that it does
-// not have are undone.
+// Counts one more observation of each landmark of the snapshot that a keyframe shows. A match with
+// a provisional landmark of the keyframe `mapped` becomes a match with the landmark that the map
+// has in its place. Matches with landmarks that the snapshot does not have are removed.
 template <class LandmarkId, class Landmark>
 void CountShown(const KeyFrame& mapped,
                 std::vector<Landmark>& landmarks,
@@ -91,8 +92,8 @@ int CountNew(const std::vector<Feature>& features,
   return count;
 }
 
-// The provisional landmarks of a keyframe that is none any more pass to the first that shows them:
-// it makes them of its own depths, and those after it show them there.
+// Hands the provisional landmarks of a removed keyframe to its heirs. The first keyframe that shows
+// one of them makes it anew from its own depths; later keyframes match with that new landmark.
 template <class LandmarkId>
 void PassOn(KeyFrameId gone,
             KeyFrameId to,

@@ -16,41 +16,44 @@
 namespace plumbline {
 
 // Keyframes that a live run has made and mapping has not reached yet. The camera is tracked against
-// them all the same: against the landmarks that their depths give, which have provisional ids until
-// the map has landmarks in their place.
+// them all the same, by landmarks made from their depths. These landmarks have provisional ids
+// until the map has landmarks in their place.
 
-// What a provisional id names: a landmark by a feature of a keyframe. Provisional ids are greater
-// than any that a map gives, so that a map has none of them.
+// The landmark that a provisional id names, by a keyframe and the number of its feature.
+// Provisional ids are greater than any id that a map gives, so that the two are never confused.
 struct ProvisionalLandmark {
   KeyFrameId keyframe;
   std::size_t feature = 0;
 };
 template <class LandmarkId>
 LandmarkId ProvisionalId(const ProvisionalLandmark& landmark);
-// nullopt for an id of the map and an invalid one.
+// Returns nullopt for an id that a map gave and for an invalid one.
 template <class LandmarkId>
 std::optional<ProvisionalLandmark> FindProvisional(LandmarkId id);
 
-// The snapshot and the keyframes ahead of it, in the order in which they were made: each where its
-// parent says, with the landmarks that it shows counted once more and those that its depths give
-// added. The newest one is the centre. Cost: a copy of the snapshot and some 0.1 ms a keyframe.
+// Returns the snapshot with the keyframes ahead of it added, in the order in which they were made.
+// Each keyframe stands beside its parent, counts as one more observation of the landmarks that it
+// shows, and adds the landmarks that its depths give. The newest keyframe becomes the snapshot's
+// centre. Cost: a copy of the snapshot and some 0.1 ms a keyframe.
 std::shared_ptr<const MapSnapshot> WithKeyFramesAhead(
     const MapSnapshot& snapshot,
     const std::vector<std::shared_ptr<const NewKeyFrame>>& ahead,
     const RectifiedCamera& camera,
     const LandmarkCreationOptions& options);
 
-// A keyframe as the map takes it in: where its parent, which is or was in the map, says today, and
-// with the landmarks that the map has in place of provisional ones; none where it has none.
+// Returns a keyframe as the map takes it in. Its pose follows from that of its parent, which is or
+// was in the map, as the parent stands now. Provisional landmarks are replaced by those that the
+// map has in their place; where it has none, the feature shows no landmark.
 KeyFrame SettledIn(const Map& map, const NewKeyFrame& added);
 
-// How much a map would lose without the keyframe: its features that no other keyframe's landmark
-// explains, those with depth only where the camera measures depth.
+// Returns how much a map would lose without the keyframe: the number of its features that match no
+// landmark. Where the camera measures depth, only features with depth count.
 int NewMeasurements(const NewKeyFrame& added, const RectifiedCamera& camera);
 
-// Takes the keyframe at `place`, not the last, out of keyframes that wait in the order in which
-// they were made. Those tracked against it hang on its parent from then on, its landmarks become
-// those of the next that shows them, and the next one gets its scores. Returns it.
+// Takes the keyframe at `place`, not the last one, out of the waiting keyframes, which are in the
+// order in which they were made, and returns it. Keyframes tracked against it refer to its parent
+// from then on, the next keyframe that shows one of its landmarks makes that landmark anew, and the
+// next keyframe gets its scores.
 std::shared_ptr<const NewKeyFrame> TakeOut(
     std::size_t place, std::vector<std::shared_ptr<const NewKeyFrame>>& waiting);
 

@@ -9,9 +9,10 @@ namespace plumbline {
 namespace {
 
 constexpr double kShareOfLines = 0.5;
-// With half of the points the error of a car at 5 images a second doubles, for a tenth of the time.
+// Half of the points would double the error of a car at 5 images a second and save a tenth of the
+// time.
 constexpr double kShareOfPoints = 0.75;
-constexpr double kShareOfMapping = 0.4;  // of keyframes looked at
+constexpr double kShareOfMapping = 0.4;  // share of the keyframes that mapping looks at
 
 Shed More(Shed shed) {
   return shed < Shed::kPoints ? static_cast<Shed>(static_cast<int>(shed) + 1) : shed;
@@ -21,7 +22,7 @@ Shed Less(Shed shed) {
   return shed > Shed::kNothing ? static_cast<Shed>(static_cast<int>(shed) - 1) : shed;
 }
 
-// None stays none.
+// Returns the share of a number, rounded; at least 1, unless the number is 0.
 int Part(int number, double share) {
   return number == 0 ? 0 : std::max(1, static_cast<int>(std::lround(share * number)));
 }

@@ -11,8 +11,8 @@
 
 namespace plumbline {
 
-// What a live run leaves undone for a frame where the machine is too slow or too busy, in the order
-// in which it does so: each includes what stands before it.
+// What a live run leaves undone for a frame where the machine is too slow or too busy. Each value
+// includes those before it.
 enum class Shed {
   kNothing,
   kMapping,  // mapping makes fewer landmarks and adjusts a smaller window
@@ -30,37 +30,39 @@ constexpr auto EnumNames(std::type_identity<Shed>) {
 
 // How far behind a live run is when the turn of a frame comes.
 struct Load {
-  double wait = 0;            // since the frame's arrival, in intervals between frames
-  int frames_dropped = 0;     // left out since the last frame that was tracked
-  int keyframes_waiting = 0;  // for mapping, but for the one it is at
+  double wait = 0;            // waiting time since the frame arrived, in intervals between frames
+  int frames_dropped = 0;     // frames left out since the last frame that was tracked
+  int keyframes_waiting = 0;  // keyframes that wait for mapping, without the one being mapped
 };
 
-// Decides from frame to frame what is shed. A late frame is one that waited longer than the time
-// between two, or before which one was left out. Each of several late frames in a row adds what
-// comes next in the order, and several frames in a row that hardly waited give the last one back.
-// Where only mapping is behind, only its work is less. A pure function of the loads handed to it.
+// Decides from frame to frame what is shed. A frame is late if it waited longer than the time
+// between two frames, or if a frame before it was left out. Several late frames in a row make the
+// run shed the next value of Shed as well; several frames in a row that hardly waited undo one such
+// step. Where only mapping is behind, only mapping is shed. The decision depends on nothing but the
+// loads.
 class LoadShedding {
  public:
-  static constexpr int kLateFrames = 2;     // in a row until more is shed; after a drop at once
-  static constexpr int kCalmFrames = 8;     // in a row until less is shed
-  static constexpr double kLateWait = 1;    // intervals
-  static constexpr double kCalmWait = 0.5;  // intervals
+  // Late frames in a row until more is shed; one left-out frame is enough.
+  static constexpr int kLateFrames = 2;
+  static constexpr int kCalmFrames = 8;     // frames in a row that hardly waited until less is shed
+  static constexpr double kLateWait = 1;    // wait that makes a frame late [intervals]
+  static constexpr double kCalmWait = 0.5;  // wait below which a frame hardly waited [intervals]
   static constexpr int kManyKeyFramesWaiting = 3;
 
-  // What to shed for the frame whose turn has come: kPoints at most.
+  // Returns what to shed for the frame whose turn has come, at most kPoints.
   Shed Next(const Load& load);
 
  private:
-  Shed shed_ = Shed::kNothing;  // because of frames
+  Shed shed_ = Shed::kNothing;  // what late frames have led to
   int late_ = 0;
   int calm_ = 0;
-  bool mapping_ = false;  // behind
+  bool mapping_ = false;  // mapping is behind
 };
 
-// The share of the usual number of features that is measured.
+// Returns which share of the usual number of point features is measured.
 double FeatureShare(Shed shed);
 
-// What is measured and how keyframes are mapped where something is shed.
+// Returns options that measure less, or map keyframes with less work, where something is shed.
 FeatureOptions Lightened(FeatureOptions options, Shed shed);
 MappingOptions Lightened(MappingOptions options, Shed shed);
 

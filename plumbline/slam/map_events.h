@@ -8,17 +8,19 @@
 
 namespace plumbline {
 
-// A place that was seen again: the keyframe of `frame` shows what an older keyframe showed.
+// A place that was seen again: the new keyframe shows what an older keyframe showed.
 struct Recognition {
-  FrameId frame;  // the older map took the new keyframe in when this one was tracked
+  FrameId frame;  // the frame that the new keyframe was made of
   KeyFrameId keyframe;
   KeyFrameId older;
-  int points = 0;  // landmarks that both show
+  int points = 0;  // landmarks that both keyframes show
   int lines = 0;
-  double log10_chance = 0;  // of so much agreement between two different places
-  double moved = 0;         // how far the new keyframe went when the map was corrected [map unit]
+  // Decimal logarithm of the probability that two different places agree so well by chance.
+  double log10_chance = 0;
+  // How far the new keyframe moved when the map was corrected [map unit].
+  double moved = 0;
   double turned_deg = 0;
-  double scale = 1;  // of lengths around it, after / before
+  double scale = 1;  // length around the new keyframe after the correction / before
 
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
@@ -30,8 +32,8 @@ struct Recognition {
 // A lost frame that was found in a map.
 struct Relocalization {
   FrameId frame;
-  KeyFrameId keyframe;  // that showed the way
-  int points = 0;       // inliers of its pose
+  KeyFrameId keyframe;  // the keyframe from which the place was found
+  int points = 0;       // inliers of the frame's pose
   int lines = 0;
 
   template <class Self, class Visitor>
@@ -40,7 +42,7 @@ struct Relocalization {
   }
 };
 
-// One map became part of another.
+// Two maps that became one.
 struct MapJoin {
   Recognition place;
   MapId kept;
@@ -52,7 +54,7 @@ struct MapJoin {
   }
 };
 
-// What changed maps at large, in the order of time.
+// The events that changed maps at large, each kind in the order of time.
 struct MapEvents {
   std::vector<Recognition> loops;
   std::vector<MapJoin> joins;

@@ -7,14 +7,15 @@
 
 namespace plumbline {
 
-// Which of two maps took the other one in.
+// Two maps of which one took the other in.
 struct JoinedMaps {
   MapId kept;
   MapId gone;
 };
 
-// Makes one map of the two that an edge ties: the older takes the younger in, moved as the edge
-// says, and is the active one. Nothing is fused. BugError where the edge is not of two maps.
+// Makes one map of the two that an edge ties. The older map takes in the younger one, moved as the
+// edge says, and becomes the active one. No landmarks are fused. Throws BugError where the edge
+// does not tie two maps.
 JoinedMaps JoinBy(const LoopEdge& edge, Atlas& atlas);
 
 }  // namespace plumbline

@@ -22,11 +22,12 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kCandidates = 3;  // keyframes that one is compared with
+// Candidates of the first map that each keyframe of the second is compared with.
+constexpr std::size_t kCandidates = 3;
 constexpr std::size_t kMostEdges = 40;
 constexpr std::size_t kFewestQueries = 2;
 
-// All places of a list, so that any first part of them is spread over it.
+// Returns all places of a list in an order of which every first part is spread over the list.
 std::vector<std::size_t> SpreadOrder(std::size_t size) {
   std::vector<std::size_t> order;
   if (size > 0) order.push_back(0);
@@ -48,7 +49,7 @@ std::size_t Queries(std::span<const LoopEdge> edges) {
   return queries.size();
 }
 
-// Those of the chosen places, and the others.
+// Edges, split into those that were chosen and the others.
 struct Parts {
   std::vector<LoopEdge> chosen, others;
 };
@@ -62,8 +63,8 @@ Parts Divide(const std::vector<LoopEdge>& edges, const std::vector<int>& chosen)
   return parts;
 }
 
-// The largest set of edges that agree. The map has both ends of the edges, which nothing else ties
-// to each other.
+// Returns the largest set of edges that agree. `map` has both ends of all edges, and nothing but
+// the edges ties the one end to the other.
 Parts Agreeing(const Map& map,
                const std::vector<LoopEdge>& edges,
                bool free_scale,
@@ -83,7 +84,7 @@ Parts Agreeing(const Map& map,
   return Divide(edges, LargestConsistentSet(agree));
 }
 
-// The edges to rest the merge on, the surest first.
+// Returns the edges on which the merge rests, the surest first; or why the maps stay two.
 Expected<std::vector<LoopEdge>, MergeRefusal> Judged(const Atlas& atlas,
                                                      const std::vector<LoopEdge>& edges,
                                                      bool free_scale,
@@ -102,7 +103,7 @@ Expected<std::vector<LoopEdge>, MergeRefusal> Judged(const Atlas& atlas,
   return std::move(parts.chosen);
 }
 
-// Bends the joined map so that all edges hold, and fuses what they pair.
+// Bends the joined map so that all edges hold, and fuses the landmarks that they pair.
 bool Bend(const std::vector<LoopEdge>& edges,
           bool free_scale,
           const LoopOptions& options,
@@ -122,7 +123,8 @@ bool Bend(const std::vector<LoopEdge>& edges,
   return true;
 }
 
-// The keyframe of `others` that shares most landmarks with one; nullopt where none shares enough.
+// Returns the keyframe of `others` that shares most landmarks with a given keyframe; nullopt where
+// none shares enough.
 std::optional<KeyFrameId> ClosestAmong(const std::set<KeyFrameId>& others,
                                        const Map& map,
                                        KeyFrameId id,
@@ -137,8 +139,9 @@ std::optional<KeyFrameId> ClosestAmong(const std::set<KeyFrameId>& others,
   return closest;
 }
 
-// Fuses and adjusts around every keyframe of the second map that shows what one of the first shows:
-// forwards and backwards, since each one that is tied ties its neighbours. Returns how many.
+// Fuses and adjusts around every keyframe of the second map that shows what a keyframe of the first
+// shows. It goes through them forwards and backwards, since each keyframe that is tied makes its
+// neighbours share landmarks. Returns how many were tied.
 int TieAll(const std::set<KeyFrameId>& of_first,
            std::vector<KeyFrameId> of_second,
            int min_shared,

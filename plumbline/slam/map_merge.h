@@ -17,11 +17,13 @@
 
 namespace plumbline {
 
-// Why two maps are not made one.
+// Why two maps stay two.
 enum class MergeRefusal {
-  kNoOverlap,     // less than two keyframes of the second map show places of the first
-  kAmbiguous,     // they show places of the first, but nearly as many say the second is elsewhere
-  kContradicted,  // the shapes of the maps do not allow what they say
+  kNoOverlap,  // fewer than two keyframes of the second map show places of the first
+  // The edges disagree about where the second map lies: besides the largest set that agrees there
+  // is a second one with at least half as many keyframes of the second map.
+  kAmbiguous,
+  kContradicted,  // the shapes of the maps do not allow the edges
 };
 
 constexpr auto EnumNames(std::type_identity<MergeRefusal>) {
@@ -33,33 +35,35 @@ constexpr auto EnumNames(std::type_identity<MergeRefusal>) {
 // Two maps as one.
 struct MergedMaps {
   Atlas atlas;                    // the joined map is the active one
-  Similarity3 first_from_second;  // of the worlds, as the surest edge has it
-  std::vector<LoopEdge> overlap;  // what the merge rests on, the surest first; queries are
-                                  // keyframes of the second
-  int ties = 0;                   // keyframes of the second that were fused with the first
+  Similarity3 first_from_second;  // from world to world, as the surest edge says
+  // The edges on which the merge rests, the surest first. The query of each is a keyframe of the
+  // second map.
+  std::vector<LoopEdge> overlap;
+  int ties = 0;  // keyframes of the second map that were fused with the first
 };
 
-// Where keyframes of one map show places of another: each keyframe of the second is compared with
-// the three of the first that look most alike (PlaceIndex, VerifyLoop). Ends with 40 edges, which
-// are then spread over the second. Same maps, same edges. Cost: some tens of milliseconds for each
-// keyframe of the second.
+// Finds where keyframes of one map show places of another. Each keyframe of the second map is
+// compared with the three keyframes of the first that look most alike (PlaceIndex, VerifyLoop). The
+// search ends with 40 edges, which are then spread over the second map. The same maps give the same
+// edges. Cost: some tens of milliseconds for each keyframe of the second map.
 std::vector<LoopEdge> FindOverlap(const Map& first,
                                   const Map& second,
                                   const ImagingModel& imaging,
                                   const LoopVerificationOptions& options);
 
-// Makes one map of two that nobody has related to each other yet. `first`, the older one, stays
-// with its world.
+// Makes one map of two that have not been related to each other yet. `first`, the older one, keeps
+// its world.
 //
-// The edges between the two (FindOverlap) must agree: of those that close cycles with each other by
-// way of odometry (Mangelson et al., ICRA 2018) the largest set is taken, of two keyframes of the
-// second at least, and with more than twice as many as any set that disagrees with it (rooms that
-// look alike). The surest edge joins the maps (JoinBy), all together bend the joined map
-// (CloseLoop); what the edges pair is fused. From there on more is fused and adjusted around each
-// keyframe of the second that shares landmarks with the first, and at last the whole map is
-// adjusted (LocalMapper::Tie, Finish).
+// The edges between the two (FindOverlap) must agree. Of the edges that close cycles with each
+// other by way of odometry (Mangelson et al., ICRA 2018) the largest set is taken. It must have
+// edges of at least two keyframes of the second map, and more than twice as many of them as any set
+// that disagrees with it (rooms may look alike). The surest edge joins the maps (JoinBy), all edges
+// together bend the joined map (CloseLoop), and the landmarks that they pair are fused. From there
+// on more is fused and adjusted around each keyframe of the second map that shares landmarks with
+// the first, and at last the whole map is adjusted (LocalMapper::Tie, Finish).
 //
-// One camera: the second also gets the unit of the first. Same input, same result.
+// With one camera the second map also takes over the unit of length of the first. The same input
+// gives the same result.
 //
 //   cost  FindOverlap, some tenths of a second for each keyframe that both share, AdjustWholeMap
 Expected<MergedMaps, MergeRefusal> MergeBySight(const Atlas& atlas,

@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-// Takes an initial map apart, step by step: keyframes first, since landmarks name them.
+// Turns an initial map into an edit step by step. Keyframes come first, since landmarks name them.
 class StartBuilder {
  public:
   StartBuilder(const InitialMap& initial,
@@ -95,7 +95,7 @@ class StartBuilder {
   const InitialMap& initial_;
   const RectifiedCamera& camera_;
   Rigid3 world_from_initial_;
-  std::vector<Frame> frames_;  // of the keyframes
+  std::vector<Frame> frames_;  // the frames of the keyframes
   MapStart start_;
 };
 

@@ -14,13 +14,14 @@ namespace plumbline {
 
 // A map that begins with several keyframes at once.
 struct MapStart {
-  MapEdit edit;                       // of an empty map: keyframes, points and lines
-  std::vector<KeyFrameId> keyframes;  // by time
-  std::vector<FrameId> frames;        // that they were made from
+  // Adds keyframes, points and lines to an empty map.
+  MapEdit edit;
+  std::vector<KeyFrameId> keyframes;  // in order of time
+  std::vector<FrameId> frames;        // the frames that the keyframes were made from
 };
 
-// The initial map of a monocular sequence as the first edit of a map. All its views become
-// keyframes, numbered from `first` on; landmarks get the looks and the information that their
+// Turns the initial map of a monocular sequence into the first edit of a map. All its views become
+// keyframes, numbered from `first` on. Landmarks get the descriptors and the information that their
 // observations give.
 //
 //   world_from_first_cam  pose of the first view in the world of the map; the initial map's world
@@ -30,8 +31,8 @@ MapStart MakeMapStart(const InitialMap& initial,
                       const Rigid3& world_from_first_cam,
                       KeyFrameId first);
 
-// The edit with landmarks numbered for this map, which is empty but may follow others in its atlas:
-// no two maps of an atlas use an id.
+// Renumbers the landmarks of an edit for a map that is empty but may follow others in its atlas,
+// because no two maps of an atlas may use the same id.
 MapEdit NumberedFor(const Map& map, MapEdit edit);
 
 }  // namespace plumbline

@@ -18,7 +18,7 @@ namespace {
 BackgroundAdjustment::Compute WholeMapAdjustment(const ImagingModel& imaging,
                                                  const SlamOptions& options) {
   MappingOptions mapping = options.mapping;
-  // Frames to come are measured with the lens as it is.
+  // The lens stays fixed, because frames to come are measured with the lens as it is.
   mapping.lens_calibration = false;
   return [imaging, lines = options.lines, mapping](const Map& map, const StopCheck& stop) {
     return AdjustWholeMap(map, imaging, lines, mapping, stop);
@@ -73,7 +73,7 @@ void MappingStage::Submit(std::int64_t frame, RelocalizationRequest request) {
 
 void MappingStage::Submit(std::int64_t frame, MapReturn back) {
   Submit(frame, Work(back), false);
-  map_begins_ = submitted_;  // snapshots of before are of another map
+  map_begins_ = submitted_;  // earlier snapshots show another map
   kept_.clear();
 }
 
@@ -131,7 +131,8 @@ void MappingStage::Resume(Atlas atlas, const Checkpoint& checkpoint) {
   adjustment_.Resume(checkpoint.adjustment);
 }
 
-// Whether such a stage may go on: all that was submitted is done, and is about these maps.
+// Throws InputError where a stage cannot go on from the checkpoint: its tasks must all be done, and
+// refer to these maps.
 void MappingStage::CheckFits(const Atlas& atlas, const Checkpoint& c) {
   const auto ascend = [&](const auto& items) {
     std::int64_t before = -1;
@@ -191,11 +192,11 @@ void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
   task_added_.notify_one();
 }
 
-// Where more keyframes wait than may: the one with the fewest new measurements, the oldest of two;
-// never the newest, which tracking goes on from.
+// Gives up one keyframe where more than kMaxWaiting wait: the one with the fewest new measurements,
+// the older one of two. The newest is kept, since tracking goes on from it.
 std::optional<DemotedKeyFrame> MappingStage::GiveUpOne() {
   const std::lock_guard lock(mutex_);
-  std::vector<std::size_t> places;  // of the keyframes among the tasks
+  std::vector<std::size_t> places;  // positions of the waiting keyframes in tasks_
   std::vector<std::shared_ptr<const NewKeyFrame>> waiting;
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     const auto* keyframe = std::get_if<std::shared_ptr<const NewKeyFrame>>(&tasks_[i].work);
@@ -298,7 +299,7 @@ void MappingStage::Finish(const StopCheck& stop) {
   dues_.clear();
   const std::lock_guard lock(mutex_);
   while (versions_.size() > 1) versions_.pop_front();
-  adjustment_.GiveUp();  // what follows does more
+  adjustment_.GiveUp();  // the adjustment below does more
   for (const MapId id : std::exchange(changed_, {})) {
     const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
     times_.insert(times_.end(), times.begin(), times.end());
@@ -308,7 +309,7 @@ void MappingStage::Finish(const StopCheck& stop) {
 void MappingStage::CheckComplete() const {
   if (mode_ == RunMode::kInline) return;
   const std::lock_guard lock(mutex_);
-  if (failure_) return;  // the worker has ended
+  if (failure_) return;  // the worker has ended, so that the maps cannot change any more
   PLUMBLINE_CHECK(LastDone() == submitted_, "maps are complete only after Finish");
 }
 
@@ -363,7 +364,7 @@ void MappingStage::WorkUntilStopped() {
   }
 }
 
-// What it throws is kept for WaitFor, which the tracker's thread calls.
+// Does the next task and keeps what it throws for WaitFor, which the tracker's thread calls.
 void MappingStage::TryNext(std::unique_lock<std::mutex>& lock) {
   try {
     DoNext(lock);
@@ -373,7 +374,7 @@ void MappingStage::TryNext(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-// Does the next task, without holding the lock meanwhile.
+// Does the next task; the lock is released while it works.
 void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   const Task task = std::move(tasks_.front());
   tasks_.pop_front();
@@ -407,8 +408,8 @@ MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& ad
   return done;
 }
 
-// A place that was seen before ties the new keyframe to it, and the whole map is adjusted; or it
-// tells that a young map is wrong.
+// Recognizes a place that was seen before. It ties the new keyframe to the older one and begins to
+// adjust the whole map; or it finds that a young map is wrong, which is then withdrawn.
 void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times) {
   const auto start = std::chrono::steady_clock::now();
   places_.Follow(atlas_);
@@ -485,7 +486,7 @@ MappingStage::Done MappingStage::Do(const Visit& visit, std::int64_t) {
   return {};
 }
 
-// What was found beside mapping, if it takes effect at this frame.
+// Applies the correction that was computed beside mapping, if it takes effect at this frame.
 void MappingStage::TakeCorrection(std::int64_t frame) {
   const bool when_ready = mode_ == RunMode::kLive && worker_.joinable();
   const auto found = when_ready ? adjustment_.TakeReady() : adjustment_.TakeDue(frame);
@@ -495,11 +496,13 @@ void MappingStage::TakeCorrection(std::int64_t frame) {
   changed_.insert(map.id());
 }
 
-// Also of the places of the snapshots before: the tracker's last pose may hang on one of them.
+// Takes a snapshot that also holds the places of earlier centres, because the tracker's last pose
+// may refer to one of them.
 std::shared_ptr<const MapSnapshot> MappingStage::TakeSnapshotAround(const Map& map,
                                                                     KeyFrameId centre) {
   constexpr std::size_t kRemembered = 16;
-  std::vector<KeyFrameId> earlier;  // a lost camera may have been found in another map
+  // Those of this map: a lost camera may have been found in another one.
+  std::vector<KeyFrameId> earlier;
   std::copy_if(centres_.begin(), centres_.end(), std::back_inserter(earlier), [&](KeyFrameId id) {
     return map.Knows(id);
   });

@@ -31,8 +31,8 @@
 
 namespace plumbline {
 
-// A keyframe that mapping had no time for. The frame that it was made of is an ordinary one, and
-// what moves with it moves with its parent.
+// A keyframe that mapping had no time for. The frame that it was made of becomes an ordinary frame.
+// Frames that refer to the keyframe refer to its parent from now on.
 struct DemotedKeyFrame {
   KeyFrameId id;
   FrameId frame;
@@ -40,143 +40,153 @@ struct DemotedKeyFrame {
   RelativePose from_parent;
 };
 
-// A lost frame, to be found in one of the maps by its looks.
+// A lost frame whose place in one of the maps is to be found by appearance.
 struct RelocalizationRequest {
   Frame frame;
 };
 struct RelocalizationOutcome {
   std::optional<Relocalized> found;
-  std::shared_ptr<const MapSnapshot> snapshot;  // around the keyframe that showed the way
+  // Around the keyframe from which the place was found.
+  std::shared_ptr<const MapSnapshot> snapshot;
 };
 
-// The lost camera goes on in this map, which was left before: from now on this is the one that
-// grows.
+// The lost camera goes on in a map that it had left. From now on this map is the active one.
 struct MapReturn {
   MapId map;
-  KeyFrameId keyframe;  // that the camera is beside
+  KeyFrameId keyframe;  // the keyframe beside which the camera is
 };
 
-// The landmarks that the camera sees, when it leaves the surroundings that the snapshot shows.
+// The landmarks that the camera sees when it leaves the surroundings that the snapshot shows.
 struct Sighting {
   MapId map;
   std::vector<PointId> points;
   std::vector<LineId> lines;
 };
 
-// Somebody who wants to see the maps as they are between two keyframes, in the thread that maps.
+// A function to be called with the maps between two keyframes, in the thread that maps.
 struct Visit {
   std::function<void(const Atlas&, const LocalMapper&, const PlaceRecognition&)> look;
 };
 
-// The owner and only writer of the maps. Takes keyframes from the tracker and hands out snapshots.
+// Owns the maps and is the only one to write them. Takes keyframes from the tracker and hands out
+// snapshots.
 //
-// When a keyframe takes effect is part of the algorithm, not of the machine's speed: one made at
-// frame f is in the snapshot from frame f + 1 + lag on, the start of a map at once. Inline, the
-// work is done when the snapshot is asked for, in the caller's thread. In lockstep a thread of its
-// own begins as soon as a keyframe comes, and the caller waits for exactly the snapshot that the
-// frame is due: the same bytes. Live, the caller waits only for the first keyframe of a map, and
-// gets the newest snapshot there is with the keyframes that are not in it yet (WithKeyFramesAhead):
-// tracking always has a map that reaches it. kMaxWaiting of them may wait; when one more comes, the
-// one that the map loses least without is given up.
+// When a keyframe takes effect is part of the algorithm, not of the machine's speed. A keyframe
+// made at frame f is in the snapshot from frame f + 1 + lag on; the start of a map is in it at
+// once.
+//   inline    The work is done in the caller's thread, when the snapshot is asked for.
+//   lockstep  A thread begins the work as soon as a keyframe comes, and the caller waits for
+//             exactly the snapshot that the frame is due. The bytes are those of inline.
+//   live      The caller waits only for the first keyframe of a map. It gets the newest snapshot
+//             there is, with the keyframes that are not in it yet (WithKeyFramesAhead), so that
+//             tracking always has a map that reaches the camera. At most kMaxWaiting keyframes may
+//             wait; when one more comes, the one without which the map loses least is given up.
 //
-// A map whose shape has changed at large is adjusted as a whole beside all that
-// (BackgroundAdjustment). What this finds is applied before the first task that was submitted when
-// it was due, to the map as it is then (Rebased), and shows in that task's snapshot.
+// A map whose shape has changed at large is adjusted as a whole beside mapping
+// (BackgroundAdjustment). The correction is applied before the first task that was submitted at or
+// after the frame at which it is due; a live run applies it as soon as it is ready. It is applied
+// to the map as it is then (Rebased), and shows in that task's snapshot.
 //
-// A young map of one camera whose unit runs away is withdrawn (PlaceRecognition::Withdraws): its
-// snapshots say so from then on.
+// A young map of one camera whose unit of length runs away is withdrawn
+// (PlaceRecognition::Withdraws). Its snapshots say so from then on.
 //
-// All functions are for one thread, the tracker's.
+// All functions are for one thread, the tracker's, except those that say otherwise.
 class MappingStage {
  public:
-  static constexpr std::size_t kMaxWaiting = 4;   // keyframes, live
-  static constexpr std::size_t kEarlierKept = 8;  // snapshots, live
+  static constexpr std::size_t kMaxWaiting = 4;   // most keyframes that may wait in a live run
+  static constexpr std::size_t kEarlierKept = 8;  // most earlier snapshots that a live run keeps
 
   MappingStage(const ImagingModel& imaging,
                const SlamOptions& options,
                const Execution& execution = {});
-  // Leaves undone what has not begun.
+  // Leaves undone all tasks that have not begun.
   ~MappingStage();
   MappingStage(const MappingStage&) = delete;
   MappingStage& operator=(const MappingStage&) = delete;
 
-  // Opens a new map when `starts_map`; frames count from 0. Returns the keyframe that was given up
-  // for this one.
+  // Submits a keyframe, which opens a new map when `starts_map`. Frames count from 0. Returns the
+  // keyframe that was given up for this one, where there is one.
   std::optional<DemotedKeyFrame> Submit(std::int64_t frame, NewKeyFrame keyframe, bool starts_map);
-  // Opens a new map that begins with several keyframes.
+  // Submits several keyframes that open a new map.
   void Submit(std::int64_t frame, MapStart start);
-  // The outcome is there when a keyframe of this frame would be in the snapshot.
+  // Submits a lost frame. TakeRelocalization() gives the outcome from the frame on at which a
+  // keyframe of this frame would be in the snapshot.
   void Submit(std::int64_t frame, RelocalizationRequest request);
-  // Beside Use() of a snapshot of that map.
+  // Submits the return to an earlier map. The caller also calls Use() with a snapshot of that map.
   void Submit(std::int64_t frame, MapReturn back);
-  // The snapshot is then that around the keyframe that shows most of what is seen.
+  // Submits what the camera sees. The snapshot becomes the one around the keyframe that shows most
+  // of it.
   void Submit(std::int64_t frame, Sighting sighting);
   void Submit(std::int64_t frame, Visit visit);
 
-  // Begins with maps that there are already, one of them active, and what mapping remembered of it,
-  // before anything is submitted.
+  // Begins with maps that there are already, of which one is active, and with what mapping
+  // remembered of them. To be called before anything is submitted.
   void Continue(Atlas atlas, const LocalMapper::State& mapper);
 
-  // All that it goes on from beside its maps, once everything that was submitted is done: what
-  // tracking is to see of that, and from which frame on.
+  // What the stage needs, beside its maps, to go on once everything that was submitted is done:
+  // what tracking is to see of that, and from which frame on.
   struct Checkpoint;
-  // Completes all work that is left; the frames of before see as little of it as they would
-  // without. Changes no result but of live runs, which see it sooner. Rethrows what mapping threw.
+  // Completes all work that is left and returns the checkpoint. Earlier frames see no more of that
+  // work than they would without Save, except in a live run, which sees it sooner. Rethrows what
+  // mapping threw.
   Checkpoint Save();
-  // In place of Continue: goes on as the stage with these maps would that gave the checkpoint.
-  // Throws InputError where no stage can have given it.
+  // Goes on as the stage would that gave the checkpoint and had these maps; takes the place of
+  // Continue. Throws InputError where no stage can have given the checkpoint.
   void Resume(Atlas atlas, const Checkpoint& checkpoint);
 
-  // Before the first task; the observer is called in the thread that maps.
+  // Sets the observer, which is called in the thread that maps. To be called before the first task.
   void Observe(PlaceObserver observer) { places_.Observe(std::move(observer)); }
 
-  // The outcome of a relocalization that the frame of the last SnapshotFor() may know, once.
+  // Returns the outcome of a relocalization, once, when the frame of the last SnapshotFor() may
+  // know it.
   std::optional<RelocalizationOutcome> TakeRelocalization();
-  // From now on SnapshotFor() gives this one until a newer one is due.
+  // Makes SnapshotFor() give this snapshot until a newer one is due.
   void Use(const std::shared_ptr<const MapSnapshot>& snapshot);
 
-  // The map around its newest keyframe as frame `frame` may know it; null before the first
+  // Returns the map around its newest keyframe as frame `frame` may know it; null before the first
   // keyframe. Rethrows what mapping threw.
   std::shared_ptr<const MapSnapshot> SnapshotFor(std::int64_t frame);
 
-  // Live: one of the last snapshots of the map in use before the newest, without keyframes ahead;
-  // from call to call an older one, then again from the first. Null where there is none.
+  // Live runs: returns a snapshot of the map in use from before the newest one, without keyframes
+  // ahead. Each call returns an older one, and after the oldest the first again. Null where there
+  // is none.
   std::shared_ptr<const MapSnapshot> EarlierSnapshot();
 
-  // Tasks that mapping has not begun with, but for visits, which are nothing to it.
+  // Returns the number of tasks that mapping has not begun. Visits do not count.
   std::size_t Waiting() const;
 
-  // What is shed of the keyframes that mapping begins with from now on; nothing before the first
-  // call.
+  // Sets what is shed of the keyframes that mapping begins with from now on. Before the first call
+  // nothing is shed.
   void Lighten(Shed shed);
 
-  // Takes in the next keyframe, in the caller's thread; false when none waits. For live runs
+  // Does the next task in the caller's thread; returns false when none waits. For live runs
   // without threads (Execution).
   bool WorkOnce();
 
-  // Does all work that is left and adjusts each map as a whole (`stop` cuts the adjustment short);
-  // no keyframe may follow in a map that is to be tracked against. Rethrows what mapping threw.
+  // Does all work that is left and adjusts each map as a whole (`stop` cuts the adjustment short).
+  // After that no keyframe may be added to a map that is to be tracked against. Rethrows what
+  // mapping threw.
   void Finish(const StopCheck& stop = {});
 
-  // None before the first keyframe. With a thread, only after Finish (BugError). After Finish
-  // threw, the maps are as mapping left them: a keyframe that was to be taken in may be missing,
-  // and the last change may be done by half.
+  // The maps; none before the first keyframe. With a thread they may be asked for only after Finish
+  // (BugError). After Finish threw, the maps are as mapping left them: a keyframe that was to be
+  // taken in may be missing, and the last change may be half done.
   const Atlas& atlas() const;
   const std::map<MapId, Map>& maps() const { return atlas().maps(); }
 
-  // Like atlas().
+  // The lines that local bundle adjustment held in memory. When it may be called: see atlas().
   const AdjustedLines& adjusted_lines() const;
 
-  // Loops that were closed and maps that were joined, like atlas().
+  // Loops that were closed and maps that were joined. When it may be called: see atlas().
   MapEvents events() const;
-  // The same as far as the steps of mapping that have ended tell, at any time and in any thread:
-  // which steps these are depends on the machine's speed, their order does not.
+  // Loops and joins from the steps of mapping that have ended. May be called at any time and in any
+  // thread. How many steps have ended depends on the machine's speed, their order does not.
   MapEvents EventsSoFar() const;
 
-  // What mapping remembers, like atlas().
+  // What mapping remembers of the maps. When it may be called: see atlas().
   LocalMapper::State mapper_state() const;
 
-  // Time of the mapping steps done since the last call.
+  // Returns the times of the mapping steps done since the last call.
   std::vector<MappingStep> TakeTimes();
 
  private:
@@ -186,15 +196,15 @@ class MappingStage {
                             MapReturn,
                             Sighting,
                             Visit>;
-  // Something to be taken in. Tasks are numbered from 1 in the order of submission.
+  // A piece of work for the mapper. Tasks are numbered from 1 in the order of submission.
   struct Task {
     std::int64_t number = 0;
-    std::int64_t frame = 0;  // at which it was submitted
+    std::int64_t frame = 0;  // frame at which it was submitted
     Work work;
     bool starts_map = false;
   };
   struct Due {
-    std::int64_t frame = 0;  // the first that is to see it
+    std::int64_t frame = 0;  // first frame that is to see the task's result
     std::int64_t task = 0;
 
     template <class Self, class Visitor>
@@ -203,7 +213,7 @@ class MappingStage {
     }
   };
   struct Version {
-    std::int64_t task = 0;  // the last one in it
+    std::int64_t task = 0;  // the last task whose result is in the snapshot
     std::shared_ptr<const MapSnapshot> snapshot;
 
     template <class Self, class Visitor>
@@ -220,9 +230,9 @@ class MappingStage {
       visit(self.task, self.outcome);
     }
   };
-  // What a task did.
+  // The results of a task.
   struct Done {
-    std::shared_ptr<const MapSnapshot> snapshot;  // null: the one before stays
+    std::shared_ptr<const MapSnapshot> snapshot;  // null: the snapshot before stays in use
     std::vector<MappingStep> times;
     std::optional<RelocalizationOutcome> relocalization;
   };
@@ -236,7 +246,7 @@ class MappingStage {
   static void CheckFits(const Atlas& atlas, const Checkpoint& c);
   void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);
-  // `frame`: at which the task was submitted.
+  // `frame` is the frame at which the task was submitted.
   Done Do(const std::shared_ptr<const NewKeyFrame>& added, std::int64_t frame);
   Done Do(const MapStart& start, std::int64_t frame);
   Done Do(const RelocalizationRequest& request, std::int64_t frame);
@@ -253,37 +263,43 @@ class MappingStage {
   std::int64_t lag_;
   RectifiedCamera camera_;
   MappingOptions mapping_options_;
-  // The tracker's side.
+  // State of the tracker's thread.
   std::int64_t submitted_ = 0;
-  std::deque<Due> dues_;  // of tasks later than the one last asked for; live: of first keyframes
-  std::int64_t map_begins_ = 0;                          // with this task
-  std::deque<std::shared_ptr<const MapSnapshot>> kept_;  // live: earlier ones, the newest first
+  // Tasks whose results later frames are to see; in a live run only those that start maps.
+  std::deque<Due> dues_;
+  std::int64_t map_begins_ = 0;  // task that began the map in use
+  // live: earlier snapshots, the newest first
+  std::deque<std::shared_ptr<const MapSnapshot>> kept_;
   std::size_t next_kept_ = 0;
-  // Live: the newest version and what was made of it.
+  // Live: the newest snapshot, the same with the keyframes ahead of it, and those keyframes.
   std::shared_ptr<const MapSnapshot> base_, with_ahead_;
   std::vector<std::shared_ptr<const NewKeyFrame>> ahead_;
-  // The worker's side.
+  // State of the worker. Other threads touch it only while no task is being done.
   LocalMapper mapper_;
   Relocalizer relocalizer_;
   PlaceRecognition places_;
   Atlas atlas_;
-  std::set<MapId> changed_;         // since the maps were loaded or last adjusted as a whole
-  std::deque<KeyFrameId> centres_;  // of the last snapshots
+  // Maps that changed since they were loaded or last adjusted as a whole.
+  std::set<MapId> changed_;
+  std::deque<KeyFrameId> centres_;  // centres of the last snapshots
   BackgroundAdjustment adjustment_;
-  // Between the two, guarded by mutex_.
+  // State that both threads use, guarded by mutex_.
   mutable std::mutex mutex_;
   std::condition_variable task_added_, task_done_;
   std::deque<Task> tasks_;
-  std::shared_ptr<const NewKeyFrame> begun_;  // being taken in
+  std::shared_ptr<const NewKeyFrame> begun_;  // keyframe that is being taken in
   Shed shed_ = Shed::kNothing;
-  // From the one in use on; at first that of no task, so that nothing is in use before it is due.
+  // The versions from the one in use on. The first is that of no task, so that nothing is in use
+  // before it is due.
   std::deque<Version> versions_{{}};
   std::vector<MappingStep> times_;
-  std::deque<Outcome> outcomes_;  // not taken yet
-  MapEvents events_;              // EventsSoFar
+  std::deque<Outcome> outcomes_;  // outcomes that nobody has taken yet
+  MapEvents events_;              // what EventsSoFar() returns
   std::exception_ptr failure_;
   bool stop_ = false;
-  std::jthread worker_;  // none inline and step by step; last, so that it ends first
+  // Not running in inline mode and step by step. Declared last, so that it ends before what it
+  // uses.
+  std::jthread worker_;
 };
 
 struct MappingStage::Checkpoint {
@@ -300,7 +316,8 @@ struct MappingStage::Checkpoint {
   PlaceRecognition::State places;
   std::optional<BackgroundAdjustment::Pending> adjustment;
 
-  // But the mapper's young landmarks and evidence, which are kept with the maps (AtlasContext).
+  // Young landmarks and evidence of the mapper are missing here, because they are kept with the
+  // maps (AtlasContext).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.mapper.adjusted_lines, self.submitted, self.map_begins, self.dues);

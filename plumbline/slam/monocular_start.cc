@@ -15,9 +15,10 @@
 namespace plumbline {
 namespace {
 
-constexpr int kMaxMissed = 5;  // frames in a row; those before them are left alone
+// Frames missed in a row, after which earlier frames are not searched any more.
+constexpr int kMaxMissed = 5;
 
-// Goes back in time from a known pose with constant velocity.
+// Predicts poses back in time from known ones, with constant velocity.
 class BackwardPrediction {
  public:
   bool Known() const { return last_.has_value(); }
@@ -44,12 +45,12 @@ class BackwardPrediction {
   Vector6d velocity_ = Vector6d::Zero();
 };
 
-// The keyframe that a frame goes with, of those that are left, and the landmarks around it.
+// The keyframe that an earlier frame is searched from, and the landmarks around it.
 class NearestKeyFrame {
  public:
   explicit NearestKeyFrame(const Map& map) : map_(map), id_(map.keyframes().begin()->first) {}
 
-  // Stays where the map has that keyframe no more.
+  // Moves to a keyframe; does nothing where the map does not have it any more.
   void MoveTo(KeyFrameId id) {
     if (id == id_ || map_.Find(id) == nullptr) return;
     id_ = id;
@@ -73,7 +74,7 @@ class NearestKeyFrame {
   std::shared_ptr<const MapSnapshot> snapshot_;
 };
 
-// Whether a kept frame has features and hangs, where it has a pose, on a keyframe of its map.
+// Whether a kept frame has features and, if it has a pose, refers to a keyframe of its map.
 template <class KeptFrame>
 bool Belongs(const KeptFrame& frame, const Map* map) {
   const bool placed = !frame.reference.valid() || (map != nullptr && map->Knows(frame.reference));

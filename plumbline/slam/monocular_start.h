@@ -18,7 +18,7 @@
 
 namespace plumbline {
 
-// A frame from before its map or from the map's beginning, and its place in the finished map.
+// A frame from before its map began or from the map's youth, and its place in the finished map.
 struct EarlierFrame {
   FrameId id;
   MapId map;
@@ -28,14 +28,14 @@ struct EarlierFrame {
 };
 
 // What a single camera needs before it has a map that can be trusted: the initializer, the frames
-// that wait for poses until there is a map, and those that were tracked while the map was young.
-// The baseline of a young map is short, and its landmarks move a good deal afterwards: poses
-// relative to its keyframes do not follow that.
+// that wait for poses until there is a map, and the frames that were tracked while the map was
+// young. The baseline of a young map is short, and its landmarks move a good deal afterwards. Poses
+// relative to its keyframes do not follow them, and are therefore found anew.
 //
-// Kept are the features (about 0.14 MB a frame) of the newest kMaxFrames frames that wait, and of
-// those tracked until a map has kYoungKeyFrames keyframes more than it began with, kMaxFrames at
-// most; of every map. All get their poses when all mapping is done (Locate): then the landmarks are
-// known best, and no frame takes longer for it.
+// Kept are the features (about 0.14 MB a frame) of the newest kMaxFrames frames that wait and, for
+// every map, of at most kMaxFrames frames tracked until the map has kYoungKeyFrames keyframes more
+// than it began with. All of them get their poses after all mapping is done (Locate): the landmarks
+// are known best then, and no frame takes longer for it.
 class MonocularStart {
  public:
   static constexpr std::size_t kMaxFrames = 300;
@@ -44,27 +44,28 @@ class MonocularStart {
   MonocularStart(const ImagingModel& imaging, const SlamOptions& options);
 
   InitializationResult Offer(FrameId id, const MeasuredFrame& frame);
-  // Begins anew, after a loss.
+  // Begins anew: the initializer and the frames that wait are forgotten.
   void Restart();
-  // Tells of a frame that was tracked; only those of a young map are kept.
+  // Tells of a frame that was tracked. Only frames of a young map are kept.
   void Tracked(const TrackingResult& result);
-  // A keyframe is none any more; what was tracked by it hangs on its parent.
+  // A keyframe was given up: frames that refer to it refer to its parent from now on.
   void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
-  // The frames that wait belong to this map, which began so.
+  // Tells that a map began with `start`, and that the frames that wait belong to it.
   void MapStarted(MapId map, const MapStart& start);
 
-  // What is tracked from now on is in a map of before.
+  // Tells that what is tracked from now on is in a map of before.
   void MapLeft();
 
-  // Poses in the maps started since the last call, each map's newest frame first. Frames that
-  // waited are searched near the place that their successors predict, those that were tracked near
-  // their place of then, among the landmarks around the next keyframe and their own. Left out are
-  // keyframes, and frames that are not found, or not reached before `stop`.
+  // Returns the poses of the kept frames in the maps started since the last call, each map's newest
+  // frame first. Frames that waited are searched near the place that their successors predict.
+  // Frames that were tracked are searched near their old place, among the landmarks around the
+  // keyframe that they refer to. Keyframes are left out, as are frames that are not found, or not
+  // reached before `stop`.
   std::vector<EarlierFrame> Locate(const Atlas& atlas, const StopCheck& stop = {});
 
-  // Writes down all that it keeps, and takes the place of another one of the same options that did.
-  // Load throws InputError for bytes that none wrote, or that tell of keyframes that the maps do
-  // not know.
+  // Save writes down the whole state; Load restores it in an object of the same options. Load
+  // throws InputError for bytes that Save cannot have written, or that name keyframes that the maps
+  // do not know.
   void Save(StateWriter& archive) const;
   void Load(StateReader& archive, const Atlas& atlas);
 
@@ -73,7 +74,7 @@ class MonocularStart {
     FrameId id;
     std::int64_t stamp_ns = 0;
     std::shared_ptr<const IndexedFeatures> indexed;
-    KeyFrameId reference;  // none while the frame has no pose
+    KeyFrameId reference;  // invalid while the frame has no pose
     RelativePose from_reference;
 
     template <class Self, class Visitor>
@@ -83,7 +84,7 @@ class MonocularStart {
   };
   struct Start {
     MapId map;
-    std::deque<KeptFrame> frames;  // by time
+    std::deque<KeptFrame> frames;  // in order of time
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -106,8 +107,10 @@ class MonocularStart {
   std::unique_ptr<Initializer> initializer_;
   std::deque<KeptFrame> waiting_;
   std::vector<Start> starts_;
-  int young_keyframes_ = 0;       // still to come until the newest map is no longer young
-  std::size_t young_frames_ = 0;  // that may still be kept until then
+  // Keyframes still to come until the newest map is no longer young.
+  int young_keyframes_ = 0;
+  // Frames that may still be kept until then.
+  std::size_t young_frames_ = 0;
 };
 
 }  // namespace plumbline

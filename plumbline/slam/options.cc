@@ -23,7 +23,7 @@ void CheckLineMethod(const char* option, Value asked, Value done) {
 }  // namespace
 
 void CheckOptions(const SlamOptions& options) {
-  SlamOptions copy = options;  // the table has pointers to what may be changed
+  SlamOptions copy = options;  // the table needs references to options that may be changed
   OptionTable(copy).CheckRanges();
   const FeatureOptions& f = options.features;
   if (!(f.points && f.point_count > 0) && !(f.lines && f.line_count > 0)) {

@@ -17,7 +17,8 @@
 
 namespace plumbline {
 
-// How the stages run: one after the other; in threads with the same results; or never waiting.
+// How the stages run: one after the other; in threads with the same results; or live, where frames
+// wait for mapping only at the start of a map.
 enum class RunMode { kInline, kLockstep, kLive };
 constexpr auto EnumNames(std::type_identity<RunMode>) {
   return std::array{std::pair{RunMode::kInline, "inline"},
@@ -25,7 +26,7 @@ constexpr auto EnumNames(std::type_identity<RunMode>) {
                     std::pair{RunMode::kLive, "live"}};
 }
 
-// How the stages run, and what is random.
+// How the stages run, and the seed of all random numbers.
 struct ExecutionOptions {
   RunMode mode = RunMode::kLockstep;
   int seed = 0;
@@ -59,8 +60,8 @@ struct SlamOptions {
   ExecutionOptions slam;
 };
 
-// Throws InputError where options contradict each other, which the range of a single one does not
-// tell: neither points nor lines, or a kind of line that lines.method does not do.
+// Throws InputError for a value out of its range, and where options contradict each other: neither
+// points nor lines, or a kind of line that lines.method does not do.
 void CheckOptions(const SlamOptions& options);
 
 template <class Visitor>

@@ -80,7 +80,8 @@ void Pipeline::Hand(Job job) {
   job_added_.notify_one();
 }
 
-// Its place in the order of frames stays.
+// Gives up the oldest frame that waits. Its job stays in the queue, so that the order of frames
+// stays.
 void Pipeline::DropOldest() {
   const auto oldest =
       std::find_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.HasFrame(); });
@@ -89,7 +90,7 @@ void Pipeline::DropOldest() {
   oldest->dropped = true;
 }
 
-// Frames that somebody will have to work on.
+// Returns how many frames wait that have images to work on.
 std::size_t Pipeline::Waiting() const {
   return static_cast<std::size_t>(
       std::count_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.HasFrame(); }));
@@ -112,7 +113,7 @@ void Pipeline::Do(Job job) {
   system_.Complete();
 }
 
-// What is done for a frame whose turn has come.
+// Returns what to shed for the frame whose turn has come.
 Shed Pipeline::Decide(const Job& job) {
   Load load;
   const std::chrono::duration<double> waited = execution_.now() - job.arrival;
@@ -139,7 +140,8 @@ bool Pipeline::WorkOnce() {
   return true;
 }
 
-// Without holding the lock meanwhile. What it throws is rethrown in the feeding thread.
+// Does the next job; the lock is released while it works. What the job throws is rethrown in the
+// feeding thread.
 void Pipeline::DoNext(std::unique_lock<std::mutex>& lock) {
   Job job = std::move(jobs_.front());
   jobs_.pop_front();

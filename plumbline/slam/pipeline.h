@@ -39,35 +39,36 @@ class Pipeline {
   static constexpr std::size_t kMaxWaiting = 2;
 
   Pipeline(System& system, Observer observer);
-  // Leaves undone what has not begun, unless Finish was called.
+  // Leaves undone all jobs that have not begun, unless Finish was called.
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
   void Feed(SensorFrame frame);
-  // A frame that could not be read.
+  // Tells of a frame that could not be read.
   void Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Waits until all frames handed over so far are tracked, or none will be any more for a failure.
+  // Waits until all frames handed over so far are tracked, or until a failure ends the tracking.
   void Drain();
-  // Does all that waits, and the mapping that belongs to it (System::Finish). After a failure:
-  // completes the mapping of the frames before, then rethrows.
+  // Does all jobs that wait, and the mapping that belongs to them (System::Finish). After a failure
+  // it completes the mapping of the frames before, then rethrows.
   void Finish(const StopCheck& stop = {});
 
-  // Does the next thing that waits, in the caller's thread; false when nothing does. For live runs
-  // without threads (Execution of the System).
+  // Does the next job in the caller's thread; returns false when none waits. For live runs without
+  // threads (Execution of the System).
   bool WorkOnce();
 
  private:
-  // A frame on its way to tracking: measured, raw (live), or neither: left out for `reason`.
+  // A frame on its way to tracking. It is measured, or raw (live), or has no images because of
+  // `reason`.
   struct Job {
     std::int64_t stamp_ns = 0;
     std::optional<MeasuredFrame> measured;
     std::optional<SensorFrame> raw;
-    StageClock clock;  // of a raw frame, since its arrival
+    StageClock clock;  // times a raw frame since its arrival
     Execution::Clock::time_point arrival;
-    double interval = 0;   // seconds since the frame before was taken; 0: not known
-    std::string reason;    // why it has no frame to work on
-    bool dropped = false;  // it had one, and waited too long
+    double interval = 0;   // seconds since the frame before was taken; 0: unknown
+    std::string reason;    // why it has no images to work on; empty where it has some
+    bool dropped = false;  // it had images, and waited too long
 
     bool HasFrame() const { return reason.empty(); }
   };
@@ -85,17 +86,19 @@ class Pipeline {
   Observer observer_;
   RunMode mode_;
   Execution execution_;
-  std::optional<std::int64_t> last_stamp_ns_;  // fed
-  // The worker's.
+  std::optional<std::int64_t> last_stamp_ns_;  // stamp of the last frame that was fed
+  // State that only the worker uses.
   LoadShedding shedding_;
-  int dropped_ = 0;  // since the last frame that was tracked
+  int dropped_ = 0;  // frames left out since the last frame that was tracked
   std::mutex mutex_;
   std::condition_variable job_added_, job_taken_;
   std::deque<Job> jobs_;
   bool busy_ = false;
   bool stop_ = false;
   std::exception_ptr failure_;
-  std::jthread worker_;  // none inline and step by step; last, so that it ends first
+  // Not running in inline mode and step by step. Declared last, so that it ends before what it
+  // uses.
+  std::jthread worker_;
 };
 
 }  // namespace plumbline

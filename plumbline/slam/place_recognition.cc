@@ -18,16 +18,18 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kCandidates = 3;  // keyframes that one is compared with
-// A place that comes back stands out among the keyframes that look alike: the last of so many, or
-// of all, looks as much alike as any other place does.
+constexpr std::size_t kCandidates = 3;  // keyframes that a new one is compared with
+// A place that comes back stands out among the keyframes that look alike. The candidate ranked last
+// of kRanked, or last of all where there are fewer, looks as much alike as any other place does: a
+// true candidate scores kStandsOut times as much.
 constexpr std::size_t kRanked = 40;
-constexpr std::size_t kFewest = 10;  // of them to tell
-// Where there are fewer, one must be more alike than images of another world get (docs/methods/
-// places.md: up to 0.06).
+constexpr std::size_t kFewest = 10;  // ranked candidates needed for that comparison
+// With fewer than kFewest ranked candidates, one must be more alike than images of another world
+// get: these reach up to 0.06 (docs/methods/places.md).
 constexpr double kMoreThanElsewhere = 0.06;
 constexpr double kStandsOut = 5;
-constexpr std::int64_t kRecent = 20;  // the newest keyframes, among which nothing comes back
+// Newest keyframes, which are too recent to be a place that comes back.
+constexpr std::int64_t kRecent = 20;
 
 Recognition Describe(const Map& map,
                      KeyFrameId id,
@@ -43,7 +45,7 @@ Recognition Describe(const Map& map,
   return place;
 }
 
-// How a keyframe has moved in the world.
+// Describes how the correction moved the keyframe in the world.
 void DescribeMotion(const Placement& before, const Placement& after, Recognition& place) {
   const Rigid3 motion = Inverse(after.cam_from_world) * before.cam_from_world;
   place.moved =
@@ -74,7 +76,8 @@ std::vector<PlaceToTry> PlaceRecognition::PlacesOf(const Atlas& atlas,
   return places;
 }
 
-// What lies around the keyframe is no place that comes back.
+// Returns the keyframes that may show the same place. Keyframes around the given one are left out,
+// since they show it without coming back.
 std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
                                                      const KeyFrame& keyframe) const {
   const Map& active = atlas.active();
@@ -97,7 +100,8 @@ std::vector<KeyFrameId> PlaceRecognition::Candidates(const Atlas& atlas,
 }
 
 bool PlaceRecognition::Withdraws(const Atlas& atlas, KeyFrameId id) {
-  constexpr std::int64_t kApart = 5;  // keyframes, between which a unit can run away
+  // Keyframes in between, in which the unit of length can run away.
+  constexpr std::int64_t kApart = 5;
   const Map& map = atlas.active();
   const KeyFrame& keyframe = *map.Find(id);
   const bool looks = options_.enabled && imaging_.camera.baseline == 0 &&
@@ -141,7 +145,8 @@ std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Atlas& atlas,
   return record.candidate;
 }
 
-// The map that is older takes the other one in.
+// Joins the active map with another one that shows the same place; the older map takes in the
+// younger one.
 std::optional<KeyFrameId> PlaceRecognition::Join(Atlas& atlas,
                                                  KeyFrameId id,
                                                  const std::vector<KeyFrameId>& candidates) {

@@ -19,12 +19,13 @@
 
 namespace plumbline {
 
-// Is told of a keyframe that was compared with the newest one, before the maps change: what became
-// of it. An attempt without a refusal closes a loop, or joins the maps of the two.
+// Called with each keyframe that was compared with the newest one and what became of it, before the
+// maps change. An attempt without a refusal closes a loop or joins the maps of the two.
 using PlaceObserver = std::function<void(const Atlas&, const LoopAttempt&)>;
 
-// Knows what the keyframes of all maps show, and makes one place of what was seen twice: closes
-// loops within the map that grows, and joins it with another map of the atlas that shows the same.
+// Knows what the keyframes of all maps show, and makes one place of what was seen twice. It closes
+// loops within the active map, and joins that map with another map of the atlas that shows the same
+// place.
 //
 // Deterministic; for one thread.
 class PlaceRecognition {
@@ -34,23 +35,25 @@ class PlaceRecognition {
   // Learns what keyframes have come into the maps since the last call, and forgets those that left.
   void Follow(const Atlas& atlas);
 
-  // Where an image may have been taken: the keyframes of all maps that show what it shows, most
-  // alike first, but those of maps that were withdrawn. Valid as long as the maps are.
+  // Returns where an image may have been taken: the keyframes of all maps that show what it shows,
+  // the most alike first. Maps that were withdrawn are left out. The result is valid as long as the
+  // maps are.
   std::vector<PlaceToTry> PlacesOf(const Atlas& atlas,
                                    const Features& features,
                                    std::size_t most) const;
 
-  // Whether the active map, young and of one camera, shows with this keyframe that its unit runs
-  // away (FindScaleConflict): among its first kYoungKeyFrames keyframes this looks at the three
-  // older ones that look most alike. A map of which it is so is withdrawn: nothing is joined with
-  // it.
+  // Whether a new keyframe shows that the unit of length of the active map runs away
+  // (FindScaleConflict). This looks only at maps of one camera, at their first kYoungKeyFrames
+  // keyframes, and for each at the three older keyframes that look most alike. If so, the map is
+  // withdrawn: no map is joined with it any more.
   static constexpr std::int64_t kYoungKeyFrames = 30;
   bool Withdraws(const Atlas& atlas, KeyFrameId id);
   bool IsWithdrawn(MapId map) const { return withdrawn_.contains(map); }
 
-  // A keyframe of the active map, which Follow() has seen. Returns the older keyframe that it was
-  // recognized by, where that changed maps at large: then the landmarks of both are fused, and both
-  // are in the active map, which may be another one than before. Adjustment is the caller's.
+  // Looks for an older keyframe that shows what a new one of the active map shows; Follow() must
+  // have seen the new one. Returns the older keyframe where that changed maps at large. Then the
+  // landmarks of both are fused, and both are in the active map, which may be another one than
+  // before. The caller has to adjust the map.
   std::optional<KeyFrameId> Recognize(Atlas& atlas, KeyFrameId id);
 
   void Observe(PlaceObserver observer) { observer_ = std::move(observer); }
@@ -58,7 +61,7 @@ class PlaceRecognition {
   const std::vector<Recognition>& loops() const { return loops_; }
   const std::vector<MapJoin>& joins() const { return joins_; }
 
-  // What it goes on from beside the maps, which Follow() is to see.
+  // What this needs to go on, beside the maps, which Follow() is to see.
   struct State {
     LoopCloser::State closer;
     std::vector<Recognition> loops;

@@ -10,13 +10,14 @@
 
 namespace plumbline {
 
-// The options that decided about the results of saved maps; the default ones where the file does
-// not say (version 1). Throws InputError, with `source` for a name, where this version of the
-// program does not know what they say.
+// Returns the options that decided about the results of saved maps; the default options where the
+// file does not hold any (version 1). Throws InputError, which names `source`, where this version
+// of the program does not know an option or a value.
 SlamOptions SavedOptions(const AtlasContext& context, const std::string& source);
 
-// SavedOptions, after `accept` where it is given; where one of them throws InputError, the default
-// ones, and `remark` is told the error and what is done instead: "<error>; <instead>".
+// Returns SavedOptions after `accept`, where given, has accepted them. Where one of the two throws
+// InputError, returns the default options and tells `remark` the error and what is done instead:
+// "<error>; <instead>".
 SlamOptions SavedOptionsOrDefault(const AtlasContext& context,
                                   const std::string& source,
                                   const std::string& instead,

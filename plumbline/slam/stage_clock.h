@@ -17,22 +17,22 @@ struct StageTime {
 // Times the stages that one frame passes, one after the other, from the moment the clock is made.
 class StageClock {
  public:
-  // Ends the stage that began when the last one ended.
+  // Ends a stage, which began when the one before ended.
   void Done(const std::string& stage) {
     const auto now = Clock::now();
     times_.push_back({stage, Milliseconds(now - last_)});
     last_ = now;
   }
-  // A time measured elsewhere, not a part of the sum.
+  // Adds a time that was measured elsewhere and is not part of the total.
   void Add(const std::string& stage, double milliseconds) {
     times_.push_back({stage, milliseconds});
   }
-  // All stages, and "total" from the beginning to the last one's end.
+  // Returns all stages and "total", which runs from the beginning to the end of the last stage.
   std::vector<StageTime> Finish() {
     times_.push_back({"total", Milliseconds(last_ - start_)});
     return Stages();
   }
-  // All stages.
+  // Returns all stages without a total.
   std::vector<StageTime> Stages() { return std::exchange(times_, {}); }
 
  private:

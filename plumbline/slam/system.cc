@@ -18,14 +18,14 @@
 namespace plumbline {
 namespace {
 
-// Pose that a map's first frame gets: the world is the camera as delivered, the tracker's camera
-// the rectified one.
+// Returns the pose of the tracker's camera, which is the rectified one, at a map's first frame. The
+// map's world is the left camera as delivered.
 Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
   return {rectifier.rectified_left_from_left().conjugate(), Eigen::Vector3d::Zero()};
 }
 
-// A live run that lost the camera looks for it in its map for so long before it starts another: the
-// next frames may show what is known, and a map that is left is not gone back to.
+// A live run that lost the camera looks for it in its map for at least this long before it starts
+// another map, since the next frames may show known surroundings again.
 constexpr double kLivePatienceSeconds = 1;
 
 // The camera's motion between the last two views of a map, as a left tangent per second.
@@ -118,7 +118,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   record.shed = measured.shed;
   mapping_.Lighten(measured.shed);
   StageClock clock = std::move(measured.clock);
-  clock.Done("wait");  // until tracking had time
+  clock.Done("wait");  // time until tracking began with the frame
 
   const bool start = monocular_start_ && tracker_.state() == TrackerState::kInitializing;
   TrackingResult result = start ? StartMap(measured, record) : FollowMap(measured, record, clock);
@@ -192,8 +192,8 @@ void System::CompleteRightLines(Unfinished& unfinished, StageClock& clock) {
   clock.Done("after_right_lines");
 }
 
-// A place that was found for a frame before: the tracker goes on from there, if it is lost still.
-// Returns what surrounds it; null where there is nothing to go on from.
+// Takes the place that was found for an earlier frame, and lets the tracker go on from there if it
+// is still lost. Returns the snapshot around that place; null where there is nothing to go on from.
 std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   const auto outcome = mapping_.TakeRelocalization();
   if (!outcome) return nullptr;
@@ -222,7 +222,7 @@ bool System::TrackedSince(FrameId frame) const {
   return false;
 }
 
-// Asks for the place of a lost frame, one at a time.
+// Asks for the place of a lost frame, unless such a request is still unanswered.
 void System::Relocalize(const TrackingResult& result) {
   if (result.state != TrackerState::kLost || relocalizing_ || !options_.relocalization.enabled)
     return;
@@ -267,7 +267,7 @@ SessionId System::session_id() const {
   return SessionId{loaded_ ? static_cast<std::int64_t>(loaded_->sessions.size()) : 0};
 }
 
-// A frame of a single camera that has no map.
+// Handles a frame of a single camera that has no map yet.
 TrackingResult System::StartMap(const MeasuredFrame& measured, FrameRecord& record) {
   const InitializationResult start = monocular_start_->Offer(record.id, measured);
   if (start.map) return StartFrom(*start.map, record);
@@ -283,7 +283,8 @@ TrackingResult System::StartMap(const MeasuredFrame& measured, FrameRecord& reco
   return result;
 }
 
-// The newest view is the frame of today; the others are frames that got their pose later.
+// Starts a map. Its newest view is the present frame; the other views are earlier frames, which get
+// their poses now.
 TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record) {
   MapStart start =
       MakeMapStart(initial, imaging_, WorldFromFirstCamera(rectifier()), tracker_.next_keyframe());
@@ -310,7 +311,8 @@ TrackingResult System::StartFrom(const InitialMap& initial, FrameRecord& record)
   return result;
 }
 
-// A keyframe was made by one of the last frames, and only frames since then hang on it.
+// Undoes a keyframe that was given up. It was made by a recent frame, and only that frame and later
+// ones refer to it, which bounds the search.
 void System::Demote(const DemotedKeyFrame& gone) {
   tracker_.Rehang(gone.id, gone.parent, gone.from_parent);
   if (monocular_start_) monocular_start_->Rehang(gone.id, gone.parent, gone.from_parent);
@@ -328,7 +330,8 @@ void System::Demote(const DemotedKeyFrame& gone) {
   }
 }
 
-// A camera is lost that has had a map, also while it looks for the start of another one.
+// Returns the status of a frame without pose. A camera that has had a map is lost, even while it
+// looks for the start of another one.
 FrameStatus System::StatusWithoutPose() const {
   return map_.valid() ? FrameStatus::kLost : FrameStatus::kInitializing;
 }
@@ -355,7 +358,8 @@ std::vector<StageTime> System::TakeMappingTimes() {
   return times;
 }
 
-// A failure of mapping leaves frames without the keyframe that their poses are relative to.
+// Marks frames as lost whose keyframe is in no map, because mapping failed before it got to that
+// keyframe.
 void System::LoseFramesNotMapped() {
   const auto has_place = [&](const FrameRecord& record) {
     const Map* map = atlas().Find(atlas().Current(record.map));

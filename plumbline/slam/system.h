@@ -32,18 +32,18 @@
 
 namespace plumbline {
 
-// What Process tells of a frame beside its record, for display.
+// What Process leaves of a frame beside its record, for display.
 struct FrameView {
   RectifiedFrame images;
-  Frame frame;  // features; matches where tracked
+  Frame frame;  // features; its matches where the frame was tracked
 };
 
-// The whole of SLAM for one camera: feed frames in order, then Finish.
+// The whole of SLAM for one camera (or rig): feed frames in order of time, then call Finish.
 //
-// Poses are world_from_camera of the left camera as delivered (before rectification); the world is
-// that camera at the first keyframe of each map. How mapping runs beside tracking is up to
-// slam.mode (see MappingStage); Pipeline adds a thread for tracking. Not thread-safe but for
-// Measure.
+// Poses are world_from_camera of the left camera as delivered (before rectification). The world is
+// that camera at the first keyframe of each map; its unit is the metre where depth is measured,
+// otherwise arbitrary. slam.mode says how mapping runs beside tracking (MappingStage); Pipeline
+// adds a thread for tracking. Not thread-safe, except Measure.
 class System {
  public:
   // Lines are made, adjusted and matched by options.lines.method (LineMethod), the one place where
@@ -56,139 +56,152 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  // Goes on in the active map of a saved atlas, before the first frame. The camera's place in it is
-  // unknown and is looked for by appearance: frames are lost until it is found, and a new map
-  // starts after relocalization.patience of them. Trajectories are those of this system's own
-  // frames, in the world of the map. read_only: the map is tracked against and nothing of it
-  // changes; no other map starts.
+  // Goes on in the active map of a saved atlas, before the first frame. The camera's place in that
+  // map is unknown and is looked for by appearance. Frames are lost until it is found; after
+  // relocalization.patience lost frames a new map starts. Trajectories contain only this system's
+  // own frames, in the world of the map. With read_only the map is tracked against, nothing of it
+  // changes, and no other map starts.
   //
-  // Returns what makes the map harder to use, a sentence each: it was made with another front end.
-  // Throws InputError where the map is of another rectified camera (one that is only turned against
-  // the left camera in another way is fine) or another image pyramid, or there is no map, or
-  // relocalization is switched off.
+  // Returns a sentence for each thing that makes the map harder to use: it was made with another
+  // front end. Throws InputError where the map was made with another rectified camera (one that is
+  // only turned against the left camera in another way is fine) or another image pyramid, where
+  // there is no map, and where relocalization is switched off.
   std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
-  // What was loaded beside the maps; null where nothing was.
+  // What was loaded beside the maps; null where no maps were loaded.
   const AtlasContext* loaded() const { return loaded_ ? &*loaded_ : nullptr; }
   // Whether the maps stay as they were loaded.
   bool read_only() const { return read_only_; }
 
-  // For measurements: what is compared with each keyframe, and what becomes of it. Before the first
-  // frame; called in the thread that maps.
+  // Sets an observer, for measurements, of the keyframes that are compared with each new one and
+  // what becomes of the comparison. It is called in the thread that maps. To be called before the
+  // first frame.
   void Observe(PlaceObserver observer) { mapping_.Observe(std::move(observer)); }
 
-  // What came of the frame; it holds until the next one. Measure, Track and Complete. Throws
-  // InputError when an image has another size than the calibration says or is missing, or the frame
-  // is no later than the one before.
+  // Processes a frame and returns what became of it: Measure, Track and Complete in one call. The
+  // result is valid until the next frame. Throws InputError when an image is missing or has another
+  // size than the calibration says, or when the frame is no later than the one before.
   const FrameRecord& Process(SensorFrame frame);
-  // What can be done ahead, in another thread than the rest; see FrontEnd.
+  // Does the part of the work that needs no earlier frame, in any thread; see FrontEnd. Throws
+  // InputError when an image is missing or has another size than the calibration says.
   MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
-  // Throws InputError where an image is missing that the calibration speaks of; Measure does, too.
+  // Throws InputError where an image is missing that the calibration speaks of. Measure calls it.
   void CheckComplete(const SensorFrame& frame) const;
-  // What came of a frame that was measured before; otherwise as Process. The pose is told as soon
-  // as it is known: what the frame leaves to do for the map is done by Complete.
+  // Tracks a frame that was measured before and returns what became of it; valid until the next
+  // frame. The pose is returned as soon as it is known: Complete does what the frame leaves to do
+  // for the map. Throws InputError when the frame is no later than the one before.
   const FrameRecord& Track(MeasuredFrame frame);
-  // Does what the last tracked frame leaves to do, once: looks for its lines in the right image
-  // where landmarks are to be made of them, hands a keyframe to mapping, asks for the place of a
-  // lost camera. Calls that need it done (the next frame, Finish, Save, a look at the maps) do it
-  // themselves. Changes nothing of the frame's record but its times.
+  // Does what the last tracked frame leaves to do: looks for its lines in the right image where
+  // landmarks are to be made of them, hands a keyframe to mapping, asks for the place of a lost
+  // camera. A second call does nothing. Functions that need it done (the next frame, Finish, Save,
+  // a look at the maps) call it themselves. Of the frame's record only the times change.
   void Complete();
-  // A frame that could not be read, or was left out. Throws InputError when it is no later than the
-  // one before.
+  // Tells of a frame that could not be read or was left out, and returns its record. Throws
+  // InputError when it is no later than the one before.
   const FrameRecord& Skip(std::int64_t stamp_ns,
                           const std::string& reason,
                           Shed shed = Shed::kNothing);
-  // Keyframes that wait for mapping.
+  // Returns the number of tasks that wait for mapping, most of them keyframes.
   std::size_t KeyFramesWaiting() const { return mapping_.Waiting(); }
-  // Maps the next keyframe; false when none waits. For live runs without threads (Execution).
+  // Does the next task of mapping; returns false when none waits. For live runs without threads
+  // (Execution).
   bool MapOnce() { return mapping_.WorkOnce(); }
-  // Hands over a copy of the maps as they are when mapping has done what was submitted so far, with
-  // what SaveAtlas needs beside them, in the thread that maps. Changes no result. To be called in
-  // the thread that tracks, after the first frame.
+  // Calls `take` with a copy of the maps, and with what SaveAtlas needs beside them, once mapping
+  // has done what was submitted so far. The call happens in the thread that maps. Changes no
+  // result. To be called in the thread that tracks, after the first frame.
   void CopyMaps(std::function<void(SavedAtlas)> take);
-  // Shows the maps as they are then, and the loops and joins so far, in the thread that maps, when
-  // mapping has done what was submitted before. Changes no result. To be called in the thread that
-  // tracks.
+  // Calls `look` with the maps and with the loops and joins so far, once mapping has done what was
+  // submitted so far. The call happens in the thread that maps. Changes no result. To be called in
+  // the thread that tracks.
   void LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look);
-  // All that is needed to go on with the next frame as if the run had not stopped: the maps, what
-  // tracking and mapping remember, the records of the frames, what is due and when. Completes the
-  // mapping of the frames so far, which changes no result but of live runs. To be called in the
-  // thread that tracks. Rethrows what mapping threw.
-  //
-  // The frame that is shown (view()) is not part of it.
+  // Returns all that is needed to go on with the next frame as if the run had not stopped: the
+  // maps, what tracking and mapping remember, the records of the frames, and which results are due
+  // when. The frame that is shown (view()) is not part of it. Completes the mapping of the frames
+  // so far, which changes the result of live runs only. To be called in the thread that tracks.
+  // Rethrows what mapping threw.
   SavedRun Save();
-  // Goes on, before the first frame, as the system would that gave this: in the modes inline and
-  // lockstep, also the one in place of the other, with the same bytes from the next frame on. A
-  // live run goes on without the earlier snapshots that a lost camera is looked for in.
+  // Goes on, before the first frame, as the system would that gave the saved run. In the modes
+  // inline and lockstep the bytes are the same from the next frame on, even where one mode takes
+  // the place of the other. A live run goes on without the earlier snapshots in which a lost camera
+  // is looked for.
   //
-  // Throws InputError, which says why, where calibration or options are others, or the state is
-  // none; then the system is not to be used.
+  // Throws InputError, which says why, where calibration or options differ, or the bytes are no
+  // state of a run. The system must not be used after that.
   void Resume(SavedRun saved);
 
   // Completes the mapping of all frames so far. Frames that came before a monocular map, or while
-  // it was young, are located in the finished map (see MonocularStart): those before it get a pose,
-  // but no causal one; of the others only the causal one stays. `stop` cuts short the adjustment of
-  // the whole maps and this search; what was not reached stays as it is.
+  // it was young, are located in the finished map (MonocularStart). Frames from before the map get
+  // a pose, but no causal one; those of a young map keep only their causal pose and get the rest
+  // anew. `stop` cuts short the adjustment of the whole maps and this search; what was not reached
+  // stays as it is.
   //
-  // Rethrows what mapping threw; then the maps are what there was until then, frames that belong to
-  // a keyframe that mapping did not get to are lost (reason kNotMapped), and the rest holds.
+  // Rethrows what mapping threw. Then the maps are as mapping left them, frames that refer to a
+  // keyframe that mapping did not get to are lost (reason kNotMapped), and the rest holds.
   void Finish(const StopCheck& stop = {});
   static constexpr const char* kNotMapped = "not_mapped";
 
   // The records of all frames so far.
   const FrameLog& frames() const { return frames_; }
-  // Complete after Finish, and not to be asked for before but inline (BugError).
+  // The maps. They are complete after Finish; except inline, they may not be asked for before that
+  // (BugError).
   const Atlas& atlas() const { return mapping_.atlas(); }
-  // What the maps were made with, for SaveAtlas; like atlas().
+  // What the maps were made with, for SaveAtlas. When it may be called: see atlas().
   AtlasContext Context() const;
-  // The maps of the atlas by id; complete when atlas() is.
+  // The maps of the atlas by id. When it may be called: see atlas().
   const std::map<MapId, Map>& maps() const { return mapping_.maps(); }
-  // The lines that took part in the adjustment at the end; complete when atlas() is.
+  // The lines that local bundle adjustment held in memory, summed over all its windows. When it may
+  // be called: see atlas().
   const AdjustedLines& adjusted_lines() const { return mapping_.adjusted_lines(); }
-  // What mapping remembers; like atlas().
+  // What mapping remembers of the maps. When it may be called: see atlas().
   LocalMapper::State mapper_state() const { return mapping_.mapper_state(); }
-  // This run of the camera so far. Its id is made of the first frame's features and stamp, the rig
-  // and the options: the same input, wherever it lies, is the same session.
+  // This run of the camera so far, as map files keep it. Its id is made of the first frame's
+  // features and stamp, the rig and the options, so that the same input is the same session
+  // wherever it lies.
   Session session() const;
-  // What map files say of the session beside that: the version of the program. Not where the data
-  // lie: the same input by another name gives the same file.
+  // Sets the version of the program for map files. Where the data lie is not written: the same
+  // input by another name gives the same file.
   void DescribeSession(const std::string& program);
   // The options that the system was made with.
   const SlamOptions& options() const { return options_; }
   // Who does the work of a live run.
   const Execution& execution() const { return execution_; }
-  // The camera that all stages behind rectification see.
+  // The rectified camera, which all stages behind rectification see.
   const RectifiedCamera& camera() const { return rectifier().camera(); }
-  // What makes rectified images of those delivered.
+  // Makes rectified images of those delivered.
   const Rectifier& rectifier() const { return front_end_.rectifier(); }
   // The last processed frame.
   const FrameView& view() const { return view_; }
 
-  // Lost frames that were found again so far. To be called in the thread that tracks.
+  // Lost frames that were found in a map so far. To be called in the thread that tracks.
   const std::vector<Relocalization>& relocalizations() const { return relocalizations_; }
-  // What was recognized, joined and found again, in order; like atlas().
+  // What was recognized, joined and found again, each kind in order. When it may be called: see
+  // atlas().
   MapEvents events() const;
-  // What of it is known by now (MappingStage::EventsSoFar), in the thread that tracks.
+  // The part of events() that is known by now (MappingStage::EventsSoFar). To be called in the
+  // thread that tracks.
   MapEvents EventsSoFar() const;
 
-  // Poses of the camera as delivered, after Finish; frames in order of time. `map` is one of
-  // maps() (InputError); of causal poses also one that was joined with another since.
+  // Returns the poses of the camera as delivered after all corrections, in order of time; to be
+  // called after Finish. `map` is one of maps(), otherwise InputError is thrown.
   Trajectory FinalTrajectory(MapId map) const;
-  // The poses of the keyframes alone, as of FinalTrajectory.
+  // Returns the poses of this run's keyframes alone; otherwise like FinalTrajectory.
   Trajectory KeyFrameTrajectory(MapId map) const;
-  // Each pose as it was first reported.
+  // Returns each pose as it was first reported. `map` may have been joined with another one since;
+  // a map without poses gives none.
   Trajectory CausalTrajectory(MapId map) const;
-  // The lines of a map fit to be given out, in its world, after Finish (MakeLineMap); made when
-  // first asked for, those found before `stop`.
+  // Returns the lines of a map that are fit to be given out, in its world (MakeLineMap). They are
+  // made when first asked for, until `stop`, and kept. To be called after Finish.
   const std::vector<MappedLine>& LineMap(MapId map, const StopCheck& stop = {}) const;
-  // The map in which most frames have a pose (the earlier of two); nullopt when none has.
+  // Returns the map in which most frames have a pose, of two the one with the smaller id; nullopt
+  // when no frame has a pose.
   std::optional<MapId> MainMap() const;
 
  private:
-  // The id of the session that begins with this frame.
+  // Returns the id of the session that begins with this frame.
   Uuid SessionUuid(const MeasuredFrame& first) const;
-  // What the thread that tracks knows of Context() at any time.
+  // Returns the part of Context() that the thread that tracks knows at any time.
   AtlasContext ContextWithoutMaps() const;
-  // Of the maps, the stage and the start of a monocular map the caller takes care.
+  // Visits the state that checkpoints keep, without the maps, the mapping stage and the start of a
+  // monocular map.
   template <class Self, class Visitor>
   static void VisitRest(Self& self, const Visitor& visit) {
     visit(self.tracker_, self.map_, self.next_map_, self.first_keyframe_, self.relocalizing_);
@@ -199,16 +212,16 @@ class System {
   std::shared_ptr<const MapSnapshot> TakeRelocalized(FrameId frame);
   bool TrackedSince(FrameId frame) const;
   void Relocalize(const TrackingResult& result);
-  // The number of this run of the camera among those that made the maps.
+  // Returns the number of this run among the runs that made the maps.
   SessionId session_id() const;
-  // A frame whose pose is told, until what it leaves to do is done.
+  // A frame whose pose was returned, and which still leaves something to do for the map.
   struct Unfinished {
     TrackingResult result;
     Shed shed = Shed::kNothing;
   };
   TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
   void CompleteRightLines(Unfinished& unfinished, StageClock& clock);
-  // Of the steps of mapping that ended since the last call.
+  // Returns the times of the steps of mapping that ended since the last call.
   std::vector<StageTime> TakeMappingTimes();
   TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
@@ -227,19 +240,19 @@ class System {
   MappingStage mapping_;
   Tracker tracker_;
   std::unique_ptr<MonocularStart> monocular_start_;  // null where depth is measured
-  MapId map_;                                        // that is tracked against
+  MapId map_;                                        // map that is tracked against
   std::int64_t next_map_ = 0;
-  KeyFrameId first_keyframe_{0};  // of this system's own
-  bool relocalizing_ = false;     // asked for and not yet answered
+  KeyFrameId first_keyframe_{0};  // first id of this system's own keyframes
+  bool relocalizing_ = false;     // a place was asked for, without an answer yet
   std::vector<Relocalization> relocalizations_;
   std::optional<AtlasContext> loaded_;
   bool read_only_ = false;
   FrameLog frames_;
-  FrameRecord newest_;  // the last of them
+  FrameRecord newest_;  // record of the last frame
   FrameView view_;
   std::optional<Unfinished> unfinished_;
-  Session session_;                                             // without the stamps
-  mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // made so far
+  Session session_;  // without the stamps, which session() adds
+  mutable std::map<MapId, std::vector<MappedLine>> line_maps_;  // line maps made so far
 };
 
 }  // namespace plumbline

@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of what the tracker keeps from frame to frame.
+// Transfer (base/byte_format.h) of the state that the tracker keeps from frame to frame.
 
 template <class Archive, Like<CandidatePoint> T>
 void Transfer(Archive& archive, T& point) {

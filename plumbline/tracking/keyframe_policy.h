@@ -10,8 +10,8 @@
 namespace plumbline {
 
 struct KeyFramePolicyOptions {
-  int max_frames = 20;  // a keyframe at the latest after so many frames
-  int min_frames = 2;   // none sooner than after so many, unless tracking is about to fail
+  int max_frames = 20;  // a keyframe is made at the latest after so many frames
+  int min_frames = 2;   // no keyframe is made sooner, unless tracking is about to fail
 };
 
 template <class Visitor>
@@ -39,11 +39,13 @@ enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints
 // the last keyframe.
 struct KeyFrameSituation {
   int frames_since_keyframe = 0;
-  int shared_landmarks = 0;     // of `reference_landmarks`, those that the frame shows as well
-  int reference_landmarks = 0;  // well observed points and lines that the last keyframe shows
-  int close_tracked = 0;        // points with good disparity that show a map point
-  int close_untracked = 0;      // points with good disparity that show no map point
-  bool monocular = false;       // no depth is measured
+  // Of `reference_landmarks`, those that the frame shows as well.
+  int shared_landmarks = 0;
+  // Well observed points and lines that the last keyframe shows.
+  int reference_landmarks = 0;
+  int close_tracked = 0;    // points with good disparity that show a map point
+  int close_untracked = 0;  // points with good disparity that show no map point
+  bool monocular = false;   // no depth is measured
   // How many features the frame was measured with, relative to the usual number and to that of the
   // last keyframe. Both are less than 1 only where a live run sheds features; the counts above are
   // then compared with limits that are lower by the same share.

@@ -93,7 +93,7 @@ std::vector<PointRows> RowsOfPoints(const PoseProblem& problem) {
   return rows;
 }
 
-// The line as the camera that measured it sees it.
+// Returns the line as the camera that measured it sees it.
 CuttableLine SeenBy(const RectifiedCamera& camera,
                     const CuttableLine& line,
                     const LineMeasurement& measurement,
@@ -114,7 +114,8 @@ Eigen::Matrix2d PieceCovariance(const RectifiedCamera& camera,
   if (weights.kind == LineWeighting::kNone) {
     return weights.constant_sigma_px * weights.constant_sigma_px * Eigen::Matrix2d::Identity();
   }
-  // The information as printed in the paper is no weight that a solver could use.
+  // The information as printed in the paper is no weight that a solver could use, so that pieces
+  // are always weighted by the correlated or the independent one.
   const CuttingInformation counted = information == CuttingInformation::kCorrelated
                                          ? CuttingInformation::kCorrelated
                                          : CuttingInformation::kIndependent;
@@ -156,7 +157,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
                          const CuttingOptions& cutting) {
   CuttingProblem to_cut{problem.camera, {}, Matrix6d::Zero()};
   std::vector<Cuttable> cuttable;
-  std::map<int, std::size_t> place;  // in cuttable, by group
+  std::map<int, std::size_t> place;  // place of a group in `cuttable`
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
     const auto made = MakeCuttable(problem, problem.lines[i], candidates[i], cutting);
     if (!made) continue;
@@ -177,7 +178,7 @@ PoseProblem WithCutLines(const PoseProblem& problem,
   for (std::size_t i = 0; i < problem.lines.size(); ++i) {
     PoseProblem::LineMatch match = problem.lines[i];
     const auto at = place.find(match.group);
-    if (at == place.end()) {  // stays whole unless features are left out
+    if (at == place.end()) {  // the line stays whole, unless features are to be left out
       if (budget >= offered) out.lines.push_back(match);
       continue;
     }

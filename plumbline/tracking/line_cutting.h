@@ -16,10 +16,10 @@
 namespace plumbline {
 
 // Covariances (3 x 3, camera frame, map unit^2) of the points of a line at the two ends of an
-// interval: across the line J Lambda^-1 J^T with Lambda the information of the line's orthonormal
-// tangent, whose open directions have a standard deviation of 0.5 rad. Along the line, where no
-// image tells and no residual asks, the sum of the variances across it: regular, as the printed
-// information wants it.
+// interval. Across the line they are J Lambda^-1 J^T, with Lambda the information of the line's
+// orthonormal tangent, whose open directions have a standard deviation of 0.5 rad. Along the line
+// no image and no residual tells anything. The variance there is the sum of the variances across
+// the line, which makes the matrix regular, as the information printed in the paper requires.
 struct EndCovariances {
   Eigen::Matrix3d start, end;
 };
@@ -34,16 +34,16 @@ struct CutCandidate {
   double sigma_px = 1;
 };
 
-// A pose problem whose lines are cut (second paper, section 4; cut_lines.h), ready for SolvePose;
-// with a budget also of its points only those that are chosen (choose_features.h).
+// A pose problem whose lines are cut (second paper, section 4; cut_lines.h), ready for SolvePose.
+// With a budget it also has only those of its points that are chosen (choose_features.h).
 //
-// What is cut of each line is the part of the landmark that the measured segment of the left image
-// shows at the problem's pose (first paper, eq. 26-30), with end covariances from the landmark's
-// information: of a line made from one stereo or RGB-D frame that of its measured disparities, of a
-// line of the map that of all its observations (cutting.ends=inverse_depth: all alike). The errors
-// of the two ends count as independent, as the paper has them. The points of the problem are the
-// constant part of the objective (eq. 7), wrong matches included. The right image has no part in
-// the choice.
+// The part of the landmark is cut that the measured segment of the left image shows at the
+// problem's pose (first paper, eq. 26-30). The end covariances come from the landmark's
+// information: for a line made from one stereo or RGB-D frame that of its measured disparities, for
+// a line of the map that of all its observations. With cutting.ends=inverse_depth all ends are
+// known equally well instead. The errors of the two ends count as independent, as in the paper. The
+// points of the problem are the constant part of the objective (eq. 7), wrong matches included. The
+// right image has no part in the choice.
 //
 // The pieces are used in both images: a match gets them for its ends, and the ends of its measured
 // segment move to where they show, not beyond them (lines.method.measure_piece). Weights of the

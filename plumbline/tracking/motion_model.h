@@ -25,14 +25,14 @@ class MotionModel {
   // unknown.
   void Begin(const Vector6d& velocity);
   void Forget();
-  // Changes the unit of length: all lengths are `scale` times what they were.
+  // Changes the unit of length: all lengths are multiplied by `scale`.
   void ChangeUnit(double scale);
 
   bool IsKnown() const { return velocity_.has_value(); }
   // Whether the deviations of the last pose (SigmaOfPose) are known and at most `limit`.
   bool LastPoseIsKnownTo(double limit) const;
 
-  // All that it keeps from frame to frame (base/byte_format.h).
+  // Visits all that the model keeps from frame to frame (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.velocity_, self.spread_);
@@ -50,7 +50,7 @@ class MotionModel {
     }
   };
 
-  std::optional<Vector6d> velocity_;  // left tangent of the camera's motion, per second
+  std::optional<Vector6d> velocity_;  // velocity of the camera as a left tangent, per second
   std::optional<Spread> spread_;
 };
 

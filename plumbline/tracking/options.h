@@ -22,15 +22,18 @@ struct TrackingOptions {
   TrackingReference reference = TrackingReference::kLocalMap;
   // A pose is accepted when its deviations (PoseSigma) are at most this.
   double max_pose_sigma = 0.02;
-  // A pose that is known so well, by so many inliers, needs no landmarks of uncertain depth.
+  // A pose that is known this well, from enough_inliers inliers, needs no landmarks of uncertain
+  // depth.
   double enough_pose_sigma = 0.002;
   int enough_inliers = 60;
-  // Landmarks that so many keyframes show are established: younger ones cannot outvote them.
+  // A landmark that so many keyframes show is established: younger ones cannot outvote it.
   int established_views = 3;
-  int min_initial = 60;          // points with depth + lines with depth that can start a map
-  bool point_covariance = true;  // what depths from one frame leave open counts in the pose
-  int new_map_after = 10;        // lost frames after which a new map starts
-  int trial_keyframes = 5;       // until then a map of a single camera is given up at once
+  int min_initial = 60;          // points plus lines with depth that are enough to start a map
+  bool point_covariance = true;  // whether the pose counts the uncertainty of depths from one frame
+  int new_map_after = 10;        // a new map starts after so many lost frames
+  // A map of a single camera is given up as soon as it loses the camera, until it has so many
+  // keyframes more than at its start.
+  int trial_keyframes = 5;
   KeyFramePolicyOptions keyframes;
 };
 

@@ -38,10 +38,10 @@ class PoseEstimator {
                 const CuttingOptions& cutting)
       : camera_(camera), lines_(lines), cutting_(cutting) {}
 
-  // The pose that best fits the matches and the prior, from `initial`; matches that turn out to be
-  // outliers are taken out of the association. Each line counts once, however many images of the
-  // rig show it. With a method in `cutting` pieces of the lines decide about the pose
-  // (line_cutting.h), but whole lines about their matches.
+  // Returns the pose that best fits the matches and the prior, starting from `initial`. Matches
+  // that turn out to be outliers are taken out of the association. Each line counts once, however
+  // many images of the rig show it. With a method in `cutting` pieces of the lines decide about the
+  // pose (line_cutting.h), but whole lines decide which matches are outliers.
   PoseEstimate Estimate(const Features& features,
                         const Rigid3& initial,
                         const PosePrior& prior,

@@ -17,9 +17,9 @@
 namespace plumbline {
 namespace {
 
-// Largest deviation of the depth, relative to the depth, of landmarks made from one frame: of
-// points that count as known, of the ends of lines (their weights allow for more), and of both
-// where these are too few.
+// Largest deviation of the depth, relative to the depth, of landmarks made from one frame. The
+// first limit is for points, the second for the ends of lines, whose weights allow for more. The
+// third is for both where the first two leave too few landmarks.
 constexpr double kMaxDepthSigma = 0.05;
 constexpr double kMaxLineDepthSigma = 0.15;
 constexpr double kWorstDepthSigma = 0.3;
@@ -82,7 +82,8 @@ ProjectionSearchOptions FirstSearch(double factor) {
 }
 
 bool MoreThanChance(int agreeing, int matches) {
-  constexpr int kFitted = 3;  // so many points agree with the pose that they fix
+  // The pose is fixed by so many points, which agree with it in any case.
+  constexpr int kFitted = 3;
   // The gate of a corner that is known to half a pixel, 1.2 px, covers a tenth of the window of 4
   // px in which the map is searched.
   constexpr double kByChance = 0.1;
@@ -162,7 +163,8 @@ std::optional<PoseEstimate> PoseSearch::FromPrediction(const Frame& frame,
     const bool many =
         how.depths == Depths::kGuessed || (best && best->Inliers() >= options_.enough_inliers);
     if (best && best->sigma.AtMost(limit) && many) break;
-    if (how.depths == Depths::kUncertain && imaging_.camera.baseline == 0) continue;  // no depths
+    // One camera measures no depths.
+    if (how.depths == Depths::kUncertain && imaging_.camera.baseline == 0) continue;
     FrameAssociation found;
     const auto estimate = SearchLast(frame, predicted, last, snapshot, how, found);
     if (!estimate || (best && estimate->Inliers() <= best->Inliers())) continue;
@@ -230,7 +232,8 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
                                                        FrameAssociation& association,
                                                        FrameCounts& counts) const {
   constexpr double kMaxErrorPx = 4;
-  constexpr double kGate = 3;  // wide, since the pose of the vote is not the final one
+  // Wide, because the pose that most points agree with is not the final one.
+  constexpr double kGate = 3;
   association =
       MatchAppearance(frame, IsOdometry() ? last.frame : snapshot.reference->frame, snapshot);
   counts = CountsOf(association.matches);
@@ -264,7 +267,8 @@ PoseEstimate PoseSearch::EstimateNotOutvoted(const Frame& frame,
                                              const PosePrior& prior,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association) const {
-  constexpr double kOutvoted = 0.95;  // least share of the established landmarks that is kept
+  // Smallest share of the established landmarks that a pose must keep.
+  constexpr double kOutvoted = 0.95;
   const int views =
       std::min(options_.established_views, static_cast<int>(snapshot.cam_from_world.size()));
   const FrameMatches offered = association.matches;
@@ -292,8 +296,8 @@ PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
                                      const MapSnapshot& snapshot,
                                      const FrameAssociation& found,
                                      const ProjectionSearchOptions& windows) const {
-  // Landmarks of the map come before those made on the spot from the last frame: these know the
-  // pose from one frame only, and would keep the map's from being found.
+  // Landmarks of the map are searched before those made on the spot from the last frame. The latter
+  // know the pose from one frame only, and would keep landmarks of the map from being found.
   PoseAttempt attempt{FrameAssociation(frame.points.size(), frame.lines.size()), {}, {}, {}};
   FrameAssociation& association = attempt.association;
   CopyMatches(found, true, association);

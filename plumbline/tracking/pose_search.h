@@ -19,7 +19,7 @@ struct LastFrame {
   Frame frame;
   FrameAssociation association;
 
-  // Whether the matches are those of the frame's own features.
+  // Whether the matches belong to the features of this frame.
   bool IsConsistent() const {
     return frame.points.size() == association.matches.point_of_feature.size() &&
            frame.lines.size() == association.matches.line_of_feature.size();
@@ -34,19 +34,20 @@ struct FrameCounts {
 // A pose that was found for a frame, with the matches that it was found by.
 struct PoseAttempt {
   FrameAssociation association;
-  ExpectedLandmarks expected;  // of the map; empty where the map was not searched
-  FrameCounts counts;          // of the matches
+  // Landmarks of the map that should be visible; empty where the map was not searched.
+  ExpectedLandmarks expected;
+  FrameCounts counts;  // counts of the matches
   PoseEstimate pose;
 };
 
-// A pose needs at least so many points and lines: the first number if it is near the predicted
-// pose, the second without a prediction.
+// Fewest points and lines that fix a pose: the first number holds for a pose near the predicted
+// one, the second for a pose without prediction.
 inline constexpr int kFewestInliers = 4;
 inline constexpr int kFewestUnpredictedInliers = 10;
-// By this factor the search is larger when the first one found too little.
+// The search is larger by this factor where the first one found too little.
 inline constexpr double kWideFactor = 3;
 
-// The search around predicted places: its radius is how far a prediction may be off, times
+// Returns the search around predicted places. Its radius is how far a prediction may be off, times
 // `factor`.
 ProjectionSearchOptions FirstSearch(double factor = 1);
 
@@ -65,29 +66,31 @@ class PoseSearch {
              const TrackingOptions& options,
              const PoseEstimator& estimator);
 
-  // From the landmarks that the last frame showed, and points and lines of its depths, near where
-  // `predicted` puts them; of more uncertain depths where the others do not fix the pose or are
-  // few. nullopt where no pose is accepted that more matches agree with than chance would let.
+  // Finds a pose from the landmarks that the last frame showed, and from points and lines made from
+  // its depths, near where `predicted` puts them. Landmarks of more uncertain depth are used where
+  // the others do not fix the pose or are few. Returns nullopt where no pose is accepted with which
+  // more matches agree than by chance.
   std::optional<PoseEstimate> FromPrediction(const Frame& frame,
                                              const PosePrior& predicted,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association) const;
-  // By the descriptors of the newest keyframe (of the last frame with odometry): from the pose that
-  // most points agree with, where they do.
+  // Finds a pose by comparing descriptors with the newest keyframe (in odometry with the last
+  // frame). Starts from the pose with which most points agree, or where there is none from the last
+  // pose. Returns nullopt where no pose is accepted.
   std::optional<PoseEstimate> FromAppearance(const Frame& frame,
                                              const LastFrame& last,
                                              const MapSnapshot& snapshot,
                                              FrameAssociation& association,
                                              FrameCounts& counts) const;
-  // Searches more of the last frame's landmarks from the first estimate and what it was found with.
+  // Searches more of the last frame's landmarks, starting from the first estimate and its matches.
   PoseAttempt WithLastFrame(const Frame& frame,
                             const PoseEstimate& first,
                             const PosePrior& prior,
                             FrameAssociation found) const;
-  // Searches the rest of the snapshot in the windows of `windows`, from the first estimate and what
-  // it was found with; expected are the landmarks that should be visible from there. Established
-  // landmarks are not outvoted.
+  // Searches the rest of the snapshot in the given windows, starting from the first estimate and
+  // its matches. `expected` of the result are the landmarks that should be visible from there.
+  // Established landmarks are not outvoted.
   PoseAttempt WithLocalMap(const Frame& frame,
                            const PoseEstimate& first,
                            const PosePrior& prior,
@@ -106,12 +109,13 @@ class PoseSearch {
   }
 
  private:
-  // Which landmarks are made from the last frame's depths: those with a well known depth; those
-  // with an uncertain depth as well; lines without depth, put at the depth of the scene, as well.
+  // Which landmarks are made from the last frame's depths. kKnown: those with a well known depth.
+  // kUncertain: those with an uncertain depth as well. kGuessed: in addition lines without depth,
+  // which are put at the depth of the scene.
   enum class Depths { kKnown, kUncertain, kGuessed };
   struct LastSearch {
     Depths depths = Depths::kKnown;
-    double factor = 1;  // on the usual radius around the predicted places
+    double factor = 1;  // factor on the usual radius around the predicted places
   };
   FrameAssociation LastLandmarks(const LastFrame& last,
                                  const MapSnapshot& snapshot,
@@ -123,8 +127,8 @@ class PoseSearch {
                                          const MapSnapshot& snapshot,
                                          const LastSearch& how,
                                          FrameAssociation& association) const;
-  // The landmark that a feature of an earlier frame shows: `known` of the map, or, where that is
-  // nullptr, one made from the feature's depth.
+  // Returns the landmark that a feature of an earlier frame shows: `known`, a landmark of the map,
+  // or where that is nullptr one made from the feature's depth.
   std::optional<CandidatePoint> PointOf(const SnapshotPoint* known,
                                         const Frame& frame,
                                         std::size_t feature,

@@ -14,18 +14,21 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kTried = 6;     // candidates that are tried at most
-constexpr int kOfOnePlace = 2;        // of these, close neighbours of each other at most
-constexpr int kCloseNeighbours = 10;  // keyframes that share most landmarks with another one
+constexpr std::size_t kTried = 6;  // most candidates that are tried
+// Most of the tried candidates that may be close neighbours of each other.
+constexpr int kOfOnePlace = 2;
+// So many keyframes that share most landmarks with another one count as its close neighbours.
+constexpr int kCloseNeighbours = 10;
 // Where another place has at least this share of the inliers, neither place is believed.
 constexpr double kRival = 0.7;
-constexpr int kMinInliers = 30;  // points + lines that chance does not make agree with a wrong pose
+// Points and lines: by chance fewer agree with a wrong pose.
+constexpr int kMinInliers = 30;
 
 // Chooses the candidates that are tried, best first, few of them near each other: what failed from
 // one keyframe most often fails from its neighbours, and what succeeded needs no second attempt.
 std::vector<PlaceToTry> OfDifferentPlaces(std::span<const PlaceToTry> candidates) {
   std::vector<PlaceToTry> tried;
-  std::map<KeyFrameId, int> neighbours;  // how many of those tried have it as a neighbour
+  std::map<KeyFrameId, int> neighbours;  // how many of the tried keyframes have it as a neighbour
   for (const PlaceToTry& place : candidates) {
     const auto& [map, id] = place;
     if (tried.size() == kTried) break;
@@ -64,7 +67,8 @@ std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
                                                    const Frame& frame) const {
   const auto& [map, id] = place;
   const auto snapshot = TakeSnapshot(*map, id);
-  const LastFrame keyframe{snapshot->reference->frame, {}};  // stands in for the frame before
+  // The keyframe stands in for the last frame.
+  const LastFrame keyframe{snapshot->reference->frame, {}};
   FrameAssociation found;
   FrameCounts counts;
   const auto first = search_.FromAppearance(frame, keyframe, *snapshot, found, counts);
@@ -94,7 +98,7 @@ std::optional<Relocalized> Relocalizer::Find(const Map& map,
 std::optional<Relocalized> Relocalizer::Find(const Frame& frame,
                                              std::span<const PlaceToTry> candidates) const {
   std::vector<PlaceFound> places;
-  Frame corrected = frame;  // as the map of the place has disparities
+  Frame corrected = frame;  // disparities corrected as in the map of the place
   for (const PlaceToTry& place : OfDifferentPlaces(candidates)) {
     const StereoCorrection& correction = place.map->stereo_correction();
     if (!(corrected.indexed->correction == correction)) {

@@ -19,7 +19,8 @@ namespace plumbline {
 
 struct RelocalizationOptions {
   bool enabled = true;
-  int patience = 200;  // lost frames in a map of an earlier run after which a new one starts
+  // Lost frames in a map of an earlier run after which a new map starts.
+  int patience = 200;
 };
 
 template <class Visitor>
@@ -37,7 +38,7 @@ constexpr auto FixedOptions(std::type_identity<RelocalizationOptions>) {
 
 // A frame whose pose in the map was found by appearance.
 struct Relocalized {
-  Frame frame;  // with its pose
+  Frame frame;  // the frame with its pose
   FrameAssociation association;
   KeyFrameId keyframe;  // the candidate that it was found from
   FrameCounts counts;
@@ -54,10 +55,10 @@ struct PlaceToTry {
 
 // Finds the pose of a frame in one of some maps by appearance alone.
 //
-// The caller names keyframes that may show the place, from an index of places. From each of the
-// first few that show different surroundings: a pose that most matches agree with (AP3P), then the
-// landmarks around that keyframe searched from there. Where two places explain the image nearly as
-// well, neither is believed.
+// The caller names keyframes that may show the place, from an index of places. The first few that
+// show different surroundings are tried. Each gives the pose that most matches agree with
+// (PoseFromPoints); from there the landmarks around that keyframe are searched. Where two places
+// explain the image nearly as well, neither is believed.
 //
 // Thread-safe; the result depends on the arguments alone. Cost: some tens of milliseconds.
 class Relocalizer {
@@ -69,11 +70,12 @@ class Relocalizer {
   // More candidates than this are of no use, since not all of them are tried.
   static constexpr std::size_t kCandidates = 20;
 
-  // `candidates`: the most alike first, of whatever maps of one atlas; those that their map does
-  // not have are passed over. The frame's pose and matches are not looked at. Two maps are two
-  // places, also where nobody knows yet that they show the same.
+  // Finds the pose of a frame from `candidates`, which are ordered by likeness, the most alike
+  // first, and may be of several maps of one atlas. Candidates that their map does not have are
+  // passed over. The frame's pose and matches are not looked at. Two maps count as two places, even
+  // where nobody knows yet that they show the same.
   std::optional<Relocalized> Find(const Frame& frame, std::span<const PlaceToTry> candidates) const;
-  // The same with all candidates of one map.
+  // Finds the pose of a frame from candidates that are all of one map.
   std::optional<Relocalized> Find(const Map& map,
                                   const Frame& frame,
                                   std::span<const KeyFrameId> candidates) const;

@@ -23,7 +23,7 @@ bool ShowsMore(const FrameAssociation& a, const FrameAssociation& b) {
   const int all_b = b.matches.All();
   const int map_a = MatchesOfMap(a);
   const int map_b = MatchesOfMap(b);
-  const bool no_map = map_a + map_b == 0;  // as in odometry
+  const bool no_map = map_a + map_b == 0;  // odometry has no map
   if (no_map || all_a > 2 * all_b || all_b > 2 * all_a) return all_a > all_b;
   return map_a > map_b;
 }
@@ -63,7 +63,8 @@ TrackingResult Tracker::Track(FrameId id,
   if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
   if (snapshot->withdrawn && !use_) {
-    trial_keyframes_ = std::max(trial_keyframes_, 1);  // the map failed its trial
+    // a map that was withdrawn counts as one that failed its trial
+    trial_keyframes_ = std::max(trial_keyframes_, 1);
     return Fail(std::move(frame), TrackingFailure::kMapWithdrawn, {});
   }
   return Follow(std::move(frame), *snapshot, live);
@@ -190,7 +191,7 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
                             const FrameAssociation& association,
                             const MapSnapshot& snapshot,
                             double feature_share) const {
-  if (IsOdometry()) return false;  // there is no map
+  if (IsOdometry()) return false;  // odometry has no map that keyframes could be added to
   const KeyFrameSituation situation = SituationOf(frame,
                                                   association,
                                                   snapshot,
@@ -264,7 +265,7 @@ void Tracker::MoveWithMap(const MapSnapshot& snapshot) {
   const bool arrived = snapshot.places.contains(last_->anchor.keyframe);
   Anchor& anchor = arrived ? last_->anchor : last_->parent;
   const auto place = snapshot.places.find(anchor.keyframe);
-  if (place == snapshot.places.end()) return;  // a first keyframe that is not in the map yet
+  if (place == snapshot.places.end()) return;  // a first keyframe is not in the map yet
   last_->frame.cam_from_world = PoseBeside(place->second, anchor.relative);
   const double scale = place->second.unit / anchor.relative.unit;
   if (scale == 1) return;

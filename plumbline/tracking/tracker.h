@@ -33,10 +33,10 @@ constexpr auto EnumNames(std::type_identity<TrackerState>) {
 // Why a frame has no pose.
 enum class TrackingFailure {
   kNone,
-  kTooFewFeatures,     // to start a map
+  kTooFewFeatures,     // too few features to start a map
   kNotRelocalized,     // nothing is known of the camera's place in the map yet
-  kTooFewMatches,      // landmarks found in the image
-  kTooFewInliers,      // of them agree on a pose
+  kTooFewMatches,      // too few landmarks were found in the image
+  kTooFewInliers,      // too few of the found landmarks agree on a pose
   kPoseNotObservable,  // the inliers do not fix the pose to tracking.max_pose_sigma
   kMapWithdrawn        // the map proved wrong (MapSnapshot::withdrawn)
 };
@@ -75,48 +75,51 @@ struct LiveConditions {
   // The map around an earlier keyframe, which is tried by appearance where the map gives no pose.
   // May be null.
   const MapSnapshot* earlier = nullptr;
-  double feature_share = 1;  // of the usual number of features that the frame was measured with
+  // Share of the usual number of features that the frame was measured with.
+  double feature_share = 1;
 };
 
 struct TrackingResult {
-  TrackerState state = TrackerState::kInitializing;  // after this frame
+  TrackerState state = TrackerState::kInitializing;  // state after this frame
   TrackingFailure failure = TrackingFailure::kNone;
   FrameCounts counts;
-  std::optional<Rigid3> cam_from_world;  // where the frame has a pose
-  KeyFrameId reference;                  // the keyframe it moves with from now on
+  std::optional<Rigid3> cam_from_world;  // none where the frame has no pose
+  KeyFrameId reference;                  // the keyframe that the pose refers to from now on
   RelativePose from_reference;
   std::optional<NewKeyFrame> keyframe;
   bool starts_map = false;  // the keyframe is the first of a new map
-  // In a map that is only read, set where there would be a keyframe otherwise: the snapshot is to
-  // be taken anew around the camera.
+  // The snapshot is to be taken anew around the camera. Set only in a map that is not changed,
+  // where the frame would otherwise become a keyframe.
   bool leaves_surroundings = false;
-  Frame frame;  // as tracked: features, and matches where it has a pose
+  Frame frame;  // the frame as tracked: features, and its matches where it has a pose
 };
 
-// Follows the camera: one frame after the other against an immutable snapshot of the map.
+// Follows the camera: tracks one frame after the other against an immutable snapshot of the map.
 //
-// Prediction by constant velocity; landmarks of the last frame (and points and lines with depth
-// that are not in the map yet) are searched near their predicted places, then the rest of the
-// snapshot; pose from points and lines together after each. When the prediction fails, by
-// appearance against the snapshot's keyframe.
+// The pose is predicted by constant velocity. Landmarks of the last frame (and points and lines
+// with depth that are not in the map yet) are searched near their predicted places, then the rest
+// of the snapshot is searched; after each search the pose is estimated from points and lines
+// together. When the prediction fails, the frame is matched by appearance with the snapshot's
+// keyframe.
 //
-// With TrackingReference::kLastFrame the last frame stands for the map: points and lines made from
-// its depths alone, as stereo odometry does (PL-SLAM of Gomez-Ojeda et al., the second paper's
-// setting). Nothing is kept: the only keyframe is the first frame, which poses refer to. Needs a
-// camera that measures depth.
+// With TrackingReference::kLastFrame the last frame takes the place of the map: only points and
+// lines made from its depths are used, as in stereo odometry (PL-SLAM of Gomez-Ojeda et al., the
+// second paper's setting). No landmarks are kept. The first frame is the only keyframe, to which
+// all poses refer. This needs a camera that measures depth.
 class Tracker {
  public:
-  // world_from_first_cam: pose given to the first frame of each map.
-  // min_lost_seconds: from the last pose until a new map may start, beside tracking.new_map_after
-  // and but for a map that is on trial.
+  // world_from_first_cam  pose given to the first frame of each map
+  // min_lost_seconds      least time from the last pose until a new map may start, in addition to
+  //                       tracking.new_map_after; it does not hold in a map that is on trial or was
+  //                       made by an earlier run
   Tracker(const ImagingModel& imaging,
           const TrackingOptions& options,
           const PoseEstimator& estimator,
           const Rigid3& world_from_first_cam,
           double min_lost_seconds = 0);
 
-  // snapshot: null exactly while the tracker has no map. One of a map that was withdrawn ends the
-  // map: the frame has no pose, and the next ones begin another.
+  // Tracks a frame. `snapshot` is null exactly while the tracker has no map. The snapshot of a map
+  // that was withdrawn ends that map: the frame has no pose, and the next frames begin another map.
   TrackingResult Track(FrameId id,
                        std::int64_t stamp_ns,
                        std::shared_ptr<const IndexedFeatures> indexed,
@@ -136,26 +139,27 @@ class Tracker {
   // that it became.
   void Complete(const std::shared_ptr<const IndexedFeatures>& whole, TrackingResult& result);
 
-  // Begins to follow a map that was made of several frames: the snapshot is centred on its newest
-  // keyframe, which is made of the frame of today.
+  // Begins to follow a map that was made of several frames. The snapshot is centred on its newest
+  // keyframe, which is made of the present frame.
   //   velocity  of the camera there, as a left tangent per second
   TrackingResult StartFrom(const MapSnapshot& snapshot, const Vector6d& velocity);
 
-  // Begins lost in a map that there is already, and looks for it until `use` says otherwise.
+  // Begins lost in a map of an earlier run, and looks for the camera's place in it for as long as
+  // `use` allows.
   void BeginLost(const MapUse& use);
-  // Goes on, lost as it is, from a frame whose place was found in the map; `snapshot` is taken
-  // around the keyframe that showed the way.
+  // Goes on, after being lost, from a frame whose place was found in the map. `snapshot` is taken
+  // around the keyframe from which the place was found.
   void Resume(const Relocalized& found, const MapSnapshot& snapshot);
   // A keyframe was removed from the map: poses that refer to it refer to its parent from now on.
   void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
 
   TrackerState state() const { return state_; }
-  // The id that the next keyframe will get.
+  // Returns the id that the next keyframe will get.
   KeyFrameId next_keyframe() const { return next_keyframe_; }
   // Whether there is a last pose, so that a snapshot is needed for the next frame.
   bool follows() const { return last_.has_value(); }
 
-  // All that it keeps from frame to frame (base/byte_format.h).
+  // Visits all that the tracker keeps from frame to frame (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.state_, self.last_, self.motion_, self.scores_);
@@ -164,7 +168,7 @@ class Tracker {
   }
 
  private:
-  // The last frame stands for the map.
+  // Whether the last frame takes the place of the map.
   bool IsOdometry() const { return options_.reference == TrackingReference::kLastFrame; }
 
   // The keyframe that the last pose refers to.
@@ -179,7 +183,8 @@ class Tracker {
   };
   struct Tracked : LastFrame {
     Anchor anchor;
-    Anchor parent;  // of use while the frame itself is a keyframe that is not in the map yet
+    // Used while the frame itself is a keyframe that is not in the map yet.
+    Anchor parent;
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -189,7 +194,8 @@ class Tracker {
 
   // A pose, or why there is none.
   struct Finding {
-    std::optional<PoseAttempt> attempt;  // its counts of matches are those below
+    // Its counts of matches are those in `counts`.
+    std::optional<PoseAttempt> attempt;
     TrackingFailure failure = TrackingFailure::kNone;
     FrameCounts counts;
 
@@ -213,7 +219,7 @@ class Tracker {
                      const MapSnapshot& snapshot,
                      FrameAssociation found) const;
   bool IsWeak(const PoseAttempt& attempt) const;
-  // without_pose: the counts of matches where there is no attempt.
+  // without_pose: the counts of matches to report where there is no attempt.
   Finding Judge(std::optional<PoseAttempt> attempt, const FrameCounts& without_pose) const;
   bool WantsKeyFrame(const Frame& frame,
                      const FrameAssociation& association,
@@ -242,7 +248,7 @@ class Tracker {
   KeyFrameId newest_keyframe_;
   std::int64_t frames_since_keyframe_ = 0;
   int lost_frames_ = 0;
-  std::optional<MapUse> use_;  // of a map of an earlier run
+  std::optional<MapUse> use_;  // set in a map of an earlier run
   int trial_keyframes_ = 0;    // keyframes still to come until the map is trusted
 };
 
