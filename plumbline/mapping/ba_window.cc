@@ -101,9 +101,10 @@ class WindowBuilder {
     HoldGauge();
   }
 
-  // Fixes the oldest poses if fewer are fixed than the gauge needs: one, or with a single camera
-  // two, since one alone leaves the scale of the window open against the rest of the map. Where the
-  // window is the whole map its scale is arbitrary, and KeepUnitOfTheOldest holds it.
+  // Fixes the oldest poses if fewer are fixed than the gauge needs. One fixed pose is enough where
+  // depth is measured; with a single camera two are needed, since one alone leaves the scale of the
+  // window open against the rest of the map. Where the window is the whole map, its scale is
+  // arbitrary and held by KeepUnitOfTheOldest.
   void HoldGauge() {
     auto& poses = window_.problem.poses;
     const bool depth = window_.problem.camera.baseline > 0;
@@ -149,8 +150,9 @@ class WindowBuilder {
     }
   }
 
-  // Wide angle between the interpretation planes of the first view and another (left images), or
-  // ends that the information fixes.
+  // Whether the images or the information fix a line: there is a wide angle between the
+  // interpretation planes of the first view and another (left images), or the information fixes
+  // both ends.
   bool WellConditioned(const MapLine& line) const {
     const double limit = math::Cos(options_.min_line_plane_angle_deg * std::numbers::pi / 180);
     std::optional<Eigen::Vector3d> first;
@@ -174,10 +176,12 @@ class WindowBuilder {
   const BaWindowOptions& options_;
   KeyFrameId centre_;
   BaWindow window_;
-  MapProblemBuilder builder_;  // of window_
+  // Fills window_.problem.
+  MapProblemBuilder builder_;
   std::set<KeyFrameId> free_;
   std::set<KeyFrameId> fixed_;
-  std::vector<const MapPoint*> points_;  // candidates
+  // Points and lines that may enter the window.
+  std::vector<const MapPoint*> points_;
   std::vector<const MapLine*> lines_;
 };
 

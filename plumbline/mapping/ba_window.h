@@ -15,14 +15,14 @@ namespace plumbline {
 // Bundle adjustment of the part of the map around a keyframe, whose camera is the world of the
 // problem.
 struct BaWindow : MapProblem {
-  std::vector<LineId> lines;  // by line index
+  std::vector<LineId> lines;  // the line that has each index in the problem
 };
 
-// The window around a keyframe: it and its covisible keyframes are free (never the first of the
-// map), other keyframes that see the same landmarks are fixed. At least one keyframe is fixed, with
-// a single camera two unless the window is the whole map; if need be, these are the oldest of the
-// window. Landmarks need two views; lines need in addition a wide enough angle between their
-// interpretation planes, or well known ends.
+// Returns the window around a keyframe. The keyframe and its covisible keyframes are free, except
+// the first one of the map; other keyframes that see the same landmarks are fixed. At least one
+// keyframe is fixed, with a single camera two unless the window is the whole map; if need be, these
+// are the oldest of the window. Landmarks need two views. Lines need in addition a wide enough
+// angle between their interpretation planes, or well known ends.
 BaWindow MakeBaWindow(const Map& map,
                       const ImagingModel& imaging,
                       KeyFrameId centre,

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of what mapping tells of its work.
+// Transfer (base/byte_format.h) of the state that mapping keeps.
 
 template <class Archive, Like<MappingStep> T>
 void Transfer(Archive& archive, T& step) {

@@ -47,13 +47,14 @@ struct Correction {
   }
 };
 
-// The correction as changes of a map that may have grown, shrunk and been adjusted since.
+// Returns the correction as changes of a map that may have grown, shrunk and been adjusted since.
 //
-// Every keyframe takes part in the motion, a similarity of the world, that the correction found for
-// it: what happened to it meanwhile stays, seen from the moved world. A keyframe that came later
-// moves with the nearest ancestor that the correction knows, so that nothing tears between old and
-// new. Landmarks go with the newest keyframe that shows them. Keyframes and points that nobody has
-// touched meanwhile get exactly the place that was computed. What left the map is left out.
+// Every keyframe takes part in the motion that the correction found for it, a similarity of the
+// world. What happened to a keyframe meanwhile stays as it is, seen from the moved world. A
+// keyframe that came later moves with the nearest ancestor that the correction knows, so that
+// nothing tears between old and new. A landmark moves with the newest keyframe that shows it.
+// Keyframes and points that did not change meanwhile get exactly the place that was computed.
+// Places of keyframes and points that have left the map are left out.
 MapEdit Rebased(const Correction& correction, const Map& today);
 
 }  // namespace plumbline

@@ -19,7 +19,7 @@ struct DepthPoint {
   double relative_sigma;
 };
 
-// Returns the features without landmark that points are made of, the best known depth first.
+// Returns the features without landmark from which points are made, the best known depth first.
 std::vector<DepthPoint> ChooseDepthPoints(const Frame& frame,
                                           const LandmarkCreationOptions& options) {
   const auto& disparities = frame.features().point_disparity;

@@ -81,10 +81,10 @@ bool TakesTooLong(const MapProblem& whole, int limit) {
   return FullSize(PlanElimination(SharingPoses(whole.problem))) > limit;
 }
 
-// Adjusts poses and points, without lines, to a corrected lens, from where they are for one near
-// by. Another lens changes the scale from place to place by more than the final adjustment would
-// take for a tear in the map, so that poses and points have to move there first. Returns false when
-// stopped.
+// Adjusts poses and points, without lines, to a corrected lens. It starts from the places that were
+// found for a correction near by. Another lens changes the scale from place to place by more than
+// the final adjustment accepts before it sees a tear in the map, so that poses and points have to
+// move there first. Returns false when stopped.
 bool BringToLens(const LearnedLens& lens,
                  const MappingOptions& options,
                  const StopCheck& stop,
@@ -147,8 +147,8 @@ Correction AdjustWholeMap(const Map& map,
   const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
   if (IsToStop(stop)) return {};
   MapProblem whole = MakeWholeMap(map, imaging, lines.weights(), well_seen);
-  // Long lines that are seen from far away can tie so many keyframes together that it takes too
-  // long.
+  // Long lines that are seen from far away can tie many keyframes together, so that solving would
+  // take too long.
   if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weights(), {});
   const bool learn = options.lens_calibration && !lens;
   const LearnedLens learned = learn ? LearnLens(whole.problem, stop) : LearnedLens{};
@@ -156,7 +156,8 @@ Correction AdjustWholeMap(const Map& map,
   Correct(*lens, whole.problem);
   BaProblem problem = whole.problem;
   if (!learned.poses.empty() && !BringToLens(learned, options, stop, problem)) return {};
-  // The unit is changed by `whole`, in which the poses that are held are free: it changes for all.
+  // KeepUnitOfTheOldest gets `whole.problem`, in which the poses that SolveInOnePiece holds are
+  // free, so that it scales all poses.
   const std::optional<BaResult> result = SolveInOnePiece(
       problem,
       options.ba,

@@ -14,34 +14,36 @@
 
 namespace plumbline {
 
-// All keyframes and points of a finished map adjusted together with lines that four keyframes or
-// more show (FindWellSeenLines, whatever mapping.line_map asks of those given out): each of these
-// is one landmark with all segments that show it, where tracking had several that end where its
-// search ended. This ties keyframes together that share no line landmark. Lines have the
-// residual of eq. 13 here, whatever lines.residual says, and are not held parallel. The first
-// keyframe stays where it is, and so do those that the points and well seen lines do not fix to
-// mapping.window.max_pose_sigma, and both of two that follow each other and would be moved against
-// one another by more than that (SolveInOnePiece); with a single camera the depth of
-// what the first keyframe shows is kept, in the median, and each keyframe gets the scale by which
-// the depths it shows have changed (KeyFrame::unit).
+// Adjusts all keyframes and points of a finished map together with lines that four keyframes or
+// more show (FindWellSeenLines, with limits of its own instead of those in mapping.line_map). Each
+// of these lines is one landmark with all segments that show it, where tracking made several that
+// end where its search ended. Such lines tie keyframes together that share no line landmark. Lines
+// have the residual of eq. 13 here, whatever lines.residual says, and are not held parallel.
 //
-// With a single camera what the calibration has left of the lens's radial distortion is learned
-// from the points and taken out of all measurements first (LearnLens, mapping.lens_calibration).
-// `lens` is what an earlier adjustment of this map has learned, and is taken as it is; where there
-// is none, it is learned and kept there.
+// Some keyframes stay where they are: the first one, those that the points and well seen lines do
+// not fix to mapping.window.max_pose_sigma, and both of two consecutive keyframes that would move
+// against one another by more than that (SolveInOnePiece). With a single camera the depth of what
+// the first keyframe shows is kept, in the median, and each keyframe gets the scale by which the
+// depths it shows have changed (KeyFrame::unit).
 //
-// Nothing for a map of less than three keyframes, or one whose equations take longer than those of
-// mapping.final_adjustment_keyframes that all share landmarks (FullSize), without the lines if
-// those make it so; nothing when `stop` says so before the end. Cost: FindWellSeenLines, and bundle
-// adjustment of the whole map, with the time of SchurSolver::Solve.
+// With a single camera, the radial distortion of the lens that the calibration has left is learned
+// from the points first and taken out of all measurements (LearnLens, mapping.lens_calibration).
+// `lens` holds what an earlier adjustment of this map has learned and is used as it is; where it is
+// empty, the lens is learned and stored in it.
+//
+// Returns an empty correction for a map of less than three keyframes, and for one whose equations
+// take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share
+// landmarks (FullSize); if only the lines make it so large, it is adjusted without them. Also empty
+// when `stop` says so before the end. Cost: FindWellSeenLines, and bundle adjustment of the whole
+// map, with the time of SchurSolver::Solve.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,
                           const MappingOptions& options,
                           std::optional<LensCorrection>& lens,
                           const StopCheck& stop = {});
-// Adjusts the whole of a map as above, where no earlier adjustment has learned the lens; the lens
-// that this one learns is given up with its end.
+// Adjusts the whole of a map where no earlier adjustment has learned the lens. The lens that this
+// adjustment learns is forgotten afterwards.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,

@@ -14,8 +14,8 @@ namespace {
 
 // A young landmark must be found in this share of the frames where it should be seen.
 constexpr double kMinFoundRatio = 0.25;
-// After so many keyframes a landmark is no longer young, and so many must show it then: a landmark
-// that one keyframe shows ties nothing together.
+// A landmark is on trial for so many keyframes. After that at least kMinObservations keyframes must
+// show it: a landmark that one keyframe shows ties nothing together.
 constexpr int kTrialKeyFrames = 3;
 constexpr int kMinObservations = 2;
 // A keyframe is redundant if so many others show its landmarks. With three, a landmark keeps two
@@ -48,7 +48,8 @@ int OctaveOf(const Map& map, KeyFrameId keyframe, int feature) {
   return map.Find(keyframe)->frame.features().points[static_cast<std::size_t>(feature)].octave;
 }
 
-// Whether at least `views` of the observations count. Looks at no more of them than it needs to.
+// Whether at least `views` of the observations count. Looks at no more observations than it needs
+// to.
 template <class Counts>
 bool HasViews(const Observations& observations, int views, const Counts& counts) {
   for (auto o = observations.begin(); o != observations.end() && views > 0; ++o) {
@@ -61,7 +62,8 @@ bool HasViews(const Observations& observations, int views, const Counts& counts)
 struct SharedLandmarks {
   int all = 0;
   int of_few =
-      0;  // of these, the landmarks that too few others show to make the keyframe redundant
+      // Landmarks that too few other keyframes show to make this one redundant.
+      0;
 };
 
 template <class LandmarkId>
@@ -77,12 +79,13 @@ void CountShared(const Map& map,
   }
 }
 
-// Two keyframes whose numbers differ by more belong to different visits to a place.
+// Two keyframes whose numbers differ by more than this belong to different visits to a place.
 constexpr std::int64_t kVisit = 20;
 
 // The rule by which a keyframe is redundant.
 struct Redundancy {
-  double share = 0.9;  // of its landmarks that at least kRedundantViews others must show
+  // Share of a keyframe's landmarks that at least kRedundantViews others must show.
+  double share = 0.9;
   bool again = false;  // whether one of these others must be of another visit
 };
 
@@ -91,9 +94,9 @@ bool IsOfAnotherVisit(const Map& map, KeyFrameId other, const KeyFrame& keyframe
   return apart > kVisit || apart < -kVisit;
 }
 
-// Whether others show the share of a keyframe's landmarks that the rule asks for, points as sharply
-// as this keyframe does. For most keyframes the numbers of views alone show that they do not, which
-// is tested first.
+// Whether other keyframes show the share of a keyframe's landmarks that the rule asks for, points
+// as sharply as this keyframe does. The test of the numbers of views comes first, since for most
+// keyframes it alone shows that they do not.
 bool IsRedundant(const Map& map, const KeyFrame& keyframe, const Redundancy& rule) {
   const Frame& frame = keyframe.frame;
   SharedLandmarks shared;
@@ -137,9 +140,9 @@ MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, YoungLandmarks& y
 
 namespace {
 
-// Finds the first redundant one among the keyframes around `centre`, those closest in covisibility
-// first. The first keyframe of the map, `centre` and the newest before it are never redundant.
-// Looks at no more than `most` keyframes.
+// Returns the first redundant keyframe among those around `centre`, looked at in the order of
+// covisibility; nullptr where none is redundant. The first keyframe of the map, `centre` and the
+// keyframe before it are never redundant. Looks at no more than `most` keyframes.
 const KeyFrame* FindRedundant(const Map& map,
                               KeyFrameId centre,
                               std::size_t most,
@@ -158,8 +161,8 @@ const KeyFrame* FindRedundant(const Map& map,
   return nullptr;
 }
 
-// Removes the landmarks, past their trial, that too few keyframes show once the keyframe with these
-// matches is removed.
+// Removes landmarks that too few keyframes show once the keyframe with these matches is removed.
+// Landmarks on trial stay.
 template <class Remove, class LandmarkId>
 void RemoveForsaken(const Map& map,
                     KeyFrameId newest,

@@ -10,19 +10,21 @@
 namespace plumbline {
 
 // Removes young landmarks that the tracker seldom finds where they should be, or that too few
-// keyframes show after their trial; those that passed the trial leave the list.
+// keyframes show after their trial. Landmarks that passed the trial leave the list of young ones.
 MapEdit RemoveWeakLandmarks(const Map& map, KeyFrameId newest, YoungLandmarks& young);
 
-// Removes one keyframe, or none: the first of those around `centre`, closest in covisibility,
-// nearly all of whose landmarks (of those that any other shows) three others show, points at most
-// an octave coarser. The first keyframe, `centre` and the newest before it stay.
+// Removes at most one keyframe: the first redundant one of those around `centre`, looked at in the
+// order of covisibility. A keyframe is redundant if three others show nearly all of its landmarks
+// (those that only this keyframe shows do not count), points at most an octave coarser. The first
+// keyframe, `centre` and the keyframe before it stay.
 MapEdit RemoveRedundantKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
 
-// Removes keyframes where a place is seen again: less of a keyframe's landmarks need be shown by
-// others (CleanupOptions::revisited_share), but of each by one that is of another visit, more than
-// 20 keyframes before or after. The camera comes again and again and makes keyframes each time, and
-// a landmark is found again in some of them only: by the first rule alone there would be ever more.
-// What too few keyframes show after that goes, too. Looks at the 30 closest keyframes.
+// Removes at most one keyframe at a place that is seen again. A smaller share of its landmarks must
+// be shown by others (CleanupOptions::revisited_share), but each of these also by a keyframe of
+// another visit, more than 20 keyframes before or after. A camera that comes again and again makes
+// keyframes each time and finds a landmark in some of them only, so that RemoveRedundantKeyFrames
+// alone would let their number grow without end. Landmarks that too few keyframes show afterwards
+// are removed, too. Looks at the 30 closest keyframes.
 MapEdit RemoveRevisitedKeyFrames(const Map& map, KeyFrameId centre, const CleanupOptions& options);
 
 }  // namespace plumbline

@@ -15,7 +15,7 @@ namespace plumbline {
 
 // Points and lines made from the depths of one frame, with the features that show them.
 struct DepthLandmarks {
-  std::vector<std::pair<std::size_t, PointModel>> points;  // the best known first
+  std::vector<std::pair<std::size_t, PointModel>> points;  // the best known depth first
   std::vector<std::pair<std::size_t, LineModel>> lines;
 };
 
@@ -24,26 +24,27 @@ DepthLandmarks LandmarksFromDepth(const RectifiedCamera& camera,
                                   const Frame& frame,
                                   const LandmarkCreationOptions& options);
 
-// Creates points and lines from the depths of one keyframe: of every feature without landmark whose
-// depth is known well enough, and, where the keyframe shows few points with depth, of the others
-// with the best known depths. Each landmark gets one observation.
+// Creates points and lines from the depths of one keyframe. They are made of every feature without
+// landmark whose depth is known well enough; where the keyframe shows few points with depth, also
+// of the best known of the other depths. Each landmark gets one observation.
 MapEdit CreateFromDepth(const Map& map,
                         const ImagingModel& imaging,
                         KeyFrameId id,
                         const LandmarkCreationOptions& options);
 
-// New points from features without landmark in two keyframes: searched along the epipolar line by
-// descriptor, triangulated, and kept where parallax, depth and reprojection in both (with disparity
-// where measured) are good.
+// Creates points from features without landmark in two keyframes. Features are matched by
+// descriptor along the epipolar line and triangulated. A point is kept where parallax, depth and
+// the reprojection in both keyframes (with disparity where measured) are good.
 MapEdit CreatePointsFromViews(const Map& map,
                               const ImagingModel& imaging,
                               KeyFrameId id,
                               const LandmarkCreationOptions& options);
 
-// New lines from line features without landmark in the keyframe and in up to three of its closest
-// neighbours (section 3.3), matched by their looks as `lines` says: n-view reconstruction, from two
-// views where the views disagree, kept where the end points of every view lie on the projected line
-// (3 sigmas, TriangulateLine) and the interpretation planes meet at a large enough angle.
+// Creates lines from line features without landmark in the keyframe and in up to three of its
+// closest neighbours (section 3.3). Features are matched by appearance as `lines` says. A line is
+// reconstructed from all views, or from two where the views disagree. It is kept where the end
+// points of every view lie on the projected line (3 sigmas, TriangulateLine) and the interpretation
+// planes meet at a large enough angle.
 MapEdit CreateLinesFromViews(const Map& map,
                              const ImagingModel& imaging,
                              KeyFrameId id,

@@ -15,9 +15,10 @@
 namespace plumbline {
 namespace {
 
-// Both relative to the width of the image.
+// Prior deviation of the correction, relative to the width of the image.
 constexpr double kPriorSigma = 0.01;
-constexpr double kAllowed = 5e-4;  // mean shift that the deviations of corners allow for already
+// Mean shift, relative to the width of the image, that the deviations of corners allow for already.
+constexpr double kAllowed = 5e-4;
 
 Eigen::Vector2d InHalfWidths(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
   return (px - Eigen::Vector2d(camera.cx, camera.cy)) / (0.5 * camera.width);
@@ -41,7 +42,8 @@ class Profile {
     if (!solved_.empty()) TakePlaces(Nearest(border_px), corrected);
     Correct({border_px}, corrected);
     LocalBaOptions options;
-    options.rounds = 1;  // no observation is taken out, so that all costs are of the same ones
+    // No observation is taken out, so that all costs count the same observations.
+    options.rounds = 1;
     options.max_iterations = 40;
     options.function_tolerance = 1e-6;
     BaResult result = SolveLocalBa(corrected, options, stop_);
@@ -55,7 +57,8 @@ class Profile {
     return cost;
   }
 
-  // The solution for the nearest correction so far; there is one.
+  // Returns the solution for the nearest correction that has been solved; at least one must have
+  // been.
   const BaResult& Nearest(double border_px) const {
     const auto after = solved_.lower_bound(border_px);
     if (after == solved_.begin()) return after->second;
@@ -75,16 +78,16 @@ class Profile {
 
   BaProblem problem_;
   const StopCheck& stop_;
-  std::map<double, BaResult> solved_;  // by correction
+  std::map<double, BaResult> solved_;  // the solution for each correction
 };
 
 struct Parabola {
   double middle_cost = 0;
-  double minimum = 0;    // where the cost is least
-  double curvature = 0;  // second derivative
+  double minimum = 0;    // correction at which the cost is least
+  double curvature = 0;  // second derivative of the cost
 
-  // Returns by how much a correction at the minimum lowers the cost against a correction of zero,
-  // as a parabola that was fitted around zero says.
+  // Returns by how much the correction at the minimum lowers the cost compared with no correction.
+  // Holds for a parabola that was fitted around zero.
   double Gain() const { return 0.5 * curvature * minimum * minimum; }
 };
 
@@ -95,8 +98,8 @@ Parabola Through(double middle, double step, const std::array<double, 3>& costs)
   return {costs[1], middle - slope / curvature, curvature};
 }
 
-// Returns by how much a correction of one pixel at the border moves the points of a problem: the
-// root mean square.
+// Returns by how much a correction of one pixel at the border moves the points of a problem, as the
+// root mean square [px].
 double MeanSize(const BaProblem& problem) {
   double sum = 0;
   for (const auto& o : problem.point_observations) {
@@ -149,8 +152,9 @@ void Correct(const LensCorrection& correction, BaProblem& problem) {
 }
 
 LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
-  // Relative to the width of the image. Over the first step all points stay near where they were,
-  // which takes few iterations; the second leads to the places that a large correction asks for.
+  // Steps between corrections, relative to the width of the image. With the first step all points
+  // stay near where they were, which takes few iterations; the second leads to the places that a
+  // large correction asks for.
   constexpr double kFirstStep = 0.0005;
   constexpr double kStep = 0.002;
   constexpr double kMost = 3;  // largest correction, in deviations of the prior
@@ -158,21 +162,22 @@ LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
   // was nothing to correct: an error of a corner is the same in all its views, but the cost takes
   // the views for independent.
   constexpr double kSigmas = 6;
-  constexpr double kEnough = 0.5 * kSigmas * kSigmas;  // by which a correction lowers the cost
+  constexpr double kEnough = 0.5 * kSigmas * kSigmas;  // least decrease of the cost
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
   const double sigma = kPriorSigma * problem.camera.width;
   const double step = kStep * problem.camera.width;
   Profile profile(problem, stop);
   std::optional<Parabola> fit =
       FitAround(profile, 0, kFirstStep * problem.camera.width, kMost * sigma);
-  // Longer steps change what the short ones have found by far less than to its double.
+  // Longer steps change the gain that short ones find by far less than a factor of two, so that
+  // half of kEnough is a safe limit.
   if (!fit || fit->Gain() < 0.5 * kEnough) return {};
   fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
   const double uncorrected = fit->middle_cost;
   double gain = fit->Gain();
-  // The profile is a parabola near its minimum only, so that a distant one is fitted again. Where
-  // that leads elsewhere, points have stuck on the way.
+  // The profile is a parabola only near its minimum, so that a distant minimum is fitted again.
+  // Where that leads elsewhere, points have stuck on the way.
   if (std::abs(fit->minimum) > step) {
     const double middle = fit->minimum;
     fit = FitAround(profile, middle, step, kMost * sigma);

@@ -18,20 +18,20 @@
 namespace plumbline {
 namespace {
 
-// Of the supporting keyframes that have a point of the line in their image, at least this share
-// must show it. Where fewer do, the line was prolonged over something that happens to lie in line
-// with it.
+// Points of a line count as shown where at least this share of the supporting keyframes that have
+// them in their image show them. Where fewer do, the line was prolonged over something that happens
+// to lie in line with it.
 constexpr double kMinShownShare = 0.4;
 
 struct SupportedLine {
   LineHypothesis hypothesis;
   std::vector<LineSupport> supports;
-  std::vector<LineInterval> parts;  // of the line, shown by enough keyframes
+  std::vector<LineInterval> parts;  // the parts of the line that enough keyframes show
 };
 
-// Finds the supports of a hypothesis and the line through them, three times in turn, or fewer times
-// where the supports stay the same, as further rounds would then change nothing. Returns nullopt
-// where there are too few supports.
+// Finds the supports of a hypothesis and the line through them, three times in turn. Ends sooner
+// where the supports stay the same, as further rounds would change nothing. Returns nullopt where
+// there are too few supports.
 std::optional<SupportedLine> Support(const LineSupportSearch& search,
                                      const RectifiedCamera& camera,
                                      const LineHypothesis& hypothesis,
@@ -89,8 +89,8 @@ std::optional<LineInterval> KnownPart(const SupportedLine& line,
 struct Sightings {
   std::set<KeyFrameId> keyframes;
   double furthest = 0;        // largest distance of a keyframe from the middle of the part
-  double mean_chi2 = 0;       // of the segments in the left images, by their own deviations
-  double mean_length_px = 0;  // of the segments in the left images
+  double mean_chi2 = 0;       // mean over the segments in the left images, by their own deviations
+  double mean_length_px = 0;  // mean over the segments in the left images
 };
 
 double MiddleDistance(const Frame& frame, const Segment3& segment) {

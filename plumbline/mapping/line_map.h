@@ -15,43 +15,44 @@ namespace plumbline {
 
 // A straight piece of the world's lines, as given to users.
 struct MappedLine {
-  Segment3 segment;   // world; directed with the brighter side as LineFeature says
-  double sigma = 0;   // of the worse end, across the line, in the map's unit, poses taken as known
-  int keyframes = 0;  // that show some of it
+  Segment3 segment;  // in the world; directed with the brighter side as LineFeature says
+  // Deviation of the worse end across the line, in the map's unit; poses count as exact.
+  double sigma = 0;
+  int keyframes = 0;  // number of keyframes that show some of it
 };
 
-// What is drawn of lines: their segments.
+// Returns the segments of lines, for drawing.
 std::vector<Segment3> SegmentsOf(const std::vector<MappedLine>& lines);
 
-// An infinite line with what shows it and what is fit to be given out of it.
+// An infinite line, the segments that show it, and its pieces that are fit to be given out.
 struct WellSeenLine {
   PluckerLine line;  // world
   std::vector<LineSupport> supports;
   std::vector<MappedLine> pieces;  // at least one
 };
 
-// The clean line map of a finished map: what is well seen of its lines, each once.
+// Returns the clean line map of a finished map: each line of the world once, where it is well seen.
 //
-// The landmarks serve tracking, which gains from weak ones; here they are hypotheses only. One
-// after the other, the one with most observations first: all segments of all keyframes that show
-// the line are found, whatever they were matched with (LineSupportSearch), the line goes through
-// them anew, and again, three times in all. Of its parts, those that enough keyframes show
-// (ShownParts), the stretches are kept that are known well enough, that enough of the keyframes
-// show which have them in their image, and whose segments fit and are long enough (LineMapOptions).
-// A line of which anything is kept claims its segments, so that what else was made of them finds no
-// support: this merges duplicates, and the collinear pieces of one line. docs/methods/line-map.md
-// has the figures.
+// The landmarks serve tracking, which gains even from weak ones; here they are only hypotheses.
+// They are taken one after the other, the one with most observations first. All segments of all
+// keyframes that show the line are found, whatever landmark they were matched with
+// (LineSupportSearch), and a new line is put through them; this is done three times. Of the parts
+// that enough keyframes show (ShownParts), those stretches are kept that are known well enough,
+// that enough of the keyframes show which have them in their image, and whose segments fit and are
+// long enough (LineMapOptions). A line of which anything is kept claims its segments, so that other
+// landmarks made of them find no support. This merges duplicates and the collinear pieces of one
+// line. docs/methods/line-map.md has the figures.
 //
 //   map     in one frame with its keyframes' poses; not changed
 //   stop    asked before each landmark; what was found until then is the result
-//   result  in the order in which the lines were made
+//   result  in the order of the search: lines of the landmarks with most observations first
 //   cost    O(landmarks x keyframes that may have them in their image)
 std::vector<MappedLine> MakeLineMap(const Map& map,
                                     const ImagingModel& imaging,
                                     const LineMapOptions& options,
                                     const StopCheck& stop = {});
 
-// FindWellSeenLines with what the lines were made of.
+// Returns the same lines as MakeLineMap, each with the segments of which it was made.
 std::vector<WellSeenLine> FindWellSeenLines(const Map& map,
                                             const ImagingModel& imaging,
                                             const LineMapOptions& options,

@@ -7,11 +7,13 @@
 namespace plumbline {
 
 struct LineMapOptions {
-  int min_keyframes = 4;             // that show each point of a line
-  double max_relative_sigma = 0.02;  // of each point of a line, over its distance
-  double min_found_ratio = 0.25;     // of the keyframes that have a line in their image
-  double max_mean_chi2 = 5;          // of the segments that show a line, two residuals each
-  double min_mean_length_px = 35;    // of the segments that show a line
+  int min_keyframes = 4;             // keyframes that must show each point of a line
+  double max_relative_sigma = 0.02;  // deviation of each point of a line, over its distance
+  // Share of the keyframes that have a line in their image and show it.
+  double min_found_ratio = 0.25;
+  // Mean chi2 of the segments that show a line, of two residuals each.
+  double max_mean_chi2 = 5;
+  double min_mean_length_px = 35;  // mean length of the segments that show a line
 };
 
 template <class Visitor>

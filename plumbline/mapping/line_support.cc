@@ -20,7 +20,7 @@
 namespace plumbline {
 namespace {
 
-// The error of a keyframe's pose adds so much to the deviation of a segment.
+// Deviation that the error of a keyframe's pose adds to that of a segment.
 constexpr double kPoseSigmaPx = 0.3;
 constexpr double kMinOverlap = 0.25;
 
@@ -62,7 +62,7 @@ class LooseTest {
   const Eigen::Vector2d& direction() const { return direction_; }
 
   bool MayShow(const Segment2& segment) const {
-    constexpr double kMinCosine = 0.95;  // as SegmentIndex takes it
+    constexpr double kMinCosine = 0.95;  // the cosine that SegmentIndex takes, too
     return std::abs(LineDistance(line_, segment.start)) <= kLoosePx &&
            std::abs(LineDistance(line_, segment.end)) <= kLoosePx &&
            segment.Direction().dot(direction_) >= kMinCosine;
@@ -73,9 +73,9 @@ class LooseTest {
   Eigen::Vector2d direction_;
 };
 
-// Returns the box in which segments are searched, before they are tested: the image of the line,
+// Returns the box in which segments are searched before they are tested: the image of the line,
 // with a margin. A segment that overlaps the line has a point no further from it than MayShow
-// allows; one pixel more is for rounding. The box is the whole image where the line passes the
+// allows; one pixel more allows for rounding. The box is the whole image where the line passes the
 // camera.
 Eigen::AlignedBox2d Surroundings(const RectifiedCamera& camera, const Segment3& in_camera) {
   constexpr double kNear = 1e-3, kMargin = kLoosePx + 1;
@@ -159,7 +159,8 @@ int CountKeyFrames(std::span<const LineSupport> supports) {
 
 std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
                                                   std::span<const LineSupport> supports) {
-  // All supports were tested against the line before, so that none is refused by its reprojection.
+  // All supports were tested against the line before, so that no limit on the residual is needed
+  // here.
   constexpr double kMinPlaneAngle = 0.002;
   const LineTriangulationOptions options{
       .min_plane_angle = kMinPlaneAngle,

@@ -20,11 +20,11 @@
 
 namespace plumbline {
 
-// A line of the world, with the interval and the information that are known of it.
+// A line of the world, with the interval and the information that are known about it.
 struct LineHypothesis {
   PluckerLine line;
   LineInterval interval;                                  // start < end
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of the orthonormal tangent
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // information of the orthonormal tangent
 };
 
 // A line feature of a keyframe that lies where a line of the world should appear.
@@ -37,17 +37,17 @@ struct LineSupport {
 };
 
 // Finds the segments of all keyframes that show a line, whatever landmark they were matched with.
-// Each segment shows one line: those that were claimed for another are not found again.
+// Each segment shows one line: segments that were claimed for a line are not found again.
 class LineSupportSearch {
  public:
   // The map and the imaging model must outlive the search.
   LineSupportSearch(const Map& map, const ImagingModel& imaging);
 
-  // Segments that run as the line does (bright side on the same side), both ends within chi2 99 %
-  // of the projected line, by their own deviation, that of the poses and that of the line, and
-  // within 10 px of it, and that overlap the interval by a quarter of the shorter of the two.
-  // Ordered by keyframe.
-  // O(keyframes that may have the line in their image + features near it there).
+  // Returns the segments that show a line, ordered by keyframe. They run as the line does (bright
+  // side on the same side) and overlap its interval by a quarter of the shorter of the two. Both
+  // ends are within 10 px of the projected line, and within chi2 99 % of it, which counts the
+  // deviations of the segment, the poses and the line. O(keyframes that may have the line in their
+  // image + features near it there).
   std::vector<LineSupport> Find(const LineHypothesis& hypothesis) const;
 
   void Claim(std::span<const LineSupport> supports);
@@ -55,7 +55,7 @@ class LineSupportSearch {
   const ViewTree& views() const { return views_; }
 
  private:
-  // `uncertain`: the line of the hypothesis.
+  // `uncertain` is the line of the hypothesis.
   std::optional<LineSupport> Test(const LineHypothesis& hypothesis,
                                   const UncertainLine& uncertain,
                                   const KeyFrame& keyframe,
@@ -63,7 +63,7 @@ class LineSupportSearch {
 
   const ImagingModel& imaging_;
   ViewTree views_;
-  std::vector<SegmentIndex> segments_;  // those not claimed yet, by keyframe of views_
+  std::vector<SegmentIndex> segments_;  // segments not claimed yet, by index in views_
 };
 
 // Counts the keyframes among supports that are ordered as Find returns them.
@@ -74,16 +74,17 @@ int CountKeyFrames(std::span<const LineSupport> supports);
 std::optional<LineHypothesis> LineThroughSupports(const RectifiedCamera& camera,
                                                   std::span<const LineSupport> supports);
 
-// The parts of a line, parameters along it, that are shown by at least `min_keyframes` of the
-// keyframes and by at least `min_share` of those supporting keyframes in whose image they are. Each
-// segment is trimmed to the line (eq. 30). Gaps of up to a tenth of the whole are closed.
+// Returns the parts of a line, as parameters along it, that are shown by at least `min_keyframes`
+// keyframes and by at least `min_share` of the supporting keyframes that have them in their image.
+// Each segment is trimmed to the line (eq. 30). Gaps of up to a tenth of the whole are closed.
 std::vector<LineInterval> ShownParts(const RectifiedCamera& camera,
                                      const PluckerLine& line,
                                      std::span<const LineSupport> supports,
                                      int min_keyframes,
                                      double min_share);
 
-// The part of a line inside an image, parameters along it; nullopt where it misses the image.
+// Returns the part of a line inside an image, as parameters along it; nullopt where it misses the
+// image.
 std::optional<Stretch> PartInImage(const RectifiedCamera& camera,
                                    const Rigid3& cam_from_world,
                                    const PluckerLine& line);

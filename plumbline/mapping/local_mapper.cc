@@ -29,8 +29,8 @@ void Timed(const char* name, std::vector<MappingStep>& times, const Step& step) 
   times.push_back({name, taken.count()});
 }
 
-// A correction that changes no disparity of the image by more is not worth changing all keyframes
-// for.
+// A correction is not worth changing all keyframes for if it changes no disparity by more than
+// this.
 constexpr double kMinChangePx = 0.02;
 
 // Returns the largest difference of two corrections over a grid of places of the image.
@@ -48,7 +48,7 @@ double MaxDifference(const RectifiedCamera& camera,
   return largest;
 }
 
-// Finds the keyframe of a number, beginning at the newest; nullptr where it was removed.
+// Returns the keyframe with a number, searched from the newest on; nullptr where it was removed.
 const KeyFrame* WithNumber(const Map& map, std::int64_t number) {
   const auto& keyframes = map.keyframes();
   auto keyframe = keyframes.rbegin();
@@ -67,7 +67,8 @@ std::vector<ShownLandmark<LandmarkId>> ShownBy(const Map& map,
   return shown;
 }
 
-// Refreshes the appearance of the landmarks of one kind, but for those that have not changed.
+// Refreshes the appearance of the landmarks of one kind. Landmarks that have not changed are left
+// out.
 template <class Refresh, class LandmarkId>
 void RefreshChanged(const std::vector<ShownLandmark<LandmarkId>>& before,
                     const std::vector<ShownLandmark<LandmarkId>>& now,
@@ -172,7 +173,7 @@ std::vector<MappingStep> LocalMapper::Tie(Map& map, KeyFrameId newest, KeyFrameI
 }
 
 std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) const {
-  constexpr int kRounds = 2;  // after the first, better poses find more segments of each line
+  constexpr int kRounds = 2;  // in the second round, better poses find more segments of each line
   std::vector<MappingStep> times;
   if (stereo_change_.Running(map)) {
     map.Apply({edit::CorrectStereo{stereo_change_.state()->correction}});
@@ -186,8 +187,8 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   return times;
 }
 
-// Puts a keyframe into the map and updates scores and appearance of the landmarks that it shows,
-// which are returned.
+// Puts a keyframe into the map and updates scores and appearance of the landmarks that it shows.
+// Returns these landmarks.
 LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
                                                 const KeyFrame& keyframe,
                                                 const TrackingScores& scores) {
@@ -204,8 +205,9 @@ LocalMapper::ShownLandmarks LocalMapper::TakeIn(Map& map,
   return refreshed;
 }
 
-// Refreshes the appearance of all landmarks that a keyframe shows, but for those that the same
-// features show as before (nothing moves in between). Returns the landmarks that it shows now.
+// Refreshes the appearance of the landmarks that a keyframe shows. Landmarks that the same features
+// show as before are left out, because nothing moves in between. Returns the landmarks that the
+// keyframe shows now.
 LocalMapper::ShownLandmarks LocalMapper::Refresh(Map& map,
                                                  KeyFrameId id,
                                                  const ShownLandmarks& before) {
@@ -228,7 +230,7 @@ void LocalMapper::CreateLandmarks(Map& map, KeyFrameId id) {
   create(CreateLinesFromViews(map, imaging_, id, lines_));
 }
 
-// Adds the landmarks that an edit creates to the young ones, which are on trial.
+// Adds the landmarks that an edit creates to the young ones of the map, which are on trial.
 void LocalMapper::Watch(MapId map, const MapEdit& edit) {
   YoungLandmarks& young = young_[map];
   for (const MapChange& change : edit) {

@@ -54,41 +54,41 @@ class LocalMapper {
   // Sets the options for all that is done from now on.
   void SetOptions(const MappingOptions& options) { options_ = options; }
 
-  // Takes in a keyframe, with the scores that tracking counted since the last one. With its
-  // rectified left image, points are aligned (PointAligner). Returns the time of each step, in
-  // order.
+  // Takes in a keyframe, with the scores that tracking counted since the last one. Where its
+  // rectified left image is given, points are aligned (PointAligner). Returns the time of each
+  // step, in order.
   std::vector<MappingStep> Add(Map& map,
                                const KeyFrame& keyframe,
                                const TrackingScores& scores,
                                const GrayImage* image = nullptr);
 
-  // Begins a map with several keyframes, of which `newest` is the last, and their landmarks; `edit`
-  // makes these from the empty map. Adjusts all of it, then creates new landmarks of `newest`.
-  // Returns times as Add does.
+  // Begins a map with several keyframes, of which `newest` is the last, and their landmarks. `edit`
+  // makes them from the empty map. All of the map is adjusted, then new landmarks of `newest` are
+  // created. Returns the time of each step, in order.
   std::vector<MappingStep> Start(Map& map, const MapEdit& edit, KeyFrameId newest);
 
-  // Ties two keyframes that were far apart in the map and were found to see the same place. What
-  // both show is fused already: this looks for more of it around both, and adjusts the surroundings
-  // of both. Returns times as Add does.
+  // Ties two keyframes that were far apart in the map and were found to see the same place. The
+  // landmarks that both show must be fused already. More of them are searched around both
+  // keyframes, and the surroundings of both are adjusted. Returns the time of each step, in order.
   std::vector<MappingStep> Tie(Map& map, KeyFrameId newest, KeyFrameId older);
 
   // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap), with the
   // stereo correction that it was about to get. When stopped, the map is that of the last
-  // adjustment that was completed. Returns times as Add does.
+  // adjustment that was completed. Returns the time of each step, in order.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
-  // Gives a new, empty map what was learned of the camera.
+  // Gives a new, empty map what was learned about the camera.
   void StartNewMap(Map& map);
-  // From now on keyframes of another map are taken in.
+  // Tells that keyframes of another map are taken in from now on.
   void GoOnInAnotherMap();
-  // To be called when maps of the atlas may have been joined since the last call.
+  // Follows maps of the atlas that were joined since the last call; to be called after a join.
   void FollowJoins(const Atlas& atlas);
 
-  // Counts the lines that took part in local adjustments so far, of all maps.
+  // Counts the lines that took part in local adjustments so far, over all maps and windows.
   const AdjustedLines& adjusted_lines() const { return adjusted_lines_; }
 
-  // All that is kept from keyframe to keyframe. A mapper of the same options that is given the
-  // state and the map of another one does what the other would do.
+  // All that the mapper keeps from keyframe to keyframe. A mapper of the same options that gets the
+  // state and the map of another mapper goes on as the other would.
   struct State {
     std::map<MapId, YoungLandmarks> young;
     StereoEvidence stereo_evidence;

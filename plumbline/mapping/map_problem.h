@@ -15,13 +15,12 @@
 namespace plumbline {
 
 // Keyframes and landmarks of a map as a plain problem, and what its numbers stand for. The
-// problem's world is the camera of a keyframe: lines far from the map's origin would be ill
-// conditioned there.
+// problem's world is the camera of a keyframe, since lines far from the origin are ill conditioned.
 struct MapProblem {
   BaProblem problem;
   Rigid3 problem_from_world;
-  std::vector<KeyFrameId> keyframes;  // by pose index
-  std::vector<PointId> points;        // by point index
+  std::vector<KeyFrameId> keyframes;  // the keyframe of each pose index
+  std::vector<PointId> points;        // the point of each point index
 };
 
 // Fills a MapProblem. All poses have to be added before the landmarks that they show.
@@ -33,8 +32,8 @@ class MapProblemBuilder {
     std::size_t feature = 0;
   };
 
-  // The world of the problem is the camera of `origin`. `out`, empty, and `map` must outlive the
-  // builder.
+  // The world of the problem is the camera of `origin`. `out` must be empty; `map` and `out` must
+  // outlive the builder.
   MapProblemBuilder(const Map& map,
                     const ImagingModel& imaging,
                     const LineWeights& weights,
@@ -43,18 +42,18 @@ class MapProblemBuilder {
 
   void AddPose(KeyFrameId id, bool fixed);
 
-  // The views of a landmark, ordered by keyframe. Valid until the next call.
+  // Returns the views of a landmark, ordered by keyframe. Valid until the next call.
   const std::vector<View>& ViewsOf(const Observations& observations);
 
   // Adds a point with its views; a point with fewer than two views is left out.
   void AddPoint(const MapPoint& point);
   // Adds a line without views and returns its index.
   int AddLine(const PluckerLine& in_world);
-  // Adds the segment in the left image to a line, and with `with_right` also that in the right
-  // image where there is one.
+  // Adds the segment in the left image to a line; with `with_right` also the segment in the right
+  // image, where there is one.
   void AddLineView(int line, const View& view, bool with_right);
 
-  // Index of the pose of a keyframe of the map; kNoPose where it has none.
+  // Returns the index of the pose of a keyframe; kNoPose where the keyframe has none.
   static constexpr int kNoPose = -1;
   int PoseOf(KeyFrameId id) const { return pose_of_[static_cast<std::size_t>(id.value)]; }
 
@@ -68,20 +67,20 @@ class MapProblemBuilder {
   LineWeights weights_;
   MapProblem& out_;
   Rigid3 world_from_problem_;
-  std::vector<int> pose_of_;          // by keyframe
-  std::vector<const Frame*> frames_;  // by pose
-  std::vector<View> views_;           // the result of the last ViewsOf
+  std::vector<int> pose_of_;          // index by keyframe id
+  std::vector<const Frame*> frames_;  // frame of each pose
+  std::vector<View> views_;           // result of the last ViewsOf
 };
 
 // Returns the removals of the observations of points that turned out to be outliers.
 std::vector<edit::RemovePointObservation> OutliersOf(const MapProblem& part,
                                                      const BaResult& result);
 
-// Returns the poses of the result in the world of the map, with those that were fixed.
+// Returns the poses of the result in the world of the map, with the poses that were fixed.
 std::map<KeyFrameId, Rigid3> PosesByKeyFrame(const MapProblem& part, const BaResult& result);
 
-// The result as changes of the map: poses that were free, points, and the observations of points
-// that turned out to be outliers. Lines are up to the caller.
+// Returns the result as changes of the map: poses that were free, points, and the removal of
+// observations of points that turned out to be outliers. The caller takes care of lines.
 MapEdit PosesAndPointsOf(const MapProblem& part, const BaResult& result);
 
 }  // namespace plumbline

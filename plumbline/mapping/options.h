@@ -13,10 +13,14 @@
 namespace plumbline {
 
 struct LandmarkCreationOptions {
-  double max_relative_depth_sigma = 0.04;        // of points from one stereo or RGB-D frame ...
-  int min_depth_points = 100;                    // ... but at least so many, the best known first
-  double max_relative_line_depth_sigma = 0.107;  // of the ends of lines from one frame
-  int neighbours = 6;                            // keyframes searched for a second view of a point
+  // Largest deviation, relative to the depth, of points made from one stereo or RGB-D frame.
+  double max_relative_depth_sigma = 0.04;
+  // Where fewer points than this are that exact, the best known others are made, too.
+  int min_depth_points = 100;
+  // Largest deviation, relative to the depth, of the ends of lines made from one frame.
+  double max_relative_line_depth_sigma = 0.107;
+  // Keyframes that are searched for a second view of a point.
+  int neighbours = 6;
 };
 
 template <class Visitor>
@@ -48,8 +52,9 @@ constexpr auto FixedOptions(std::type_identity<LandmarkCreationOptions>) {
 }
 
 struct CleanupOptions {
-  double redundant_share = 0.9;  // of a keyframe's landmarks that three others show as well
-  double revisited_share = 0.7;  // the same share where a place is seen again
+  // Share of a keyframe's landmarks that three others must show to make it redundant.
+  double redundant_share = 0.9;
+  double revisited_share = 0.7;  // that share where a place is seen again
 };
 
 template <class Visitor>
@@ -73,13 +78,19 @@ constexpr auto FixedOptions(std::type_identity<CleanupOptions>) {
 }
 
 struct BaWindowOptions {
-  int free_keyframes = 12;               // adjusted, closest in covisibility
-  int fixed_keyframes = 20;              // at most, that see the same landmarks and hold the window
-  double min_line_plane_angle_deg = 10;  // between views, for a line to take part ...
-  double max_line_relative_sigma = 0.05;  // ... or its ends known to this part of their depth
-  double max_pose_sigma = 0.01;           // of a keyframe to be adjusted (PoseSigma)
-  double max_correction = 0.03;           // of it against the one before, in one window
-  bool parallel_lines = true;             // lines keep to directions that many of the map share
+  // Keyframes that are adjusted, closest in covisibility.
+  int free_keyframes = 12;
+  // Most fixed keyframes, which see the same landmarks and hold the window.
+  int fixed_keyframes = 20;
+  // Angle between views that a line needs to take part, unless its ends are known well.
+  double min_line_plane_angle_deg = 10;
+  // Deviation of the ends, relative to their depth, up to which they are known well.
+  double max_line_relative_sigma = 0.05;
+  // A keyframe is adjusted only if its pose is known to this (PoseSigma).
+  double max_pose_sigma = 0.01;
+  // Largest correction of a keyframe against the one before, in one window.
+  double max_correction = 0.03;
+  bool parallel_lines = true;  // whether lines keep to directions that many lines of the map share
 
   PoseLimits local_limits() const { return {.sigma = max_pose_sigma, .change = max_correction}; }
   PoseLimits final_limits() const { return {.sigma = max_pose_sigma, .change = max_pose_sigma}; }
@@ -123,7 +134,7 @@ struct MappingOptions {
   LandmarkCreationOptions creation;
   CleanupOptions cleanup;
   BaWindowOptions window;
-  LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4: 1.2 times the time, no better
+  LocalBaOptions ba{.function_tolerance = 1e-3};  // 1e-4 takes 1.2 times the time and is no better
   bool stereo_calibration = true;
   bool lens_calibration = true;
   int final_adjustment_keyframes = 1000;

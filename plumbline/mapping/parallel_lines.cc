@@ -23,7 +23,7 @@ constexpr double kWellKnown = 1 * kRadians;
 constexpr double kNear = 2 * kRadians;
 constexpr std::size_t kMinLines = 5;
 constexpr std::size_t kMinViews = 3;
-// Of a larger map so many keyframes are looked at: they fix its directions to a hundredth of a
+// In a larger map only so many keyframes are looked at: they fix its directions to a hundredth of a
 // degree.
 constexpr std::size_t kMostKeyFrames = 200;
 constexpr std::size_t kMostLines = 1500;
@@ -40,7 +40,7 @@ struct Deviation {
   bool agrees = false;
 };
 
-// sigma: deviation of the difference in addition to the line's covariance.
+// sigma: deviation of the difference, in addition to the line's covariance.
 Deviation DeviationFrom(const Eigen::Vector3d& axis,
                         const Basis& across,
                         const LineDirection& line,
@@ -78,7 +78,7 @@ class Votes {
     for (std::size_t i = 0; i < lines_.size(); ++i) votes_[i] -= Near(lines_[i], line) ? 1 : 0;
   }
 
-  // The first of the lines with most others near them; nullptr when no line has enough.
+  // Returns the first of the lines with most others near them; nullptr when no line has enough.
   const LineDirection* Most() const {
     std::ptrdiff_t most = kMinLines - 1;
     const LineDirection* line = nullptr;
@@ -164,7 +164,7 @@ std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& 
       others = left;
       others.erase(std::find(others.begin(), others.end(), seed));
     }
-    // `left` and `others` are in the same order.
+    // `others` is in the order of `left`, so that one pass finds the lines that were taken out.
     auto kept = others.begin();
     for (const LineDirection* line : left) {
       if (kept != others.end() && *kept == line) {
@@ -180,12 +180,13 @@ std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& 
 
 namespace {
 
-// Whether the item at `place` is chosen when up to `most` of `count` items are, evenly spread.
+// Whether the item at `place` is chosen when at most `most` of `count` items, evenly spread, are.
 bool Chosen(std::size_t place, std::size_t count, std::size_t most) {
   return place * most / count != (place + 1) * most / count;
 }
 
-// Returns by id the lines that enough keyframes show, among them one of those chosen.
+// Returns the lines that enough keyframes show, one of the chosen keyframes among them, ordered by
+// id.
 std::vector<const MapLine*> SpreadLines(const Map& map) {
   std::vector<LineId> ids;
   std::size_t place = 0;
@@ -227,8 +228,8 @@ std::optional<std::size_t> ParallelTo(const LineDirection& line,
     const Deviation d =
         DeviationFrom(axis, BasisAcross(axis), line, math::Hypot(kSigma, directions[i].sigma));
     if (!d.agrees) continue;
-    // The area of the ellipse of directions that pass, as a share of the hemisphere of all
-    // directions.
+    // The probability that a line of any direction passes: the area of the ellipse of directions
+    // that pass, as a share of the hemisphere of all directions.
     const double chance = 0.5 * Chi2Limit95(2) * std::sqrt(d.covariance.determinant());
     if (out || chance > kMaxChance) return std::nullopt;
     out = i;

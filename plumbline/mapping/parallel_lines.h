@@ -27,24 +27,27 @@ struct CommonDirection {
   double sigma = 0;
 };
 
-// By how much parallel lines differ from their common direction, in rad per component: what is
-// built, drawn and printed is not exactly parallel.
+// Returns by how much parallel lines differ from their common direction, in rad per component: what
+// is built, drawn and printed is not exactly parallel.
 double ParallelSigma();
 
-// The direction of a line and what its information (of the orthonormal tangent, Lambda) says of it:
-// J Lambda^-1 J^T with J = [u3, 0, -u1, 0] from eq. 19. nullopt when Lambda is singular.
+// Returns the direction of a line and the covariance that its information (Lambda, of the
+// orthonormal tangent) gives it: J Lambda^-1 J^T with J = [u3, 0, -u1, 0] from eq. 19. Returns
+// nullopt when Lambda is singular.
 std::optional<LineDirection> DirectionOf(const PluckerLine& line,
                                          const Eigen::Matrix4d& information);
 
-// The directions that at least five of the lines known to 1 deg share, the most frequent first.
-// Each starts at the line with most others within 2 deg and becomes the mean, weighted with
-// covariance and ParallelSigma(), of those that agree with it by chi2 at 95 %. O(lines squared).
+// Returns the directions that at least five of the lines known to 1 deg share, the most frequent
+// first. Each starts at the line with most others within 2 deg. It becomes the mean, weighted with
+// covariance and ParallelSigma(), of the lines that agree with it by chi2 at 95 %. O(lines
+// squared).
 std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& lines);
 
-// The common directions of the lines of a map that at least three keyframes show; in the world. The
-// map outlives the window of bundle adjustment: what it has seen before holds the heading. All such
-// lines of a map of up to 200 keyframes and 1500 lines; of a larger one those that 200 keyframes
-// show, evenly spread over it, and 1500 of these. Cost: that of CommonDirections of so many.
+// Returns the common directions, in the world, of the lines of a map that at least three keyframes
+// show. A map outlives the window of bundle adjustment, so that directions seen before hold the
+// heading. In a map of more than 200 keyframes only lines that 200 keyframes, evenly spread over
+// it, show are used, and in any map at most 1500 lines. Cost: that of CommonDirections of so many
+// lines.
 std::vector<CommonDirection> CommonDirections(const Map& map);
 
 // Returns the index of the direction that a line is parallel to by chi2 at 95 %. Returns nullopt

@@ -21,11 +21,11 @@ constexpr int kSamples = KeyFramePatches::kSamples;
 constexpr int kWideSide = KeyFramePatches::kWideSide;
 constexpr PatchShiftLimits kLimits{.converged_px = 0.03};
 constexpr double kMinRoundness = 0.15;
-// Views whose areas differ by more have little in common to be compared.
+// Views whose areas differ by more have too little in common to be compared.
 constexpr double kMaxAreaRatio = 50;
-// Deviation of the place of a corner, in pixels of its octave. What alignment moves corners by says
-// 0.3 px. They count for more, since errors of alignment are common to the points of a surface,
-// those of corners are not (docs/log/single-camera.md).
+// Deviation of the place of a corner, in pixels of its octave. The shifts that alignment finds
+// suggest 0.3 px. Corners count for more, since errors of alignment are common to the points of a
+// surface, while those of corners are not (docs/log/single-camera.md).
 constexpr double kCornerSigma = 0.2;
 
 const PyramidLevel& LevelOf(const ImagePyramid& pyramid, int level) {
@@ -33,9 +33,9 @@ const PyramidLevel& LevelOf(const ImagePyramid& pyramid, int level) {
       std::clamp(level, 0, static_cast<int>(pyramid.size()) - 1))];
 }
 
-// Writes the samples of a patch in steps of its octave, by bilinear interpolation; zeros where it
-// leaves the image. All samples lie equally between pixels, which takes a fraction of the time of
-// SamplePatch; this is done for a thousand corners of each keyframe.
+// Writes the samples of a patch in steps of its octave, by bilinear interpolation; zeros where the
+// patch leaves the image. All samples lie at the same place between pixels, which takes a fraction
+// of the time of SamplePatch; a thousand corners of each keyframe need it.
 void TakePatch(const PointFeature& feature, const ImagePyramid& pyramid, std::uint8_t* row) {
   const PyramidLevel& level = LevelOf(pyramid, feature.octave);
   const GrayImage& image = level.image;
@@ -63,7 +63,8 @@ void TakePatch(const PointFeature& feature, const ImagePyramid& pyramid, std::ui
   }
 }
 
-// Returns the shift from a corner that corner and patch say together, each by its covariance.
+// Returns the shift from a corner on which corner and patch agree best, each weighed by its
+// covariance.
 Eigen::Vector2d WeighedWithCorner(const PatchPlace& place) {
   const Eigen::Matrix2d corner = Eigen::Matrix2d::Identity() * (kCornerSigma * kCornerSigma);
   const Eigen::Matrix2d both = corner + place.covariance;
@@ -101,8 +102,8 @@ std::shared_ptr<const IndexedFeatures> PointAligner::Align(const Map& map,
   return moved ? IndexFeatures(camera_, std::move(features)) : nullptr;
 }
 
-// Returns the observation of a point by the oldest keyframe whose patches are kept. It is never one
-// of the keyframe that is being aligned, whose patches are taken afterwards.
+// Returns the observation of a point by the oldest keyframe whose patches are kept. It is never the
+// keyframe that is being aligned, whose patches are taken afterwards.
 std::optional<PointAligner::Reference> PointAligner::OldestReference(const Map& map,
                                                                      const MapPoint& point) const {
   for (const KeyFramePatches& patches : recent_) {
@@ -125,7 +126,7 @@ std::optional<Eigen::Vector2d> PointAligner::Find(const Reference& reference,
   const Eigen::Vector3d before = reference_from_world * position;
   const Eigen::Vector3d now = frame.cam_from_world * position;
   if (!(before.z() > 0) || !(now.z() > 0)) return std::nullopt;
-  // The derivative of the motion in the image, of a surface that faces the older camera.
+  // The derivative of the motion in the image, for a surface that faces the older camera.
   const Eigen::Matrix3d turn =
       (frame.cam_from_world.rotation * reference_from_world.rotation.conjugate())
           .toRotationMatrix();
@@ -139,7 +140,7 @@ std::optional<Eigen::Vector2d> PointAligner::Find(const Reference& reference,
   const auto patch = PatchOf(*reference.patches, reference.feature);
   if (!patch || !patch->IsRound(kMinRoundness)) return std::nullopt;
   const int octave = reference.frame->features().points[reference.feature].octave;
-  const Eigen::Vector2d& step = LevelOf(pyramid, octave).scale;  // images of one size
+  const Eigen::Vector2d& step = LevelOf(pyramid, octave).scale;  // all images have the same size
   const double shrink = std::max(step.x() * std::sqrt(area), 1.0);
   const double octave_now = math::Log(shrink) / math::Log(octave_scale_);
   const PyramidLevel& level = LevelOf(pyramid, static_cast<int>(std::lround(octave_now)));

@@ -18,46 +18,48 @@
 
 namespace plumbline {
 
-// What recent keyframes show around their corners.
+// The patches that recent keyframes show around their corners.
 struct KeyFramePatches {
-  static constexpr int kRadius = 3;  // of a patch
+  static constexpr int kRadius = 3;  // radius of a patch
   static constexpr int kWideSide = 2 * (kRadius + 1) + 1;
   static constexpr int kSamples = kWideSide * kWideSide;
 
   KeyFrameId keyframe;
-  // A row for each point feature: the samples of its patch in steps of its octave, one more on each
-  // side for derivatives. Zeros where the patch leaves the image.
+  // One row for each point feature: the samples of its patch in steps of its octave, with one more
+  // on each side for derivatives. Samples are zero where the patch leaves the image.
   GrayImage samples;
 };
 
 // Finds where a new keyframe shows exactly those points of the scene that older keyframes show.
 //
-// The corners that a detector finds in two images are not quite the same point of the scene: they
-// lie a part of a pixel of their octave inside of their edges, so that the place of a point that
-// comes nearer moves with each octave it is found in. Along a road all points do, and the scale of
-// a map of one camera falls (docs/log/single-camera.md). So the patch around the corner in the
-// oldest of the recent keyframes that show the landmark, warped by the depth and the poses as if
-// it faced that camera, is shifted until it fits the new image (AlignShift), and the feature is
-// moved to the mean of its corner and that place, weighed by their covariances. It is a reference
-// to later keyframes in turn: all observations of a landmark speak of the point that the first of
+// The corners that a detector finds in two images are not quite the same point of the scene. They
+// lie inside of their edges by a part of a pixel of their octave, so that a point that comes nearer
+// moves with each octave in which it is found. Along a road all points do so, and the scale of a
+// map of one camera falls (docs/log/single-camera.md).
+//
+// The reference is therefore the patch around the corner in the oldest of the recent keyframes that
+// show the landmark. It is warped by the depth and the poses as if it faced that camera, and
+// shifted until it fits the new image (AlignShift). The feature is moved to the mean of its corner
+// and that place, weighed by their covariances. The moved feature is a reference for later
+// keyframes in turn, so that all observations of a landmark speak of the point that the first of
 // them shows.
 class PointAligner {
  public:
-  static constexpr std::size_t kRecent = 20;  // keyframes whose patches are kept
+  static constexpr std::size_t kRecent = 20;  // number of keyframes whose patches are kept
 
   // octave_scale: how many times smaller each octave of the image pyramid is than the one below.
   PointAligner(const RectifiedCamera& camera, double octave_scale)
       : camera_(camera), octave_scale_(octave_scale) {}
 
-  // The features of a keyframe of the map, those of points with patches in recent keyframes moved
-  // to where they align; nullptr where none is. Then remembers the patches of this keyframe, of
-  // which `image` is the rectified left image. Deviations stay as they are. Cost: about 5
-  // microseconds a point that is looked for, 2 ms for the pyramid and the patches.
+  // Returns the features of a keyframe of the map, with those points moved to where they align that
+  // have patches in recent keyframes; nullptr where there is none. Remembers the patches of this
+  // keyframe, of which `image` is the rectified left image. Deviations stay as they are. Cost:
+  // about 5 microseconds a point that is looked for, 2 ms for the pyramid and the patches.
   std::shared_ptr<const IndexedFeatures> Align(const Map& map,
                                                KeyFrameId id,
                                                const GrayImage& image);
 
-  // The patches of recent keyframes, those of the oldest keyframe first.
+  // The patches of recent keyframes, the oldest keyframe first.
   const std::deque<KeyFramePatches>& recent() const { return recent_; }
   void SetRecent(std::deque<KeyFramePatches> recent) { recent_ = std::move(recent); }
 

@@ -32,14 +32,14 @@ void SegmentIndex::Add(std::size_t index, const Segment2& segment) {
   At(open_, 0, word) |= Bit(index);
 }
 
-// 0 to kDirections for -pi to pi; the last is the first again.
+// Returns 0 to kDirections for -pi to pi; the last direction is the first one again.
 int SegmentIndex::DirectionOf(double angle) {
   const double turns = angle / (2 * std::numbers::pi) + 0.5;
   return std::clamp(static_cast<int>(std::floor(turns * kDirections)), 0, kDirections);
 }
 
 SegmentIndex::Range SegmentIndex::DirectionsAround(const Eigen::Vector2d& direction) {
-  constexpr double kSpread = 0.32;  // acos(0.95), and something for rounding
+  constexpr double kSpread = 0.32;  // acos(0.95), plus something for rounding
   const double turns = math::Atan2(direction.y(), direction.x()) / (2 * std::numbers::pi) + 0.5;
   const double spread = kSpread / (2 * std::numbers::pi);
   return {static_cast<int>(std::floor((turns - spread) * kDirections)),

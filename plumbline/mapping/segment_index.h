@@ -14,8 +14,8 @@
 
 namespace plumbline {
 
-// Finds segments of an image by place and direction. For each cell of a coarse grid, and for each
-// range of directions, it keeps a set of segments as one bit for each.
+// Finds segments of an image by place and direction. Each cell of a coarse grid, and each range of
+// directions, keeps a set of segments, with one bit for each segment.
 class SegmentIndex {
  public:
   // An empty index of an image of width x height pixels, to which `count` segments will be added.
@@ -26,7 +26,8 @@ class SegmentIndex {
   void Remove(std::size_t index) { At(open_, 0, index / kBits) &= ~Bit(index); }
 
   // Calls visit(index), ascending, for all segments whose bounding box meets `box` and whose
-  // direction is within 18.2 degrees (a cosine of 0.95) of the unit vector, and some others.
+  // direction is within 18.2 degrees (a cosine of 0.95) of the unit vector. It is also called for
+  // some other segments.
   template <class Visit>
   void ForEachNear(const Eigen::AlignedBox2d& box,
                    const Eigen::Vector2d& direction,
@@ -70,9 +71,9 @@ class SegmentIndex {
   Range Rows(const Eigen::AlignedBox2d& box) const;
 
   Eigen::Vector2d cell_;                           // size of a cell, pixels
-  std::size_t words_ = 0;                          // of each set
+  std::size_t words_ = 0;                          // number of words in each set
   std::vector<std::uint64_t> cells_, directions_;  // sets of segments
-  std::vector<std::uint64_t> open_;                // one set: those not removed
+  std::vector<std::uint64_t> open_;                // one set: the segments not removed
 };
 
 }  // namespace plumbline

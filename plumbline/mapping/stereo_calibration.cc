@@ -15,12 +15,12 @@
 namespace plumbline {
 namespace {
 
-// Prior deviation of each coefficient, relative to the width of the image: a rig's angles and
-// lenses are off by so much whatever the number of pixels.
+// Prior deviation of each coefficient, relative to the width of the image: the angles and lenses of
+// a rig are off by about this much, whatever the number of pixels.
 constexpr double kPriorSigma = 4e-4;
-// Largest deviation of a prediction, relative to the width of the image. What is predicted from
-// views that are close together errs alike for all points of a keyframe, as much as the poses of
-// the views, and a map that bends as it was taught confirms what it was taught.
+// Largest deviation of a prediction, relative to the width of the image. A prediction from views
+// that are close together errs alike for all points of a keyframe, by as much as the poses of the
+// views; a map that such predictions have bent would then confirm them.
 constexpr double kMaxPredictionSigma = 2.5e-4;
 // Deviation of a single displacement in addition to the error of its prediction: the noise of the
 // disparity, and the error that the appearance of a landmark causes in all its disparities alike.
@@ -28,8 +28,8 @@ constexpr double kNoisePx = 0.5;
 constexpr double kHuber = 1.345;          // threshold of the loss, in deviations
 constexpr double kMaxDisplacementPx = 3;  // a larger displacement is a wrong match
 constexpr std::size_t kMinViews = 3;
-// A correction counts as far as its root mean square exceeds this: smaller ones may come from the
-// biases of corners whose correlation windows show an edge in depth.
+// A correction counts only as far as its root mean square exceeds this: smaller ones may come from
+// the biases of corners whose correlation windows show an edge in depth.
 constexpr double kBiasPx = 0.04;
 
 // Normal equations of the coefficients of the correction and, as the last unknown, the error of the
@@ -39,7 +39,7 @@ struct KeyFrameEvidence {
   Eigen::Matrix<double, 7, 1> weighted = Eigen::Matrix<double, 7, 1>::Zero();
 
   // Adds a displacement that was measured at a place with these terms. `surprise` is the part of it
-  // that the correction so far does not explain; where it is too large, the match is wrong.
+  // that the correction so far does not explain; where that is too large, the match is wrong.
   void Add(const Vector6d& terms,
            double predicted,
            double displacement,
@@ -58,17 +58,19 @@ struct KeyFrameEvidence {
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-// Takes out of coefficients what their noise explains. In the basis whose parts are independent,
-// over the evidence and in their errors, each part is shrunk by 1 - variance / square, or to zero.
+// Takes out of coefficients what their noise explains. A basis is used whose parts are independent,
+// both over the evidence and in their errors; each part is shrunk by 1 - variance / square, or to
+// zero.
 //   covariance    of the coefficients
-//   mean_squares  what coefficients make of the mean square of the correction over all evidence
+//   mean_squares  matrix that turns coefficients into the mean square of the correction over all
+//                 evidence
 Vector5d WithoutNoise(const Vector5d& coefficients,
                       const Matrix5d& covariance,
                       const Matrix5d& mean_squares) {
   const Eigen::LLT<Matrix5d> root(covariance);
   const Matrix5d lower = root.matrixL();
   const Matrix5d basis = lower * EigenpairsOf<5>(lower.transpose() * mean_squares * lower).vectors;
-  Vector5d parts = basis.inverse() * coefficients;  // each with a variance of 1
+  Vector5d parts = basis.inverse() * coefficients;  // each part has a variance of 1
   for (double& part : parts) part *= std::max(0.0, 1 - 1 / (part * part));
   return basis * parts;
 }

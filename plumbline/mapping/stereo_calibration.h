@@ -12,32 +12,35 @@ namespace plumbline {
 // Learns the smooth part of the errors of disparities (StereoCorrection) from a map.
 //
 // Where at least three keyframes show a point in their left images, these and the poses tell where
-// the right image should show it, to a deviation of 2.5e-4 of the image's width or better; what the
-// right image was measured to show is off by c(x, y) + s d: the displacement, and the disparity d
-// times the error s of the map's scale around that keyframe. s is unknown for each keyframe and
-// eliminated (Schur complement); taken for a displacement, it would bend the disparities further
-// its way, since near things are below and far ones above. Points alone: where there are none,
-// lines learned a correction that bent the map. A normal distribution for each coefficient, its
-// deviation 4e-4 of the image's width, comes before all evidence; the evidence enters under the
-// Huber loss. The mean of c over all evidence is left as it is: the scale of the map, which hangs
-// on it, is the calibration's to say. What remains of c has five independent parts (common
-// eigenvectors of its covariance and of its mean square). Each is shrunk by 1 - variance / square,
-// to zero where that is negative (James and Stein 1961, positive part), so that little evidence
-// changes little. Corners at the edges of things have biased disparities, too, some hundredths of a
-// pixel in the mean: the whole of c is then shrunk by 1 - (0.04 px / rms of c)^2, so that a good
-// calibration stays as it is.
+// the right image should show it, to a deviation of 2.5e-4 of the image's width or better. The
+// right image was measured to show it somewhere else, off by c(x, y) + s d: the displacement c, and
+// the disparity d times the error s of the map's scale around that keyframe. s is unknown for each
+// keyframe and eliminated (Schur complement). If it were taken for a displacement, it would bend
+// the disparities further its way, since near things are below and far ones above. Only points are
+// used: where there are none, lines learned a correction that bent the map.
+//
+// Each coefficient has a normal prior, whose deviation is 4e-4 of the image's width. Evidence
+// enters under the Huber loss. The mean of c over all evidence is left as it is, since the scale of
+// the map depends on it, which the calibration has to tell. The rest of c has five independent
+// parts (common eigenvectors of its covariance and of its mean square). Each is shrunk by 1 -
+// variance / square, to zero where that is negative (James and Stein 1961, positive part), so that
+// little evidence changes little. Corners at the edges of things have biased disparities, some
+// hundredths of a pixel in the mean. The whole of c is therefore shrunk by 1 - (0.04 px / rms of
+// c)^2, so that a good calibration stays as it is.
 class StereoCalibrator {
  public:
   explicit StereoCalibrator(const RectifiedCamera& camera);
 
-  // Takes in the disparities of one keyframe. To be called once for each, when others after it show
-  // the same landmarks. Nothing with a single camera. Cost: a triangulation for each landmark.
+  // Takes in the disparities of one keyframe. To be called once for each keyframe, when later ones
+  // show the same landmarks. Does nothing with a single camera. Cost: a triangulation for each
+  // landmark.
   void Observe(const Map& map, const KeyFrame& keyframe);
 
-  // The correction that all evidence so far speaks for; none before there is any.
+  // Returns the correction for which all evidence so far speaks; no correction before there is
+  // evidence.
   StereoCorrection Estimate() const;
 
-  // All evidence so far; it can be put into the calibrator of a later run with the same camera.
+  // All evidence so far. It can be put into the calibrator of a later run with the same camera.
   const StereoEvidence& evidence() const { return evidence_; }
   void SetEvidence(const StereoEvidence& evidence) { evidence_ = evidence; }
 

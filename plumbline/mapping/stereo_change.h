@@ -13,15 +13,16 @@
 
 namespace plumbline {
 
-// Another stereo correction for all keyframes of a map, at a cost for each step that does not grow
-// with the map: the features of some keyframes a step are made ready, and when all are, the map
-// takes them at once. Until then the whole map has the correction of before. A map of no more than
-// kSlice keyframes gets it with the first step.
+// Gives all keyframes of a map another stereo correction, at a cost for each step that does not
+// grow with the map. Each step prepares the features of some keyframes; when all are prepared, the
+// map takes them at once. Until then the whole map keeps the old correction. A map of no more than
+// kSlice keyframes changes with the first step.
 //
-// The keyframe at which it takes effect depends on the map alone. Not thread-safe.
+// The keyframe at which the change takes effect depends on the map alone. Not thread-safe.
 class StereoChange {
  public:
-  static constexpr std::size_t kSlice = 256;  // keyframes a step, some microseconds each
+  // Keyframes prepared in one step, some microseconds each.
+  static constexpr std::size_t kSlice = 256;
 
   // The change that is under way. An object that is given this state and the same map completes the
   // change with the same step as this one.
@@ -49,8 +50,7 @@ class StereoChange {
  private:
   std::optional<State> state_;
   edit::CorrectStereo change_;
-  // Features that no keyframe has any more. They are freed step by step, since that takes time,
-  // too.
+  // Features that no keyframe has any more. They are freed step by step, since freeing takes time.
   std::deque<std::shared_ptr<const IndexedFeatures>> retired_;
 };
 

@@ -25,7 +25,7 @@ std::optional<double> ScaleAround(const std::vector<std::pair<double, double>>& 
   return UpperMedian(ratios);
 }
 
-// Scales all lengths of a solution, with `centre` left where it is.
+// Scales all lengths of a solution and leaves `centre` where it is.
 void ScaleAbout(const Eigen::Vector3d& centre, double scale, BaResult& result) {
   for (Rigid3& pose : result.poses) {
     pose.translation = scale * pose.translation + (scale - 1) * (pose.rotation * centre);

@@ -16,10 +16,11 @@ namespace plumbline {
 std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result);
 
 // Scales a solution for a single camera about the camera of its first pose, so that the depths that
-// this pose shows stay as they were in the median. Nothing where lengths are measured, and where
-// two poses or more are fixed: these hold the unit of length. Otherwise no measurement does, and
-// the damped steps of an adjustment leave it somewhere else: a map of twenty keyframes grew by two
-// thirds within a second of forward motion, and the poses reported before fitted no later ones.
+// this pose shows stay as they were in the median. Does nothing where lengths are measured, or
+// where two or more poses are fixed, which hold the unit of length. Otherwise no measurement holds
+// it, and the damped steps of an adjustment leave it somewhere else: a map of twenty keyframes grew
+// by two thirds within a second of forward motion, and the poses reported before fitted no later
+// ones.
 void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result);
 
 }  // namespace plumbline

@@ -14,7 +14,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kClosest = 3;  // keyframes that lines are made with, as in section 3.3
+constexpr int kClosest = 3;  // most keyframes with which lines are made, as in section 3.3
 
 // Holds the line features of a frame that show no landmark, with their indices in the frame.
 struct FreeLines {
@@ -38,7 +38,8 @@ MapEdit CreateLinesFromViews(const Map& map,
                              const LineOptions& lines) {
   const Frame& frame = map.Find(id)->frame;
   const FreeLines mine(frame);
-  std::map<std::size_t, std::vector<LineViewOf>> tracks;  // by feature of this keyframe
+  // Views of each track, by feature of this keyframe.
+  std::map<std::size_t, std::vector<LineViewOf>> tracks;
   for (const auto& neighbour : ClosestCovisible(map, id, kClosest)) {
     const Frame& other = map.Find(neighbour.id)->frame;
     const FreeLines theirs(other);
@@ -56,8 +57,8 @@ MapEdit CreateLinesFromViews(const Map& map,
     std::optional<MapLine> line;
     const auto reconstruct = lines.method.line_from_views;
     if (views.size() > 2) line = reconstruct(map, imaging.camera, views);
-    // Where three views disagree, two are tried: one wrong match spoils the three, but not the pair
-    // without it.
+    // Where three views disagree, pairs are tried: one wrong match spoils all three, but not the
+    // pair without it.
     for (std::size_t k = 1; !line && k < views.size(); ++k) {
       line = reconstruct(map, imaging.camera, {views.front(), views[k]});
     }

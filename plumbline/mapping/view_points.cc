@@ -19,13 +19,14 @@
 namespace plumbline {
 namespace {
 
-// The search along the epipolar line covers depths between these two factors on the median depth,
-// in both views. They have no unit, since a single camera knows none.
+// The search along the epipolar line covers depths between these two factors times the median
+// depth, in both views. Factors have no unit, because a single camera knows none.
 constexpr double kNearestDepth = 0.05;
 constexpr double kFarthestDepth = 1e4;
 constexpr double kEpipolarChi2 = 3.84;  // 95 %, one degree of freedom
-constexpr double kDepthSigmas = 3;      // around a measured but poor depth
-constexpr double kMaxScaleRatio = 1.8;  // between the sizes by octave and by distance of two views
+constexpr double kDepthSigmas = 3;      // range of a measured but poor depth, in deviations
+// Largest ratio of the sizes that octave and distance give a point in the two views.
+constexpr double kMaxScaleRatio = 1.8;
 // The descriptors of the two views may differ by this Hamming distance, of 256 bits, and by this
 // ratio to the distance of the second best. Both are stricter than in tracking, since there is no
 // pose that a wrong landmark would contradict.
@@ -56,7 +57,7 @@ std::optional<SearchWindow> EpipolarWindow(const RectifiedCamera& camera,
     near = std::max(near, camera.DepthFromDisparity(high));
     if (low > 0) far = std::max(near, camera.DepthFromDisparity(low));
   }
-  // In the second view the depth is slope * depth + offset; it must be large enough there as well.
+  // The depth in the second view is slope * depth + offset; it must be large enough there, too.
   const double slope = (b_from_a.rotation * ray).z();
   const double offset = b_from_a.translation.z();
   if (slope > 0) near = std::max(near, (nearest - offset) / slope);
@@ -83,7 +84,7 @@ class FreePoints {
     grid_ = PointGrid(positions, camera.width, camera.height);
   }
 
-  // Indices of features in the frame, in the order of the cells.
+  // Returns the indices of features in the frame, in the order of the cells.
   const std::vector<std::size_t>& InWindow(const SearchWindow& window) {
     grid_.InWindow(window.centre, window.radius, &places_);
     found_.clear();
@@ -92,7 +93,7 @@ class FreePoints {
   }
 
  private:
-  std::vector<std::size_t> features_;  // by place in the grid
+  std::vector<std::size_t> features_;  // feature of each place in the grid
   PointGrid grid_;
   std::vector<int> places_;
   std::vector<std::size_t> found_;

@@ -16,7 +16,7 @@ namespace plumbline {
 namespace {
 
 constexpr int kLeaf = 4;
-// A margin, so that rounding does not leave out what an exact test would take.
+// Margin with which rounding does not leave out what an exact test would take.
 constexpr double kMargin = 1e-6;
 
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -34,8 +34,8 @@ ViewTree::ViewTree(const Map& map, const RectifiedCamera& camera) {
     }
   }
   half_view_ += kMargin;
-  // A step across the ray at distance d moves the pixel by f / (d cos^2) of its angle from the
-  // axis.
+  // A step across the ray at distance d moves the pixel by f / (d cos^2), where cos is that of the
+  // ray's angle from the axis.
   const double cosine = math::Cos(half_view_);
   px_per_radian_ = (1 + kMargin) * std::max(camera.fx, camera.fy) / (cosine * cosine);
   for (const auto& [id, keyframe] : map.keyframes()) {
@@ -122,7 +122,7 @@ bool ViewTree::MaySee(const Node& node,
   // The cone widens by the angle `by` under which both balls together are seen.
   const double sin_by = both / distance;
   const double cos_by = std::sqrt((1 - sin_by) * (1 + sin_by));
-  // The cone is so wide then that it covers all directions.
+  // The cone is then so wide that it covers all directions.
   if (node.sin_open * cos_by + node.cos_open * sin_by <= 0) return true;
   const double cos_widened = node.cos_open * cos_by - node.sin_open * sin_by;
   return !(node.axis.dot(to_target) < distance * (cos_widened - kMargin));
@@ -134,8 +134,8 @@ std::vector<int> ViewTree::MayShow(const Wanted& wanted) const {
   const Eigen::Vector3d middle = wanted.segment.Midpoint();
   const double length = wanted.segment.Length();
   const double radius = 0.5 * length * (1 + kMargin);
-  // The whole segment is at least `distance - radius` away, which limits the angle that it can
-  // take.
+  // The whole segment is at least `distance - radius` away, which limits the angle under which it
+  // is seen.
   double reach = wanted.max_distance;
   if (wanted.min_length_px > 0) {
     reach = std::min(reach, radius + length * px_per_radian_ / wanted.min_length_px);

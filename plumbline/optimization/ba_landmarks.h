@@ -16,7 +16,7 @@
 
 namespace plumbline {
 
-// One landmark's view of one observation in the caller's problem.
+// An observation of the caller's problem, from which a landmark's view of it is made.
 template <class Term>
 struct BaObservation {
   int pose = 0;
@@ -24,22 +24,22 @@ struct BaObservation {
   Term term;
 };
 
-// Kinds of landmarks that may be parallel to an axis.
+// Requires that landmarks of this kind have a direction, so that they may be parallel to an axis.
 template <class Kind>
 concept HasDirection = requires(const typename Kind::Place& place) {
   place.direction;
 };
 
-// Kinds of landmarks whose parameters their observations cannot all fix, with what completes their
-// equations.
+// Requires that landmarks of this kind complete their equations, because their observations cannot
+// fix all of their parameters.
 template <class Kind>
 concept HoldsGauge = requires(const typename Kind::View& view,
                               LandmarkEquations<Kind::kDof>& equations) {
   Kind::HoldGauge(view, equations);
 };
 
-// All landmarks of one kind (BaPoint, BaLine) with their observations, stored landmark by landmark
-// and within each by pose: linearized, eliminated and moved in that order.
+// All landmarks of one kind (BaPoint, BaLine) with their observations. These are stored landmark by
+// landmark and within each by pose; landmarks are linearized, eliminated and moved in that order.
 // Internal to bundle_adjuster.h.
 template <class Kind>
 class BaLandmarks {
@@ -54,45 +54,48 @@ class BaLandmarks {
               BaParallelLines parallel = {});
 
   const std::vector<State>& states() const { return states_; }
-  // Half the loss over what is in use, observations and parallels; remembered per landmark.
+  // Returns half the loss over the observations and parallels in use, and remembers the part of
+  // each landmark.
   double Cost(const std::vector<BaPose>& poses, const HuberThresholds& huber);
-  // Adds the equations of what is in use to `solver` and eliminates the landmarks.
+  // Adds the equations of the observations and parallels in use to `solver` and eliminates the
+  // landmarks.
   void Eliminate(const std::vector<BaPose>& poses,
                  const HuberThresholds& huber,
                  double lambda,
                  SchurSolver& solver);
-  // Moves all landmarks by the solved step to trial states. Where that does worse than standing
-  // still, the landmark is moved on its own instead. Returns the cost under the trial poses.
+  // Moves all landmarks by the solved step to trial states. A landmark that fits worse after the
+  // step than before it is moved on its own instead. Returns the cost under the trial poses.
   double Try(const std::vector<BaPose>& trial_poses,
              const HuberThresholds& huber,
              const SchurSolver& solver);
-  // The decrease of the cost that the linear model expects of the step, the landmarks' share.
+  // Returns the landmarks' share of the decrease of the cost that the linear model expects of the
+  // step.
   double expected_decrease() const { return expected_; }
-  // Takes the trial states over.
+  // Makes the trial states the current ones.
   void Accept();
-  // Uses the observations and parallels with chi2 within the limit at 95 %; true when that changed
-  // any.
+  // Takes into use exactly the observations and parallels whose chi2 is within the limit at 95 %.
+  // Returns whether that changed any.
   bool Classify(const std::vector<BaPose>& poses);
-  // Uses all that have a residual.
+  // Takes into use all observations and parallels that have a residual.
   void UseAll(const std::vector<BaPose>& poses);
   std::size_t used() const {
     return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), char{1})) +
            parallel_.used();
   }
-  // What the landmarks, their observations and their parts of the equations take, room that is kept
-  // for more included.
+  // Returns how many bytes the landmarks, their observations and their parts of the equations take,
+  // with the room that vectors keep in reserve.
   std::size_t Bytes() const {
     return HeapBytes(states_) + HeapBytes(trial_) + HeapBytes(begin_) + HeapBytes(coupling_begin_) +
            HeapBytes(observations_) + HeapBytes(original_) + HeapBytes(used_) + HeapBytes(chi2_) +
            HeapBytes(couplings_) + HeapBytes(eliminated_) + HeapBytes(cost_) +
            HeapBytes(trial_cost_) + HeapBytes(own_lambda_) + parallel_.Bytes();
   }
-  // chi2 and use of each observation as of the last Classify() or UseAll(), in the order of the
-  // caller.
+  // Returns chi2 and use of each observation as of the last Classify() or UseAll(), in the order of
+  // the caller.
   void Export(std::vector<double>& chi2, std::vector<bool>& inliers) const;
 
  private:
-  static constexpr double kOwnLambda = 1e-3;  // initial
+  static constexpr double kOwnLambda = 1e-3;  // initial damping of a landmark moved on its own
   static constexpr double kNegligible = 1e-6;
   template <class T>
   static std::size_t HeapBytes(const std::vector<T>& items) {
@@ -104,20 +107,22 @@ class BaLandmarks {
     int coupling = -1;  // index in couplings_, -1 for a fixed pose
   };
 
-  // Sets original_ and begin_: by landmark, pose, place in the caller's list.
+  // Sorts the observations by landmark, then by pose, then by index in the caller's list
+  // (original_, begin_).
   void Sort(const std::vector<BaObservation<Term>>& observations);
   double CostOf(std::size_t landmark,
                 const State& state,
                 const std::vector<BaPose>& poses,
                 const HuberThresholds& huber) const;
-  // Equations of one landmark; with a solver also those of the free poses and the couplings.
+  // Returns the equations of one landmark; with a solver, also adds those of the free poses and the
+  // couplings.
   LandmarkEquations<Kind::kDof> Linearize(std::size_t i,
                                           const State& state,
                                           const std::vector<BaPose>& poses,
                                           const HuberThresholds& huber,
                                           SchurSolver* solver);
-  // Sets the trial of a landmark by a few damped steps from its state (with cost `still`) while
-  // the poses stand still. Its damping is kept from call to call.
+  // Sets the trial of a landmark by a few damped steps from its state (with cost `still`) while the
+  // poses do not move. The damping of the landmark is kept from call to call.
   void MoveAlone(std::size_t i,
                  double still,
                  const std::vector<BaPose>& trial_poses,
@@ -130,8 +135,9 @@ class BaLandmarks {
 
   RectifiedCamera camera_;
   std::vector<State> states_, trial_;
-  std::vector<std::size_t> begin_;           // first observation of each landmark, and the end
-  std::vector<std::size_t> coupling_begin_;  // the same for couplings
+  // First observation of each landmark, and the end.
+  std::vector<std::size_t> begin_;
+  std::vector<std::size_t> coupling_begin_;  // first coupling of each landmark, and the end
   std::vector<Packed> observations_;
   std::vector<std::size_t> original_;  // index in the caller's observations
   BaParallelLines parallel_;

@@ -12,16 +12,17 @@
 namespace plumbline {
 
 // The residuals of the parallel lines of a problem: weight x and weight y of a line's unit
-// direction (x, y, z) in a frame with the axis as its z. The axes stay, so that each residual
-// concerns one line and no pose. Internal to bundle_adjuster.h.
+// direction (x, y, z) in a frame with the axis as its z. The axes do not move, so that each
+// residual concerns one line and no pose. Internal to bundle_adjuster.h.
 class BaParallelLines {
  public:
-  BaParallelLines() = default;  // none
+  BaParallelLines() = default;  // no parallel lines
   explicit BaParallelLines(const BaProblem& problem);
 
-  // Loss of the residuals in use of a line with this direction, which may have any length.
+  // Returns the loss of a line's residuals in use. Its direction may have any length.
   double Loss(std::size_t line, const Eigen::Vector3d& direction, double huber) const;
-  // Adds the residuals in use to the equations of a line. `J`: of moment and direction.
+  // Adds the residuals in use to the equations of a line. `J` is the derivative of moment and
+  // direction.
   template <int kDof>
   void Add(std::size_t line,
            const Eigen::Vector3d& direction,
@@ -29,11 +30,12 @@ class BaParallelLines {
            double huber,
            LandmarkEquations<kDof>& equations) const;
 
-  // Notes the chi2 of a line with this direction, for the two below.
+  // Remembers the chi2 of a line with this direction, for Classify() and UseAll().
   void UpdateChi2(std::size_t line, const Eigen::Vector3d& direction);
-  // Uses the residuals with chi2 within the limit at 95 %; true when that changed any.
+  // Takes into use exactly the residuals whose chi2 is within the limit at 95 %. Returns whether
+  // that changed any.
   bool Classify();
-  // Uses all that are finite.
+  // Takes into use all residuals that are finite.
   void UseAll();
   std::size_t used() const;
   std::size_t Bytes() const;
@@ -47,7 +49,7 @@ class BaParallelLines {
   };
 
   std::vector<std::size_t> begin_;   // first residual of each line, and the end
-  std::vector<Residual> residuals_;  // by line
+  std::vector<Residual> residuals_;  // residuals ordered by line
 };
 
 template <int kDof>

@@ -5,7 +5,7 @@
 namespace plumbline {
 namespace {
 
-// [p]x M for column-major M.
+// Returns [p]x M for column-major M.
 inline Eigen::Matrix3d CrossColumns(const Eigen::Vector3d& p, const Eigen::Matrix3d& M) {
   Eigen::Matrix3d out;
   out.row(0) = p.y() * M.row(2) - p.z() * M.row(1);
@@ -35,7 +35,7 @@ bool BaPoint::Add(const RectifiedCamera& camera,
       w * (a.uz * a.uz + a.vz * a.vz + a.dz * a.dz);
   const Eigen::Vector3d q(
       wux * a.r.x(), wvy * a.r.y(), w * (a.uz * a.r.x() + a.vz * a.r.y() + a.dz * a.r.z()));
-  Eigen::Matrix3d N;  // M R without the products by zero
+  Eigen::Matrix3d N;  // M R, without the products by zero
   N.row(0) = M(0, 0) * pose.R.row(0) + M(0, 2) * pose.R.row(2);
   N.row(1) = M(1, 1) * pose.R.row(1) + M(1, 2) * pose.R.row(2);
   N.row(2) = M(0, 2) * pose.R.row(0) + M(1, 2) * pose.R.row(1) + M(2, 2) * pose.R.row(2);
@@ -43,7 +43,8 @@ bool BaPoint::Add(const RectifiedCamera& camera,
   target.landmark.g.noalias() += pose.R.transpose() * q;
   if (target.pose == nullptr) return true;
   const Eigen::Matrix3d PM = CrossColumns(p, M);
-  target.pose->H.topLeftCorner<3, 3>() += CrossColumns(p, PM.transpose());  // symmetric
+  // The block is symmetric.
+  target.pose->H.topLeftCorner<3, 3>() += CrossColumns(p, PM.transpose());
   target.pose->H.bottomLeftCorner<3, 3>() += PM.transpose();
   target.pose->H.bottomRightCorner<3, 3>() += M;
   target.pose->g.head<3>() += p.cross(q);

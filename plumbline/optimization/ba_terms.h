@@ -12,19 +12,19 @@
 
 namespace plumbline {
 
-// What bundle adjustment needs to know about each kind of landmark: parameters, residual, its place
-// in the normal equations. Internal to bundle_adjuster.h.
+// What bundle adjustment needs to know about each kind of landmark: its parameters, its residual,
+// and its place in the normal equations. Internal to bundle_adjuster.h.
 
 struct BaPose {
   Rigid3 cam_from_world;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  int free_index = -1;  // -1: fixed
+  int free_index = -1;  // -1 for a fixed pose
 
   void Set(const Rigid3& value) {
     cam_from_world = value;
     R = value.rotation.toRotationMatrix();
   }
-  // A point of the world in the camera.
+  // Returns a point of the world in the frame of the camera.
   Eigen::Vector3d ToCamera(const Eigen::Vector3d& point) const {
     return R * point + cam_from_world.translation;
   }
@@ -34,8 +34,8 @@ struct BaPoint {
   static constexpr int kDof = 3;
   using State = Eigen::Vector3d;
   using Term = PointTerm;
-  // What is computed once for a state and serves all its observations: what residuals need, and
-  // what their derivatives need as well.
+  // Place is what residuals need of a state, View what their derivatives need. Both are computed
+  // once and serve all observations of the landmark.
   using Place = Eigen::Vector3d;
   using View = Eigen::Vector3d;
 
@@ -46,7 +46,7 @@ struct BaPoint {
     return term.disparity_weight > 0 ? huber.disparity : huber.point;
   }
   static int Dof(const Term& term) { return term.disparity_weight > 0 ? 3 : 2; }
-  // Squared norm of the whitened residual; infinite where there is none.
+  // Returns the squared norm of the whitened residual; infinite where there is none.
   static double Chi2(const RectifiedCamera& camera,
                      const BaPose& pose,
                      const Place& place,
@@ -56,7 +56,7 @@ struct BaPoint {
   }
 
   using Target = BaTarget<kDof>;
-  // False when the observation has no residual; nothing is added then.
+  // Adds an observation to the equations. Returns false and adds nothing where it has no residual.
   static bool Add(const RectifiedCamera& camera,
                   const BaPose& pose,
                   const View& view,
@@ -65,7 +65,7 @@ struct BaPoint {
                   const Target& target);
 };
 
-// A line in the world. Of any scale: residuals depend on moment : direction alone.
+// A line in the world. It may have any scale, since residuals depend on moment : direction alone.
 struct BaLinePlace {
   Eigen::Vector3d moment, direction;
 };
@@ -73,11 +73,11 @@ struct BaLinePlace {
 // A line and how it moves with the parameters of its update.
 template <int kParameters>
 struct BaLineView : BaLinePlace {
-  Eigen::Matrix<double, 6, kParameters> J;  // of moment and direction
+  Eigen::Matrix<double, 6, kParameters> J;  // derivative of moment and direction
 };
 
-// What lines have in common whatever their parameters: two residuals in each image, the distances
-// of the measured ends from the projected line.
+// What lines of all parameters have in common: two residuals in each image, the distances of the
+// measured ends from the projected line.
 struct BaMeasuredLine {
   using Term = LineTerm;
   using Place = BaLinePlace;
@@ -87,7 +87,7 @@ struct BaMeasuredLine {
   }
   static double Huber(const Term&, const HuberThresholds& huber) { return huber.line; }
   static int Dof(const Term&) { return 2; }
-  // Squared norm of the whitened distances; infinite where the line has no projection.
+  // Returns the squared norm of the whitened distances; infinite where the line has no projection.
   static double Chi2(const RectifiedCamera& camera,
                      const BaPose& pose,
                      const Place& line,
@@ -132,7 +132,7 @@ struct BaLineInCamera {
   }
 };
 
-// BaLine::Add for lines of any parameters.
+// Does the work of BaLine::Add for lines with any parameters.
 template <int kDof>
 bool AddMeasuredLine(const RectifiedCamera& camera,
                      const BaPose& pose,

@@ -16,8 +16,8 @@
 
 namespace plumbline {
 
-// What SolveLocalBa does, for any kind of line. Internal to local_ba.cc and the laboratory, which
-// has other kinds to compare with.
+// Does what SolveLocalBa does, for any kind of line. Internal to local_ba.cc and the laboratory,
+// which compares other kinds of lines.
 
 inline std::vector<BaPose> MakePoses(const BaProblem& problem) {
   std::vector<BaPose> poses(problem.poses.size());
@@ -38,7 +38,7 @@ inline std::vector<BaObservation<PointTerm>> PointObservations(const BaProblem& 
   return out;
 }
 
-// One observation of a line of this kind for each one of the problem.
+// Returns one observation of a line of this kind for each observation of a line in the problem.
 template <class LineKind>
 std::vector<BaObservation<typename LineKind::Term>> LineObservationsOf(const BaProblem& problem) {
   std::vector<BaObservation<typename LineKind::Term>> out;
@@ -49,9 +49,9 @@ std::vector<BaObservation<typename LineKind::Term>> LineObservationsOf(const BaP
   return out;
 }
 
-// Levenberg-Marquardt over the poses and points of a problem and its lines, which are given by the
-// states and observations of their kind: for each line of the problem one state or, of its ends,
-// several.
+// Levenberg-Marquardt over the poses, points and lines of a problem. The lines are given by the
+// states and observations of their kind. A line of the problem is one state, or several where its
+// ends are states of their own.
 template <class LineKind>
 class BundleAdjuster {
  public:
@@ -73,12 +73,12 @@ class BundleAdjuster {
         solver_(static_cast<int>(std::count_if(
             poses_.begin(), poses_.end(), [](const BaPose& p) { return p.free_index >= 0; }))) {}
 
-  // All but the lines of the result.
+  // Returns the whole result except its lines.
   BaResult Solve();
   const Lines& lines() const { return lines_.states(); }
 
  private:
-  // Of Levenberg and Marquardt, relative to the diagonal: small, since maps are nearly right.
+  // Initial damping, relative to the diagonal: small, since maps are nearly right.
   static constexpr double kInitialLambda = 1e-4;
   static constexpr double kMinLambda = 1e-9;
   static constexpr double kMaxLambda = 1e10;
@@ -89,14 +89,15 @@ class BundleAdjuster {
   double Cost(const HuberThresholds& huber) {
     return points_.Cost(poses_, huber) + lines_.Cost(poses_, huber);
   }
-  // Linearizes and solves; false when the damped equations are not positive definite.
+  // Linearizes and solves; returns false when the damped equations are not positive definite, or
+  // when stopped.
   bool ComputeStep(const HuberThresholds& huber, double lambda);
-  // Cost of the trial state; sets expected_.
+  // Returns the cost of the trial state and sets expected_.
   double Try(const HuberThresholds& huber);
   void Accept();
-  // From cost_, the cost under the same loss.
+  // Lowers cost_, which must be the cost under the same loss.
   BaTermination Optimize(const HuberThresholds& huber, double function_tolerance);
-  // True when this changed what is in use.
+  // Classifies all observations anew; returns whether that changed which of them are in use.
   bool Classify();
 
   const LocalBaOptions& options_;
@@ -105,7 +106,7 @@ class BundleAdjuster {
   BaLandmarks<BaPoint> points_;
   BaLandmarks<LineKind> lines_;
   SchurSolver solver_;
-  double expected_ = 0;  // decrease of the cost by the linear model
+  double expected_ = 0;  // decrease of the cost that the linear model expects
   double cost_ = 0;
   int iterations_ = 0;
 };
@@ -145,7 +146,7 @@ template <class LineKind>
 BaTermination BundleAdjuster<LineKind>::Optimize(const HuberThresholds& huber,
                                                  double function_tolerance) {
   double lambda = kInitialLambda;
-  // Residuals carry rounding errors of about 1e-12 sigma: lower costs mean nothing.
+  // Residuals carry rounding errors of about 1e-12 sigma, so that smaller costs mean nothing.
   const double rounding = 1e-22 * static_cast<double>(points_.used() + lines_.used());
   for (int i = 0; i < options_.max_iterations; ++i) {
     if (IsToStop(stop_)) return BaTermination::kStopped;

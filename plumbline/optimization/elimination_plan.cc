@@ -17,16 +17,18 @@
 namespace plumbline {
 namespace {
 
-// The factor by column, numbered in the order of elimination: rows below the diagonal, ascending.
+// The columns of the factor, numbered in the order of elimination. Each lists its rows below the
+// diagonal, ascending.
 using Columns = std::vector<std::vector<int>>;
 
-// Multiplications of blocks that eliminating `pivots` rows takes which change `below` others.
+// Returns how many multiplications of blocks it takes to eliminate `pivots` rows that change
+// `below` others.
 double Multiplications(double pivots, double below) {
   const auto full = [](double rows) { return (rows - 1) * rows * (rows + 1) / 6; };
   return full(pivots + below) - full(below);
 }
 
-// Multiplications of a front, and what is spent on moving its entries about, counted as
+// Returns the multiplications of a front, plus the work of moving its entries about, counted as
 // multiplications.
 double Work(double pivots, double below) {
   constexpr double kMovingOneBlock = 2;
@@ -53,7 +55,8 @@ std::vector<int> MinimumDegreeOrder(const BlockPattern& pattern) {
   return {indices.data(), indices.data() + indices.size()};
 }
 
-// What an order leaves of the zeros. `order`: rows by the time of their elimination.
+// Returns the columns of the factor for an order of elimination. `order` lists the rows by the time
+// of their elimination.
 Columns Fill(const BlockPattern& pattern, const std::vector<int>& order) {
   std::vector<int> time(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) time[Index(order[k])] = static_cast<int>(k);
@@ -68,16 +71,17 @@ Columns Fill(const BlockPattern& pattern, const std::vector<int>& order) {
     std::sort(column.begin(), column.end());
     column.erase(std::unique(column.begin(), column.end()), column.end());
     if (column.empty()) continue;
-    // The first row below is the parent: what a column has below it gets, too.
+    // The first row below the diagonal is the parent: it also gets all rows that the column has
+    // below it.
     std::vector<int>& parent = columns[Index(column.front())];
     parent.insert(parent.end(), column.begin() + 1, column.end());
   }
   return columns;
 }
 
-// Columns that are eliminated together, each set under the last of them (the others' are empty): a
-// column joins that of its first row below where one larger front is less work than two, though
-// some of it is zero then.
+// Groups columns that are eliminated together. Each group stands at its last column; the others'
+// entries are empty. A column joins that of its first row below the diagonal where one larger front
+// is less work than two, although some of its entries are then zero.
 std::vector<std::vector<int>> MergeColumns(const Columns& columns) {
   const auto below = [&](int column) { return static_cast<double>(columns[Index(column)].size()); };
   std::vector<std::vector<int>> merged(columns.size()), children(columns.size());
@@ -103,7 +107,8 @@ std::vector<std::vector<int>> MergeColumns(const Columns& columns) {
   return merged;
 }
 
-// Children before parents, each subtree in one piece. `parent` of each node comes after it.
+// Returns an order with children before parents and each subtree in one piece. The parent of each
+// node must have a greater index.
 std::vector<int> Postorder(const std::vector<int>& parent) {
   const int size = static_cast<int>(parent.size());
   std::vector<std::vector<int>> children(parent.size());
@@ -111,7 +116,7 @@ std::vector<int> Postorder(const std::vector<int>& parent) {
   for (int node = size - 1; node >= 0; --node) {
     (parent[Index(node)] < 0 ? open : children[Index(parent[Index(node)])]).push_back(node);
   }
-  // A walk that meets parents first and the last children first is the reverse.
+  // The reverse order is a walk that meets parents first and the last children first.
   std::reverse(open.begin(), open.end());
   while (!open.empty()) {
     const int node = open.back();

@@ -15,13 +15,15 @@ namespace plumbline {
 
 // Settings of SolveLocalBa.
 struct LocalBaOptions {
-  int rounds = 2;                    // of solve, then reject observations by chi2
-  int max_iterations = 10;           // per round, accepted and rejected steps
-  double function_tolerance = 1e-4;  // a round ends when the cost falls by less than this part
-  // function_tolerance of the rounds before the last, which are there to tell outliers. Where one
-  // of these changes none, the last is next. 0: all rounds are alike, and none is left out.
+  int rounds = 2;           // rounds of solving, each followed by rejecting observations by chi2
+  int max_iterations = 10;  // accepted and rejected steps in a round
+  // a round ends when a step lowers the cost by less than this part of it
+  double function_tolerance = 1e-4;
+  // function_tolerance of the rounds before the last, whose purpose is to find outliers. Where one
+  // of these rounds changes no observation, the last round is next. 0: all rounds have
+  // function_tolerance, and none is left out.
   double rejection_tolerance = 0;
-  bool robust = true;  // Huber loss (kHuberThresholds); false: squares
+  bool robust = true;  // Huber loss (kHuberThresholds); false: plain squares
 };
 
 template <class Visitor>
@@ -56,7 +58,7 @@ enum class BaTermination {
   kNoProgress,     // no step lowers the cost, whatever the damping
   kNotFinite,      // the input has NaN or infinite numbers; the result repeats the input
   kNothingToDo,    // no observation has a residual at the start
-  kStopped,        // told to end; the state is the one that the last accepted step led to
+  kStopped,        // stop said so; the state is that of the last accepted step
 };
 
 constexpr auto EnumNames(std::type_identity<BaTermination>) {
@@ -68,31 +70,32 @@ constexpr auto EnumNames(std::type_identity<BaTermination>) {
                     std::pair{BaTermination::kStopped, "stopped"}};
 }
 
-// What SolveLocalBa found, in the order of the problem.
+// The result of SolveLocalBa, in the order of the problem.
 struct BaResult {
-  std::vector<Rigid3> poses;  // cam_from_world; fixed ones are copied bit by bit
+  std::vector<Rigid3> poses;  // cam_from_world; fixed poses are copied bit by bit
   std::vector<Eigen::Vector3d> points;
   std::vector<OrthonormalLine> lines;
-  // One per observation: false when chi2 exceeds its limit at the end or the point lies behind the
-  // camera (its chi2 is then infinite).
+  // One entry per observation. It is false when chi2 exceeds its limit at the end, or when the
+  // point lies behind the camera (chi2 is then infinite).
   std::vector<bool> point_inliers;
   std::vector<bool> line_inliers;
   std::vector<double> point_chi2;
   std::vector<double> line_chi2;
-  // Half the sum of the loss over the observations in use: at the start of the first round, where
-  // all in front of the camera are, and at the end of the last.
+  // Half the sum of the loss over the observations in use. The initial cost is that at the start of
+  // the first round, where all observations with a residual are in use; the final cost is that at
+  // the end of the last round.
   double initial_cost = 0;
   double final_cost = 0;
   int iterations = 0;
-  std::size_t line_bytes = 0;  // of memory that the lines took, their observations included
+  std::size_t line_bytes = 0;  // memory of the lines and their observations, in bytes
   BaTermination termination = BaTermination::kNothingToDo;
 };
 
-// A problem before anything is solved, with all observations as inliers and no chi2 known.
+// Returns a problem before anything is solved, with all observations as inliers and no chi2 known.
 BaResult InitialState(const BaProblem& problem);
 
-// A problem that is not solved because it has numbers that are not finite: the input, with no
-// observation as inlier and infinite chi2.
+// Returns the result for a problem that is not solved because it has numbers that are not finite:
+// the input, with no observation as inlier and infinite chi2.
 BaResult NotFinite(const BaProblem& problem);
 
 }  // namespace plumbline

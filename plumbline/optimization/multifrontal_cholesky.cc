@@ -15,27 +15,28 @@
 namespace plumbline {
 namespace {
 
-// Rows of scalars in a number of blocks.
+// Returns how many rows of scalars a number of blocks has.
 template <int kSize>
 Eigen::Index Scalars(int blocks) {
   return kSize * static_cast<Eigen::Index>(blocks);
 }
 
-// The rows that a front changes.
+// Returns the rows that a front changes.
 std::span<const int> Changed(const Front& front) {
   return std::span(front.rows).subspan(Index(front.pivots));
 }
 
 int CountChanged(const Front& front) { return static_cast<int>(front.rows.size()) - front.pivots; }
 
-// Where the run ends that begins at `place[first]` and goes on by one.
+// Returns where the run of consecutive places ends that begins at `place[first]`.
 int EndOfRun(const std::vector<int>& place, int first, int end) {
   int last = first + 1;
   while (last < end && place[Index(last)] == place[Index(last - 1)] + 1) ++last;
   return last;
 }
 
-// Eliminates the pivots: the columns become those of L, and `change` what they make of the rest.
+// Eliminates the pivots. `columns` become those of L, `change` becomes what they add to the other
+// rows.
 bool Eliminate(Eigen::MatrixXd& columns, Eigen::MatrixXd& change) {
   const Eigen::Index pivots = columns.cols();
   Eigen::Ref<Eigen::MatrixXd> top = columns.topRows(pivots);
@@ -68,7 +69,7 @@ BlockCholesky<kSize>::BlockCholesky(EliminationPlan plan)
       pivot_of_[Index(front.rows[Index(k)])] = k;
     }
     if (front.parent >= 0) panels_[Index(front.parent)].children.push_back(static_cast<int>(f));
-    // All children came before.
+    // All children came before their parent.
     for (std::size_t k = 0; k < front.rows.size(); ++k) {
       place[Index(front.rows[k])] = static_cast<int>(k);
     }
@@ -132,7 +133,7 @@ void BlockCholesky<kSize>::TakeIn(const Eigen::MatrixXd& change,
 
 template <int kSize>
 bool BlockCholesky<kSize>::Factor(const StopCheck& stop) {
-  std::vector<Eigen::MatrixXd> changes(fronts_.size());  // that wait for the parent
+  std::vector<Eigen::MatrixXd> changes(fronts_.size());  // changes that wait for the parent
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     if (IsToStop(stop)) return false;
     const Eigen::Index size = Scalars<kSize>(CountChanged(fronts_[f]));

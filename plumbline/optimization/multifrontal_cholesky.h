@@ -12,9 +12,9 @@
 namespace plumbline {
 
 // Cholesky factorization of a sparse symmetric positive definite matrix of square blocks, front by
-// front: each is a dense matrix that takes in what its children change, eliminates its pivots and
-// hands on the rest (Duff and Reid 1983). Serial, sums in the order of the plan: results repeat bit
-// by bit.
+// front. Each front is a dense matrix that takes in what its children change, eliminates its pivots
+// and hands on the rest (Duff and Reid 1983). It is serial and sums in the order of the plan, so
+// that results repeat bit by bit.
 //
 //   kSize  rows of a block; there are instances for 6 (rigid motions) and 7 (similarities)
 template <int kSize>
@@ -27,34 +27,35 @@ class BlockCholesky {
 
   // Makes the matrix zero.
   void Clear();
-  // Sets block (row, column) and with it its mirror image; both must be in a front together. Of
-  // those with row = column only the lower triangle is looked at.
+  // Sets block (row, column) and with it its mirror image. Both rows must be in one front. Of a
+  // block on the diagonal only the lower triangle is looked at.
   void Set(int row, int column, const Block& block);
-  // False where the matrix is not positive definite, and when stopped (asked before each front).
-  // Afterwards there is its factor in its place.
-  // O(multiplications of the plan); memory: the factor, and what waits to be handed on.
+  // Factorizes the matrix in place. Returns false where it is not positive definite, or when
+  // stopped (asked before each front). O(multiplications of the plan); memory: the factor, and the
+  // changes that wait to be handed on.
   bool Factor(const StopCheck& stop = {});
   // Solves L L^T x = b in place. O(entries of L).
   void Solve(Eigen::VectorXd& x) const;
 
  private:
-  // The columns of the pivots in the dense matrix of a front, which become those of L.
+  // The columns of the pivots in the dense matrix of a front. They become columns of L.
   struct Panel {
     Eigen::MatrixXd columns;
     std::vector<int> children;
-    std::vector<int> in_parent;  // place of each row that is changed among the parent's
+    std::vector<int> in_parent;  // place of each changed row among the parent's rows
   };
 
-  // Adds what a child changed to the columns of a front and to what it changes itself.
+  // Adds what a child changed to the columns of a front, and to the changes that the front hands
+  // on.
   static void TakeIn(const Eigen::MatrixXd& change,
                      const std::vector<int>& place,
                      Eigen::MatrixXd& columns,
                      Eigen::MatrixXd& own_change);
 
   std::vector<Front> fronts_;
-  std::vector<Panel> panels_;  // by front
-  std::vector<int> front_of_;  // by row: where it is eliminated
-  std::vector<int> pivot_of_;  // by row: its place there
+  std::vector<Panel> panels_;  // one panel for each front
+  std::vector<int> front_of_;  // the front that eliminates each row
+  std::vector<int> pivot_of_;  // place of each row among the pivots of its front
 };
 
 extern template class BlockCholesky<6>;

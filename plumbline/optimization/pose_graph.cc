@@ -15,8 +15,8 @@
 namespace plumbline {
 namespace {
 
-// The inverse of the left Jacobian of sim(3) for what edges leave: the Bernoulli series in ad(x),
-// up to its fourth power, where that is exact to 1e-8, else as the library has it.
+// Returns the inverse of the left Jacobian of sim(3) for the residual of an edge. Near zero this is
+// the Bernoulli series in ad(x) up to its fourth power, which is exact to 1e-8 there.
 Matrix7d InverseLeftJacobian(const Vector7d& x) {
   constexpr double kSmall = 0.3;
   if (x.head<3>().norm() + x.segment<3>(3).norm() + std::abs(x(6)) > kSmall) {
@@ -31,10 +31,11 @@ Matrix7d InverseLeftJacobian(const Vector7d& x) {
   return Matrix7d::Identity() - ad / 2 + squared / 12 - squared * squared / 720;
 }
 
-// Damping of the system, for poses that are tied to nothing. It is far below what any edge says.
+// Damping of the system, which holds poses that are tied to nothing. It is far below what any edge
+// says.
 constexpr double kDamping = 1e-9;
 
-// One Gauss-Newton problem over the free poses; kSize degrees of freedom for each.
+// A Gauss-Newton problem over the free poses, with kSize degrees of freedom for each.
 template <int kSize>
 class System {
  public:
@@ -44,7 +45,8 @@ class System {
   explicit System(const PoseGraph& graph)
       : graph_(graph), row_of_(Rows(graph)), cholesky_(PlanElimination(Pattern())) {}
 
-  // Adds the step to the poses and returns its largest part; nullopt where the system is singular.
+  // Adds the step to the poses and returns its largest component; nullopt where the system is
+  // singular.
   std::optional<double> Step(const std::vector<double>& weights, std::vector<Similarity3>& poses) {
     Clear();
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
@@ -96,8 +98,8 @@ class System {
     return pattern;
   }
 
-  // Row and column of the block that couples the poses of an edge; the lesser is -1 where one of
-  // them is fixed.
+  // Returns row and column of the block that couples the poses of an edge. The column is -1 where
+  // one of the poses is fixed.
   std::pair<int, int> Place(const PoseGraphEdge& edge) const {
     const int a = row_of_[Index(edge.to)];
     const int b = row_of_[Index(edge.from)];
@@ -154,11 +156,13 @@ class System {
   }
 
   const PoseGraph& graph_;
-  std::vector<int> row_of_;  // by pose; -1: fixed
+  std::vector<int> row_of_;  // row of each pose; -1 for a fixed pose
   std::vector<Block> diagonal_;
-  std::vector<std::pair<int, int>> places_;  // row and lesser column of what is beside the diagonal
-  std::vector<Block> off_diagonal_;          // by place
-  std::vector<std::size_t> place_of_;        // by edge; of no meaning where one pose is fixed
+  // Row and column of each block left of the diagonal.
+  std::vector<std::pair<int, int>> places_;
+  std::vector<Block> off_diagonal_;  // the block at each of places_
+  // Index in places_ for each edge; of no meaning where one pose is fixed.
+  std::vector<std::size_t> place_of_;
   Eigen::VectorXd gradient_;
   BlockCholesky<kSize> cholesky_;
 };
@@ -174,19 +178,19 @@ std::vector<double> Chi2(const PoseGraph& graph, const std::vector<Similarity3>&
   return chi2;
 }
 
-// The weight that a residual has under the truncated squares made convex by mu (Yang et al.).
+// Returns the weight of a residual under the truncated squares made convex by mu (Yang et al.).
 double Weight(double chi2, double max_chi2, double mu) {
   if (chi2 <= mu / (mu + 1) * max_chi2) return 1;
   if (chi2 >= (mu + 1) / mu * max_chi2) return 0;
   return std::sqrt(max_chi2 * mu * (mu + 1) / chi2) - mu;
 }
 
-// Weights of the edges that may be wrong, less convex from call to call.
+// The weights of the edges that may be wrong, for a loss that is less convex with each call.
 class Graduation {
  public:
   Graduation(const PoseGraph& graph, double max_chi2) : graph_(graph), max_chi2_(max_chi2) {}
 
-  // False when no weight changes any more.
+  // Updates the weights; returns false when they are final.
   bool Update(const std::vector<double>& chi2, std::vector<double>& weights) {
     double largest = 0;
     for (std::size_t e = 0; e < chi2.size(); ++e) {
@@ -214,7 +218,7 @@ class Graduation {
 
   const PoseGraph& graph_;
   double max_chi2_;
-  double mu_ = 0;         // 0: not begun
+  double mu_ = 0;         // 0 before the first call
   bool settled_ = false;  // all weights were 0 or 1 after the last call
 };
 

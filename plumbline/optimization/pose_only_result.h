@@ -13,10 +13,13 @@ namespace plumbline {
 
 // Settings of SolvePose.
 struct PoseOnlyOptions {
-  int rounds = 4;                     // of solve, then classify inliers anew among all matches
-  int robust_rounds = 2;              // the first of them use the Huber loss, the others squares
-  int max_iterations = 10;            // per round
-  double decrement_tolerance = 1e-4;  // a round ends when a step would lower the cost by less
+  // Rounds of solving, each followed by classifying all matches anew.
+  int rounds = 4;
+  // So many rounds at the beginning use the Huber loss, the others plain squares.
+  int robust_rounds = 2;
+  int max_iterations = 10;  // iterations in a round
+  // a round ends when a step would lower the cost by less than this
+  double decrement_tolerance = 1e-4;
 };
 
 template <class Visitor>
@@ -38,7 +41,7 @@ constexpr auto FixedOptions(std::type_identity<PoseOnlyOptions>) {
                     FixedOption{"gate_scale", "1"}};
 }
 
-// What SolvePose found, in the order of the problem.
+// The result of SolvePose, in the order of the problem.
 struct PoseOnlyResult {
   Rigid3 cam_from_world;
   // J^T W J of the inliers and the prior at the solution, for the left perturbation [rotation,
@@ -49,9 +52,9 @@ struct PoseOnlyResult {
   int inlier_points = 0;
   int inlier_line_groups = 0;
   double cost = 0;     // half the sum of squared whitened residuals of inliers and prior
-  int iterations = 0;  // over all rounds
-  // The last round met a tolerance, and inliers and prior fix all six degrees of freedom. When
-  // false, the pose is the best one found; it is finite if the input is.
+  int iterations = 0;  // sum over all rounds
+  // True when the last round met a tolerance, and inliers and prior fix all six degrees of freedom.
+  // When false, the pose is the best one found; it is finite if the input is.
   bool converged = false;
 };
 

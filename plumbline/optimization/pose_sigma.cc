@@ -17,7 +17,7 @@
 namespace plumbline {
 namespace {
 
-// What the observations of one pose add up to.
+// The sums over the observations of one pose.
 struct Sums {
   bool wanted = true;
   Matrix6d information = Matrix6d::Zero();
@@ -34,7 +34,7 @@ void AddPoints(const BaProblem& problem, const BaResult& state, std::vector<Sums
     PointLinearization at;
     if (!LinearizePoint(problem.camera, MakePointTerm(o.measurement), p, at)) continue;
     const Eigen::Matrix3d J_cam = PointJacobian(at);
-    Eigen::Matrix<double, 3, 6> J;  // without disparity the last row is zero
+    Eigen::Matrix<double, 3, 6> J;  // the last row is zero without disparity
     J << -J_cam * Skew(p), J_cam;
     sum.information.noalias() += J.transpose() * J;
     sum.depths.push_back(p.z());
@@ -42,7 +42,7 @@ void AddPoints(const BaProblem& problem, const BaResult& state, std::vector<Sums
 }
 
 void AddLines(const BaProblem& problem, const BaResult& state, std::vector<Sums>& sums) {
-  std::optional<PreparedLine> prepared;  // of the observation before
+  std::optional<PreparedLine> prepared;  // the line of the observation before
   int line = -1;
   for (std::size_t k = 0; k < problem.line_observations.size(); ++k) {
     const auto& o = problem.line_observations[k];
@@ -77,7 +77,7 @@ std::vector<PoseSigma> SigmasOf(const BaProblem& problem,
   return sigmas;
 }
 
-// Those of poses that are fixed are not computed.
+// Returns the deviations of all poses; those of fixed poses are not computed.
 std::vector<PoseSigma> SigmasOfFreePoses(const BaProblem& problem, const BaResult& state) {
   std::vector<Sums> sums(problem.poses.size());
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i].wanted = !problem.poses[i].fixed;
@@ -149,11 +149,11 @@ bool Failed(const BaResult& result) {
 
 struct Solution {
   BaResult result;
-  std::vector<PoseSigma> sigmas;  // of `result`; none where it failed
+  std::vector<PoseSigma> sigmas;  // deviations of `result`; empty where the solution failed
 };
 
-// The solution with those poses held that are loose before it, or by what it leaves of their
-// observations; they are marked as fixed in the problem.
+// Solves with loose poses held. These are the poses that are loose before the solution, or become
+// so by the observations that it rejects; they are marked as fixed in the problem.
 Solution SolveHoldingLoosePoses(BaProblem& problem,
                                 const LocalBaOptions& options,
                                 BaSolver solver,
@@ -167,7 +167,7 @@ Solution SolveHoldingLoosePoses(BaProblem& problem,
     return Solution{std::move(result), std::move(sigmas)};
   };
   Solution solution = solve();
-  // Rejected observations may leave a pose loose that was fixed before.
+  // The rejection of observations may have made poses loose that the observations fixed before.
   if (!HoldLoosePoses(solution.sigmas, limit, problem)) return solution;
   return solve();
 }

@@ -30,34 +30,36 @@ struct PoseSigma {
 // room, a road and a map from one camera.
 PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth);
 
-// How well each pose of a problem is known from its observations, with all landmarks where they
-// are; of `state` only poses, points, lines and inliers are used.
+// Returns how well each pose of a problem is known from its observations, with all landmarks held.
+// Of `state` only poses, points, lines and inliers are used.
 std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state);
 
-// Marks the free poses as fixed that the observations in use do not fix to `limit`: whatever lets
-// them fit the few observations they have is cheap, and takes them anywhere. Returns whether there
-// were any. The caller solves again, from the problem's poses.
+// Marks free poses as fixed that the observations in use do not fix to `limit`. Such a pose fits
+// its few observations almost anywhere, so that a solution would take it there. Returns whether
+// there were any. The caller has to solve again, from the problem's poses.
 bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem);
 
-// What a pose must keep to, to be adjusted.
+// The limits within which a pose is adjusted.
 struct PoseLimits {
-  double sigma = 0;   // PoseSigma at most
-  double change = 0;  // against the pose before it at most: radians, and of the scene's depth
+  double sigma = 0;  // largest PoseSigma
+  // Largest change against the pose before it: in radians, and relative to the scene's depth.
+  double change = 0;
 };
 
-// Marks as fixed the poses of the problem that follow each other and that the solution moves
-// against one another by more than `limits.change`: what ties their parts of the map leaves a
-// direction open (lines along a road), though the landmarks of each fix its pose. Those that are
-// loose themselves are passed over; between a pose that does not follow (BaProblem::Pose) and
-// those before it there is no tear. Returns whether there were any that were not fixed yet.
+// Marks consecutive poses of the problem as fixed that the solution moves against one another by
+// more than `limits.change`. The landmarks of each fix its pose then, but what ties their parts of
+// the map leaves a direction open (lines along a road). Poses that are loose themselves are passed
+// over; a pose that does not follow (BaProblem::Pose) is not compared with those before it. Returns
+// whether there were any that were not fixed yet.
 bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem);
 
-// The solution of `solve` with those poses held that are loose before it, or by what it leaves of
-// their observations (they are marked as fixed in the problem), again until no two that follow each
-// other are torn apart (HoldTornPoses), up to four times, the last time with all poses held.
-// nullopt where the numbers are not finite, and when stopped: a solution halfway is none.
-// `normalize`, if any, is applied to each solution before it is looked at. Cost: most often that of
-// one solution, at most eight.
+// Returns the solution of `solve`, in which loose and torn poses are held (marked as fixed in the
+// problem). Poses are held that are loose before a solution, or by the observations that it
+// rejects. The problem is solved again until no two consecutive poses are torn apart
+// (HoldTornPoses), up to four times, the last time with all poses held. Returns nullopt where the
+// numbers are not finite, and when stopped, since a solution halfway is of no use. `normalize`, if
+// any, is applied to each solution before it is looked at. Cost: most often that of one solution,
+// at most that of eight.
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,
                                         BaSolver solve,

@@ -20,10 +20,11 @@
 
 namespace plumbline {
 
-// What SolvePose does, for any residual of lines. Internal to pose_only.cc and the laboratory,
-// which has another one to compare with.
+// Does what SolvePose does, for any residual of lines. Internal to pose_only.cc and the laboratory,
+// which compares another residual.
 
-// All six degrees of freedom are fixed: the information, scaled to a unit diagonal, is regular.
+// Whether all six degrees of freedom are fixed: the information, scaled to a unit diagonal, is
+// regular.
 inline bool IsRegular(const Matrix6d& information) {
   if (!(information.diagonal().minCoeff() > 0)) return false;
   const Vector6d scale = information.diagonal().cwiseSqrt().cwiseInverse();
@@ -31,7 +32,7 @@ inline bool IsRegular(const Matrix6d& information) {
   return EigenvaluesOf<6>(scaled)(0) > 1e-10;
 }
 
-// Levenberg-Marquardt over one pose. Line: a match of a line as PoseLine is.
+// Levenberg-Marquardt over one pose. `Line` is a match of a line with the functions of PoseLine.
 template <class Line>
 class PoseSolver {
  public:
@@ -44,30 +45,30 @@ class PoseSolver {
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // Squared norm charged for a match in use without a residual (behind the camera), so that a step
-  // cannot gain by pushing points there.
+  // Squared norm that stands in for that of a match in use without a residual (behind the camera),
+  // so that a step cannot gain by pushing points there.
   static constexpr double kInvalidChi2 = 1e8;
   static constexpr double kMinLambda = 1e-8;
   static constexpr double kMaxLambda = 1e8;
-  // A step that lowers the cost by less than this part of it ends a round: what is left moves the
-  // pose by far less than its deviation.
+  // A round ends when a step lowers the cost by less than this part of it: what remains would move
+  // the pose by far less than its deviation.
   static constexpr double kCostTolerance = 1e-5;
 
   void Pack(const PoseProblem& problem);
-  // Cost and normal equations of the matches in use; chi2_ of all matches.
+  // Returns cost and normal equations of the matches in use, and sets chi2 of all matches.
   PoseSums Evaluate(const Rigid3& pose, const HuberThresholds& huber);
   void EvaluatePoints(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   void EvaluateLines(const Rigid3& pose, const HuberThresholds& huber, PoseSums& eq);
   void AddPrior(const Rigid3& pose, PoseSums& eq) const;
-  // Levenberg-Marquardt from pose_; true when it met a tolerance.
+  // Runs Levenberg-Marquardt from pose_; returns whether it met a tolerance.
   bool Optimize(const HuberThresholds& huber, int max_iterations);
-  // At pose_, whose rotation R is.
+  // Returns the chi2 of a point at pose_, whose rotation is R.
   double PointChi2Of(const PosePoint& point, const Eigen::Matrix3d& R) const;
-  // Makes chi2_ that of pose_ where it is not (after a rejected step).
+  // Computes chi2 of all matches at pose_, unless it is known (after a rejected step it is not).
   void UpdateChi2();
   // Brings a far-off pose near with a Huber threshold that follows the median residual.
   void OptimizeCoarse();
-  // Sets the matches in use by chi2; true when any changed.
+  // Sets which matches are in use by chi2; returns whether any changed.
   bool Classify();
   double MedianNorm();
   static HuberThresholds Thresholds(double scale) {
@@ -81,11 +82,11 @@ class PoseSolver {
   const PoseOnlyOptions& options_;
   std::vector<PosePoint> points_;
   std::vector<Line> lines_;
-  std::vector<std::size_t> line_group_;  // dense index of each line's group
+  std::vector<std::size_t> line_group_;  // dense index of the group of each line
   std::vector<double> point_chi2_, line_chi2_, group_chi2_, group_limit_, scratch_;
   std::vector<char> point_used_, group_used_;
   Rigid3 pose_;
-  bool chi2_is_current_ = false;  // of pose_
+  bool chi2_is_current_ = false;  // whether the chi2 are those at pose_
   int iterations_ = 0;
 };
 
@@ -101,7 +102,8 @@ void PoseSolver<Line>::Pack(const PoseProblem& problem) {
     if (uncertain) {
       points_.push_back({match.point_in_world, uncertain->term, uncertain->whitening});
     } else {
-      // One that has no term for its covariance must not pass for exact later: no residual at all.
+      // A match whose covariance has no term at the initial pose must not count as exact later. NaN
+      // keeps it from ever having a residual.
       const bool exact = match.point_covariance.isZero(0);
       constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
       points_.push_back({exact ? match.point_in_world : Eigen::Vector3d::Constant(kNowhere),
@@ -185,8 +187,8 @@ void PoseSolver<Line>::EvaluateLines(const Rigid3& pose,
   }
 }
 
-// The derivative of the deviation by the left perturbation is the identity up to the square of the
-// deviation's angle.
+// Adds the prior. The derivative of its deviation by the left perturbation is taken as the
+// identity, which holds up to the square of the deviation's angle.
 template <class Line>
 void PoseSolver<Line>::AddPrior(const Rigid3& pose, PoseSums& eq) const {
   const Vector6d deviation = LogSe3(pose * Inverse(prior_.cam_from_world));
@@ -240,7 +242,8 @@ bool PoseSolver<Line>::Optimize(const HuberThresholds& huber, int max_iterations
     A.diagonal() += lambda * eq.H.diagonal().cwiseMax(1e-12 * eq.H.diagonal().maxCoeff());
     const Vector6d step = -SolveSymmetric<6>(A, eq.g);
     if (!step.allFinite()) return false;
-    // What the linear model expects the step to gain, in units of squared sigmas.
+    // The decrease of the cost that the linear model expects of the step, in units of squared
+    // sigmas.
     const double expected = -0.5 * eq.g.dot(step);
     const bool is_small = expected <= options_.decrement_tolerance;
     const Rigid3 trial = RetractLeft(pose_, step);

@@ -12,19 +12,19 @@
 
 namespace plumbline {
 
-// Matches with landmarks that stay fixed, ready for use, and their part of the normal equations of
+// Matches with landmarks that do not move, ready for use, and their part of the normal equations of
 // the pose. Internal to pose_solver.h.
 
 struct PosePoint {
   Eigen::Vector3d in_world;
   PointTerm term;
-  std::optional<Eigen::Matrix3d> whitening;  // of the residuals of an UncertainPointTerm
+  std::optional<Eigen::Matrix3d> whitening;  // for the residuals of an UncertainPointTerm
 };
 
-// What PoseSolver asks of a match of a line.
+// The functions that PoseSolver needs of a match of a line.
 class PoseLine {
  public:
-  // Of a residual in the measuring camera.
+  // The linearized residual in the camera that measured it.
   struct Linearization {
     LineLinearization at;
     Eigen::Vector3d direction, moment;
@@ -35,7 +35,7 @@ class PoseLine {
         direction_(match.line_in_world.direction),
         term_(MakeLineTerm(camera, match.measurement)) {}
 
-  // At a pose with the rotation R; false where there is no residual.
+  // Linearizes at a pose with rotation R; returns false where there is no residual.
   bool Linearize(const RectifiedCamera& camera,
                  const Rigid3& pose,
                  const Eigen::Matrix3d& R,
@@ -44,12 +44,13 @@ class PoseLine {
     out.moment = MomentInCamera(R, pose.translation, out.direction);
     return LinearizeLine(camera, term_, out.moment, out.at);
   }
-  // The derivative of the two residuals by the left perturbation of the pose.
+  // Returns the derivatives of the two residuals by the left perturbation of the pose.
   std::pair<Vector6d, Vector6d> PoseRows(const Linearization& lin) const {
     return {LinePoseRow(lin.at.h0, lin.moment, lin.direction, term_.shift),
             LinePoseRow(lin.at.h1, lin.moment, lin.direction, term_.shift)};
   }
-  // The residuals alone, at the pose with rotation R and translation t.
+  // Computes only the residuals, at the pose with rotation R and translation t; returns false where
+  // there are none.
   bool Distances(const RectifiedCamera& camera,
                  const Eigen::Matrix3d& R,
                  const Eigen::Vector3d& t,
@@ -68,15 +69,15 @@ class PoseLine {
   LineTerm term_;
 };
 
-// Normal equations at one pose. Of H only the lower triangle is set.
+// Normal equations at one pose. Only the lower triangle of H is set.
 struct PoseSums {
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();
   double cost = 0;
 };
 
-// Adds w J^T J and w J^T r of a point whose rows are J = G [-[p]x, I], so that with M = w G^T G the
-// blocks are [p]x M [p]x^T, [p]x M and M.
+// Adds w J^T J and w J^T r of a point whose rows are J = G [-[p]x, I]. With M = w G^T G the blocks
+// are [p]x M [p]x^T, [p]x M and M.
 inline void AddPoint(const PointLinearization& a,
                      const Eigen::Vector3d& p,
                      double w,
@@ -108,7 +109,7 @@ inline void AddPoint(const PointLinearization& a,
   eq.g.tail<3>() += q;
 }
 
-// Adds a point whose G is any matrix.
+// Adds a point with a general G, in which no entry is known to be zero.
 inline void AddPoint(const Eigen::Vector3d& r,
                      const Eigen::Matrix3d& G,
                      const Eigen::Vector3d& p,

@@ -9,12 +9,13 @@
 
 namespace plumbline {
 
-// A line in the world with what the residuals of all its measurements need of it, computed once.
+// A line in the world with all that the residuals of its measurements need of it, computed once.
 struct PreparedLine {
   explicit PreparedLine(const OrthonormalLine& line);
 
-  Vector6d homogeneous;                       // moment, direction
-  Eigen::Matrix<double, 6, 4> J_orthonormal;  // of these by the orthonormal update
+  Vector6d homogeneous;  // moment and direction
+  // Derivative of moment and direction by the orthonormal update.
+  Eigen::Matrix<double, 6, 4> J_orthonormal;
 };
 
 }  // namespace plumbline

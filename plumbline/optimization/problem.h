@@ -29,7 +29,7 @@ struct PointMeasurement {
 struct LineMeasurement {
   Segment2 segment;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
-  int camera = 0;  // of the pair that measured it: 0 the left (or only) one, 1 the right one
+  int camera = 0;  // camera of the pair that measured it: 0 the left (or only) one, 1 the right one
 };
 
 // Bundle adjustment as plain data: nothing here knows the map.
@@ -38,15 +38,15 @@ struct BaProblem {
   struct Pose {
     Rigid3 cam_from_world;
     bool fixed = false;
-    bool follows = true;  // soon after the pose before it in time (HoldTornPoses)
+    bool follows = true;  // whether it comes soon after the pose before it in time (HoldTornPoses)
   };
-  // A camera that shows a point; indices into `poses` and `points`.
+  // An observation of a point; indices into `poses` and `points`.
   struct PointObservation {
     int pose = 0;
     int point = 0;
     PointMeasurement measurement;
   };
-  // A camera that shows a line; indices into `poses` and `lines`.
+  // An observation of a line; indices into `poses` and `lines`.
   struct LineObservation {
     int pose = 0;
     int line = 0;
@@ -66,25 +66,26 @@ struct BaProblem {
   std::vector<OrthonormalLine> lines;   // in the world
   std::vector<PointObservation> point_observations;
   std::vector<LineObservation> line_observations;
-  std::vector<Eigen::Vector3d> axes;  // unit vectors in the world; they stay as they are
+  std::vector<Eigen::Vector3d> axes;  // unit vectors in the world; they do not move
   std::vector<ParallelLine> parallel_lines;
 };
 
-// What is known of a pose beforehand: normally distributed about `cam_from_world`, with the
-// information of the left perturbation [rotation, translation]. Zero: nothing.
+// What is known of a pose beforehand: it is normally distributed about `cam_from_world`, with the
+// information of the left perturbation [rotation, translation]. Zero information means that nothing
+// is known.
 struct PosePrior {
   Rigid3 cam_from_world;
   Matrix6d information = Matrix6d::Zero();
 };
 
-// Camera pose from landmarks that stay fixed.
+// A camera pose to be found from landmarks that do not move.
 struct PoseProblem {
   // A point of the map and where the frame shows it.
   struct PointMatch {
     Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
     PointMeasurement measurement;
-    // Covariance of the point in the world, beside that of the measurement; zero where the place is
-    // known.
+    // Covariance of the point in the world [map unit^2], in addition to that of the measurement;
+    // zero where the place counts as exact.
     Eigen::Matrix3d point_covariance = Eigen::Matrix3d::Zero();
   };
   // A line of the map and where the frame shows it.
@@ -92,11 +93,12 @@ struct PoseProblem {
     PluckerLine line_in_world;
     LineMeasurement measurement;
     int group = 0;  // measurements of one landmark share a group and are kept or rejected together
-    Segment3 ends = {};  // of the part of the line that counts, in the world; eq. 13 needs none
+    // Ends, in the world, of the part of the line that counts; eq. 13 does not use them.
+    Segment3 ends = {};
   };
 
   RectifiedCamera camera;
-  Rigid3 cam_from_world;  // initial
+  Rigid3 cam_from_world;  // initial pose
   PosePrior prior;
   std::vector<PointMatch> points;
   std::vector<LineMatch> lines;

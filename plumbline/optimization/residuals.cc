@@ -54,10 +54,10 @@ namespace {
 
 // A line in the frame of the camera that measured it.
 struct MeasuredLine {
-  Eigen::Matrix3d R;          // of the left camera
+  Eigen::Matrix3d R;          // rotation of the left camera
   Eigen::Vector3d direction;  // in the left camera's frame
-  // Of the camera that measured: the right one sees points displaced by e, hence its translation is
-  // t + e.
+  // Translation of the camera that measured. The right camera sees points displaced by e, so that
+  // its translation is t + e.
   Eigen::Vector3d t;
   Eigen::Vector3d moment;
 

@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// A point nearer to the image plane than this, or behind it, has no residual. Map units.
+// A point nearer to the image plane than this [map units], or behind it, has no residual.
 inline constexpr double kMinDepth = 1e-6;
 
 // Residual of a point measurement, whitened, with its derivatives.
@@ -23,53 +23,55 @@ struct PointResidual {
   int rows = 2;  // 3 with disparity; unused rows are zero
   Eigen::Vector3d r =
       Eigen::Vector3d::Zero();         // column, row, disparity: (measured - predicted) / sigma
-  Eigen::Matrix<double, 3, 6> J_pose;  // exp([w, v]) T, eq. 20
-  Eigen::Matrix3d J_point;             // the point in the world
+  Eigen::Matrix<double, 3, 6> J_pose;  // derivative by the pose, exp([w, v]) T, eq. 20
+  Eigen::Matrix3d J_point;             // derivative by the point in the world
 };
 
 // Residual of a line measurement, whitened by the Cholesky factor of the inverse covariance.
 struct LineResidual {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();  // signed distances of start and end (eq. 13)
   Eigen::Matrix<double, 2, 6> J_pose;
-  Eigen::Matrix<double, 2, 4> J_line;  // orthonormal update (section 3.1, eq. 16-19 corrected)
+  // Derivative by the orthonormal update (section 3.1, eq. 16-19 corrected).
+  Eigen::Matrix<double, 2, 4> J_line;
 };
 
-// Measured minus projected position of a point, in units of its standard deviations. The disparity
-// row predicts fx * baseline / z. nullopt when the point is not in front of the camera.
+// Returns measured minus projected position of a point, in units of its standard deviations. The
+// disparity row predicts fx * baseline / z. Returns nullopt when the point is not in front of the
+// camera.
 std::optional<PointResidual> EvaluatePoint(const RectifiedCamera& camera,
                                            const Rigid3& cam_from_world,
                                            const Eigen::Vector3d& point_in_world,
                                            const PointMeasurement& measurement);
 
-// Distances of the measured end points from the projected infinite line (eq. 13; eq. 16 with the
-// divisor l1^2 + l2^2). In the right camera the moment is m + (-baseline, 0, 0) x d. nullopt when
-// the line passes through the camera centre or projects to infinity.
+// Returns the distances of the measured end points from the projected infinite line (eq. 13; eq. 16
+// with the divisor l1^2 + l2^2). In the right camera the moment is m + (-baseline, 0, 0) x d.
+// Returns nullopt when the line passes through the camera centre or projects to infinity.
 std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
                                          const Rigid3& cam_from_world,
                                          const OrthonormalLine& line_in_world,
                                          const LineMeasurement& measurement);
 
-// The same as of the orthonormal line.
+// Returns the residual of a line that is given in orthonormal form.
 std::optional<LineResidual> EvaluateLine(const RectifiedCamera& camera,
                                          const Rigid3& cam_from_world,
                                          const PreparedLine& line_in_world,
                                          const LineMeasurement& measurement);
 
-// The residual alone: LineResidual::r.
+// Returns LineResidual::r alone.
 std::optional<Eigen::Vector2d> LineDistances(const RectifiedCamera& camera,
                                              const Rigid3& cam_from_world,
                                              const PreparedLine& line_in_world,
                                              const LineMeasurement& measurement);
 
-// The parts below are what the solvers use in their inner loops: measurements prepared once, and
-// derivatives with respect to the landmark in the camera frame, from which the others follow.
+// The parts below are for the inner loops of the solvers. Measurements are prepared once.
+// Derivatives are those by the landmark in the camera frame, from which the others follow.
 
 // A point measurement ready for use. Throws BugError when a sigma is not positive.
 struct PointTerm {
   double u = 0, v = 0;
   double weight = 1;  // 1 / sigma_px
   double disparity = 0;
-  double disparity_weight = 0;  // 1 / sigma, 0 without disparity
+  double disparity_weight = 0;  // 1 / sigma; 0 without disparity
 };
 PointTerm MakePointTerm(const PointMeasurement& measurement);
 
@@ -87,7 +89,7 @@ inline Eigen::Matrix3d PointJacobian(const PointLinearization& at) {
   return J;
 }
 
-// False when the point is not in front of the camera; `out` is then not set.
+// Returns false when the point is not in front of the camera; `out` is then not set.
 inline bool LinearizePoint(const RectifiedCamera& camera,
                            const PointTerm& term,
                            const Eigen::Vector3d& point_in_cam,
@@ -111,7 +113,8 @@ inline bool LinearizePoint(const RectifiedCamera& camera,
   return true;
 }
 
-// The squared norm of the whitened residual alone; nullopt as above.
+// Returns the squared norm of the whitened residual alone; nullopt when the point is not in front
+// of the camera.
 inline std::optional<double> PointChi2(const RectifiedCamera& camera,
                                        const PointTerm& term,
                                        const Eigen::Vector3d& point_in_cam) {
@@ -124,7 +127,7 @@ inline std::optional<double> PointChi2(const RectifiedCamera& camera,
   return ru * ru + rv * rv + rd * rd;
 }
 
-// Whether a covariance of a line measurement can be used: it has a Cholesky factor.
+// Whether a covariance of a line measurement can be used, which needs a Cholesky factor.
 inline bool IsPositiveDefinite(const Eigen::Matrix2d& S) {
   return S(0, 0) > 0 && S(1, 1) - S(1, 0) * S(1, 0) / S(0, 0) > 0;
 }
@@ -142,11 +145,12 @@ LineTerm MakeLineTerm(const RectifiedCamera& camera, const LineMeasurement& meas
 // Whitened residual and its derivative with respect to the moment in the measuring camera's frame.
 struct LineLinearization {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();
-  Eigen::Vector3d h0 = Eigen::Vector3d::Zero();  // of the first row
-  Eigen::Vector3d h1 = Eigen::Vector3d::Zero();  // of the second row
+  Eigen::Vector3d h0 = Eigen::Vector3d::Zero();  // gradient of the first row
+  Eigen::Vector3d h1 = Eigen::Vector3d::Zero();  // gradient of the second row
 };
 
-// Distances (eq. 13), whitened. `moment` in the frame of the camera that measured, of any scale.
+// Computes the whitened distances (eq. 13). `moment`, of any scale, is in the frame of the camera
+// that measured.
 inline bool WhitenedLineDistances(const RectifiedCamera& camera,
                                   const LineTerm& term,
                                   const Eigen::Vector3d& moment,
@@ -161,7 +165,7 @@ inline bool WhitenedLineDistances(const RectifiedCamera& camera,
   return true;
 }
 
-// False when the image line is not defined; `out` is then not set.
+// Returns false when the image line is not defined; `out` is then not set.
 inline bool LinearizeLine(const RectifiedCamera& camera,
                           const LineTerm& term,
                           const Eigen::Vector3d& moment,
@@ -189,9 +193,9 @@ inline bool LinearizeLine(const RectifiedCamera& camera,
   return true;
 }
 
-// Row of the derivative with respect to exp([w, v]) T of a residual with gradient h at the moment
-// (eq. 20): a turn and a shift of the left camera change its moment m and direction d by w x m +
-// v x d and w x d; the right camera's moment is m + shift e_x x d. `moment` as for LinearizeLine.
+// Returns the row of the derivative by exp([w, v]) T of a residual with gradient h at the moment
+// (eq. 20). A turn and a shift of the left camera change its moment m and direction d by w x m + v
+// x d and w x d; the right camera's moment is m + shift e_x x d. `moment` is that of LinearizeLine.
 inline Vector6d LinePoseRow(const Eigen::Vector3d& h,
                             const Eigen::Vector3d& moment,
                             const Eigen::Vector3d& direction,

@@ -7,25 +7,25 @@
 
 namespace plumbline {
 
-// Huber's loss of a squared Mahalanobis norm s: s up to the square of the threshold k, from there
-// on 2 k sqrt(s) - k^2, which grows like the norm itself. k = infinity gives plain squares.
+// Returns Huber's loss of a squared Mahalanobis norm s. The loss is s up to the square of the
+// threshold k; from there on it is 2 k sqrt(s) - k^2, which grows like the norm itself. k =
+// infinity gives plain squares.
 inline double HuberLoss(double s, double k) {
   return s <= k * k ? s : 2 * k * std::sqrt(s) - k * k;
 }
 
-// Its derivative with respect to s: the weight of the residual in the normal equations.
+// Returns the derivative of HuberLoss by s: the weight of the residual in the normal equations.
 inline double HuberWeight(double s, double k) { return s <= k * k ? 1.0 : k / std::sqrt(s); }
 
 // Thresholds of the Huber loss on the Mahalanobis norm, by kind of residual.
 struct HuberThresholds {
   double point = std::numeric_limits<double>::infinity();
-  double disparity = std::numeric_limits<double>::infinity();  // of a point with disparity
+  double disparity = std::numeric_limits<double>::infinity();  // for points with disparity
   double line = std::numeric_limits<double>::infinity();
 };
 
-// Where the loss of bundle adjustment and of the pose leaves squares: the square roots of the
-// limits of chi2 at 95 % for two, three and two degrees of freedom, beyond which is what is not
-// noise.
+// Where bundle adjustment and pose estimation leave plain squares: at the square roots of the
+// limits of chi2 at 95 % for two, three and two degrees of freedom. Larger residuals are not noise.
 inline constexpr HuberThresholds kHuberThresholds{
     .point = 2.4477, .disparity = 2.7955, .line = 2.4477};
 

@@ -7,7 +7,7 @@
 namespace plumbline {
 namespace {
 
-// Up to so many poses a dense factorization takes no longer than a sparse one.
+// Up to this number of poses a dense factorization takes no longer than a sparse one.
 constexpr int kDensePoses = 200;
 
 }  // namespace
@@ -45,7 +45,7 @@ bool SchurSolver::Solve(double lambda, const StopCheck& stop) {
 Matrix6d SchurSolver::DiagonalBlock(std::size_t pose, double lambda) const {
   const Matrix6d& H = poses_[pose].H;
   Matrix6d block = H - complement_.Diagonal(static_cast<int>(pose));
-  // A pose without observations keeps a regular block and gets the step zero.
+  // A pose without observations keeps a regular block, and its step is zero.
   const double floor = std::max(1e-12 * H.diagonal().maxCoeff(), 1e-30);
   block.diagonal() += lambda * H.diagonal().cwiseMax(floor);
   return block;

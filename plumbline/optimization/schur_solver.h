@@ -45,8 +45,8 @@ struct BaTarget {
   Eigen::Matrix<double, 6, kDof>* W;
 };
 
-// Adds an observation with the two residuals r: w J^T J and w J^T r, with the rows c0 and c1 of the
-// landmark's J and, where the pose is free, those that `pose_rows` gives as a pair.
+// Adds w J^T J and w J^T r of an observation with two residuals r. c0 and c1 are the rows of the
+// landmark's J; `pose_rows` gives those of the pose as a pair and is called where the pose is free.
 template <int kDof, class PoseRows>
 void AddTwoRows(double w,
                 const Eigen::Vector2d& r,
@@ -73,11 +73,11 @@ template <int kDof>
 struct EliminatedLandmark {
   Eigen::Matrix<double, kDof, kDof> L = Eigen::Matrix<double, kDof, kDof>::Zero();
   Eigen::Matrix<double, kDof, 1> y = Eigen::Matrix<double, kDof, 1>::Zero();
-  bool regular = false;  // false: held still in this step
+  bool regular = false;  // false: the landmark stays where it is in this step
 
   // Sets L, y and `regular` from V + lambda diag(V) and g.
   bool Factor(const LandmarkEquations<kDof>& equations, double lambda);
-  // -L^-T (y + x).
+  // Returns -L^-T (y + x).
   Eigen::Matrix<double, kDof, 1> Step(
       const Eigen::Matrix<double, kDof, 1>& x = Eigen::Matrix<double, kDof, 1>::Zero()) const;
 };
@@ -90,10 +90,10 @@ struct EliminatedLandmark {
 // Damping adds lambda times the diagonal (Marquardt), which makes a step independent of the units
 // of the parameters. Sums run in the order of the calls, so results repeat bit by bit.
 //
-// Up to 200 free poses the system is solved as a dense one. Of more, the blocks are kept that are
-// not zero, and the poses are eliminated in an order that leaves few others (PlanElimination): time
-// and memory grow with the number of poses where they share landmarks with those near them, also
-// where a path comes back to places it has been to.
+// Up to 200 free poses the system is solved as a dense one. With more, only blocks that are not
+// zero are kept, and the poses are eliminated in an order that fills few other blocks
+// (PlanElimination). Time and memory then grow with the number of poses where these share landmarks
+// with those near them, even where a path comes back to places it has been to.
 class SchurSolver {
  public:
   explicit SchurSolver(int free_poses);
@@ -102,25 +102,26 @@ class SchurSolver {
   void Reset();
   PoseEquations& pose(int index) { return poses_[static_cast<std::size_t>(index)]; }
 
-  // Eliminates one landmark. `couplings` are ordered by pose, each pose at most once; on return
-  // they hold Z. O(couplings squared); allocates where two of more than 200 poses meet first.
+  // Eliminates one landmark. `couplings` must be ordered by pose, with each pose at most once; on
+  // return they hold Z. O(couplings squared); allocates where, of more than 200 poses, two share a
+  // landmark for the first time.
   template <int kDof>
   EliminatedLandmark<kDof> Eliminate(const LandmarkEquations<kDof>& landmark,
                                      double lambda,
                                      std::span<Coupling<kDof>> couplings);
 
-  // Solves for the steps of the poses. False when the damped system is not positive definite, and
-  // when stopped.
+  // Solves for the steps of the poses. Returns false when the damped system is not positive
+  // definite, and when stopped.
   bool Solve(double lambda, const StopCheck& stop = {});
   Eigen::Ref<const Vector6d> step(int index) const { return step_.segment<6>(6 * index); }
 
-  // Step of an eliminated landmark after Solve().
+  // Returns the step of an eliminated landmark after Solve().
   template <int kDof>
   Eigen::Matrix<double, kDof, 1> LandmarkStep(const EliminatedLandmark<kDof>& landmark,
                                               std::span<const Coupling<kDof>> couplings) const;
 
  private:
-  // Adds Z Z^T where it is looked at: in the lower triangle, by 2x2 blocks.
+  // Adds Z Z^T by 2x2 blocks, only in the lower triangle, which is all that is read.
   template <int kDof>
   static void AddToLower(const Eigen::Matrix<double, 6, kDof>& Z, Matrix6d& sum) {
     sum.leftCols<2>().noalias() += Z * Z.template topRows<2>().transpose();
@@ -129,15 +130,17 @@ class SchurSolver {
     sum.template block<2, 2>(4, 4).noalias() +=
         Z.template bottomRows<2>() * Z.template bottomRows<2>().transpose();
   }
-  // H + lambda diag(H) of a pose less its own part of the sum of Z Z^T; lower triangle valid.
+  // Returns H + lambda diag(H) of a pose minus its part of the sum of Z Z^T; only the lower
+  // triangle is valid.
   Matrix6d DiagonalBlock(std::size_t pose, double lambda) const;
   void Fill(double lambda);
 
   std::vector<PoseEquations> poses_;
-  SymmetricBlocks complement_;          // sum of Z Z^T; of the diagonal the lower triangle
+  SymmetricBlocks complement_;          // sum of Z Z^T; on the diagonal only the lower triangle
   std::vector<Vector6d> complement_g_;  // sum of Z y
-  MultifrontalCholesky cholesky_;       // of the system of the poses
-  std::size_t planned_blocks_ = 0;      // of complement_ that it was made for
+  MultifrontalCholesky cholesky_;       // factorizes the system of the poses
+  // Number of blocks of complement_ for which cholesky_ was planned.
+  std::size_t planned_blocks_ = 0;
   Eigen::VectorXd step_;
 };
 

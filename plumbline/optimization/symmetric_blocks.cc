@@ -27,7 +27,8 @@ int SymmetricBlocks::Keep() {
   return static_cast<int>(blocks_.size()) - 1;
 }
 
-// Columns are often asked for one after the other, to the left.
+// Makes room for a column left of the first one. Room is made for several columns, since they are
+// often asked for one after the other, to the left.
 void SymmetricBlocks::Extend(int column, Row& row) {
   constexpr int kStep = 32;
   const int first = column / kStep * kStep;

@@ -11,20 +11,20 @@
 
 namespace plumbline {
 
-// The lower triangle of a symmetric matrix of blocks of 6 x 6. A small one is kept whole, of a
-// large one the blocks on the diagonal and those that were asked for.
+// The lower triangle of a symmetric matrix of 6 x 6 blocks. A small matrix is kept whole; of a
+// large one, the blocks on the diagonal and those that were asked for are kept.
 class SymmetricBlocks {
  public:
   SymmetricBlocks(int rows, bool whole);
 
   bool whole() const { return whole_; }
-  // The number of blocks that are kept, the diagonal included.
+  // Returns the number of blocks that are kept, those on the diagonal included.
   std::size_t count() const { return blocks_.size(); }
-  // The blocks that are kept stay so.
+  // Sets all blocks to zero; they stay in the matrix.
   void SetZero() { std::fill(blocks_.begin(), blocks_.end(), Matrix6d::Zero()); }
 
-  // The block of a row and a column, row >= column >= 0, to be written to; zero where it was not
-  // asked for before. Valid until the next call.
+  // Returns the block at row >= column >= 0, to be written to; it is zero where it was not asked
+  // for before. Valid until the next call.
   Matrix6d& At(int row, int column) {
     Row& r = rows_[static_cast<std::size_t>(row)];
     if (column < r.first) Extend(column, r);
@@ -36,7 +36,7 @@ class SymmetricBlocks {
     return blocks_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(row)].places.back())];
   }
 
-  // Calls visit(column, block) for the blocks of a row that are kept, by column, without that on
+  // Calls visit(column, block) for the kept blocks of a row, ordered by column, except the one on
   // the diagonal.
   template <class Visit>
   void ForEachLeft(int row, const Visit& visit) const {
@@ -51,7 +51,8 @@ class SymmetricBlocks {
  private:
   struct Row {
     int first = 0;
-    std::vector<int> places;  // in blocks_, of the columns from `first` to the diagonal; or -1
+    // Index in blocks_ of each column from `first` to the diagonal; -1 where there is none.
+    std::vector<int> places;
   };
 
   int Keep();

@@ -13,16 +13,16 @@
 
 namespace plumbline {
 
-// A measurement of a point whose place has a covariance of its own.
+// A measurement of a point whose place has a covariance.
 struct UncertainPointTerm {
-  PointTerm term;             // with weights of one: residuals in pixels
-  Eigen::Matrix3d whitening;  // of these residuals; lower triangular
+  PointTerm term;             // its weights are one, so that residuals are in pixels
+  Eigen::Matrix3d whitening;  // whitens these residuals; lower triangular
 };
 
-// The covariance of the residual is that of the measurement and of the point's projection,
-// S = diag(sigma^2) + J Sigma J^T, at the given pose; its inverse Cholesky factor whitens. nullopt
-// when the point is not in front of the camera, or so near that S is singular to working precision,
-// and without covariance (zero).
+// Returns the term of a point measurement at the given pose. The covariance of the residual is that
+// of the measurement plus that of the point's projection, S = diag(sigma^2) + J Sigma J^T; its
+// inverse Cholesky factor whitens. Returns nullopt when the point is not in front of the camera, or
+// so near that S is singular to working precision, and where the point has no covariance (zero).
 //
 //   point_covariance  of the place in the world, map units squared; positive semidefinite
 std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& camera,
@@ -31,8 +31,9 @@ std::optional<UncertainPointTerm> MakeUncertainPointTerm(const RectifiedCamera& 
                                                          const Eigen::Matrix3d& point_covariance,
                                                          const PointMeasurement& measurement);
 
-// Residual and derivatives of a match at a pose, whitened with the covariance of measurement and
-// point there. nullopt when the point is not in front of the camera, as above.
+// Returns residual and derivatives of a match at a pose, whitened with the covariance of
+// measurement and point there. Returns nullopt when the point is not in front of the camera, or so
+// near that its covariance is singular to working precision.
 std::optional<PointResidual> EvaluateMatch(const RectifiedCamera& camera,
                                            const Rigid3& cam_from_world,
                                            const PoseProblem::PointMatch& match);
