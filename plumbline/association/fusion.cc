@@ -11,15 +11,15 @@
 namespace plumbline {
 namespace {
 
-// Closer and more alike than what tracking takes for the same: poses are adjusted, and a landmark
-// that is merged by mistake is not taken apart again.
+// The limits are narrower than those of tracking, because the poses are adjusted ones, and a
+// landmark that is merged by mistake is not taken apart again.
 constexpr ProjectionSearchOptions kSearch{.point_radius_px = 3,
                                           .point_max_distance = 50,
                                           .point_ratio = 1,
                                           .line_offset_px = 4,
                                           .line_angle_deg = 4,
                                           .line_max_distance = 60};
-// A landmark whose reprojection has a larger chi2 is another one: 95 % for two residuals.
+// A feature with a larger chi2 of the reprojection shows another landmark: 95 % for two residuals.
 constexpr double kMaxChi2 = 5.99;
 
 bool PointAgrees(const RectifiedCamera& camera,
@@ -48,7 +48,7 @@ bool LineAgrees(const RectifiedCamera& camera,
          (!right || agrees(*right));
 }
 
-// Landmarks of one kind that `from` shows and `to` does not.
+// Returns the landmarks of one kind that `from` shows and `to` does not.
 template <class Landmark, class LandmarkId>
 std::vector<const Landmark*> Missing(const Map& map,
                                      const std::vector<LandmarkId>& matches,

@@ -11,19 +11,20 @@
 
 namespace plumbline {
 
-// Looks for landmarks of other keyframes in keyframe `to`: a feature without landmark becomes a new
-// observation; where it has another landmark already, the two are one and are merged (the one with
-// more observations stays). Only where the landmark's reprojection agrees with the feature.
+// Looks for landmarks of other keyframes in keyframe `to`. A feature without landmark becomes a new
+// observation. Where the feature shows another landmark already, the two are one and are merged;
+// the one with more observations stays. All this happens only where the landmark's reprojection
+// agrees with the feature.
 //
-// Which feature looks like a landmark is remembered for the next keyframe that shows it, since
-// neighbours show the same: the keyframe may not move meanwhile, nor landmarks move or get other
-// looks; they may be merged. The map must outlive it.
+// The feature that looks like a landmark is remembered for the next keyframe that shows the
+// landmark, since neighbours show the same. Meanwhile the keyframe may not move, nor landmarks move
+// or change their descriptors; they may be merged. The map must outlive this object.
 class FusionInto {
  public:
   FusionInto(const Map& map, const ImagingModel& imaging, KeyFrameId to);
 
-  // With the landmarks of keyframe `from` as the map is now. O(landmarks that are not remembered,
-  // each with the features around its place or all lines).
+  // Fuses with the landmarks that keyframe `from` shows in the map as it is now. O(landmarks that
+  // are not remembered, each with the features around its place or all lines).
   MapEdit Fuse(KeyFrameId from);
 
  private:
@@ -37,10 +38,10 @@ class FusionInto {
   const Map& map_;
   ImagingModel imaging_;
   KeyFrameId to_;
-  const Frame* target_;  // of to_, as the map has it during a call
+  const Frame* target_;  // features of to_ in the map, valid during a call
   PointChooser point_chooser_;
   LineChooser line_chooser_;
-  const std::vector<bool> no_point_, no_line_;  // that is taken
+  const std::vector<bool> no_point_, no_line_;  // no feature counts as taken
   std::unordered_map<PointId, std::optional<FeatureChoice>> chosen_by_point_;
   std::unordered_map<LineId, std::optional<FeatureChoice>> chosen_by_line_;
 };

@@ -19,10 +19,10 @@ bool DepthIsKnown(const Disparity& disparity, double max_relative_sigma) {
   return disparity.px > 0 && disparity.sigma_px <= max_relative_sigma * disparity.px;
 }
 
-// Flatter lines have no depth that could be trusted alone.
+// Flatter lines have no depth that could be trusted by itself.
 constexpr double kFlatAngleDeg = StereoLineOptions{}.flat_angle_deg;
 
-// The disparities of the ends of a line that the right image shows, too.
+// Returns the disparities of the ends of a line that the right image shows, too.
 std::optional<LineEndDisparity> MeasuredEnds(const Frame& frame,
                                              std::size_t i,
                                              double flat_angle_deg) {
@@ -31,7 +31,7 @@ std::optional<LineEndDisparity> MeasuredEnds(const Frame& frame,
   return LineEndDisparities(features.lines[i], *features.line_right[i], flat_angle_deg);
 }
 
-// The line through the ends of feature i at these disparities.
+// Returns the line through the ends of feature i at these disparities.
 LineModel LineAt(const RectifiedCamera& camera,
                  const Frame& frame,
                  std::size_t i,
@@ -59,8 +59,9 @@ Disparity Average(const Disparity& a, const Disparity& b) {
   return {(wa * a.px + wb * b.px) / (wa + wb), 1 / std::sqrt(wa + wb)};
 }
 
-// What a known distance from the camera says about a line: that of its place at parameter t, with a
-// deviation relative to it. Only the part of the ray across the line counts.
+// Returns what a known distance from the camera says about a line. The place at parameter t is
+// known along the ray with a deviation relative to its distance; only the part of the ray across
+// the line counts.
 Eigen::Matrix4d DepthInformation(const PluckerLine& line,
                                  double t,
                                  const Eigen::Vector3d& camera_centre,

@@ -13,37 +13,38 @@
 
 namespace plumbline {
 
-// The point that feature i of one stereo or RGB-D frame shows, in the world. nullopt without
-// disparity, or when the depth is known to worse than max_relative_sigma (standard deviation /
-// depth).
+// Returns the point, in the world, that feature i of one stereo or RGB-D frame shows. Returns
+// nullopt without disparity, or when the depth is known to worse than max_relative_sigma (standard
+// deviation / depth).
 std::optional<PointModel> PointFromFrame(const RectifiedCamera& camera,
                                          const Frame& frame,
                                          std::size_t i,
                                          double max_relative_sigma);
 
-// Covariance, in the world, of the place of PointFromFrame: what the deviations of the pixel and of
-// the disparity leave open with the pose taken as known. The feature must have a disparity.
+// Returns the covariance, in the world, of the place of PointFromFrame. It comes from the
+// deviations of the pixel and of the disparity; the pose counts as exact. The feature must have a
+// disparity.
 Eigen::Matrix3d PointCovarianceFromFrame(const RectifiedCamera& camera,
                                          const Frame& frame,
                                          std::size_t i);
 
-// The line that line feature i of one stereo or RGB-D frame shows, in the world, with its
-// information. nullopt without right line, when it runs along the rows (no depth), or when the
-// depth of an end is known to worse than max_relative_sigma.
+// Returns the line, in the world and with its information, that line feature i of one stereo or
+// RGB-D frame shows. Returns nullopt where the line was not found in the right image, where it runs
+// along the rows (no depth), or when the depth of an end is known to worse than max_relative_sigma.
 std::optional<LineModel> LineFromFrame(const RectifiedCamera& camera,
                                        const Frame& frame,
                                        std::size_t i,
                                        double max_relative_sigma);
 
-// The disparity of the scene that a stereo or RGB-D frame shows: the median of its points and ends
-// of lines, with half of it as deviation. nullopt where none was measured.
+// Returns the disparity of the scene that a stereo or RGB-D frame shows: the median over its points
+// and ends of lines, with half of it as deviation. Returns nullopt where none was measured.
 std::optional<Disparity> SceneDisparity(const Frame& frame);
 
-// The line that line feature i shows if it is about as far away as the scene: a line along the rows
-// or far away, or one that the right image does not show, has no depth of its own, but says as much
-// as any other about the rotation of a camera that moves little against that depth. What was
-// measured of its disparities and `scene` are averaged by their variances; both are in the
-// information.
+// Returns the line that line feature i shows if it is about as far away as the scene. A line along
+// the rows or far away, or one that the right image does not show, has no depth of its own. It
+// still says as much as any other line about the rotation of a camera that moves little against
+// that depth. Its measured disparities and `scene` are averaged by their variances; the information
+// counts both.
 LineModel LineAtSceneDepth(const RectifiedCamera& camera,
                            const Frame& frame,
                            std::size_t i,

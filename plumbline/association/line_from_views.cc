@@ -12,10 +12,10 @@
 namespace plumbline {
 namespace {
 
-// Between the interpretation planes of a new line: nearer ones leave its depth open.
+// Least angle between the interpretation planes of a new line: smaller ones leave its depth open.
 constexpr double kMinPlaneAngle = 2 * std::numbers::pi / 180;
 
-// All images of a line, left ones and right ones, as views of single cameras.
+// Returns all images of a line, left and right ones, as views of single cameras.
 std::vector<LineView> ImageViews(const Map& map,
                                  const RectifiedCamera& camera,
                                  const std::vector<LineViewOf>& views) {

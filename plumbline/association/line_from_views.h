@@ -20,10 +20,10 @@ struct LineViewOf {
   std::size_t feature = 0;
 };
 
-// A line of at least two keyframes of a map that show it, in the left image and where they measured
-// one, in the right (TriangulateLine), with these observations and the interval that the first of
-// them shows. Neither id nor creator are set. nullopt where the views do not agree or see the line
-// from too near each other.
+// Makes a line from at least two keyframes of a map that show it in the left image and, where
+// measured, in the right one (TriangulateLine). The line has these observations and the interval
+// that the first of them shows; neither id nor creator are set. Returns nullopt where the views do
+// not agree, or see the line from too near each other.
 std::optional<MapLine> LineFromViews(const Map& map,
                                      const RectifiedCamera& camera,
                                      const std::vector<LineViewOf>& views);

@@ -19,9 +19,11 @@ namespace plumbline {
 
 // The parameters of a line in bundle adjustment.
 enum class LineParametrization {
-  kPlucker,      // orthonormal form of the Plücker coordinates, 4 parameters
-  kPluckerLeft,  // the same, turned about the axes of the frame: U <- Exp(theta) U, as PPL-SLAM
-  kEndpoints,    // two points, 6 parameters; two of them are held, as no image fixes them
+  kPlucker,  // orthonormal form of the Plücker coordinates, 4 parameters
+  // Orthonormal form turned about the axes of the frame: U <- Exp(theta) U, as PPL-SLAM does.
+  kPluckerLeft,
+  // Two points, 6 parameters; two of these are held, because no image fixes them.
+  kEndpoints,
 };
 
 constexpr auto EnumNames(std::type_identity<LineParametrization>) {
@@ -32,8 +34,10 @@ constexpr auto EnumNames(std::type_identity<LineParametrization>) {
 
 // The two residuals of a line in an image, in pixels.
 enum class LineResidualKind {
-  kObservedEnds,   // of the measured ends from the projected infinite line (first paper, eq. 13)
-  kProjectedEnds,  // of the projected ends from the measured infinite line (second paper, eq. 1)
+  // Distances of the measured ends from the projected infinite line (first paper, eq. 13).
+  kObservedEnds,
+  // Distances of the projected ends from the measured infinite line (second paper, eq. 1).
+  kProjectedEnds,
 };
 
 constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
@@ -41,7 +45,7 @@ constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
                     std::pair{LineResidualKind::kProjectedEnds, "projected_ends"}};
 }
 
-// What a line is made from where several keyframes show it.
+// The views from which a line is made where several keyframes show it.
 enum class LineReconstruction { kNView, kTwoView };
 
 constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
@@ -49,60 +53,62 @@ constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
                     std::pair{LineReconstruction::kTwoView, "two_view"}};
 }
 
-// Adds what the uncertainty of the line adds to the covariance of a match (AddLandmarkUncertainty).
+// Adds to the covariance of a match what the uncertainty of its line contributes
+// (AddLandmarkUncertainty).
 void WeighLineMatch(const PoseProblem& problem,
                     const LineModel& line,
                     const LineWeights& weights,
                     PoseProblem::LineMatch& match);
-// Squared norm of the whitened residual of a match (eq. 13) at a pose; infinite where there is
-// none.
+// Returns the squared norm of the whitened residual of a match (eq. 13) at a pose; infinite where
+// the match has none.
 double LineMatchChi2(const RectifiedCamera& camera,
                      const Rigid3& cam_from_world,
                      const PoseProblem::LineMatch& match);
-// Moves the ends of the measured segment to where they show a piece of the line, but not beyond it.
-// `piece` in the frame of the camera that measured.
+// Moves the ends of the measured segment to where they show a piece of the line, but not beyond the
+// segment. `piece` is in the frame of the camera that measured.
 void MeasurePiece(const RectifiedCamera& camera,
                   const Segment3& piece,
                   PoseProblem::LineMatch& match);
 
-// How lines are made, adjusted and held against images: what the product does, member by member.
-// This is the one place where the laboratory puts functions of its own (lab/line_rivals); the rest
-// of the product knows no other kind of line. Functions have no state and are called in any thread.
+// How lines are made, adjusted and compared with images. Each member defaults to what the product
+// does. Only here does the laboratory put functions of its own (lab/line_rivals); the rest of the
+// product knows no other kind of line. The functions have no state and are called in any thread.
 struct LineMethod {
-  // The values of the options of this name that this is the method for (CheckOptions).
+  // The values of the options of these names for which this is the method (CheckOptions).
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
   LineReconstruction reconstruction = LineReconstruction::kNView;
 
-  // A line of all the keyframes that seem to show it, two or more. Where there is none of more than
-  // two, pairs are asked for.
+  // Makes a line from all the keyframes that seem to show it, two or more. Where more than two give
+  // no line, it is called with pairs of them.
   std::optional<MapLine> (*line_from_views)(const Map& map,
                                             const RectifiedCamera& camera,
                                             const std::vector<LineViewOf>& views) = LineFromViews;
 
-  // Completes the window of a keyframe before its adjustment; null: it is complete. The lines are
-  // free to move, and measurements have the covariance of their ends.
+  // Completes the window of a keyframe before its adjustment; null where nothing is to be done. The
+  // lines are free to move, and measurements have the covariance of their ends.
   void (*complete_window)(const LineWeights& weights, BaProblem& window) = nullptr;
-  // The adjustment of a window, and of a whole map.
+  // The functions that adjust a window and a whole map.
   BaSolver adjust_window = SolveLocalBa;
   BaSolver adjust_map = SolveLocalBa;
 
-  // Completes a match of a line of the map before poses are estimated from it: the covariance,
-  // which is that of the measured ends, and `ends` where they are of use. At
-  // problem.cam_from_world.
+  // Completes a match with a line of the map before poses are estimated from it, at
+  // problem.cam_from_world. This sets the covariance, which is that of the measured ends before,
+  // and `ends` where they are of use.
   void (*weigh_match)(const PoseProblem& problem,
                       const LineModel& line,
                       const LineWeights& weights,
                       PoseProblem::LineMatch& match) = WeighLineMatch;
-  // The pose of a frame from complete matches.
+  // Finds the pose of a frame from complete matches.
   PoseOnlyResult (*solve_pose)(const PoseProblem& problem,
                                const PoseOnlyOptions& options) = SolvePose;
-  // Squared norm of the whitened residual of a complete match; infinite where there is none.
+  // Returns the squared norm of the whitened residual of a complete match; infinite where it has
+  // none.
   double (*match_chi2)(const RectifiedCamera& camera,
                        const Rigid3& cam_from_world,
                        const PoseProblem::LineMatch& match) = LineMatchChi2;
-  // Makes a match, whose `ends` are those of a piece of its line, one of this piece; null: it is.
-  // `piece` in the frame of the camera that measured.
+  // Turns a match whose `ends` are those of a piece of its line into a match of that piece; null
+  // where nothing is to be done. `piece` is in the frame of the camera that measured.
   void (*measure_piece)(const RectifiedCamera& camera,
                         const Segment3& piece,
                         PoseProblem::LineMatch& match) = MeasurePiece;

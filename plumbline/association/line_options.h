@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// How lines are made from several views and enter all optimization.
+// How lines are made from several views, and how they enter all optimization.
 struct LineOptions {
   LineParametrization parametrization = LineParametrization::kPlucker;
   LineResidualKind residual = LineResidualKind::kObservedEnds;
@@ -17,7 +17,8 @@ struct LineOptions {
   double constant_sigma_px = 1;
   double min_length_ratio = 0.3;
   bool rotation_gate = false;
-  // What does the work; not an option. It has to be that of the three above: CheckOptions.
+  // The functions behind the options; not an option itself. They have to fit parametrization,
+  // residual and reconstruction (CheckOptions).
   LineMethod method = {};
 
   LineWeights weights() const { return {weighting, constant_sigma_px}; }

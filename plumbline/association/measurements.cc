@@ -18,18 +18,18 @@ LineMeasurement Measure(const Segment2& segment, double sigma_px, const LineWeig
   return {segment, sigma * sigma * Eigen::Matrix2d::Identity(), false};
 }
 
-// J Lambda^-1 J^T.
+// Returns J Lambda^-1 J^T.
 Eigen::Matrix2d SpreadOf(const Eigen::Matrix<double, 2, 4>& J,
                          const Eigen::LLT<Eigen::Matrix4d>& information) {
   const Eigen::Matrix<double, 4, 2> spread = information.solve(J.transpose());
   return J * spread;
 }
 
-// J Lambda^-1 J^T as a square, which rounding errors leave positive, and no larger than what still
-// tells anything.
+// Returns J Lambda^-1 J^T, computed as a square so that rounding errors leave it positive, and
+// bounded to what still tells anything.
 Eigen::Matrix2d BoundedSpreadOf(const Eigen::Matrix<double, 2, 4>& J,
                                 const Eigen::LLT<Eigen::Matrix4d>& information) {
-  constexpr double kMaxSpread = 1e8;  // square pixels: wider than images are
+  constexpr double kMaxSpread = 1e8;  // square pixels: wider than any image
   Eigen::Matrix<double, 4, 2> root = information.matrixL().solve(J.transpose());
   root *= std::sqrt(std::min(1.0, kMaxSpread / root.squaredNorm()));
   return root.transpose() * root;
@@ -85,7 +85,7 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
   if (!residual) return;
   const Eigen::Matrix2d noise = measurement.covariance;
   measurement.covariance += SpreadOf(residual->J_line, line.information);
-  // A line that is seen end on spreads so wide that rounding errors outgrow the noise.
+  // The spread of a line that is seen end on is so wide that rounding errors outgrow the noise.
   if (!IsPositiveDefinite(measurement.covariance)) {
     measurement.covariance = noise + BoundedSpreadOf(residual->J_line, line.information);
   }

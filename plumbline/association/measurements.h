@@ -26,21 +26,21 @@ constexpr auto EnumNames(std::type_identity<LineWeighting>) {
                     std::pair{LineWeighting::kCovariance, "covariance"}};
 }
 
-// What the residuals of a line weigh.
+// The weights of the residuals of a line.
 struct LineWeights {
   LineWeighting kind = LineWeighting::kCovariance;
-  double constant_sigma_px = 1;  // of each end point, with none
+  double constant_sigma_px = 1;  // deviation of each end point with weighting none
 
-  // Also of a weighting alone. NOLINTNEXTLINE(google-explicit-constructor)
+  // Converts from a weighting alone, too. NOLINTNEXTLINE(google-explicit-constructor)
   LineWeights(LineWeighting of_kind, double sigma_px = 1)
       : kind(of_kind), constant_sigma_px(sigma_px) {}
 };
 
-// The measurement of point feature i.
+// Returns the measurement of point feature i.
 PointMeasurement MeasurePoint(const Features& features, std::size_t i);
 
-// The measurement of line feature i in the left image, and in the right one if it was found there.
-// Covariance: sigma_px^2 at each end, independent (weighting none: the constant sigma).
+// Returns the measurement of line feature i in the left image, or in the right one if it was found
+// there. Covariance: sigma_px^2 at each end, independent (weighting none: the constant sigma).
 LineMeasurement MeasureLeftLine(const Features& features,
                                 std::size_t i,
                                 const LineWeights& weights);
@@ -48,8 +48,8 @@ std::optional<LineMeasurement> MeasureRightLine(const Features& features,
                                                 std::size_t i,
                                                 const LineWeights& weights);
 
-// Adds to the covariance of a measurement what the uncertainty of the 3D line makes of it:
-// Sigma + J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
+// Adds to the covariance of a measurement what the uncertainty of the 3D line contributes: Sigma +
+// J Lambda^-1 J^T, with Lambda the information of the line's orthonormal tangent and J the
 // derivative of the two residuals by it at the given pose. For scalar weighting the mean of the two
 // variances replaces both; for none nothing changes. A singular Lambda is regularized: directions
 // without information get the standard deviation of RegularizedInformation.
@@ -60,7 +60,7 @@ void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const LineWeights& weights,
                             LineMeasurement& measurement);
 
-// The same with a line that was prepared for many measurements.
+// Adds the uncertainty of a line that was prepared for many measurements.
 void AddLandmarkUncertainty(const RectifiedCamera& camera,
                             const Rigid3& cam_from_world,
                             const UncertainLine& line,

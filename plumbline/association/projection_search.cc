@@ -11,12 +11,13 @@
 namespace plumbline {
 namespace {
 
-// Keeps the division by depth finite, no more: a single camera's map has no unit.
+// Keeps the division by depth finite and has no other meaning: a single camera's map has no unit.
 constexpr double kNearPlane = 1e-3;
 constexpr double kDisparityGateSigmas = 4;
-// Seen from a side that differs more, a landmark does not look like its descriptor any more.
+// A landmark that is seen from a side that differs by more does not look like its descriptor any
+// more.
 constexpr double kMaxViewAngleDeg = 60;
-// Shorter pieces of a line are not found for certain.
+// Shorter visible pieces of a line are not found for certain.
 constexpr double kMinVisibleLengthPx = 20;
 
 double Radians(double degrees) { return degrees * std::numbers::pi / 180; }
@@ -25,7 +26,7 @@ bool SeenFromNear(const Eigen::Vector3d& usual, const Eigen::Vector3d& now) {
   return usual.isZero() || usual.dot(now.normalized()) >= math::Cos(Radians(kMaxViewAngleDeg));
 }
 
-// Cuts the parameter interval [lo, hi] of p + t d to p.axis + t d.axis >= min.
+// Cuts the parameter interval [lo, hi] to the part where p + t d >= min.
 void ClipBelow(double p, double d, double min, double& lo, double& hi) {
   if (std::abs(d) < 1e-12) {
     if (p < min) hi = lo - 1;

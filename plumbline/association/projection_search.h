@@ -13,15 +13,15 @@
 
 namespace plumbline {
 
-// How far from where a landmark should appear a feature may be, and how unlike it. The defaults are
-// tracking's, from a pose that is nearly right.
+// How far from its predicted place a feature may be, and how unlike the landmark. The defaults are
+// tracking's, for a pose that is nearly right.
 struct ProjectionSearchOptions {
   double point_radius_px = 4;   // at octave 0; grows with the octave
   int point_max_distance = 80;  // Hamming, of 256 bits
-  double point_ratio = 0.85;    // best / second best in the window
-  double line_offset_px = 10;   // midpoint of the feature from the projected line
-  double line_angle_deg = 8;    // between feature and projected line
-  int line_max_distance = 80;   // Hamming, of 256 bits
+  double point_ratio = 0.85;  // largest ratio of the best to the second best distance in the window
+  double line_offset_px = 10;  // distance of the feature's midpoint from the projected line
+  double line_angle_deg = 8;   // angle between feature and projected line
+  int line_max_distance = 80;  // Hamming, of 256 bits
 };
 
 // The camera and the size ratio of neighbouring octaves of its features.
@@ -35,7 +35,7 @@ struct ProjectedPoint {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double disparity = 0;
   int octave = 0;
-  double scale = 1;  // of the octave against the full image
+  double scale = 1;  // size of a pixel of the octave in pixels of the full image
   Descriptor descriptor{};
 };
 
@@ -45,8 +45,8 @@ struct ProjectedLine {
   Descriptor descriptor{};
 };
 
-// Where a landmark should appear; nullopt when it is behind the camera, outside the image, or seen
-// from too different a side, and for a line of which too little is visible.
+// Returns where a landmark should appear. Returns nullopt when it is behind the camera, outside the
+// image, or seen from too different a side, and for a line of which too little is visible.
 std::optional<ProjectedPoint> ProjectPoint(const ImagingModel& imaging,
                                            const Rigid3& cam_from_world,
                                            const PointModel& point);
@@ -54,23 +54,26 @@ std::optional<ProjectedLine> ProjectLine(const ImagingModel& imaging,
                                          const Rigid3& cam_from_world,
                                          const LineModel& line);
 
-// The part of a 3D segment (camera frame) in front of the camera and inside the image, projected.
+// Returns the projection of the part of a 3D segment (camera frame) that is in front of the camera
+// and inside the image.
 std::optional<Segment2> ProjectSegment(const RectifiedCamera& camera, const Segment3& in_camera);
 
-// Of the features near the place of a landmark the one that looks most like it, and how much so
+// The feature near the place of a landmark that looks most like it, and how unlike it still is
 // (Hamming distance).
 struct FeatureChoice {
   int feature = 0;
   int distance = 0;
 };
 
-// Chooses features of one image for points. Keeps what it allocates; the image must outlive it.
+// Chooses features of one image for points. Keeps the memory that it allocates. The image must
+// outlive it.
 class PointChooser {
  public:
   PointChooser(const IndexedFeatures& image, const ProjectionSearchOptions& options)
       : image_(image), options_(options) {}
 
-  // Among those with taken[i] false; nullopt where none is near and alike enough.
+  // Returns the choice among features with taken[i] false; nullopt where none is near and alike
+  // enough.
   std::optional<FeatureChoice> Choose(const ProjectedPoint& landmark,
                                       const std::vector<bool>& taken);
 
@@ -80,8 +83,9 @@ class PointChooser {
   std::vector<int> near_;
 };
 
-// The same for lines: near and parallel to the prediction, overlapping it, same direction. Looks at
-// all lines of the image, whose directions it computes once.
+// Chooses features of one image for lines. They must be near and parallel to the prediction,
+// overlap it and have its direction. Looks at all lines of the image, whose directions it computes
+// once.
 class LineChooser {
  public:
   LineChooser(const IndexedFeatures& image, const ProjectionSearchOptions& options);
@@ -97,7 +101,7 @@ class LineChooser {
   const std::vector<LineFeature>& lines_;
   ProjectionSearchOptions options_;
   double min_cosine_;
-  std::vector<Place> places_;  // of the lines
+  std::vector<Place> places_;  // one entry for each line
 };
 
 struct LandmarkMatch {
@@ -105,21 +109,22 @@ struct LandmarkMatch {
   int feature = 0;
 };
 
-// Of landmarks that chose the same feature the most similar gets it (ties: the lower index). Result
-// ordered by landmark.
+// Gives a feature that several landmarks chose to the most similar one (ties: the lower index). The
+// result is ordered by landmark.
 std::vector<LandmarkMatch> OneToOne(const std::vector<std::optional<FeatureChoice>>& choices,
                                     std::size_t feature_count);
 
-// Matches each projected point with the most similar feature near it, one to one: of two landmarks
-// that want a feature the more similar gets it (ties: the lower index). Features with taken[i] are
-// left out. nullopt entries are skipped. Result ordered by landmark.
+// Matches each projected point with the most similar feature near it, one to one: a feature that
+// two landmarks want goes to the more similar one (ties: the lower index). Features with taken[i]
+// and nullopt entries are left out. The result is ordered by landmark.
 std::vector<LandmarkMatch> MatchProjectedPoints(
     const IndexedFeatures& image,
     const std::vector<std::optional<ProjectedPoint>>& landmarks,
     const std::vector<bool>& taken,
     const ProjectionSearchOptions& options);
 
-// The same for lines.
+// Matches each projected line with the most similar feature near it, one to one, as
+// MatchProjectedPoints does with points.
 std::vector<LandmarkMatch> MatchProjectedLines(
     const IndexedFeatures& image,
     const std::vector<std::optional<ProjectedLine>>& landmarks,

@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// The information with its open directions held: a standard deviation of 0.5 rad for the tangent,
-// which lines without information then have.
+// Returns the information with a standard deviation of 0.5 rad added for every direction of the
+// tangent. It holds the directions that the information leaves open.
 Eigen::Matrix4d RegularizedInformation(const Eigen::Matrix4d& information);
 
 // A line in the world and its uncertainty, prepared for many measurements.

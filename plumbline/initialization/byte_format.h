@@ -14,8 +14,8 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of what starts of monocular maps keep. The classes show the rest by
-// themselves (VisitState).
+// Transfer (base/byte_format.h) of what starts of monocular maps keep. The rest is visited by the
+// classes themselves (VisitState).
 
 template <class Archive, Like<PointMatch> T>
 void Transfer(Archive& archive, T& match) {
@@ -43,7 +43,7 @@ void Transfer(Archive& archive, T& frame) {
   }
 }
 
-// Whether all matches are of features that are there.
+// Whether all matches are between features that exist.
 template <class Match>
 bool AreWithin(const std::vector<Match>& matches, std::size_t size_a, std::size_t size_b) {
   for (const Match& match : matches) {

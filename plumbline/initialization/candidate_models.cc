@@ -16,13 +16,13 @@
 namespace plumbline {
 namespace {
 
-// How far the best model's direction is moved to either side, to find other minima.
+// Angle by which the best model's direction is moved to either side, to find other minima.
 constexpr double kProbe = 2 * kSameDirection;
 
-// The noise of the lines of a model, in units of the standard deviation that they are said to
-// have. It is told by the median of their squared errors over their degrees of freedom.
+// Returns the noise of the lines of a model, in units of the standard deviation assumed. It follows
+// from the median of their squared errors over their degrees of freedom.
 double LineNoiseOf(const std::vector<LineFit>& fits) {
-  constexpr double kMedianOfChi2 = 0.839;  // of four degrees of freedom, over four
+  constexpr double kMedianOfChi2 = 0.839;  // for four degrees of freedom, divided by four
   std::vector<double> chi2;
   for (const LineFit& fit : fits) {
     if (fit.freedom > 0) chi2.push_back(fit.chi2 / fit.freedom);
@@ -30,9 +30,10 @@ double LineNoiseOf(const std::vector<LineFit>& fits) {
   return chi2.empty() ? 1 : std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
 }
 
-// A model moved along what its points and lines know least, until the direction of the newest
-// translation is `kProbe` off, to either side; all else follows as the covariance has it. These are
-// ends of a valley of the cost, where another minimum may be.
+// Returns the best model, moved to either side along the direction that its points and lines fix
+// least, until the direction of the newest translation is off by kProbe. All other poses follow as
+// the covariance says. These models are the ends of a valley of the cost, where another minimum may
+// be.
 std::vector<Reconstruction> Probes(const Tracks& tracks, const Reconstruction& best) {
   const auto covariance = ComputeCovariance(tracks, best, 1, kChi2TwoDof99);
   if (!covariance) return {};
@@ -42,7 +43,7 @@ std::vector<Reconstruction> Probes(const Tracks& tracks, const Reconstruction& b
   const Eigenpairs<2> spread =
       EigenpairsOf<2>(across.transpose() * covariance->poses.bottomRightCorner<3, 3>() * across);
   const Eigen::Vector3d weakest = across * spread.vectors.col(1);
-  // How all poses move with a unit step along what is known least.
+  // The step of all poses for a unit step along the direction that is fixed least.
   const Eigen::VectorXd step = covariance->poses.rightCols<3>() * weakest / spread.values(1);
   std::vector<Reconstruction> probes;
   for (const double side : {-1.0, 1.0}) {
@@ -64,7 +65,7 @@ void TriangulateAndAdjust(const Tracks& tracks, CandidateModel& model) {
   AdjustModel(tracks, model);
 }
 
-// Adds to the cost of models that of the lines which are inliers of at least one of them.
+// Adds to the cost of models that of the lines that are inliers of at least one model.
 void CountLines(const Tracks& tracks, std::vector<CandidateModel>& models) {
   std::vector<std::vector<LineFit>> fits;
   std::vector<bool> counts(tracks.lines.size(), false);

@@ -35,8 +35,8 @@ double GeometricInterpolation::PixelVariance(const Epipolar& pair,
   return sigma * sigma * slope.squaredNorm();
 }
 
-// x . (t x y), y = R source: a shift v changes it by x . (v x y), a turn w of both t and y by
-// x . (w x (t x y)).
+// Returns the derivative of x . (t x y), with y = R source. A shift v changes it by x . (v x y), a
+// turn w of both t and y by x . (w x (t x y)).
 Vector6d GeometricInterpolation::PoseRow(const Epipolar& pair,
                                          const Eigen::Vector3d& source,
                                          const Eigen::Vector3d& line,
@@ -57,18 +57,18 @@ std::optional<InterpolatedPoint> GeometricInterpolation::Interpolate(
   const Eigen::Vector3d lc = from_current_.E * xc;
   const Eigen::Vector3d meet = l0.cross(lc);
   const double lengths = l0.head<2>().norm() * lc.head<2>().norm();
-  // Also where one of the poses is at rest and has no lines.
+  // The second test also holds where one of the poses is at rest and has no epipolar lines.
   if (!(std::abs(meet.z()) > 1e-9 * lengths) || !(lengths > 0)) return std::nullopt;
   const Eigen::Vector3d x = meet / meet.z();
   const Vector6d row0 = PoseRow(from_reference_, x0, l0, x);
   const Vector6d rowc = PoseRow(from_current_, xc, lc, x);
-  Eigen::Matrix2d variance;  // of the two epipolar errors
+  Eigen::Matrix2d variance;  // variance of the two epipolar errors
   variance(0, 0) =
       row0.dot(reference_covariance_ * row0) + PixelVariance(from_reference_, x, reference_sigma);
   variance(1, 1) =
       rowc.dot(current_covariance_ * rowc) + PixelVariance(from_current_, x, current_sigma);
   variance(0, 1) = variance(1, 0) = row0.dot(cross_covariance_ * rowc);
-  // The place moves so that both errors stay zero.
+  // The place follows from the condition that both errors stay zero.
   Eigen::Matrix2d lines;
   lines << l0.head<2>().transpose(), lc.head<2>().transpose();
   const Eigen::Matrix2d inverse = lines.inverse();

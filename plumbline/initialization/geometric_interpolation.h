@@ -10,8 +10,9 @@
 
 namespace plumbline {
 
-// Poses of a frame between and of the current frame, their translations in one unit, and the joint
-// covariance of their left perturbations [rotation, translation], `between` first.
+// Poses of a frame between, relative to the reference and to the current frame, with translations
+// in one unit. The joint covariance is that of their left perturbations [rotation, translation],
+// that relative to the reference first.
 struct InterpolationPoses {
   Rigid3 between_from_reference;
   Rigid3 current_from_reference;
@@ -22,21 +23,23 @@ struct InterpolationPoses {
 struct InterpolatedPoint {
   Eigen::Vector2d point = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  double line_angle = 0;  // at which the two epipolar lines meet, radians in [0, pi/2]
+  // Angle at which the two epipolar lines meet, radians in [0, pi/2].
+  double line_angle = 0;
 };
 
-// Geometric interpolation (first paper, section 2.2): where a feature matched between the reference
-// and the current frame lies in a frame between, as the intersection of its two epipolar lines
-// there.
+// Geometric interpolation (first paper, section 2.2): finds where a feature matched between the
+// reference and the current frame lies in a frame between, as the intersection of its two epipolar
+// lines there.
 //
-// Differs from the paper. The pose from the current to the frame between is chained from poses with
-// their true ratio of translations, (R, t) by (R, t), and its essential matrix formed once: chained
-// unit translations put the point 15 px off in the median, a product of essential matrices 200 px.
-// And the covariance of the place follows from that of both poses and both pixels; the angle
-// between the lines, on which the paper decides (5 degrees), does not tell it.
+// Differs from the paper in two ways. The pose from the current to the frame between is chained
+// from poses with their true ratio of translations, (R, t) by (R, t), and its essential matrix is
+// formed once: chained unit translations put the point 15 px off in the median, a product of
+// essential matrices 200 px. The covariance of the place follows from that of both poses and both
+// pixels; the angle between the lines, on which the paper decides (5 degrees), does not tell it.
 class GeometricInterpolation {
  public:
-  // For all features of these frames. Forms the essential matrices and their covariances once.
+  // Prepares for all features of these frames: forms the essential matrices and their covariances
+  // once.
   explicit GeometricInterpolation(const InterpolationPoses& poses);
 
   //   reference, current  ideal image coordinates and the standard deviation of each
@@ -53,10 +56,10 @@ class GeometricInterpolation {
     Eigen::Vector3d t;
     Eigen::Matrix3d E;
   };
-  // Variance of x . E x_source, for x in the frame between, that comes from the pixel of the
-  // source.
+  // Returns the part of the variance of x . E x_source, for x in the frame between, that comes from
+  // the pixel of the source.
   static double PixelVariance(const Epipolar& pair, const Eigen::Vector3d& x, double sigma);
-  // Its derivative with respect to the left perturbation of the pose.
+  // Returns the derivative of x . E x_source by the left perturbation of the pose.
   static Vector6d PoseRow(const Epipolar& pair,
                           const Eigen::Vector3d& source,
                           const Eigen::Vector3d& line,

@@ -24,10 +24,10 @@ namespace plumbline {
 namespace {
 
 constexpr double kMinParallax = 0.3 * kDegree;
-// Largest standard deviations over the depth: of a point along its ray, of a line across.
+// Largest standard deviations over the depth: of a point along its ray, of a line across itself.
 constexpr double kMaxPointSigma = 0.3;
 constexpr double kMaxLineSigma = 0.1;
-// Lines lie where the points lie, give or take this factor on the nearest and furthest of them.
+// Lines may be nearer than the nearest point and farther than the farthest by this factor.
 constexpr double kDepthMargin = 2;
 
 const Features& FeaturesOf(const InitialView& view) { return view.frame.indexed->features; }
@@ -57,7 +57,7 @@ struct DepthRange {
   double furthest = 0;
 };
 
-// The depths of the points in the first view, between which lines may be.
+// Returns the range of depths in the first view in which lines may lie, from those of the points.
 DepthRange LineDepths(const InitialMap& map) {
   DepthRange range{1e300, 0};
   for (const InitialPoint& point : map.points) {
@@ -68,7 +68,8 @@ DepthRange LineDepths(const InitialMap& map) {
   return {range.nearest / kDepthMargin, range.furthest * kDepthMargin};
 }
 
-// The part of the line that any of the views saw; nullopt where one of them saw it behind itself.
+// Returns the part of the line that any of the views saw; nullopt where one of them saw it behind
+// itself.
 std::optional<Segment3> SeenPart(const RectifiedCamera& camera,
                                  std::span<const LineView> views,
                                  const PluckerLine& line) {
@@ -93,7 +94,8 @@ std::vector<LineView> LineViews(std::span<const InitialView> views, const Featur
   return measured;
 }
 
-// Depth over its standard deviation goes with the angle of the planes over the noise of the planes.
+// Returns the least angle of the planes: the ratio of depth to its standard deviation equals that
+// of the angle of the planes to their noise.
 double MinPlaneAngle(const RectifiedCamera& camera, std::span<const LineView> views) {
   double sigma = 0;
   for (const LineView& view : views) sigma = std::max(sigma, view.sigma_px);
@@ -145,7 +147,8 @@ BaProblem MakeProblem(const RectifiedCamera& camera, const InitialMap& map) {
   return problem;
 }
 
-// Removes the observations that are not inliers; `inliers` goes through all observations in order.
+// Removes the observations that are not inliers. `inliers` has one entry for each observation, in
+// order.
 template <class Landmark>
 void KeepInliers(const std::vector<bool>& inliers, std::vector<Landmark>& landmarks) {
   std::size_t next = 0;
@@ -220,7 +223,8 @@ void ScaleToMedianDepth(InitialMap& map) {
 
 void AdjustMap(const RectifiedCamera& camera, InitialMap& map) {
   const BaProblem problem = MakeProblem(camera, map);
-  // To the end: what the map is accepted by is the accuracy of this solution.
+  // The solution is iterated to the end, because the map is accepted by the accuracy of this
+  // solution.
   LocalBaOptions options;
   options.max_iterations = 30;
   options.function_tolerance = 1e-6;

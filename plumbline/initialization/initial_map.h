@@ -17,7 +17,7 @@
 
 namespace plumbline {
 
-// A frame offered for the start of a map. The image is needed by rank1_klt, by two_view_images and
+// A frame offered for the start of a map. The image is needed by rank1_klt and two_view_images, and
 // by rank1 unless it matches by descriptor.
 struct InitializationFrame {
   FrameId id;
@@ -26,23 +26,23 @@ struct InitializationFrame {
   std::shared_ptr<const GrayImage> image;
 };
 
-// The feature of a view (an index into InitialMap::views) that shows a landmark.
+// A feature of a view (an index into InitialMap::views) that shows a landmark.
 struct InitialObservation {
   int view = 0;
   int feature = 0;
-  // Where the view shows a point when that is known better than its feature says, pixels.
+  // Pixel where the view shows a point, when that is known better than from its feature.
   std::optional<Eigen::Vector2d> px = std::nullopt;
 };
-// The features of several views that show one landmark: at least two, by view.
+// The features of several views that show one landmark: at least two, ordered by view.
 using FeatureTrack = std::vector<InitialObservation>;
 
 struct InitialPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // in the world
   FeatureTrack observations;
 };
 struct InitialLine {
-  PluckerLine line;  // world; directed as its features
-  Segment3 segment;  // the part that was seen
+  PluckerLine line;  // in the world; directed as its features
+  Segment3 segment;  // the part of the line that was seen
   FeatureTrack observations;
 };
 struct InitialView {
@@ -50,10 +50,11 @@ struct InitialView {
   Rigid3 cam_from_world;
 };
 
-// The start of a monocular map. The world is the first view's camera; its scale is such that the
-// median depth of the points there is 1.
+// The start of a monocular map. The world is the first view's camera; the unit of length is the
+// median depth of the points there.
 struct InitialMap {
-  std::vector<InitialView> views;  // by time; the first is the reference, the last the newest frame
+  // In order of time: the first is the reference, the last the newest frame.
+  std::vector<InitialView> views;
   std::vector<InitialPoint> points;
   std::vector<InitialLine> lines;
 };
@@ -63,8 +64,8 @@ struct InitialMap {
 // A point must have 0.3 degrees of parallax, lie in front of all its views, agree with them (chi2
 // at 95 %) and be known to 30 % of its depth. A line must have interpretation planes at an angle
 // that fixes its depth to 10 %, end in front of all views, pass through the ends of its segments,
-// and lie at a depth like that of the points: two segments always meet in some line, so that with
-// two views its depth is the one thing that gives away a wrong match.
+// and lie at a depth like that of the points. The last test is needed because two segments always
+// meet in some line: with two views only its depth reveals a wrong match.
 //
 //   point_tracks, line_tracks  indices into `views` and the features of the frames there
 //   returns                    the map in the world of the views' poses; tracks that fail are left
@@ -75,22 +76,23 @@ InitialMap TriangulateMap(const RectifiedCamera& camera,
                           std::span<const FeatureTrack> point_tracks,
                           std::span<const FeatureTrack> line_tracks);
 
-// The median depth of the points in the first view; 0 without points.
+// Returns the median depth of the points in the first view; 0 without points.
 double MedianDepth(const InitialMap& map);
 
 // Scales poses, points and lines about the world's origin so that the median depth is 1. A map
 // without points stays as it is.
 void ScaleToMedianDepth(InitialMap& map);
 
-// Bundle adjustment of all poses but the first, all points and lines to all observations. Drops
-// observations that do not fit (chi2 at 95 %) and landmarks that are left with fewer than two, and
-// makes the median depth 1.
+// Bundle adjustment of all poses but the first, and of all points and lines, to all observations.
+// Afterwards observations that do not fit (chi2 at 95 %) and landmarks with fewer than two
+// observations are dropped, and the median depth is made 1.
 //
 //   map   not empty; the first view's camera is the world
 //   cost  some milliseconds for three views and 300 points
 void AdjustMap(const RectifiedCamera& camera, InitialMap& map);
 
-// Both of these; nullopt where fewer than `min_points` points are left.
+// Calls TriangulateMap and AdjustMap; returns nullopt where fewer than `min_points` points are
+// left.
 std::optional<InitialMap> TriangulateAndAdjustMap(const RectifiedCamera& camera,
                                                   std::vector<InitialView> views,
                                                   std::span<const FeatureTrack> point_tracks,

@@ -16,10 +16,10 @@ namespace plumbline {
 // Why there is no initial map yet.
 enum class InitializationWait {
   kNone,
-  kTooFewFeatures,     // in this image
+  kTooFewFeatures,     // this image has too few features
   kTooFewFrames,       // the window is not full
-  kTooFewMatches,      // with the reference frame
-  kTooLittleParallax,  // still, or turning only
+  kTooFewMatches,      // too few matches with the reference frame
+  kTooLittleParallax,  // the camera stands still, or only turns
   kAmbiguous,          // two interpretations explain the frames equally well
   kInaccurate,         // the structure is not known well enough, or does not fit
 };
@@ -34,9 +34,10 @@ constexpr auto EnumNames(std::type_identity<InitializationWait>) {
 }
 
 struct InitializationResult {
-  InitializationWait wait = InitializationWait::kNone;  // kNone: there is a map
+  InitializationWait wait = InitializationWait::kNone;  // kNone when there is a map
   int matches = 0;                                      // points matched with the reference frame
-  double parallax_deg = 0;                              // median, after rotation; 0 where unknown
+  // Median angle between the rays of matches, without the camera's rotation; 0 where unknown.
+  double parallax_deg = 0;
   std::optional<InitialMap> map = std::nullopt;
 };
 
@@ -49,8 +50,8 @@ class Initializer {
   // Forgets all frames: after a loss, or when a map was taken.
   virtual void Reset() = 0;
 
-  // Writes down all frames and what is known of them, and takes the place of an initializer of the
-  // same options that did. Load throws InputError for bytes that no initializer wrote.
+  // Save writes down all frames and what is known of them; Load restores that in an initializer of
+  // the same options. Load throws InputError for bytes that no initializer can have written.
   virtual void Save(StateWriter& archive) const = 0;
   virtual void Load(StateReader& archive) = 0;
 };

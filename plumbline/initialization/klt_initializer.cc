@@ -21,19 +21,19 @@ namespace {
 
 constexpr int kMinFeatures = 60;
 constexpr int kMinTracks = 50;
-constexpr std::size_t kMinPoints = 30;  // of a map
+constexpr std::size_t kMinPoints = 30;  // fewest points of a map
 constexpr std::size_t kMaxFrames = 80;
 constexpr double kTrackSigmaPx = 0.5;
 constexpr double kMinShareInFront = 0.9;
-constexpr double kMaxSpread = 2;  // of the residuals, in standard deviations
+constexpr double kMaxSpread = 2;  // largest spread of the residuals, in standard deviations
 constexpr double kMinParallaxDeg = 1;
 
 struct Poses {
   std::vector<Rigid3> cam_from_reference;  // |translation| = 1
-  double parallax_deg = 0;                 // of the newest
+  double parallax_deg = 0;                 // parallax of the newest frame
 };
 
-// The best relative pose of each frame by itself; nullopt where one has none.
+// Returns the best relative pose of each frame by itself; nullopt where a frame has none.
 std::optional<Poses> RelativePoses(const Tracks& tracks, Rng& rng) {
   Poses poses;
   for (const TrackedPoints& view : tracks.views) {
@@ -117,7 +117,7 @@ Tracks KltInitializer::CollectTracks(const std::vector<int>& frames) const {
   };
   const std::vector<PointFeature>& features = reference_->indexed->features.points;
   for (std::size_t k = 0; k < features.size(); ++k) {
-    if (!tracks_.places()[k]) continue;  // alive in the last is alive in all
+    if (!tracks_.places()[k]) continue;  // a point that is alive in the last frame is alive in all
     tracks.features.push_back(static_cast<int>(k));
     add(features[k].px, tracks.reference);
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -176,7 +176,7 @@ bool KltInitializer::IsConsistent() const {
   if (!tracks_.Fits(size, camera_.width, camera_.height)) return false;
   for (const Followed& followed : frames_) {
     if (followed.places.size() != size) return false;
-    // What is alive in the newest frame is alive in all.
+    // A point that is alive in the newest frame is alive in all frames.
     for (std::size_t k = 0; k < size; ++k) {
       if (tracks_.places()[k] && !followed.places[k]) return false;
     }

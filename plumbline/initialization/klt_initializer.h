@@ -12,13 +12,14 @@
 
 namespace plumbline {
 
-// Rank-1 factorization as Tang et al. start GSLAM, for comparison: the features of the reference
-// are followed by KLT, and only points alive in all frames are factorized. No interpolation, the
-// best relative pose of each frame by itself, and a decision by simple thresholds: share of points
-// in front, residual of the factorization, median parallax.
+// Rank-1 factorization as Tang et al. start GSLAM, for comparison. The features of the reference
+// are followed by KLT, and only points that are alive in all frames are factorized. There is no
+// interpolation, each frame has the best relative pose that it gives by itself, and simple
+// thresholds decide: the share of points in front, the residual of the factorization, the median
+// parallax.
 //
-// Needs the images of all frames (BugError otherwise). The reference is given up for the present
-// frame when too few tracks are left.
+// Needs the images of all frames (BugError otherwise). When too few tracks are left, the present
+// frame becomes the reference.
 class KltInitializer : public Initializer {
  public:
   KltInitializer(const RectifiedCamera& camera,
@@ -30,10 +31,11 @@ class KltInitializer : public Initializer {
   void Save(StateWriter& archive) const override;
   void Load(StateReader& archive) override;
 
-  // False for what was read and no initializer can have: places and images that do not go together.
+  // Returns false for a state that was read and that no initializer can have: places and images do
+  // not fit together.
   bool IsConsistent() const;
 
-  // All that it keeps (base/byte_format.h).
+  // Visits all that the initializer keeps (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.reference_, self.tracks_, self.frames_);
@@ -42,7 +44,7 @@ class KltInitializer : public Initializer {
  private:
   struct Followed {
     InitializationFrame frame;
-    TrackedPixels places;  // where the reference's features are
+    TrackedPixels places;  // pixels of the reference's features
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -51,16 +53,16 @@ class KltInitializer : public Initializer {
   };
 
   void Start(const InitializationFrame& frame);
-  // Frames spread evenly since the reference, the newest last.
+  // Returns frames spread evenly since the reference, the newest last.
   std::vector<int> SelectFrames() const;
-  // The points alive in the newest frame, in the chosen frames.
+  // Returns the points that are alive in the newest frame, in the chosen frames.
   Tracks CollectTracks(const std::vector<int>& frames) const;
   InitializationResult Attempt();
   std::optional<InitialMap> BuildMap(const std::vector<int>& frames,
                                      const std::vector<Rigid3>& poses) const;
 
   RectifiedCamera camera_;
-  int frame_count_;  // that are factorized together
+  int frame_count_;  // number of frames that are factorized together
   std::uint64_t seed_;
   std::optional<InitializationFrame> reference_;
   KltTracks tracks_;

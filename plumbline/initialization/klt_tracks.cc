@@ -15,14 +15,16 @@ namespace {
 
 constexpr int kWindow = 21;
 constexpr int kLevels = 3;
-constexpr double kMaxReturnError = 1;  // px
+// Largest distance [px] between a point and where following it back leads.
+constexpr double kMaxReturnError = 1;
 
 struct Flow {
   std::vector<cv::Point2f> to;
   std::vector<unsigned char> found;
 };
 
-// From the places `from` in image a to image b; `guess` where they may be there.
+// Computes the flow of the places `from` from image a to image b. `guess` are places to begin with
+// in b.
 Flow OpticalFlow(const GrayImage& a,
                  const GrayImage& b,
                  const std::vector<cv::Point2f>& from,

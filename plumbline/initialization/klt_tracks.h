@@ -18,28 +18,29 @@ namespace plumbline {
 // The pixel where an image shows each point; nullopt for a point that it does not show.
 using TrackedPixels = std::vector<std::optional<Eigen::Vector2d>>;
 
-// Points followed from image to image by the optical flow of Lucas and Kanade on pyramids (OpenCV),
-// each step checked by following it back.
+// Follows points from image to image by the optical flow of Lucas and Kanade on pyramids (OpenCV).
+// Each step is checked by following it back.
 class KltTracks {
  public:
   KltTracks() = default;
-  // Follows the points that have a place in the image.
+  // Begins with the points that have a place in the image.
   KltTracks(std::shared_ptr<const GrayImage> image, TrackedPixels places);
 
-  // Follows the points that are left into the next image, of the same size. Those that leave it,
-  // are not found or do not come back are lost for good. Cost: about 2 ms for 500 points in VGA.
+  // Follows the points that are left into the next image, which must have the same size. Points
+  // that leave it, are not found or do not come back are lost for good. Cost: about 2 ms for 500
+  // points in VGA.
   void Follow(std::shared_ptr<const GrayImage> image);
 
   // Puts a point where it was found in the newest image by other means.
   void Correct(std::size_t point, const Eigen::Vector2d& place) { places_[point] = place; }
 
-  // Where the newest image shows the points.
+  // The pixels where the newest image shows the points.
   const TrackedPixels& places() const { return places_; }
   int alive() const;
-  // Whether it can follow so many points on images of this size.
+  // Whether this can follow so many points on images of this size.
   bool Fits(std::size_t points, int width, int height) const;
 
-  // All that it keeps (base/byte_format.h).
+  // Visits all that the tracks keep (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.image_, self.places_);
@@ -50,11 +51,11 @@ class KltTracks {
   TrackedPixels places_;
 };
 
-// How far a feature may lie from the place of the point that it is taken for.
+// Largest distance of a feature from the place of the point that it is taken for.
 inline constexpr double kAttachRadiusPx = 1.5;
 
-// The feature nearest to each place, no further than `radius_px` and each feature at most once (the
-// nearer place has it); -1 where there is none.
+// Returns the feature nearest to each place, no further than `radius_px`; -1 where there is none.
+// Each feature is used at most once, for the place nearest to it.
 std::vector<int> NearestFeatures(const IndexedFeatures& features,
                                  const TrackedPixels& places,
                                  double radius_px);

@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// The method that the options name. `seed` is that of everything random in it.
+// Returns an initializer of the method that the options name. `seed` seeds all its random numbers.
 std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
                                              const InitializationOptions& options,
                                              std::uint64_t seed);

@@ -22,8 +22,9 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kNearest = 7;
-// Scale of the robust loss: from what turns and changes of scale do to a mere shift down to what is
-// larger than the parallax that an affine map leaves, and smaller than the error of a wrong match.
+// Scales of the robust loss, one after the other. The first is as large as the error that turns and
+// changes of scale cause in a mere shift. The last is larger than the parallax that an affine map
+// leaves, and smaller than the error of a wrong match.
 constexpr std::array<double, 8> kScalesPx{160, 80, 40, 20, 10, 10, 10, 10};
 
 Eigen::Vector2d MedianShift(std::span<const PixelPair> matches) {
@@ -36,16 +37,23 @@ Eigen::Vector2d MedianShift(std::span<const PixelPair> matches) {
   return {UpperMedian(std::move(x)), UpperMedian(std::move(y))};
 }
 
-constexpr double kFirstWindowPx = 100;   // half width around a place, where no motion is known
-constexpr double kGuessedWindowPx = 50;  // around that of a guessed motion
-constexpr double kWindowPx = 25;         // around that which the first matches predict
-constexpr int kFirstMaxDistance = 60;    // Hamming, of 256 bits
+// Half width of the window around a place where no motion is known.
+constexpr double kFirstWindowPx = 100;
+// Half width of the window around the place that a guessed motion predicts.
+constexpr double kGuessedWindowPx = 50;
+// Half width of the window around the place that the first matches predict.
+constexpr double kWindowPx = 25;
+constexpr int kFirstMaxDistance = 60;  // Hamming, of 256 bits
 constexpr int kMaxDistance = 70;
-constexpr double kFirstRatio = 0.8;  // best over second best in the window
+// Largest ratio of the best to the second best distance in the window.
+constexpr double kFirstRatio = 0.8;
 constexpr double kRatio = 0.9;
-constexpr int kMaxOctaveStep = 2;        // of the scale: 1.44 with the usual 1.2 an octave
-constexpr double kMaxRollErrorDeg = 15;  // of an orientation, against the roll of the camera
-constexpr double kMaxLineOffsetPx = 15;  // across, of a line's midpoint from its predicted place
+// Largest difference of octaves; two are a scale of 1.44 with the usual factor of 1.2.
+constexpr int kMaxOctaveStep = 2;
+// Largest difference between the turn of an orientation and the roll of the camera.
+constexpr double kMaxRollErrorDeg = 15;
+// Largest distance of a line's midpoint from its predicted place, across the line.
+constexpr double kMaxLineOffsetPx = 15;
 
 std::vector<PointFeature> Moved(std::vector<PointFeature> points, const ImageMotion& motion) {
   for (PointFeature& point : points) point.px = motion(point.px);
@@ -56,7 +64,8 @@ double Turn(const Features& a, const Features& b, const PointMatch& match) {
   return b.points[Index(match.b)].angle - a.points[Index(match.a)].angle;
 }
 
-// The turn of the camera about its axis: the centre of the window that holds most turns of matches.
+// Returns the turn of the camera about its axis: the centre of the window that holds the turns of
+// most matches.
 double CameraRoll(const Features& a,
                   const Features& b,
                   std::span<const PointMatch> matches,
@@ -157,7 +166,7 @@ Eigen::Vector2d ImageMotion::operator()(const Eigen::Vector2d& px) const {
   std::array<double, kNearest> distances;
   std::array<std::size_t, kNearest> nearest{};
   distances.fill(std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < places_.size(); ++i) {  // kept in order by insertion
+  for (std::size_t i = 0; i < places_.size(); ++i) {  // the nearest are kept in order by insertion
     const double distance = (places_[i] - px).squaredNorm();
     if (!(distance < distances.back())) continue;
     std::size_t k = kNearest - 1;

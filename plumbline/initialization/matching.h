@@ -16,19 +16,20 @@
 
 namespace plumbline {
 
-// A pixel of one image and the pixel of another that shows the same.
+// A pixel of one image, and the pixel of another image that shows the same point.
 struct PixelPair {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
 };
 
-// Where the pixels of one image are in another, from some matches: an affine map fitted robustly
-// to all of them, and on top of it the median of what the nearest of them leave over, since
-// parallax moves near things further than far ones.
+// Predicts where the pixels of one image lie in another, from some matches. An affine map is fitted
+// robustly to all of them. Parallax moves near things further than far ones, so that the median of
+// what the map leaves at the nearest matches is added.
 class ImageMotion {
  public:
   ImageMotion() = default;  // nothing moves
-  // With fewer than three pairs (or all on one line) nothing but their median shift. Cost: O(n).
+  // Fits the motion. With fewer than three pairs (or with all on one line) it is their median
+  // shift. Cost: O(n).
   explicit ImageMotion(std::span<const PixelPair> matches);
 
   // Whether it was made from matches.
@@ -37,16 +38,16 @@ class ImageMotion {
   // The derivative of the affine map.
   const Eigen::Matrix2d& linear() const { return linear_; }
 
-  // Cost: O(n).
+  // Predicts the place of a pixel. Cost: O(n).
   Eigen::Vector2d operator()(const Eigen::Vector2d& px) const;
   Segment2 operator()(const Segment2& segment) const {
     return {(*this)(segment.start), (*this)(segment.end)};
   }
 
-  // False for what was read and no ImageMotion can be.
+  // Returns false for a state that was read and that no ImageMotion can have.
   bool IsConsistent() const { return places_.size() == leftovers_.size(); }
 
-  // All that it keeps (base/byte_format.h).
+  // Visits all that the motion keeps (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.linear_, self.origin_, self.shift_, self.places_, self.leftovers_);
@@ -57,37 +58,37 @@ class ImageMotion {
     return linear_ * (px - origin_) + shift_;
   }
 
-  // px -> linear (px - origin) + shift
+  // The affine map: px -> linear (px - origin) + shift.
   Eigen::Matrix2d linear_ = Eigen::Matrix2d::Identity();
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> places_;     // places of the matches, in the first image
-  std::vector<Eigen::Vector2d> leftovers_;  // what the affine map leaves of the motion there
+  std::vector<Eigen::Vector2d> leftovers_;  // what the affine map leaves of the motion at places_
 };
 
-// Features of a reference frame (a) found again in a later frame (b).
+// The features of a reference frame (a) that were found again in a later frame (b).
 struct ReferenceMatches {
-  std::vector<PointMatch> points;  // by feature of the reference
+  std::vector<PointMatch> points;  // ordered by feature of the reference
   std::vector<LineMatch> lines;
-  ImageMotion motion;  // from the reference to the frame: the guess for the next frame
+  ImageMotion motion;  // motion from the reference to the frame, a guess for the next frame
 };
 
 // Matches the points and lines of a reference frame with those of a later frame by descriptor.
 //
-// Points twice: first in a wide window around the place that `guess` gives (50 px to each side; 100
-// px where nothing is guessed), and of these only matches whose orientation goes with the roll of
-// the camera (15 degrees) and whose place goes with that of their neighbours; then all points in a
-// narrow window (25 px) around the place that those predict. Lines after that, warped by the same
-// motion.
+// Points are matched twice. The first time they are searched in a wide window around the place that
+// `guess` gives (50 px to each side; 100 px where nothing is guessed). Of these only matches are
+// kept whose orientation fits the roll of the camera (15 degrees) and whose place fits that of
+// their neighbours. The second time all points are searched in a narrow window (25 px) around the
+// place that those matches predict. Lines follow, moved by the same motion.
 //
-//   guess    the motion to an earlier frame near to this one; a default one for the first
+//   guess    motion to an earlier frame close to this one; a default one for the first frame
 //   returns  at most one match for each feature
 //   cost     about 5 ms for 1000 points and 200 lines, less with a guess
 ReferenceMatches MatchToReference(const Features& reference,
                                   const Features& frame,
                                   const ImageMotion& guess = {});
 
-// Matches as rays, for the solvers of two views: one for each pair, in order.
+// Returns the matches as rays, for the solvers of two views, in order.
 std::vector<RayMatch> RayMatchesOf(const RectifiedCamera& camera,
                                    const Features& a,
                                    const Features& b,

@@ -35,20 +35,20 @@ constexpr double kMaxDirection = 0.7 * kDegree;
 constexpr double kMaxDepth = 0.06;
 // From this deviation on depths are not known at all: there is no parallax.
 constexpr double kUnknownDepth = 0.3;
-// Least noise that is assumed of measurements, relative to what they are said to have.
+// Least noise of measurements that is assumed, relative to their stated deviation.
 constexpr double kMinNoise = 0.25;
-// Least noise of a fit, in units of the noise that the distances from the epipolar lines have: what
-// these do not show is not less.
+// Least noise of a fit, in units of the noise that the distances from the epipolar lines have. A
+// smaller noise is not believed where these distances do not show it.
 constexpr double kLeastNoise = 0.4;
-// A model this much worse than the best before adjustment is not worth one.
+// A model whose cost is this many times that of the best one before adjustment is not adjusted.
 constexpr double kHopeless = 2;
-// With so many points lines are not asked.
+// With at least so many points lines take no part.
 constexpr std::size_t kManyPoints = 200;
-// What is done to each of several models is done to two at a time: a plane has two.
+// The work for each of several models is done by two threads, since a plane gives two models.
 constexpr int kThreads = 2;
 
-// Noise of the matches, in units of the standard deviation that they are said to have: by the
-// median distance from the epipolar lines, which has one degree of freedom.
+// Returns the noise of the matches, in units of their stated standard deviation, from the median
+// distance from the epipolar lines, which has one degree of freedom.
 double NoiseOf(const std::vector<RayMatch>& matches, const Rigid3& b_from_a) {
   constexpr double kMedianOfChi2 = 0.4549;
   std::vector<double> chi2;
@@ -60,7 +60,7 @@ double NoiseOf(const std::vector<RayMatch>& matches, const Rigid3& b_from_a) {
   return std::sqrt(UpperMedian(std::move(chi2)) / kMedianOfChi2);
 }
 
-// The models of all hypotheses that can be carried through all frames.
+// Returns the models of all hypotheses that can be carried through all frames.
 std::vector<CandidateModel> FactorizeAll(const Tracks& tracks,
                                          const std::vector<MotionHypothesis>& hypotheses,
                                          const FactorizationOptions& options) {
@@ -78,13 +78,14 @@ std::vector<CandidateModel> FactorizeAll(const Tracks& tracks,
   return models;
 }
 
-// Models that are too bad to be the right one, the best being the first.
+// Removes models that are too bad to be the right one. The best model must be the first.
 void DropHopeless(std::vector<CandidateModel>& models) {
   const double limit = kHopeless * models.front().cost;
   std::erase_if(models, [limit](const CandidateModel& model) { return model.cost > limit; });
 }
 
-// Adjusts all that are worth it. The best first; of those that become the same, the best.
+// Adjusts all models that are worth it, and puts the best first. Of models that become the same
+// only the best stays.
 void AdjustAll(const Tracks& tracks, std::vector<CandidateModel>& models) {
   SortByCost(models);
   DropHopeless(models);
@@ -97,7 +98,8 @@ void AdjustAll(const Tracks& tracks, std::vector<CandidateModel>& models) {
   SortByCost(models);
 }
 
-// Angle between the rays to the newest and to the reference frame, of the median point.
+// Returns the angle between the rays to the newest and to the reference frame, for the median
+// point.
 double ParallaxDeg(const Tracks& tracks, const Reconstruction& reconstruction) {
   const Eigen::Vector3d centre = Inverse(reconstruction.cam_from_reference.back()).translation;
   std::vector<double> angles;
@@ -112,8 +114,8 @@ double ParallaxDeg(const Tracks& tracks, const Reconstruction& reconstruction) {
   return UpperMedian(std::move(angles)) / kDegree;
 }
 
-// Median of the deviations of the depths of all points of the tracks; those without one count as
-// unknown.
+// Returns the median deviation of the depths of all points of the tracks. Points without a
+// deviation count as unknown.
 double MedianDepthSigma(const ReconstructionCovariance& covariance) {
   std::vector<double> sigmas = covariance.relative_depth_sigmas;
   for (double& sigma : sigmas) {
@@ -122,7 +124,7 @@ double MedianDepthSigma(const ReconstructionCovariance& covariance) {
   return UpperMedian(std::move(sigmas));
 }
 
-// Whether what the covariance promises for a model is good enough.
+// Whether the accuracy that the covariance promises for a model is good enough.
 InitializationWait TestAccuracy(const Tracks& tracks, const CandidateModel& model) {
   const double noise = std::max(kLeastNoise, model.fit.noise);
   const auto covariance = ComputeCovariance(tracks,
@@ -140,12 +142,12 @@ InitializationWait TestAccuracy(const Tracks& tracks, const CandidateModel& mode
   return accurate ? InitializationWait::kNone : InitializationWait::kInaccurate;
 }
 
-// The best must be good and no other may come near. A model that is not out of the question must
-// have had its chance as well: the wrong interpretation of a plane often shows more parallax and so
-// seems to be known before the right one is.
+// Decides about the models: the best must be good, and no other may come near. Every model that is
+// not out of the question must be accurate, too, since the wrong interpretation of a plane often
+// shows more parallax and so seems to be known before the right one is.
 InitializationWait Decide(const Tracks& tracks, const std::vector<CandidateModel>& models) {
   const CandidateModel& best = models.front();
-  // Few points and no lines.
+  // The tracks have few points and few lines.
   if (static_cast<int>(tracks.views.back().CountSeen()) + best.lines < kMinMatches) {
     return InitializationWait::kTooFewMatches;
   }
@@ -166,8 +168,8 @@ InitializationWait Decide(const Tracks& tracks, const std::vector<CandidateModel
   return InitializationWait::kNone;
 }
 
-// Where points alone do not suffice and there are few; what many points leave open is not for lines
-// to decide.
+// Whether lines are to take part: points alone do not suffice, and there are few of them. What many
+// points leave open is not for lines to decide.
 bool NeedsLines(const Tracks& tracks, InitializationWait wait) {
   return wait != InitializationWait::kNone && wait != InitializationWait::kTooLittleParallax &&
          tracks.lines.size() > 0 && tracks.size() < kManyPoints;
@@ -231,7 +233,8 @@ ModelSelection SelectModel(const Tracks& tracks,
 
   std::vector<CandidateModel> models = FactorizeAll(scaled, hypotheses, options.factorization);
   if (models.empty()) return {.wait = kInaccurate};
-  // Adjusted to points alone, two that lines tell apart may become one.
+  // Models that lines can tell apart may become one when they are adjusted to points alone, so that
+  // the models from before adjustment are kept.
   std::vector<CandidateModel> before = models;
   AdjustAll(scaled, models);
   ModelSelection selection{.wait = Decide(scaled, models)};

@@ -22,23 +22,24 @@ struct ModelSelectionOptions {
 
 struct ModelSelection {
   InitializationWait wait = InitializationWait::kNone;
-  double parallax_deg = 0;  // median over the points of the newest frame; 0: unknown
+  // Median over the points of the newest frame; 0 where unknown.
+  double parallax_deg = 0;
   std::optional<Reconstruction> reconstruction = std::nullopt;  // its median depth is one
 };
 
-// The models of earlier tracks of the same reference that could not be ruled out, as hypotheses for
-// the next: what the newest frame can tell may be less than what earlier ones could.
+// Keeps the models of earlier tracks of the same reference that could not be ruled out, as
+// hypotheses for the next tracks: the newest frame may tell less than earlier frames could.
 class PriorHypotheses {
  public:
   void Clear();
-  // The best first; `sure`: it would have been accepted.
+  // Keeps the models, the best first. `sure` says that the best would have been accepted.
   void Keep(const Tracks& tracks, std::span<const CandidateModel> models, bool sure);
   std::vector<MotionHypothesis> HypothesesFor(const Tracks& tracks) const;
-  // Whether the best was sure and its points see the newest frame where the reconstruction has it:
-  // what is found by chance is not found twice.
+  // Whether the best kept model was sure, and its points give the newest frame the pose that the
+  // reconstruction has. What was found by chance is not found twice.
   bool Confirm(const Tracks& tracks, const Reconstruction& reconstruction) const;
 
-  // All that it keeps (base/byte_format.h).
+  // Visits all that is kept (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.hypotheses_, self.sure_);
@@ -47,7 +48,7 @@ class PriorHypotheses {
  private:
   struct Hypothesis {
     Rigid3 newest_from_reference;
-    std::map<int, double> inverse_distances;  // by feature of the reference
+    std::map<int, double> inverse_distances;  // keyed by feature of the reference
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -58,24 +59,24 @@ class PriorHypotheses {
   bool sure_ = false;
 };
 
-// Reconstructs the tracks in all ways that the newest frame allows and says whether one of them is
-// right beyond doubt:
+// Reconstructs the tracks in all ways that the newest frame allows, and decides whether one of them
+// is right beyond doubt:
 //
-//  - every hypothesis of the motion to the newest frame (essential matrix and homography, all their
+//  - Every hypothesis of the motion to the newest frame (essential matrix and homography, all their
 //    decompositions), and every prior one, is carried through all frames (FactorizeTracks) and
-//    adjusted to all matches;
-//  - 24 points and lines of the newest frame, 12 of them points, 85 % inliers and 1.2 degrees of
-//    parallax are the least;
-//  - the best must beat every other that differs in motion by a margin of chi2 that noise does not
-//    make (kAmbiguous otherwise): so the two interpretations of a plane are told apart;
-//  - the first-order covariance must promise what the map is to be (kTooLittleParallax or
+//    adjusted to all matches.
+//  - At least 24 points and lines of the newest frame are needed, 12 of them points, with 85 %
+//    inliers and 1.2 degrees of parallax.
+//  - The best model must beat every model with another motion by a margin of chi2 that noise does
+//    not make (kAmbiguous otherwise). This tells the two interpretations of a plane apart.
+//  - The first-order covariance must promise the accuracy that a map needs (kTooLittleParallax or
 //    kInaccurate otherwise). A camera that stands or turns leaves depth and direction free, which
-//    the covariance says; so does a small thing that moves before a camera at rest, since the
-//    median is that of all points;
-//  - the selection of the frame before must have been as sure, and agree.
+//    the covariance shows. It also shows a small thing that moves before a camera at rest, since
+//    the median is that of all points.
+//  - The selection of the frame before must have been as sure, and agree.
 //
-// Never tells more than the model knows: a scene most of which moves as one rigid body is taken for
-// a camera that moves.
+// The model has one limit: a scene most of which moves as one rigid body looks like a camera that
+// moves.
 ModelSelection SelectModel(const Tracks& tracks,
                            const ModelSelectionOptions& options,
                            PriorHypotheses& prior,

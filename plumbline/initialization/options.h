@@ -28,7 +28,8 @@ constexpr auto EnumNames(std::type_identity<InitialMatching>) {
 
 struct InitializationOptions {
   InitializationMethod method = InitializationMethod::kRank1;
-  int frames = 3;  // m of the first paper: frames after the reference that are solved together
+  // Frames after the reference that are solved together: m of the first paper.
+  int frames = 3;
   RelativePoseMethod relative_pose = RelativePoseMethod::kFivePoint;
   bool factorize = true;
   bool interpolate = true;

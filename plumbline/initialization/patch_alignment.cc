@@ -14,10 +14,11 @@
 namespace plumbline {
 namespace {
 
-constexpr double kOctave = 1.2;      // from one octave to the next
-constexpr double kConverged = 0.01;  // of a step, in pixels of the octave
+constexpr double kOctave = 1.2;  // scale from one octave to the next
+// A step is small enough below this, in pixels of the octave.
+constexpr double kConverged = 0.01;
 
-// The patch of the reference around a pixel, in steps of its octave.
+// Returns the patch of the reference around a pixel, in steps of its octave.
 std::optional<ImagePatch> PatchAround(const GrayImage& image,
                                       const Eigen::Vector2d& px,
                                       double step,
@@ -26,8 +27,9 @@ std::optional<ImagePatch> PatchAround(const GrayImage& image,
   return wide ? MakePatch(*wide, radius) : std::nullopt;
 }
 
-// Derivatives of the normalized patch by a shift and by the columns of a linear map of its grid, in
-// units of its radius. Its own direction is taken out: contrast is not what moves.
+// Returns the derivatives of the normalized patch by a shift and by the columns of a linear map of
+// its grid, in units of its radius. Their part along the patch itself is taken out, since contrast
+// is not motion.
 Eigen::Matrix<double, Eigen::Dynamic, 6> AffineDerivatives(const ImagePatch& patch, int radius) {
   Eigen::Matrix<double, Eigen::Dynamic, 6> J(patch.samples.size(), 6);
   Eigen::Index row = 0;
@@ -43,17 +45,18 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> AffineDerivatives(const ImagePatch& pat
   return J;
 }
 
-// The place near `start`, found by shifts alone, where the image looks like the patch under an
-// affine map of its own, `axes` times `warp`, which begins at what it is. The prior of the warp has
-// the weight of the residual: it holds the warp near one while the patch does not fit and where it
-// says nothing.
+// Returns the place near `start`, which was found by shifts alone, where the image looks like the
+// patch under an affine map: `axes` times `warp`. `warp` holds the start of the search and returns
+// the result. The prior of the warp has the weight of the residual. It holds the warp near one
+// while the patch does not fit and where the patch says nothing.
 std::optional<Eigen::Vector2d> AlignAffine(const ImagePatch& patch,
                                            const GrayImage& image,
                                            const Eigen::Vector2d& start,
                                            const Eigen::Matrix2d& axes,
                                            const PatchAlignmentOptions& options,
                                            Eigen::Matrix2d& warp) {
-  constexpr double kConvergedMap = 0.05;  // of a step, in pixels at the patch's border
+  // A step of the warp is small enough below this, in pixels at the patch's border.
+  constexpr double kConvergedMap = 0.05;
   const int r = options.radius;
   const double sigma = options.warp_sigma * r;
   const auto J = AffineDerivatives(patch, r);

@@ -15,17 +15,19 @@
 namespace plumbline {
 namespace {
 
-// From the median of the length of a residual with two independent normal parts to their deviation.
+// Factor from the median length of a residual with two independent normal components to their
+// deviation.
 constexpr double kMedianToSigma = 1 / 1.1774;
-// Least spread of the residuals, in units of the noise that is assumed: where they are smaller
-// still, none is an outlier.
+// Least spread of the residuals, in units of the noise assumed. Where residuals are still smaller,
+// none is an outlier.
 constexpr double kMinSpread = 0.1;
 
 using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
 using Rows = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The deviation of residuals by their median, of 300 to 600 entries spread over all that have a
-// weight, other points in each view: more would tell it to a few percent better.
+// Measures the deviation of residuals by their median. It takes a sample of 300 to 600 entries,
+// spread over all that have a weight, with other points in each view. More entries would improve it
+// by a few percent only.
 class SpreadOfKnown {
  public:
   explicit SpreadOfKnown(const Rank1Rows& weights) {
@@ -50,11 +52,11 @@ class SpreadOfKnown {
   }
 
  private:
-  std::vector<std::size_t> sample_;  // places of entries that have a weight
+  std::vector<std::size_t> sample_;  // indices of the sampled entries, which have a weight
   std::vector<double> values_;
 };
 
-// Points by coordinate.
+// The coordinates of points, each in a row.
 struct CoordinateRows {
   Row x, y;
 
@@ -67,8 +69,8 @@ struct CoordinateRows {
   }
 };
 
-// Weighted least squares of points and cameras in turn (eq. 5). What does not change from one step
-// to the next is kept.
+// Solves for points and cameras in turn by weighted least squares (eq. 5). Sums that both steps
+// need are kept.
 class Alternation {
  public:
   Alternation(const Rank1Matrix& matrix, const Eigen::VectorXd& centres)
@@ -90,7 +92,7 @@ class Alternation {
 
   RankOne& pair() { return pair_; }
 
-  // One step under the Cauchy loss.
+  // Does one step under the Cauchy loss.
   void Step(const Rows& squared_residuals, double width) {
     reweighted_ = weights_ / (1 + squared_residuals * (1 / (width * width)));
     SolvePoints();
@@ -99,7 +101,8 @@ class Alternation {
     SolvePoints();
   }
 
-  // |entry - centre * inverse distance|^2 over its variance, by view and point; unknown ones 0.
+  // Computes |entry - centre * inverse distance|^2 over its variance for each view and point;
+  // unknown entries give 0.
   void SquaredResiduals(Rows& residuals) const {
     const auto d = pair_.inverse_distances.transpose().array();
     for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
@@ -110,7 +113,7 @@ class Alternation {
   }
 
  private:
-  // The entries' parts along the centres.
+  // Computes the components of the entries along the centres.
   void SetAlong() {
     for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
       const Eigen::Vector3d c = pair_.centres.segment<3>(3 * i);
@@ -119,7 +122,7 @@ class Alternation {
     }
   }
 
-  // The inverse distances for given centres.
+  // Solves for the inverse distances with the centres held.
   void SolvePoints() {
     numerator_.setZero();
     denominator_.setZero();
@@ -131,7 +134,8 @@ class Alternation {
         (denominator_ > 0).select(numerator_ / denominator_, 0).matrix().transpose();
   }
 
-  // The centres for given inverse distances, then scaled to unit length in all.
+  // Solves for the centres with the inverse distances held, then scales all of them together to
+  // unit length.
   void SolveCentres() {
     const auto d = pair_.inverse_distances.transpose().array();
     for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
@@ -150,7 +154,7 @@ class Alternation {
 
   Eigen::ArrayWrapper<const Rank1Rows> entries_;
   Eigen::ArrayWrapper<const Rank1Rows> weights_;
-  Rows squares_;  // of the lengths of the entries
+  Rows squares_;  // squared lengths of the entries
   Rows along_;
   Rows reweighted_;
   Row numerator_;
@@ -158,7 +162,7 @@ class Alternation {
   RankOne pair_;
 };
 
-// Most points are in front of the camera: the sign that an SVD leaves open.
+// Chooses the sign, which an SVD leaves open, so that most points are in front of the camera.
 void FixSign(RankOne& pair) {
   const auto negative = (pair.inverse_distances.array() < 0).count();
   const auto positive = (pair.inverse_distances.array() > 0).count();
@@ -167,8 +171,8 @@ void FixSign(RankOne& pair) {
   pair.inverse_distances = -pair.inverse_distances;
 }
 
-// Centres of the unweighted solution of the matrix with its columns scaled by what they are worth
-// (which leaves it rank one), so that rays near the epipole do not drown the others.
+// Returns the centres of the unweighted solution. Each column is scaled by the root of its mean
+// weight, which leaves the matrix rank one, so that rays near the epipole do not drown the others.
 Eigen::VectorXd StartingCentres(const Rank1Matrix& matrix) {
   const Eigen::RowVectorXd worth = matrix.weights().colwise().mean().cwiseSqrt();
   return LeadingPair(matrix.entries() * worth.asDiagonal()).centres;
@@ -212,7 +216,8 @@ Rank1Matrix::Rank1Matrix(std::span<const Eigen::Vector2d> reference_points,
   }
 }
 
-// q is of any length here: what it would be divided by comes out of eq. 3 as its square.
+// Fills the rows of a view. q is not normalized: its squared length in eq. 3 takes the place of the
+// division.
 void Rank1Matrix::SetView(Eigen::Index i,
                           const Rank1View& view,
                           const RayRows& p,
@@ -228,9 +233,9 @@ void Rank1Matrix::SetView(Eigen::Index i,
   const Row tq = t.x() * q.x + t.y() * q.y + t.z() * q.z;
   const Row tp = t.x() * p.x + t.y() * p.y + t.z() * p.z;
   const Row qp = q.x * p.x + q.y * p.y + q.z * p.z;
-  const Row across = squared_length - tq.square();  // the square of q's part across t
+  const Row across = squared_length - tq.square();  // the square of q's component across t
   const Eigen::Map<const Row> sigmas(view.sigmas.data(), tq.size());
-  // Not those without a place, nor those along t, where the two lines are parallel.
+  // Points without a place are left out, and rays along t, where the two lines are parallel.
   const Row known = (sigmas > 0 && across > min_squared_sine * squared_length).cast<double>();
   const Row half = 0.5 * known / (known > 0).select(across, 1);
   const Row s0 = half * (squared_length * tp - tq * qp);
@@ -244,7 +249,7 @@ void Rank1Matrix::SetView(Eigen::Index i,
 
 RankOne LeadingPair(const Rank1Rows& entries) {
   const Eigen::MatrixXd gram = entries * entries.transpose();
-  // The column with the most in it is not orthogonal to what is sought.
+  // The column with the largest norm is not orthogonal to the vector that is sought.
   Eigen::Index start = 0;
   gram.diagonal().maxCoeff(&start);
   Eigen::VectorXd u = gram.col(start);

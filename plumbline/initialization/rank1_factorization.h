@@ -11,58 +11,63 @@
 
 namespace plumbline {
 
-// What one frame after the reference knows of the reference's points.
+// What one frame after the reference knows about the points of the reference.
 struct Rank1View {
   Eigen::Quaterniond reference_from_cam;  // rotation alone
   // Unit vector to the camera's centre, in the reference frame. Its sign does not matter.
   Eigen::Vector3d centre_direction = Eigen::Vector3d::UnitX();
-  std::vector<Eigen::Vector2d> points;  // ideal image coordinates (x/z, y/z), by point
-  // Standard deviation of each coordinate, by point; 0: not seen in this frame.
+  std::vector<Eigen::Vector2d> points;  // ideal image coordinates (x/z, y/z) of each point
+  // Standard deviation of each coordinate of each point; 0 where this frame does not show the
+  // point.
   std::vector<double> sigmas;
 };
 
 // Settings of FactorizeRank1.
 struct Rank1Options {
-  int iterations = 5;  // rounds of reweighting; 0: one plain factorization, as the paper
-  // Rays nearer to the line of the centres than this say nothing of the length of the motion.
-  double min_epipole_angle = 0.02;  // radians
-  double loss_width = 2.385;        // width of the Cauchy loss, in standard deviations
+  int iterations = 5;  // rounds of reweighting; 0: one plain factorization, as in the paper
+  // Rays nearer to the line of the centres than this [radians] say nothing about the length of the
+  // motion.
+  double min_epipole_angle = 0.02;
+  double loss_width = 2.385;  // width of the Cauchy loss, in standard deviations
 };
 
-// A matrix stored by rows, so that one coordinate of one frame has its numbers of all points side
-// by side.
+// A matrix stored by rows, so that the numbers of all points for one coordinate of one frame lie
+// side by side.
 using Rank1Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Cameras and points that are rank one together.
+// The centres and distances whose product is closest to the measurement matrix.
 struct Rank1Solution {
-  std::vector<Eigen::Vector3d>
-      centres;  // centres of the views, in the reference frame; unit length in all
-  std::vector<double> inverse_distances;  // by point, along its unit ray; 0 where nothing is known
-  int in_front = 0;                       // points with a positive one
-  int solved = 0;                         // points with any
+  // Centres of the views, in the frame of the reference; all of them together have unit length.
+  std::vector<Eigen::Vector3d> centres;
+  // Inverse distance of each point along its unit ray; 0 where nothing is known.
+  std::vector<double> inverse_distances;
+  int in_front = 0;   // points with a positive inverse distance
+  int solved = 0;     // points with an inverse distance
   double spread = 0;  // spread of the residuals by their median, in standard deviations
 };
 
-// The 3m x n matrix of the first paper's eq. 4: column k has, frame by frame, the camera centre in
-// units of the distance of point k. Noise-free it is centres times inverse distances.
+// The 3m x n matrix of the first paper's eq. 4. Column k has, frame by frame, the camera centre in
+// units of the distance of point k. Without noise it is the product of centres and inverse
+// distances.
 //
-// By eq. 1-3 as corrected: with p the unit ray of the point in the reference, q its measured ray in
-// the frame turned into the reference (printed: p itself turned), t the direction of the centre and
-// c = t . q, the lengths of t and q that bring a = s0 t and b = p - s q together are
+// It follows eq. 1-3 as corrected. Let p be the unit ray of the point in the reference, q its
+// measured ray in the frame, turned into the reference (printed: p itself turned), t the direction
+// of the centre and c = t . q. The lengths of t and q that bring a = s0 t and b = p - s q together
+// are
 //
 //   s0 = (t.p - c q.p) / (1 - c^2),  s = (q.p - c t.p) / (1 - c^2)
 //
 // and the entry is (a + b) / 2. Its error is that of the rays over the sine of the angle between t
-// and q, whence the weights of the factorization.
+// and q, which gives the weights of the factorization.
 class Rank1Matrix {
  public:
-  // All views with as many points and sigmas as `reference_points` (BugError otherwise).
+  // All views must have as many points and sigmas as `reference_points` (BugError otherwise).
   Rank1Matrix(std::span<const Eigen::Vector2d> reference_points,
               std::span<const Rank1View> views,
               double min_epipole_angle);
 
   const Rank1Rows& entries() const { return entries_; }  // 3m x n; 0 where unknown
-  const Rank1Rows& weights() const { return weights_; }  // m x n: 1 / variance; 0: unknown
+  const Rank1Rows& weights() const { return weights_; }  // m x n, 1 / variance; 0 where unknown
 
  private:
   using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
@@ -70,15 +75,16 @@ class Rank1Matrix {
     Row x, y, z;
   };
   static RayRows UnitRays(std::span<const Eigen::Vector2d> points);
-  // The rows of one view; `p`: the unit rays in the reference.
+  // Fills the rows of one view. `p` are the unit rays in the reference.
   void SetView(Eigen::Index i, const Rank1View& view, const RayRows& p, double min_squared_sine);
 
   Rank1Rows entries_;
   Rank1Rows weights_;
 };
 
-// The leading pair of a dense matrix: centres (3m) times inverse distances (n), |centres| = 1. The
-// sign is that for which most inverse distances are positive.
+// The leading pair of a dense matrix: the product of centres (3m) and inverse distances (n) that is
+// closest to it, with |centres| = 1. The sign is the one for which most inverse distances are
+// positive.
 struct RankOne {
   Eigen::VectorXd centres;
   Eigen::VectorXd inverse_distances;
@@ -89,13 +95,14 @@ RankOne LeadingPair(const Rank1Rows& entries);
 // Solves for all centres and inverse distances at once (eq. 5).
 //
 // The first solution is that of an SVD, with columns scaled by their noise and unknown entries left
-// zero; then points and cameras are solved for in turn by weighted least squares (the "reweighted"
-// error that an SVD cannot have), the weights from the noise of each entry and the Cauchy loss of
-// its residual, whose scale is measured by the median.
+// zero. Then points and cameras are solved for in turn by weighted least squares, which minimizes
+// the reweighted error that an SVD cannot have. The weights come from the noise of each entry and
+// the Cauchy loss of its residual, whose scale is measured by the median.
 //
-//   views    at least one
-//   returns  nullopt where fewer than 3 points have an entry, or a frame has none
-//   cost     O(m n) for each iteration
+//   reference_points  ideal image coordinates (x/z, y/z) in the reference
+//   views             at least one
+//   returns           nullopt where fewer than 3 points have an entry, or a frame has none
+//   cost              O(m n) for each iteration, with m views and n points
 std::optional<Rank1Solution> FactorizeRank1(std::span<const Eigen::Vector2d> reference_points,
                                             std::span<const Rank1View> views,
                                             const Rank1Options& options = {});

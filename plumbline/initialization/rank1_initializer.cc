@@ -12,9 +12,10 @@
 namespace plumbline {
 namespace {
 
-constexpr int kMaxTracks = 200;            // that the decision is made from
-constexpr std::size_t kMinLandmarks = 30;  // of a map
-// Largest standard deviation of an interpolated place that is used; corners have 0.2 to 1 pixel.
+constexpr int kMaxTracks = 200;            // most tracks from which the decision is made
+constexpr std::size_t kMinLandmarks = 30;  // fewest landmarks of a map
+// Largest standard deviation of an interpolated place that is used; that of corners is 0.2 to 1
+// pixel.
 constexpr double kMaxInterpolationPx = 2;
 
 }  // namespace
@@ -35,7 +36,8 @@ Rank1Initializer::Rank1Initializer(const RectifiedCamera& camera,
 
 InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   InitializationResult result = window_.Offer(frame, frames_);
-  if (result.wait == InitializationWait::kTooFewMatches) prior_.Clear();  // another reference
+  // The window has another reference now.
+  if (result.wait == InitializationWait::kTooFewMatches) prior_.Clear();
   if (result.wait != InitializationWait::kNone) return result;
   const std::vector<int> frames = window_.SelectFrames(frames_);
   const Tracks tracks = window_.CollectTracks(frames, kMaxTracks);

@@ -12,8 +12,9 @@ namespace plumbline {
 // The first paper's start of a map (section 2): rank-1 factorization of several frames, completed
 // by geometric interpolation, with a decision that waits rather than errs (model_selection.h).
 //
-// From options.frames frames after the reference on, as many spread over all of them are tried anew
-// with each frame.
+// Attempts begin once there are options.frames frames after the reference. Each attempt takes that
+// many frames, spread over all frames since the reference, and each new frame brings another
+// attempt.
 class Rank1Initializer : public Initializer {
  public:
   Rank1Initializer(const RectifiedCamera& camera,
@@ -25,7 +26,7 @@ class Rank1Initializer : public Initializer {
   void Save(StateWriter& archive) const override;
   void Load(StateReader& archive) override;
 
-  // All that it keeps (base/byte_format.h).
+  // Visits all that the initializer keeps (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.window_, self.prior_);

@@ -38,7 +38,8 @@ bool IsSeen(const Tracks& tracks, std::size_t k) {
 std::optional<PluckerLine> Triangulate(const Tracks& tracks,
                                        const Reconstruction& reconstruction,
                                        std::size_t k) {
-  // What the views disagree about is found by adjustment, of all lines together.
+  // All residuals are allowed here, because the adjustment of all lines together finds what the
+  // views disagree about.
   constexpr double kAnyResidual = 1e9;
   std::vector<LineView> views;
   VisitViews(tracks.lines, k, [&](std::size_t i, const TrackedLines& view) {

@@ -16,13 +16,14 @@
 
 namespace plumbline {
 
-// Motion and structure from tracks: the reference's camera is the world, its unit free.
+// Motion and structure from tracks. The world is the reference's camera; the unit of length is
+// free.
 struct Reconstruction {
-  std::vector<Rigid3> cam_from_reference;  // by view
-  std::vector<Eigen::Vector3d> points;     // by point of the reference
-  std::vector<bool> is_known;              // by point: false where there is no place for it
-  // The place of each line of the reference view, nullopt where none was found; empty where lines
-  // do not take part.
+  std::vector<Rigid3> cam_from_reference;  // one pose for each view
+  std::vector<Eigen::Vector3d> points;     // one point for each point of the reference
+  std::vector<bool> is_known;              // false where a point has no place
+  // The place of each line of the reference; nullopt where none was found. Empty where lines do not
+  // take part.
   std::vector<std::optional<PluckerLine>> lines = {};
 
   // Returns the pose of a view: 0 is the reference, later views count from 1.
@@ -31,65 +32,70 @@ struct Reconstruction {
   }
 };
 
-// The camera whose pixels are ideal image coordinates.
+// A camera whose pixels are ideal image coordinates (x/z, y/z).
 inline constexpr RectifiedCamera kIdealCamera = [] {
   RectifiedCamera camera;
   camera.fx = camera.fy = 1;
   return camera;
 }();
 
-// What a frame shows of point or line k, the standard deviation of a line times `noise`.
+// Returns the measurement of point or line k in a frame. The standard deviation of a line is
+// multiplied by `noise`.
 PointMeasurement MeasurementOf(const TrackedPoints& view, std::size_t k);
 LineMeasurement MeasurementOf(const TrackedLines& view, std::size_t k, double noise = 1);
 
-// Puts the points where all their rays from the poses of a reconstruction meet, and leaves those
-// whose rays do not meet in front.
+// Puts each point where all its rays from the poses of a reconstruction meet. Points whose rays do
+// not meet in front have no place.
 void TriangulatePoints(const Tracks& tracks, Reconstruction& reconstruction);
 
-// Finds the lines of the tracks from the poses (TriangulateLine); those that would lie behind a
-// camera, or whose views hardly differ, have no place.
+// Triangulates the lines of the tracks from the poses (TriangulateLine). Lines that would lie
+// behind a camera, or whose views hardly differ, have no place.
 void TriangulateLines(const Tracks& tracks, Reconstruction& reconstruction);
 
 // How well the points of a reconstruction fit the tracks.
 struct ReprojectionFit {
-  // Squared reprojection errors over their variances, each at most `max_chi2`, summed over all
-  // matches of all points with the reference: those of points without a place count in full.
+  // Sum of the squared reprojection errors over their variances, each at most `max_chi2`, over all
+  // matches of all points with the reference. Matches of points without a place count `max_chi2`.
   double cost = 0;
-  int measurements = 0;  // that are summed, two coordinates each
-  int inliers = 0;       // measurements within max_chi2
-  // Noise of a measurement in units of the standard deviation assumed: the root mean square of the
-  // errors, each limited as in `cost`, over the degrees of freedom that the parameters leave.
+  int measurements = 0;  // number of errors in the sum, of two coordinates each
+  int inliers = 0;       // measurements whose error is within max_chi2
+  // Noise of a measurement in units of the standard deviation assumed: the square root of `cost`
+  // over the degrees of freedom that the parameters leave.
   double noise = 0;
 };
 
-// The inlier test of all points.
-//   max_chi2  in variances as assumed
+// Tests all points against their measurements.
+//   max_chi2  limit of an error, in variances as assumed
 ReprojectionFit EvaluatePoints(const Tracks& tracks,
                                const Reconstruction& reconstruction,
                                double max_chi2);
 
-// Squared distances of the ends of a line's segments from its image over their variances.
+// The squared distances of the ends of a line's segments from its image, over their variances.
 struct LineFit {
-  double cost = 0;      // each view at most `max_chi2`; those of a line without a place in full
-  bool inlier = false;  // in every view that shows it
-  double chi2 = 0;      // not limited
-  int freedom = 0;      // two a view, less four
+  // Sum over views, each at most `max_chi2`; every view of a line without a place counts
+  // `max_chi2`.
+  double cost = 0;
+  bool inlier = false;  // whether the line is an inlier in every view that shows it
+  double chi2 = 0;      // sum over views without a limit
+  int freedom = 0;      // degrees of freedom: two for each view, minus four
 };
 
-// The inlier test of each line.
-//   max_chi2  of the two ends in one view
-//   returns   by line of the tracks; empty where lines do not take part
+// Tests each line against its measurements.
+//   max_chi2  limit for the two ends in one view
+//   returns   one for each line of the tracks; empty where lines do not take part
 std::vector<LineFit> EvaluateLines(const Tracks& tracks,
                                    const Reconstruction& reconstruction,
                                    double max_chi2);
 
-// A short joint bundle adjustment of all frames, points and lines that have a place on the matches
-// alone (interpolated places are not measurements). The reference and, by damping, the unit stay.
+// A short joint bundle adjustment of all frames, and of all points and lines that have a place. It
+// uses the matches alone, since interpolated places are not measurements. The reference is fixed;
+// damping holds the unit.
 Reconstruction BundleAdjust(const Tracks& tracks,
                             Reconstruction reconstruction,
                             int max_iterations);
 
-// Scales the reconstruction so that the median depth in the reference is one; lines are left.
+// Scales poses and points so that the median depth in the reference is one. Lines are left as they
+// are.
 void ScaleToMedianDepth(Reconstruction& reconstruction);
 
 }  // namespace plumbline

@@ -18,7 +18,7 @@ namespace {
 
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
-// Whitened error of a measurement and its derivative with respect to the point in the camera.
+// Whitened error of a measurement, and its derivative by the point in the camera.
 struct Measured {
   Eigen::Vector2d error = Eigen::Vector2d::Zero();
   Matrix23 J = Matrix23::Zero();
@@ -36,7 +36,7 @@ std::optional<Measured> Measure(const Eigen::Vector3d& in_cam,
   return result;
 }
 
-// What a landmark of N parameters and the views that see it have in common.
+// The normal equations of a landmark with N parameters and of the views that see it.
 template <int N>
 struct NormalBlocks {
   using Block = Eigen::Matrix<double, 6, N>;
@@ -57,18 +57,18 @@ struct NormalBlocks {
   }
 
   Eigen::Matrix<double, N, N> V;
-  std::vector<Block> W;     // by view; of those that see it
-  std::vector<Matrix6d> H;  // by view; of those that see it
-  std::vector<char> sees;   // by view
+  std::vector<Block> W;     // for each view, of use where the view sees the landmark
+  std::vector<Matrix6d> H;  // for each view, of use where the view sees the landmark
+  std::vector<char> sees;   // for each view
 };
 
-// What all landmarks say about the poses: blocks of the lower triangle.
+// The information of all landmarks about the poses, as blocks of the lower triangle.
 class PoseInformation {
  public:
   explicit PoseInformation(std::size_t views)
       : views_(views), blocks_(views * (views + 1) / 2, Matrix6d::Zero()) {}
 
-  // Takes a landmark out; returns V^-1, nullopt where it is not fixed.
+  // Eliminates a landmark; returns V^-1, or nullopt where the landmark is not fixed.
   template <int N>
   std::optional<Eigen::Matrix<double, N, N>> Eliminate(const NormalBlocks<N>& blocks) {
     const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(blocks.V);
@@ -112,11 +112,11 @@ class PoseInformation {
   std::vector<Matrix6d> blocks_;
 };
 
-// How the depths of the points that are known follow the poses.
+// The dependence of the depths of known points on the poses.
 struct Depths {
   std::vector<std::size_t> points;
-  std::vector<double> variances;  // of log depth with the poses held
-  // By column a point: minus the derivative of its log depth by the poses.
+  std::vector<double> variances;  // variances of the log depths with the poses held
+  // One column for each point: minus the derivative of its log depth by the poses.
   Eigen::MatrixXd columns;
 
   explicit Depths(const Tracks& tracks)
@@ -138,7 +138,7 @@ struct Depths {
   }
 };
 
-// The normal equations of points.
+// Builds the normal equations of points.
 class PointEquations {
  public:
   PointEquations(const Tracks& tracks, const Reconstruction& reconstruction)
@@ -148,7 +148,7 @@ class PointEquations {
     }
   }
 
-  // Those of point k; false where it has no place or no view sees it.
+  // Sets the equations of point k; returns false where it has no place or no view sees it.
   bool Set(std::size_t k, double noise, double max_chi2, NormalBlocks<3>& blocks) const {
     const Eigen::Vector3d& X = reconstruction_.points[k];
     const auto in_reference =
@@ -178,7 +178,7 @@ class PointEquations {
   std::vector<Eigen::Matrix3d> rotations_;
 };
 
-// A line that fits all views that show it.
+// Eliminates a line that fits all views that show it.
 void EliminateLine(const Tracks& tracks,
                    const Reconstruction& reconstruction,
                    std::size_t k,
@@ -201,7 +201,8 @@ void EliminateLine(const Tracks& tracks,
   information.Eliminate(blocks);
 }
 
-// The direction in which the whole grows: all centres away from the reference.
+// Returns the direction in which the whole reconstruction grows: all centres move away from the
+// reference.
 Eigen::VectorXd ScaleDirection(const Reconstruction& reconstruction) {
   Eigen::VectorXd direction = Eigen::VectorXd::Zero(
       static_cast<Eigen::Index>(6 * reconstruction.cam_from_reference.size()));
@@ -217,7 +218,7 @@ std::optional<Eigen::MatrixXd> InvertWithScaleHeld(Eigen::MatrixXd information,
                                                    const Reconstruction& reconstruction) {
   information = information.selfadjointView<Eigen::Lower>();
   const Eigen::VectorXd scale = ScaleDirection(reconstruction);
-  // Rotations and translations in units of their own, for the condition.
+  // Rotations and translations get units of their own, for the condition of the equations.
   const Eigen::VectorXd unit = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
   const double weight = information.trace();
   information += weight * scale * scale.transpose();
@@ -231,8 +232,8 @@ std::optional<Eigen::MatrixXd> InvertWithScaleHeld(Eigen::MatrixXd information,
          unit.cwiseInverse().asDiagonal();
 }
 
-// Relative deviations of the depths, after a common factor was taken off: the mean of their
-// logarithms, weighted so that points too far away to have a depth do not set it.
+// Returns the relative deviations of the depths after a common factor is taken off. This factor is
+// the mean of the log depths, weighted so that points too far away to have a depth do not set it.
 std::vector<double> RelativeDepthSigmas(std::size_t points,
                                         Depths depths,
                                         const Eigen::MatrixXd& poses) {
@@ -286,7 +287,7 @@ PoseAccuracy AccuracyOf(const Reconstruction& reconstruction,
   const double length = pose.translation.norm();
   const Eigen::Vector3d t = pose.translation / length;
   const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - t * t.transpose()) / length;
-  // exp([w, v]) T moves the centre by -R^T v: the shift alone turns its direction.
+  // exp([w, v]) T moves the centre by -R^T v, so that only the shift turns its direction.
   return {LargestSigma(covariance.poses.block<3, 3>(row, row)),
           LargestSigma(across * covariance.poses.block<3, 3>(row + 3, row + 3) * across)};
 }

@@ -13,24 +13,24 @@ namespace plumbline {
 
 // How well tracks fix motion and structure, to first order.
 struct ReconstructionCovariance {
-  // Covariance of the left perturbations [rotation, translation] of all views, 6 by 6 for each; the
+  // Covariance of the left perturbations [rotation, translation] of all views, 6 by 6 for each. The
   // scale of the whole is held.
   Eigen::MatrixXd poses;
   // For each point the standard deviation of its depth in the reference view, relative to that
-  // depth, once the scale of all points has been brought to the true one; negative where the point
+  // depth, once the scale of all points has been brought to the true one. Negative where the point
   // is not known.
   std::vector<double> relative_depth_sigmas;
 };
 
-// From the normal equations of the reprojection errors at a reconstruction, the points eliminated:
-// the reference and the unit are fixed, all else is free.
+// Computes the covariance from the normal equations of the reprojection errors at a reconstruction,
+// with the points eliminated. The reference and the unit are fixed, everything else is free.
 //
-//   noise    factor on the standard deviations of all measurements
-//   max_chi2 measurements whose squared error exceeds it, in those deviations, do not count
-//   line_noise  factor on those of lines, where lines take part; a line counts where it is an
-//            inlier in all views that show it
-//   returns  nullopt where the frames do not fix all poses
-//   cost     O(points views^2)
+//   noise       factor on the standard deviations of all measurements
+//   max_chi2    measurements whose squared error exceeds it, in those deviations, do not count
+//   line_noise  factor on the deviations of lines, where lines take part; a line counts where it is
+//               an inlier in all views that show it
+//   returns     nullopt where the frames do not fix all poses
+//   cost        O(points views^2)
 std::optional<ReconstructionCovariance> ComputeCovariance(const Tracks& tracks,
                                                           const Reconstruction& reconstruction,
                                                           double noise,
@@ -39,8 +39,9 @@ std::optional<ReconstructionCovariance> ComputeCovariance(const Tracks& tracks,
 
 // Standard deviations of the pose of one view.
 struct PoseAccuracy {
-  double rotation = 0;   // radians, along the worst axis
-  double direction = 0;  // of the line of the two camera centres, radians, along the worst axis
+  double rotation = 0;  // in radians, about the worst axis
+  // Deviation of the line of the two camera centres, in radians, about the worst axis.
+  double direction = 0;
 };
 PoseAccuracy AccuracyOf(const Reconstruction& reconstruction,
                         const ReconstructionCovariance& covariance,

@@ -15,8 +15,8 @@
 namespace plumbline {
 namespace {
 
-// A point whose inverse distance is not above this part of the median is as good as infinitely far:
-// it is put there, where it still holds the rotations.
+// A point whose inverse distance is at most this part of the median is as good as infinitely far.
+// It is put at that distance, where it still holds the rotations.
 constexpr double kFarthest = 0.02;
 // Largest chi2 of measurements that enter the covariance: 99.99 % of two degrees of freedom.
 constexpr double kMaxChi2 = 18.4;
@@ -32,7 +32,7 @@ double MedianOfPositive(const std::vector<double>& inverse_distances) {
   return UpperMedian(std::move(positive));
 }
 
-// The points in space, those near infinity put at `kFarthest`.
+// Returns the points in space. Points near infinity are put at `kFarthest`.
 Reconstruction ToReconstruction(const Tracks& tracks,
                                 const std::vector<double>& inverse_distances,
                                 std::vector<Rigid3> poses) {
@@ -48,21 +48,22 @@ Reconstruction ToReconstruction(const Tracks& tracks,
   return reconstruction;
 }
 
-// Inverse distances from two frames alone: a factorization of one view.
+// Returns the structure from two frames alone: a factorization of one view.
 std::optional<Reconstruction> StructureOfTwoFrames(const Tracks& tracks, const Rigid3& newest) {
   const Rank1View view = Rank1ViewOf(tracks.views.back(), newest);
   const auto factors =
       FactorizeRank1(tracks.reference.points, std::span(&view, 1), {.iterations = 0});
   if (!factors || 2 * factors->in_front <= factors->solved) return std::nullopt;
   const double sign = view.centre_direction.dot(factors->centres.front());
-  // Most points must be in front for the translation as it was given.
+  // With the given sign of the translation most points must be in front.
   if (!(sign > 0)) return std::nullopt;
   std::vector<Rigid3> poses{newest};
   poses.front().translation.normalize();
   return ToReconstruction(tracks, factors->inverse_distances, std::move(poses));
 }
 
-// The pose of a frame from the points that it shows; nullopt where it does not go with them.
+// Returns the pose of a frame from the points that it shows; nullopt where the frame does not fit
+// them.
 std::optional<Rigid3> Resect(const Tracks& tracks,
                              const TrackedPoints& seen,
                              const Reconstruction& structure,
@@ -72,7 +73,7 @@ std::optional<Rigid3> Resect(const Tracks& tracks,
   problem.cam_from_world = guess;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     if (!structure.is_known[k] || !seen.Has(k)) continue;
-    // The points are not better known than the places they come from.
+    // The points are not known better than the measurements from which they come.
     const double sigma = std::sqrt(2.0) * seen.sigmas[k];
     problem.points.push_back({structure.points[k], {seen.points[k], sigma, std::nullopt}});
   }
@@ -85,7 +86,8 @@ std::optional<Rigid3> Resect(const Tracks& tracks,
   return result.cam_from_world;
 }
 
-// Poses of all views in the unit of the structure, that of the newest frame being held or not.
+// Returns the poses of all views in the unit of the structure. With `newest_held` the newest pose
+// stays as it is.
 std::optional<std::vector<Rigid3>> ResectViews(const Tracks& tracks,
                                                const Reconstruction& structure,
                                                bool newest_held) {
@@ -103,8 +105,9 @@ std::optional<std::vector<Rigid3>> ResectViews(const Tracks& tracks,
   return poses;
 }
 
-// All points from known poses: along the unit ray p of the reference, at the inverse distance d
-// that makes R p + d t parallel to the measured rays, linear least squares over all views.
+// Returns the inverse distances of all points from known poses. A point lies along the unit ray p
+// of the reference, at the inverse distance d that makes R p + d t parallel to the measured rays,
+// by linear least squares over all views.
 std::vector<double> InverseDistances(const Tracks& tracks, const std::vector<Rigid3>& poses) {
   std::vector<double> inverse_distances;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
@@ -124,7 +127,7 @@ std::vector<double> InverseDistances(const Tracks& tracks, const std::vector<Rig
   return inverse_distances;
 }
 
-// Factorizes the views and puts the centres found into the poses.
+// Factorizes the views and puts the resulting centres into the poses.
 std::optional<Reconstruction> Factorize(const Tracks& tracks,
                                         const std::vector<TrackedPoints>& seen,
                                         const std::vector<Rigid3>& poses,
@@ -141,7 +144,7 @@ std::optional<Reconstruction> Factorize(const Tracks& tracks,
   return ToReconstruction(tracks, factors->inverse_distances, std::move(solved));
 }
 
-// The views with only the points that all of them show.
+// Returns the views with only the points that all of them show.
 std::vector<TrackedPoints> CompleteTracks(const Tracks& tracks) {
   std::vector<TrackedPoints> complete = tracks.views;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
@@ -154,7 +157,7 @@ std::vector<TrackedPoints> CompleteTracks(const Tracks& tracks) {
   return complete;
 }
 
-// The views completed by interpolation between the reference and the newest.
+// Returns the views, with missing points interpolated between the reference and the newest frame.
 std::vector<TrackedPoints> InterpolateMissing(const Tracks& tracks,
                                               const Reconstruction& solution,
                                               const FactorizationOptions& options) {
@@ -218,7 +221,7 @@ std::optional<Reconstruction> FactorizeTracks(const Tracks& tracks,
   if (!options.factorize) return ToReconstruction(tracks, InverseDistances(tracks, *poses), *poses);
   auto first = Factorize(tracks, CompleteTracks(tracks), *poses, options);
   if (!options.interpolate) return first;
-  // Few complete tracks: what the frames share with the first and the newest must do.
+  // Few tracks are complete: the first factorization then uses incomplete ones, too.
   if (!first) first = Factorize(tracks, tracks.views, *poses, options);
   if (!first) return std::nullopt;
   const auto completed = InterpolateMissing(tracks, *first, options);

@@ -13,43 +13,44 @@ namespace plumbline {
 
 // How tracks are factorized.
 struct FactorizationOptions {
-  bool factorize = true;  // false: step 1 alone, and all points from its poses
+  bool factorize = true;  // false: only step 1 is done, and all points follow from its poses
   bool interpolate = true;
-  // Largest deviation of an interpolated place that is used, ideal coordinates.
+  // Largest deviation of an interpolated place that is used [ideal image coordinates].
   double max_interpolation_sigma = 0.004;
   double min_line_angle = 0;  // least angle of the two epipolar lines, radians
-  int reweighting = 5;        // steps; 0: the plain factorization
+  int reweighting = 5;        // steps of reweighting; 0: a plain factorization
 };
 
-// Where a reconstruction may begin: the pose of the newest frame and, where earlier tracks of the
-// same reference gave them, the points.
+// A start for a reconstruction: the pose of the newest frame and, where earlier tracks of the same
+// reference gave them, the points.
 struct MotionHypothesis {
-  Rigid3 newest_from_reference;  // the translation of any length but zero
-  // Along the unit rays, by point of the tracks, 0 where unknown; empty: from the two frames.
+  Rigid3 newest_from_reference;  // translation of any length but zero
+  // Inverse distance along the unit ray of each point of the tracks, 0 where unknown. Empty: the
+  // points follow from the two frames.
   std::vector<double> inverse_distances;
 };
 
-// The pose of the newest frame from the points of a hypothesis that has them; nullopt where too few
-// of them fit.
+// Returns the pose of the newest frame from the points of a hypothesis that has points; nullopt
+// where too few of them fit.
 std::optional<Rigid3> ResectNewest(const Tracks& tracks, const MotionHypothesis& hypothesis);
 
-// What a view contributes to the measurement matrix: the points seen, the rotation of the pose and
-// the direction of its centre.
+// Returns what a view contributes to the measurement matrix: the points seen, the rotation of the
+// pose and the direction of its centre.
 Rank1View Rank1ViewOf(const TrackedPoints& seen, const Rigid3& pose);
 
-// Motion and structure of all frames at once (first paper, section 2), from one hypothesis.
+// Finds motion and structure of all frames at once (first paper, section 2), from one hypothesis.
 //
-// 1. The points of the hypothesis give the poses of the frames between. This is where the two
-//    interpretations of a plane part: each gives poses of its own to all frames. A frame that does
-//    not go with the points ends the hypothesis.
+// 1. The points of the hypothesis give the poses of the frames between. Here the two
+//    interpretations of a plane part: each gives other poses to all frames. A frame that does not
+//    fit the points ends the hypothesis.
 // 2. Rank-1 factorization of the points that all frames show gives all centres in one unit, so that
 //    poses can be chained.
-// 3. Geometric interpolation places the points that the first and the newest frame show in frames
-//    that do not, where the propagated standard deviation allows; then all are factorized.
+// 3. Geometric interpolation places points that the first and the newest frame show in frames that
+//    do not show them, where the propagated standard deviation allows. Then all are factorized.
 //
 // Without `factorize` the poses of step 1 stay, and the points are triangulated from them.
 //
-//   returns  nullopt where a frame does not go with the hypothesis, or too few points are left
+//   returns  nullopt where a frame does not fit the hypothesis, or too few points are left
 std::optional<Reconstruction> FactorizeTracks(const Tracks& tracks,
                                               const MotionHypothesis& hypothesis,
                                               const FactorizationOptions& options);

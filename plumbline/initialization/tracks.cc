@@ -19,14 +19,15 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kMaxFrames = 40;
-constexpr double kSeparationPx = 5;       // of the points that are used together
-constexpr std::size_t kMinFeatures = 60;  // of a frame that is taken into the window
-// Fewest matches with a reference, absolutely and of the most there were with it: those that are
-// left are more and more often wrong.
+constexpr double kSeparationPx = 5;  // least distance of points that are used together
+// Fewest features of a frame that is taken into the window.
+constexpr std::size_t kMinFeatures = 60;
+// Fewest matches with a reference: absolutely, and relative to the most that any frame had with it.
+// The matches that remain are more and more often wrong.
 constexpr int kFewestMatches = 12;
 constexpr double kMinShareOfMatches = 0.3;
 
-// Takes features in order, but none that is nearer than `distance_px` to one that was taken: a
+// Takes features in order, but none that is nearer than `distance_px` to one that was taken. A
 // corner is often found in several octaves, and its errors are the same in all of them.
 class Separated {
  public:
@@ -48,7 +49,8 @@ class Separated {
   std::vector<Eigen::Vector2d> taken_;
 };
 
-// Those to be followed from image to image, by feature: the best localized of each place.
+// Returns for each feature whether it is followed from image to image: the best localized feature
+// at each place is.
 std::vector<bool> ChooseFollowed(std::span<const PointFeature> points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -150,8 +152,9 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOfMatches(
   return places;
 }
 
-// Followed from the last image, or where it was lost matched by descriptor; then brought to where
-// the image shows what the reference shows, which is also where it is followed from next.
+// Returns the places of the reference's points in the image. Points are followed from the last
+// image; points that were lost are matched by descriptor. Each is then brought to where the image
+// looks as in the reference, and followed from there in the next image.
 std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationFrame& frame,
                                                            const ReferenceMatches& matches) {
   PLUMBLINE_CHECK(frame.image != nullptr, "points are followed on images");
@@ -206,9 +209,9 @@ std::vector<int> FrameWindow::SelectFrames(int count) const {
   return frames;
 }
 
-// At most `count` of the reference's features: round after round the best that is left in each cell
-// of the image, those that the newest frame shows first, then by the number of frames, then by the
-// noise.
+// Returns at most `count` of the reference's features. In each round every cell of the image gives
+// its best remaining feature. Features that the newest frame shows come first, then those that most
+// frames show, then those with the least noise.
 std::vector<std::size_t> FrameWindow::SelectFeatures(const std::vector<int>& frames,
                                                      int count) const {
   constexpr int kColumns = 8;

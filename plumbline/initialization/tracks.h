@@ -17,10 +17,11 @@
 
 namespace plumbline {
 
-// Where one frame shows the points of the reference: ideal image coordinates (x/z, y/z).
+// The points of the reference in one frame, in ideal image coordinates (x/z, y/z).
 struct TrackedPoints {
-  std::vector<Eigen::Vector2d> points;  // by point of the reference
-  std::vector<double> sigmas;           // standard deviation of each coordinate; 0: not matched
+  std::vector<Eigen::Vector2d> points;  // one place for each point of the reference
+  // Standard deviation of each coordinate; 0 where the point was not matched.
+  std::vector<double> sigmas;
 
   bool Has(std::size_t point) const { return sigmas[point] > 0; }
   std::size_t CountSeen() const {
@@ -29,29 +30,30 @@ struct TrackedPoints {
   }
 };
 
-// Where one frame shows the lines of the reference: segments in ideal image coordinates.
+// The lines of the reference in one frame, as segments in ideal image coordinates.
 struct TrackedLines {
-  std::vector<Segment2> segments;  // by line of the reference
-  std::vector<double> sigmas;      // standard deviation of each end across the line; 0: not matched
+  std::vector<Segment2> segments;  // one segment for each line of the reference
+  // Standard deviation of each end across the line; 0 where the line was not matched.
+  std::vector<double> sigmas;
 
   bool Has(std::size_t line) const { return sigmas[line] > 0; }
 };
 
-// The lines of a reference frame that at least two later frames show: two views of a line say
+// The lines of a reference frame that at least two later frames show. Two views of a line say
 // nothing about the cameras, three do.
 struct LineTracks {
-  TrackedLines reference;           // has all
-  std::vector<TrackedLines> views;  // by view; empty: there are no lines
+  TrackedLines reference;           // shows all lines
+  std::vector<TrackedLines> views;  // empty where there are no lines
 
   std::size_t size() const { return reference.segments.size(); }
 };
 
-// The points and lines of a reference frame in m later frames, as they were really matched: not all
-// points are in all frames.
+// The points and lines of a reference frame in m later frames, only as far as they were matched:
+// not every frame shows every point.
 struct Tracks {
-  TrackedPoints reference;           // has all
-  std::vector<TrackedPoints> views;  // by time; the last is the newest frame
-  std::vector<int> features;         // features of the reference, by point
+  TrackedPoints reference;           // shows all points
+  std::vector<TrackedPoints> views;  // in order of time; the last is the newest frame
+  std::vector<int> features;         // feature of the reference for each point
   LineTracks lines;
 
   std::size_t size() const { return reference.points.size(); }
@@ -77,11 +79,11 @@ void ScaleSigmas(double factor, PointsOrLines& tracks) {
   for (auto& view : tracks.views) scale(view);
 }
 
-// The points that a frame shows, each with its place in the reference, in order.
+// Returns the points that a frame shows, each with its place in the reference, in order.
 std::vector<RayMatch> MatchesBetween(const TrackedPoints& reference, const TrackedPoints& view);
 
-// Tracks features over frames: a reference frame and the frames since, matched with it. Frames are
-// kept when an attempt at a map fails; beyond a limit every second one is left out. The reference
+// Tracks features over frames: a reference frame, and the frames since, matched with it. Frames are
+// kept when an attempt at a map fails; beyond a limit every second one is dropped. The reference
 // moves forward only when matches with it die out.
 class FrameWindow {
  public:
@@ -90,40 +92,43 @@ class FrameWindow {
 
   void Reset();
   bool empty() const { return !reference_; }
-  int size() const { return static_cast<int>(frames_.size()); }  // without the reference
+  // Number of frames without the reference.
+  int size() const { return static_cast<int>(frames_.size()); }
   const InitializationFrame& reference() const { return *reference_; }
   const InitializationFrame& frame(int index) const {
     return frames_[static_cast<std::size_t>(index)].frame;
   }
 
-  // Takes the next frame of a sequence, unless it has too few features, and says what is missing
-  // for an attempt at a map; kNone: nothing. An attempt needs `needed` frames after the reference.
-  // Where few matches with the reference are left (kTooFewMatches), the reference is another one
-  // from then on.
+  // Takes the next frame of a sequence, unless it has too few features. The result says what is
+  // missing for an attempt at a map, which needs `needed` frames after the reference; kNone when
+  // nothing is missing. Where few matches with the reference are left (kTooFewMatches), another
+  // frame is the reference from then on.
   InitializationResult Offer(const InitializationFrame& frame, int needed);
 
-  // The first frame becomes the reference; later ones are matched with it by descriptor and, where
-  // asked for, its points followed from image to image and brought to where the image looks as in
-  // the reference (klt_tracks.h, patch_alignment.h). Returns how many of them it shows.
+  // Adds a frame and returns how many points of the reference it shows. The first frame becomes the
+  // reference. Later frames are matched with it by descriptor; where asked for, its points are
+  // followed from image to image and brought to where the image looks as in the reference
+  // (klt_tracks.h, patch_alignment.h).
   int Add(const InitializationFrame& frame);
-  // Makes the frame halfway to the newest the reference and matches those after it anew.
+  // Makes the frame halfway to the newest one the reference, and matches the frames after it anew.
   void MoveReference();
 
-  // `count` frames spread evenly since the reference, the newest last (first paper: the subsequent
-  // frames, which at video rate have not moved yet). At most size().
+  // Returns at most `count` frames spread evenly since the reference, the newest last. The first
+  // paper takes the frames that follow the reference, which at video rate have not moved yet.
   std::vector<int> SelectFrames(int count) const;
 
-  // Where the frames show the reference's points: at most `max_points` of them, spread over the
-  // image, those first that the newest frame shows, then those that most frames show.
+  // Returns the places of the reference's points in the frames. At most `max_points` points, spread
+  // over the image, are taken: first those that the newest frame shows, then those that most frames
+  // show.
   Tracks CollectTracks(const std::vector<int>& frames, int max_points) const;
 
-  // The features of the frames that show a point or line of the reference, which is view 0, by
-  // point and line that are seen at least twice.
+  // Returns the tracks of the points or lines that at least two views show: for each, the features
+  // of the frames that show it. The reference is view 0.
   std::vector<FeatureTrack> PointObservations(const std::vector<int>& frames) const;
   std::vector<FeatureTrack> LineObservations(const std::vector<int>& frames) const;
 
-  // All that it keeps (base/byte_format.h) but for what VisitMostMatches visits: saved states have
-  // that at another place.
+  // Visits all that the window keeps (base/byte_format.h), except what VisitMostMatches visits,
+  // which saved states have at another place.
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.reference_, self.flow_, self.warps_, self.frames_);
@@ -132,11 +137,12 @@ class FrameWindow {
   static void VisitMostMatches(Self& self, const Visitor& visit) {
     visit(self.most_matches_);
   }
-  // False for a state that no window can have: places, matches and images that do not go together.
+  // Returns false for a state that no window can have: places, matches and images do not fit
+  // together.
   bool IsConsistent() const;
 
  private:
-  // Where a frame shows a feature of the reference, pixels.
+  // The pixel where a frame shows a feature of the reference.
   struct Place {
     Eigen::Vector2d px = Eigen::Vector2d::Zero();
     double sigma_px = 0;  // 0: not seen
@@ -149,7 +155,7 @@ class FrameWindow {
   struct MatchedFrame {
     InitializationFrame frame;
     ReferenceMatches matches;
-    std::vector<Place> places;  // by feature of the reference
+    std::vector<Place> places;  // one place for each feature of the reference
 
     template <class Self, class Visitor>
     static void VisitState(Self& self, const Visitor& visit) {
@@ -169,10 +175,13 @@ class FrameWindow {
   RectifiedCamera camera_;
   InitialMatching matching_;
   std::optional<InitializationFrame> reference_;
-  KltTracks flow_;                      // of the reference's features, by feature
-  std::vector<Eigen::Matrix2d> warps_;  // of their patches in the newest frame (patch_alignment.h)
+  // Follows the reference's features, one point for each feature.
+  KltTracks flow_;
+  // Warps of their patches in the newest frame (patch_alignment.h).
+  std::vector<Eigen::Matrix2d> warps_;
   std::vector<MatchedFrame> frames_;
-  int most_matches_ = 0;  // of a frame with the present reference
+  // Most matches that a frame had with the present reference.
+  int most_matches_ = 0;
 };
 
 }  // namespace plumbline

@@ -22,23 +22,24 @@
 namespace plumbline {
 namespace {
 
-// Values of the paper (section IV); those that it does not give are ours.
+// Values of the paper (section IV), and our own where the paper gives none.
 constexpr std::size_t kMinFeatures = 100;
 constexpr std::size_t kMinMatches = 100;
 constexpr std::size_t kMinPoints = 50;
 constexpr double kHomographyShare = 0.45;
 constexpr double kRivalPart = 0.75;
-constexpr double kMinGoodPart = 0.9;  // of the inliers of the model
+constexpr double kMinGoodPart = 0.9;  // share of the inliers of the model
 constexpr double kMinParallaxDeg = 1;
 constexpr int kSamples = 200;
-// The paper's deviation of a distance is a pixel at the finest octave, of coordinates known to half
-// of that. Its share of 0.45 goes with it: on a plane, residuals of the very size of the deviation
-// bring the homography to 0.45 and no further, since it answers for two coordinates of a point.
+// The paper's deviation of a distance is a pixel at the finest octave, whose coordinates are known
+// to half of that. Its share of 0.45 depends on it: on a plane, residuals as large as the deviation
+// bring the homography's share to 0.45 and no further, since it explains two coordinates of a
+// point.
 constexpr double kScoreSigma = 2;
 
 double Gain(double chi2, double limit) { return chi2 < limit ? kChi2TwoDof95 - chi2 : 0; }
 
-// Squared distance of a point from an image line, over the variance of a coordinate.
+// Returns the squared distance of a point from an image line, over the variance of a coordinate.
 double LineChi2(const Eigen::Vector3d& line, const Eigen::Vector2d& point, double sigma) {
   const double distance = line.dot(point.homogeneous());
   return distance * distance / (line.head<2>().squaredNorm() * sigma * sigma + 1e-300);
@@ -89,7 +90,7 @@ struct MotionVote {
   std::size_t good = 0;
 };
 
-// All motions, the one with most good points first.
+// Returns all motions, the one with most good points first.
 std::vector<MotionVote> Vote(std::span<const Rigid3> motions, std::span<const RayMatch> inliers) {
   std::vector<MotionVote> votes;
   for (const Rigid3& pose : motions) {
@@ -173,7 +174,7 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
 
   const std::vector<RayMatch> inliers = Inliers(model, solution.model, matches);
   const std::vector<MotionVote> votes = Vote(MotionsOf(model, solution.model), inliers);
-  if (votes.empty()) {  // a homography that is a mere turn
+  if (votes.empty()) {  // the homography is a mere turn
     solution.wait = InitializationWait::kTooLittleParallax;
     return solution;
   }

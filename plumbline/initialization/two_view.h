@@ -16,10 +16,10 @@
 
 namespace plumbline {
 
-// How well a model of two views explains matches (Mur-Artal, Montiel and Tardos, "ORB-SLAM", 2015,
-// section IV): the sum of 5.99 - d^2 over both images of all matches, where d^2, the squared
-// distance over its variance, is below 3.84 (distance from the epipolar line) or 5.99 (from the
-// mapped point).
+// Returns how well a model of two views explains matches (Mur-Artal, Montiel and Tardos,
+// "ORB-SLAM", 2015, section IV). This is the sum of 5.99 - d^2 over both images of all matches,
+// where d is the distance over its deviation. d^2 counts below 3.84 for the distance from the
+// epipolar line, and below 5.99 for the distance from the mapped point.
 double EpipolarScore(const Eigen::Matrix3d& essential, std::span<const RayMatch> matches);
 double TransferScore(const Eigen::Matrix3d& homography, std::span<const RayMatch> matches);
 
@@ -28,18 +28,23 @@ enum class TwoViewModel { kEssential, kHomography };
 struct TwoViewSolution {
   InitializationWait wait = InitializationWait::kNone;  // kNone: the pose can be used
   TwoViewModel model = TwoViewModel::kEssential;
-  Rigid3 b_from_a;            // |translation| = 1; of the best motion also where it is not good
-  std::vector<bool> is_good;  // by match: in front of both, agrees with both
-  double parallax_deg = 0;    // median over the good ones, after rotation
+  // Pose with |translation| = 1. It is that of the best motion, even where the solution is not
+  // good.
+  Rigid3 b_from_a;
+  // For each match, whether its point is in front of both views and agrees with both.
+  std::vector<bool> is_good;
+  // Median angle between the rays of good matches, without the rotation.
+  double parallax_deg = 0;
 };
 
-// The relative pose as the ORB-SLAM paper decides it (section IV): essential matrix and homography
-// by RANSAC, the homography where its share of the two scores is above 0.45, all motions of the
-// chosen one, and of these the one with most points that lie in front and agree with both views -
-// if it has enough of them, parallax, and no rival.
+// Decides on the relative pose as the ORB-SLAM paper does (section IV). Essential matrix and
+// homography are found by RANSAC; the homography is chosen where its share of the two scores is
+// above 0.45. Of all motions of the chosen model the one is taken with most points that lie in
+// front and agree with both views, if it has enough of them, parallax, and no rival.
 //
-// Differs from the paper: the essential matrix in place of the fundamental one, since the camera is
-// calibrated; adaptive numbers of samples and least squares on the inliers (ransac.h).
+// Differs from the paper: the essential matrix takes the place of the fundamental matrix, since the
+// camera is calibrated; the number of samples is adaptive, and the inliers are fitted by least
+// squares (ransac.h).
 //
 //   fails  wait says why: kTooFewMatches, kAmbiguous (a rival with 0.75 of the points),
 //          kTooLittleParallax (median below 1 degree), kInaccurate (too few good points)
@@ -48,7 +53,7 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng);
 
 // The conventional start: the first frame with enough features is the reference until a later one
 // gives a pose (SolveTwoViews) and a map after bundle adjustment. A frame with too few matches
-// becomes the new reference, and what was seen before is forgotten.
+// becomes the new reference, and earlier frames are forgotten.
 class TwoViewInitializer : public Initializer {
  public:
   TwoViewInitializer(const RectifiedCamera& camera, std::uint64_t seed)
@@ -59,7 +64,7 @@ class TwoViewInitializer : public Initializer {
   void Save(StateWriter& archive) const override;
   void Load(StateReader& archive) override;
 
-  // All that it keeps (base/byte_format.h).
+  // Visits all that the initializer keeps (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.reference_, self.motion_);
@@ -69,16 +74,16 @@ class TwoViewInitializer : public Initializer {
   RectifiedCamera camera_;
   std::uint64_t seed_;
   std::optional<InitializationFrame> reference_;
-  ImageMotion motion_;  // from the reference to the newest frame
+  ImageMotion motion_;  // motion from the reference to the newest frame
 };
 
-// The conventional decision (SolveTwoViews) on what rank1 sees: points are followed and aligned on
-// the images (FrameWindow), and the reference stays until matches with it die out. Beside rank1 it
-// tells what factorization and the decision of several frames bring, beside two_view what the
-// matches bring.
+// The conventional decision (SolveTwoViews) on the matches of rank1: points are followed and
+// aligned on the images (FrameWindow), and the reference stays until matches with it die out. The
+// comparison with rank1 shows what factorization and the decision of several frames bring, the
+// comparison with two_view what the matches bring.
 //
-// Each frame is tried alone, with all points that it shows of the reference. Needs the images of
-// all frames (BugError otherwise).
+// Each frame is tried by itself, with all points of the reference that it shows. Needs the images
+// of all frames (BugError otherwise).
 class TwoViewImagesInitializer : public Initializer {
  public:
   TwoViewImagesInitializer(const RectifiedCamera& camera, std::uint64_t seed)
@@ -89,7 +94,7 @@ class TwoViewImagesInitializer : public Initializer {
   void Save(StateWriter& archive) const override;
   void Load(StateReader& archive) override;
 
-  // All that it keeps (base/byte_format.h).
+  // Visits all that the initializer keeps (base/byte_format.h).
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
     visit(self.window_);

@@ -61,9 +61,8 @@ bool HasViews(const Observations& observations, int views, const Counts& counts)
 // Numbers of landmarks that a keyframe shares with at least one other.
 struct SharedLandmarks {
   int all = 0;
-  int of_few =
-      // Landmarks that too few other keyframes show to make this one redundant.
-      0;
+  // Landmarks that too few other keyframes show to make this one redundant.
+  int of_few = 0;
 };
 
 template <class LandmarkId>
