@@ -12,8 +12,8 @@
 
 namespace plumbline {
 
-// The relative pose of two cameras from landmarks that both of them know, as plain data: "query"
-// and "candidate" are cameras, everything is in the frame and the unit of one of them.
+// The relative pose of two cameras, "query" and "candidate", from landmarks that both of them know,
+// as plain data. Each landmark is in the frame and the unit of one of the two.
 
 // A point in the frame of a camera.
 struct CameraPoint {
@@ -28,15 +28,15 @@ struct AlignmentProblem {
   struct LinePair {
     LineModel in_query, in_candidate;
   };
-  // A point that only one of the two knows the place of; the other one saw it.
+  // A point whose place only one of the two cameras knows, and which the other one saw.
   struct Sighting {
     bool known_to_query = true;
     CameraPoint point;
-    PointMeasurement measurement;  // by the other
+    PointMeasurement measurement;  // what the other camera measured
   };
 
   RectifiedCamera camera;
-  bool free_scale = false;  // one camera
+  bool free_scale = false;  // true with one camera, where the unit of length is unknown
   std::vector<PointPair> points;
   std::vector<LinePair> lines;
   std::vector<Sighting> sightings;

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-// The sum of target * source^T over pairs of vectors, brought to unit length.
+// Sums target * source^T over pairs of vectors that are brought to unit length.
 class TurnedVectors {
  public:
   void Add(const Eigen::Vector3d& source, const Eigen::Vector3d& target) {
@@ -20,7 +20,7 @@ class TurnedVectors {
     if (lengths > 0) sum_ += target * source.transpose() / lengths;
   }
 
-  // nullopt where the vectors lie along one line.
+  // Returns nullopt where the vectors lie along one line.
   std::optional<Eigen::Quaterniond> Rotation() const {
     constexpr double kLeast = 1e-3;
     const RotationFit fit = FitRotation(sum_);
@@ -32,7 +32,7 @@ class TurnedVectors {
   Eigen::Matrix3d sum_ = Eigen::Matrix3d::Zero();
 };
 
-// From the line straight to the point.
+// Returns the vector from the line to the point, perpendicular to the line.
 Eigen::Vector3d Perpendicular(const PluckerLine& line, const Eigen::Vector3d& point) {
   return point - line.PointAt(line.ParameterOf(point));
 }
@@ -41,7 +41,7 @@ Eigen::Vector3d Middle(const LineModel& line) {
   return line.line.PointAt(0.5 * (line.start + line.end));
 }
 
-// Rows of the linear equations of [translation, scale].
+// The rows of the linear equations for [translation, scale].
 class LinearEquations {
  public:
   template <int kRows>
@@ -95,7 +95,7 @@ std::optional<Similarity3> AlignSample(std::span<const AlignmentProblem::PointPa
   const auto rotation = vectors.Rotation();
   if (!rotation) return std::nullopt;
   LinearEquations equations;
-  // Errors of depth grow with the depth.
+  // Weights fall with the depth, because errors of depth grow with it.
   const auto weight = [](const Eigen::Vector3d& target) { return 1 / target.squaredNorm(); };
   for (const auto& pair : points) {
     equations.Add<3>(Eigen::Matrix3d::Identity(),

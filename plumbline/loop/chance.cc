@@ -13,8 +13,8 @@
 namespace plumbline {
 namespace {
 
-// Counts points by the shift that takes them to a feature: cells of the plane of shifts, four of
-// which make a window of the search's size.
+// Counts points by the shift that takes them to a feature. Votes are kept in cells of the plane of
+// shifts, four of which make a window of the search's size.
 class ShiftVotes {
  public:
   ShiftVotes(const RectifiedCamera& camera, double cell_px)
@@ -24,7 +24,7 @@ class ShiftVotes {
         votes_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0),
         last_(votes_.size(), -1) {}
 
-  // A voter counts once in a cell.
+  // Counts a vote for the cell of a shift. A voter counts only once in a cell.
   void Vote(int voter, const Eigen::Vector2d& shift) {
     const int x = static_cast<int>(std::floor(shift.x() / cell_px_)) + columns_ / 2;
     const int y = static_cast<int>(std::floor(shift.y() / cell_px_)) + rows_ / 2;
@@ -35,8 +35,8 @@ class ShiftVotes {
     ++votes_[cell];
   }
 
-  // The most votes that a window of two by two cells has. Windows within `near` cells of the shift
-  // by nothing do not count: the right relative pose gets its votes there.
+  // Returns the most votes in any window of two by two cells. Windows within `near` cells of the
+  // zero shift are left out, because the right relative pose gets its votes there.
   int Most(int near) const {
     int most = 0;
     for (int y = 0; y + 1 < rows_; ++y) {
@@ -59,7 +59,7 @@ class ShiftVotes {
   double cell_px_;
   int columns_, rows_;
   std::vector<int> votes_;
-  std::vector<int> last_;  // by cell: who voted last
+  std::vector<int> last_;  // the last voter of each cell
 };
 
 }  // namespace
@@ -68,7 +68,7 @@ double Log10BinomialTail(int trials, int successes, double p) {
   if (successes <= 0 || p >= 1) return 0;
   if (successes > trials || p <= 0) return -std::numeric_limits<double>::infinity();
   const double log_odds = math::Log(p) - math::Log1p(-p);
-  double term = trials * math::Log1p(-p);  // of no success
+  double term = trials * math::Log1p(-p);  // logarithm of the probability of no success
   double largest = 0;
   std::vector<double> terms;
   for (int k = 0; k <= trials; ++k) {
@@ -87,7 +87,8 @@ int BestShiftedMatches(const RectifiedCamera& camera,
                        const std::vector<std::optional<ProjectedPoint>>& points,
                        int max_distance,
                        double radius_px) {
-  constexpr int kNear = 3;  // cells: what belongs to the right relative pose
+  // Cells around the zero shift, whose votes belong to the right relative pose.
+  constexpr int kNear = 3;
   ShiftVotes votes(camera, radius_px);
   for (std::size_t l = 0; l < points.size(); ++l) {
     if (!points[l]) continue;

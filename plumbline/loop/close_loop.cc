@@ -19,7 +19,7 @@ bool ShowBoth(const Observations& a, const Observations& b) {
   return std::any_of(a.begin(), a.end(), [&](const auto& seen) { return b.contains(seen.first); });
 }
 
-// A landmark pair as the map has it today; nullopt where it cannot be fused (any more).
+// Returns a landmark pair as the map has it today; nullopt where it cannot be fused (any more).
 template <class LandmarkId>
 std::optional<LandmarkPair<LandmarkId>> Fusible(const Map& map,
                                                 const LandmarkPair<LandmarkId>& pair) {
@@ -33,7 +33,7 @@ std::optional<LandmarkPair<LandmarkId>> Fusible(const Map& map,
   return today;
 }
 
-// Pairs that can be fused one after the other: no landmark is in two of them.
+// Returns the pairs that can be fused one after the other: no landmark is in two of them.
 template <class LandmarkId>
 std::vector<LandmarkPair<LandmarkId>> AllFusible(const Map& map,
                                                  std::span<const LandmarkPair<LandmarkId>> pairs) {
@@ -56,7 +56,7 @@ LineModel Moved(const MapLine& line, const edit::MoveKeyFrames& motion) {
   return moved;
 }
 
-// The kept line with an interval that covers the other's.
+// Returns the kept line with an interval that also covers the other line's.
 edit::MoveLine Covering(const MapLine& kept,
                         const MapLine& gone,
                         const edit::MoveKeyFrames& motion) {
@@ -67,14 +67,15 @@ edit::MoveLine Covering(const MapLine& kept,
   return {kept.id, to.line, std::min({to.start, a, b}), std::max({to.end, a, b}), to.information};
 }
 
-// Where the solution has the keyframes.
+// Returns the places that the solution gives the keyframes.
 Correction CorrectionOf(const Map& map,
                         const EssentialGraph& essential,
                         const std::vector<Similarity3>& poses) {
   Correction correction;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const KeyFrameId id = essential.keyframes[i];
-    // The camera's own axes are in its new unit: lengths around it in the world are divided by it.
+    // The camera's own axes are in its new unit, so that lengths around it in the world are divided
+    // by it.
     const Similarity3& cam_from_world = poses[i];
     const Rigid3 after{cam_from_world.rotation, cam_from_world.translation / cam_from_world.scale};
     correction.keyframes[id] = {
@@ -94,7 +95,7 @@ void Measure(const Correction& correction, KeyFrameId query, LoopCorrection& out
   }
 }
 
-// Loops as edges of the graph; by loop the place of its edge, or -1.
+// Adds loops as edges of the graph. Returns the index of the edge for each loop, or -1.
 std::vector<int> AddLoops(const Map& map,
                           std::span<const LoopEdge> loops,
                           EssentialGraph& essential) {
@@ -107,8 +108,9 @@ std::vector<int> AddLoops(const Map& map,
   return places;
 }
 
-// The least by which a loop makes the sum of chi2 over all believed edges grow. The sum without the
-// loop is not solved for: it is at most that of the poses as they are, which stands in for it.
+// Returns a lower bound of how much a loop raises the sum of chi2 over all believed edges. The sum
+// without the loop is not solved for: that of the poses as they are is at least as large and takes
+// its place.
 double RaisedChi2(const PoseGraph& graph, std::size_t loop, const PoseGraphResult& solved) {
   const int size = graph.motion == PoseGraphMotion::kRigid ? 6 : 7;
   double raised = 0;

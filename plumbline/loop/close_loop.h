@@ -20,10 +20,10 @@ namespace plumbline {
 
 // Why a loop that was verified does not change the map.
 enum class ClosingRefusal {
-  kOutOfMap,       // its keyframes are gone, or not tied to the rest
+  kOutOfMap,       // keyframes of the loop are gone, or not tied to the rest
   kNotSolved,      // the pose graph has no solution
-  kContradicted,   // the graph with all other loops leaves it out
-  kBendsOdometry,  // it would bend the odometry more than that can have drifted
+  kContradicted,   // the graph with all other loops gives it no weight
+  kBendsOdometry,  // it would bend the odometry more than odometry can have drifted
 };
 
 constexpr auto EnumNames(std::type_identity<ClosingRefusal>) {
@@ -33,26 +33,28 @@ constexpr auto EnumNames(std::type_identity<ClosingRefusal>) {
                     std::pair{ClosingRefusal::kBendsOdometry, "bends_odometry"}};
 }
 
-// What closing a loop makes of a map.
+// The result of closing a loop.
 struct LoopCorrection {
-  MapEdit edit;                    // the keyframes move, then landmarks that are one are fused
-  std::vector<bool> earlier_kept;  // by earlier edge: it agrees with the result
+  MapEdit edit;                    // moves the keyframes, then fuses landmarks that are one
+  std::vector<bool> earlier_kept;  // for each earlier edge: whether it agrees with the result
   int merged_points = 0, merged_lines = 0;
-  double largest_shift = 0;        // of a keyframe, map units
-  double largest_turn = 0;         // of a keyframe, radians
-  double query_scale = 1;          // of lengths around the query
-  double raised_chi2 = 0;          // of all edges of the graph together, by the new loop
-  double worst_odometry_chi2 = 0;  // of an edge between keyframes
+  double largest_shift = 0;  // largest shift of a keyframe, map units
+  double largest_turn = 0;   // largest turn of a keyframe, radians
+  double query_scale = 1;    // factor by which lengths around the query change
+  // By how much the new loop raises chi2 of all edges of the graph together.
+  double raised_chi2 = 0;
+  double worst_odometry_chi2 = 0;  // largest chi2 of an edge between keyframes
 };
 
-// The map with a loop closed: its essential graph (MakeEssentialGraph) with all loops is solved
-// (SolvePoseGraph), similarities with one camera, else rigid motions; the oldest keyframe and its
-// unit stay. The keyframes move (edit::MoveKeyFrames) with what hangs on them, and the
-// pairs of the new loop are fused (FusePairs). Local and whole adjustment are the caller's.
+// Closes a loop of a map. The essential graph of the map (MakeEssentialGraph) is solved with all
+// loops (SolvePoseGraph), by similarities with one camera, otherwise by rigid motions; the oldest
+// keyframe and its unit stay. The keyframes move with all that refers to them
+// (edit::MoveKeyFrames), and the pairs of the new loop are fused (FusePairs). The caller adjusts
+// the surroundings and the whole map.
 //
-// Nothing is changed where the loops contradict the new one (graduated non-convexity) or where an
-// edge of odometry, or all together, would be bent by more than drift allows: a right loop raises
-// the sum of chi2 by its degrees of freedom.
+// Returns a refusal where the other loops contradict the new one (graduated non-convexity), or
+// where one edge of odometry, or all together, would be bent by more than drift allows: a right
+// loop raises the sum of chi2 by its degrees of freedom.
 //
 // Cost: about 0.1 s for 3,000 keyframes.
 Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
@@ -61,12 +63,12 @@ Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
                                                    const LoopEdge& newest,
                                                    const LoopOptions& options);
 
-// Landmarks that are one made one: those of the query pass to those of the candidate, with their
-// appearance anew; a line's interval covers both. Pairs of which a keyframe shows both stay apart,
-// and so do those that are gone. Both must be in `map`; for maps that were joined, the pairs by the
-// ids of today.
+// Fuses pairs of landmarks that are one. The landmark of the query becomes part of that of the
+// candidate, whose appearance is refreshed; the interval of a line covers both. Pairs of which a
+// keyframe shows both landmarks stay apart, and so do pairs of which one is gone. Both landmarks
+// must be in `map`; for maps that were joined, the pairs have the ids of today.
 //
-//   motion  of keyframes, that the map makes before (for the intervals of lines)
+//   motion  motion of keyframes that the map makes before the fusion (for the intervals of lines)
 MapEdit FusePairs(const Map& map,
                   std::span<const LandmarkPair<PointId>> points,
                   std::span<const LandmarkPair<LineId>> lines,

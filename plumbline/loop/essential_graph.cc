@@ -17,7 +17,7 @@
 namespace plumbline {
 namespace {
 
-// Pairs of poses, each once, the lesser index second.
+// Pairs of poses, each once, with the lesser index second.
 class Ties {
  public:
   Ties(const Map& map, const std::vector<KeyFrameId>& keyframes) : map_(map) {
@@ -71,9 +71,9 @@ class Ties {
   }
 
   const Map& map_;
-  std::vector<int> index_of_;  // by id
-  std::vector<int> shared_;    // by index, of the keyframe at hand
-  std::vector<int> touched_;   // where shared_ is not zero
+  std::vector<int> index_of_;  // index of the pose of each id
+  std::vector<int> shared_;    // landmarks that each pose shares with the present keyframe
+  std::vector<int> touched_;   // poses whose entry in shared_ is not zero
   std::vector<std::pair<int, int>> ties_;
 };
 
@@ -82,12 +82,13 @@ double Length(const PoseGraph& graph, const std::pair<int, int>& tie) {
       .translation.norm();
 }
 
-// What odometry may have drifted over a relative pose. `step`: how far keyframes usually are apart.
+// Returns the information of a relative pose that odometry has. `step` is the usual distance
+// between keyframes.
 Matrix7d DriftInformation(const Similarity3& motion,
                           double step,
                           bool free_scale,
                           const DriftOptions& drift) {
-  constexpr double kLeastStep = 0.2;  // of the usual one
+  constexpr double kLeastStep = 0.2;  // relative to the usual step
   const double angle = LogSo3(motion.rotation).norm();
   const double rotation =
       drift.rotation_deg * std::numbers::pi / 180 + drift.rotation_per_turn * angle;
@@ -201,7 +202,7 @@ OdometryWays::OdometryWays(const PoseGraph& graph) : graph_(graph), edges_of_(gr
   }
 }
 
-// For each pose the edge that leads to it on the way from the first, or -1.
+// Returns for each pose the edge that leads to it on the way from pose `first`, or -1.
 const std::vector<int>& OdometryWays::WaysFrom(int first) {
   const auto [entry, is_new] = ways_from_.try_emplace(first, graph_.poses.size(), -1);
   std::vector<int>& edge_to = entry->second;

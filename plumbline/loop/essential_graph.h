@@ -14,59 +14,64 @@
 
 namespace plumbline {
 
-// The keyframe itself, or its nearest ancestor that is in the map; invalid where there is none.
+// Returns the keyframe itself, or its nearest ancestor that is in the map; an invalid id where
+// there is none.
 KeyFrameId StandIn(const Map& map, KeyFrameId id);
 
 // The keyframes of a map and what ties them, without landmarks: the pose graph that a loop bends.
-// An edge joins a keyframe with the nearest ancestor that is in the map, and any two that share
-// many landmarks; its relative pose is that of the map, its information what odometry may have
-// drifted from one to the other.
+// An edge joins a keyframe with its nearest ancestor that is in the map, and any two keyframes that
+// share many landmarks. The relative pose of an edge is that of the map. Its information says how
+// far odometry may have drifted from one keyframe to the other.
 struct EssentialGraph {
-  std::vector<KeyFrameId> keyframes;  // by index of the pose, ascending
+  std::vector<KeyFrameId> keyframes;  // the keyframe of each pose, ascending
   PoseGraph graph;                    // the oldest keyframe is fixed
 
-  // The index of a keyframe; -1 where it is not in the map.
+  // Returns the index of a keyframe's pose; -1 where it is not in the map.
   int PoseOf(KeyFrameId id) const;
 };
 
-// The drift of odometry without what a single camera that turns may lose at worst.
+// Returns the usual drift of odometry, without what a single camera that turns may lose at worst.
 DriftOptions AsARule(DriftOptions drift);
 
-// free_scale: of a single camera. O(observations).
+// Makes the essential graph of a map. free_scale: the map is that of a single camera.
+// O(observations).
 EssentialGraph MakeEssentialGraph(const Map& map,
                                   bool free_scale,
                                   const DriftOptions& drift,
                                   int strong_covisibility);
 
-// Divides the information of each edge by how many edges say much the same. A keyframe is tied to
-// several before and after it, but what drifts from one to the next drifts for all of them: of d
-// edges at each pose of a path, d (d + 2) / 8 lead from what was before to what came after. The
-// path as a whole is then as stiff as odometry along single edges.
+// Divides the information of each edge by the number of edges that carry nearly the same
+// information. A keyframe is tied to several before and after it, but the drift from one keyframe
+// to the next is common to all of these edges: with d edges at each pose of a path, d (d + 2) / 8
+// edges lead from the part before a place to the part after it. The path as a whole is then as
+// stiff as odometry along single edges.
 void ShareInformation(PoseGraph& graph);
 
-// A loop as an edge of the graph, which may be wrong. Where one of its keyframes has left the map,
-// the nearest ancestor that has not stands for it. nullopt where there is none or both are one.
+// Returns a loop as an edge of the graph, which may be wrong. Where one of its keyframes has left
+// the map, its nearest ancestor in the map takes its place. Returns nullopt where there is none, or
+// where both keyframes are then the same.
 std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
                                         const EssentialGraph& essential,
                                         const LoopEdge& loop);
 
-// The relative poses of a graph as odometry has them: along the way with the fewest keyframes, on
-// which the drift of each edge adds to that of the others. What was found out about the ways from a
-// pose is kept. The graph must outlive this and stay as it is.
+// The relative poses that odometry gives to the poses of a graph. They lead along the way with the
+// fewest keyframes, on which the drifts of the edges add up. The ways from a pose are kept once
+// found. The graph must outlive this and stay as it is.
 class OdometryWays {
  public:
   explicit OdometryWays(const PoseGraph& graph);
 
-  // nullopt where no edges lead from one to the other. The first time that is asked from a pose
-  // O(edges), then O(length of the way).
+  // Returns nullopt where no edges lead from one pose to the other. O(edges) for the first call
+  // with a pose, then O(length of the way).
   std::optional<UncertainPose> Along(int to, int from);
 
  private:
   const std::vector<int>& WaysFrom(int first);
 
   const PoseGraph& graph_;
-  std::vector<std::vector<int>> edges_of_;     // by pose
-  std::map<int, std::vector<int>> ways_from_;  // by first pose: by pose the edge that leads to it
+  std::vector<std::vector<int>> edges_of_;  // the edges of each pose
+  // For each first pose: the edge that leads to each pose on the way.
+  std::map<int, std::vector<int>> ways_from_;
 };
 
 }  // namespace plumbline

@@ -21,26 +21,26 @@
 namespace plumbline {
 namespace {
 
-constexpr double kNearest = 1e-6;  // depth below which nothing can be said
-constexpr double kHuber = 2.5;     // of the norm of a whitened residual
+constexpr double kNearest = 1e-6;  // depth below which a point has no residual
+constexpr double kHuber = 2.5;     // threshold on the norm of a whitened residual
 
 using Jacobian = Eigen::Matrix<double, 4, 7>;
 
-// A whitened residual; what is behind a camera has none.
+// A whitened residual. Landmarks behind a camera have none.
 struct Residual {
   int rows = 0;
   Eigen::Vector4d r = Eigen::Vector4d::Zero();
   Jacobian J = Jacobian::Zero();
 };
 
-// d(candidate_from_query * X) at p = candidate_from_query * X.
+// Returns the derivative of candidate_from_query * X at p = candidate_from_query * X.
 Eigen::Matrix<double, 3, 7> PointByPose(const Eigen::Vector3d& p) {
   Eigen::Matrix<double, 3, 7> J;
   J << -Skew(p), Eigen::Matrix3d::Identity(), p;
   return J;
 }
 
-// Column, row, and inverse depth in pixels of a camera with a baseline of one.
+// Returns column, row, and inverse depth in pixels of a camera with a baseline of one.
 Eigen::Vector3d View(const RectifiedCamera& camera, const Eigen::Vector3d& p) {
   return {camera.fx * p.x() / p.z(), camera.fy * p.y() / p.z(), camera.fx / p.z()};
 }
@@ -54,7 +54,7 @@ Eigen::Matrix3d ViewJacobian(const RectifiedCamera& camera, const Eigen::Vector3
   return J;
 }
 
-// Whitens by the Cholesky factor; false where the covariance is not positive definite.
+// Whitens by the Cholesky factor; returns false where the covariance is not positive definite.
 template <int kRows>
 bool Whiten(const Eigen::Matrix<double, kRows, kRows>& covariance,
             const Eigen::Matrix<double, kRows, 1>& r,
@@ -133,7 +133,8 @@ class Evaluator {
     const Eigen::Vector3d measured(seen.px.x() - camera_.cx,
                                    seen.px.y() - camera_.cy,
                                    seen.disparity ? seen.disparity->px : view.z());
-    // exp(x) moves the query's points; seen from the query, the candidate's move the other way.
+    // exp(x) moves the query's points. In the query's frame it moves the candidate's points the
+    // other way.
     Eigen::Matrix<double, 3, 7> J = J_p * PointByPose(p);
     if (!sighting.known_to_query) J = -J_p * turn * PointByPose(sighting.point.place);
     const Eigen::Matrix3d J_turned = J_p * turn;
@@ -154,7 +155,8 @@ class Evaluator {
     return J * RegularizedInformation(information).llt().solve(J.transpose());
   }
 
-  // Two parameters along the query's line: the ends of what both intervals share, else its own.
+  // Returns two parameters along the query's line: the ends of the part that both intervals share,
+  // or those of its own interval where they share too little.
   std::array<double, 2> PlacesOnBoth(const AlignmentProblem::LinePair& pair) const {
     const LineModel& query = pair.in_query;
     const LineModel& candidate = pair.in_candidate;
@@ -173,7 +175,7 @@ class Evaluator {
   Eigen::Matrix3d turn_;
 };
 
-// Normal equations of all matches that agree.
+// The normal equations of all matches that agree.
 struct Equations {
   Matrix7d H = Matrix7d::Zero();
   Vector7d g = Vector7d::Zero();
@@ -217,7 +219,7 @@ Equations Linearize(const AlignmentProblem& problem, double gate, AlignmentResul
   return equations;
 }
 
-// What RANSAC asks of the problem: matches are its points, then its lines.
+// The alignment as RANSAC needs it. Matches are the points, then the lines.
 class MatchProblem {
  public:
   using Model = Similarity3;
@@ -270,7 +272,7 @@ class MatchProblem {
   bool Same(const Model&, const Model&) const { return true; }
 
  private:
-  // A sample's own errors are in what it predicts.
+  // The gate is wide, because what a sample predicts contains the sample's own errors.
   static constexpr double kGate = 4;
 
   template <class Match>

@@ -13,32 +13,32 @@ namespace plumbline {
 
 struct AlignmentResult {
   Similarity3 candidate_from_query;
-  // Covariance of the left perturbation [rotation, translation, log scale]; without free scale the
-  // last row and column are zero. Multiplied by the mean squared residual where that is above 1.
+  // Covariance of the left perturbation [rotation, translation, log scale]. Without free scale the
+  // last row and column are zero. It is multiplied by the mean squared residual where that is above
+  // 1.
   Matrix7d covariance = Matrix7d::Zero();
-  std::vector<bool> points, lines, sightings;  // that agree
-  double variance_factor = 1;                  // mean squared whitened residual of what agrees
+  std::vector<bool> points, lines, sightings;  // whether each match agrees
+  double variance_factor = 1;  // mean squared whitened residual of the matches that agree
 };
 
-// A relative pose from few good matches among bad ones: LO-RANSAC (ransac.h) over samples of three
-// points or lines in any mixture. The rotation turns the directions of the lines, and those between
-// points and to lines, upon each other (Kabsch 1976); translation and scale are then linear. Judged
-// by RefineAlignment's residuals. Same input and seed, same result.
+// Finds a relative pose from few good matches among bad ones, by LO-RANSAC (ransac.h) over samples
+// of three points or lines in any mixture (AlignSample). Poses are judged by RefineAlignment's
+// residuals. The same input and seed give the same result.
 //
-// nullopt with less than three matches, and where no sample determines a pose. Sightings are not
-// looked at. Cost: about 2 ms for 100 matches a third of which are right.
+// Returns nullopt with less than three matches, and where no sample determines a pose. Sightings
+// are not used. Cost: about 2 ms for 100 matches, a third of which are right.
 std::optional<Similarity3> AlignByRansac(const AlignmentProblem& problem, std::uint64_t seed);
 
-// The relative pose near a given one that all matches agree with best, and which of them do.
+// Finds the relative pose near a given one with which all matches agree best, and which matches do.
 //
-// Residuals: points by their difference as the candidate's camera would see them, in column, row
-// and inverse depth, where their errors are nearly normal; lines by how far two places of the
-// query's line are off the candidate's, across it; sightings by their pixel (and disparity). All
-// are whitened by the covariance of both sides, so that every measurement behind the landmarks
-// counts once. Gauss-Newton with Huber's loss; what is further off than `gate` times the 95 % limit
-// of chi2 does not take part.
+// Residuals: points have their difference in the image of the candidate's camera, in column, row
+// and inverse depth, where their errors are nearly normal; lines have the distances of two places
+// of the query's line from the candidate's line, across it; sightings have their error in the pixel
+// (and the disparity). All are whitened by the covariance of both sides, so that every measurement
+// behind the landmarks counts once. Gauss-Newton with Huber's loss; matches further off than `gate`
+// times the 95 % limit of chi2 take no part.
 //
-// nullopt where the matches leave a direction open, or fewer than three agree. O(matches).
+// Returns nullopt where the matches leave a direction open, or fewer than three agree. O(matches).
 std::optional<AlignmentResult> RefineAlignment(const AlignmentProblem& problem,
                                                const Similarity3& near,
                                                double gate);

@@ -12,38 +12,41 @@
 
 namespace plumbline {
 
-// A keyframe with the landmarks around it: its own and those of the keyframes that see the same.
+// A keyframe and the landmarks around it: its own, and those of keyframes that see the same.
 struct LocalLandmarks {
   const KeyFrame* keyframe = nullptr;
-  std::vector<KeyFrameId> neighbours;   // most covisible first
-  std::vector<const MapPoint*> points;  // by id
-  std::vector<const MapLine*> lines;    // by id
+  std::vector<KeyFrameId> neighbours;   // ordered by covisibility, the highest first
+  std::vector<const MapPoint*> points;  // ordered by id
+  std::vector<const MapLine*> lines;    // ordered by id
 };
 
-// With the `neighbours` most covisible keyframes. BugError where the map has no such keyframe.
-// O(their matches).
+// Returns a keyframe with its landmarks and those of the `neighbours` most covisible keyframes.
+// Throws BugError where the map has no such keyframe. O(their matches).
 LocalLandmarks LandmarksAround(const Map& map, KeyFrameId id, int neighbours);
 
-// A point in the frame of a camera, with the covariance that its observations (the newest eight)
-// leave it with the keyframes where they are. Depth nothing is known of has a deviation of itself.
+// Returns a point in the frame of a camera, with the covariance that follows from its newest eight
+// observations with the keyframes held. Where they leave a direction open, its deviation is the
+// distance from the camera.
 CameraPoint PointInCamera(const RectifiedCamera& camera,
                           const Map& map,
                           const MapPoint& point,
                           const Rigid3& cam_from_world);
 
-// The line in the frame of a camera.
+// Returns the line in the frame of a camera.
 LineModel LineInCamera(const MapLine& line, const Rigid3& cam_from_world);
 
-// The pose of a camera in the world of other landmarks, in their unit: their keyframe's pose, and
-// how their keyframe's camera is seen from the camera. Directions are right for any scale.
+// Returns the pose of a camera in the world of other landmarks, in their unit. It follows from the
+// pose of their keyframe and that keyframe's place relative to the camera. Directions are right for
+// any scale.
 Rigid3 CameraAmong(const Rigid3& keyframe_from_world, const Similarity3& camera_from_keyframe);
 
-// Landmarks searched for in an image.
+// Landmarks that were searched for in an image.
 struct SearchedImage {
-  std::vector<std::optional<ProjectedPoint>> projected_points;  // by landmark; nullopt: not in view
+  // One for each point; nullopt where the point is not in view.
+  std::vector<std::optional<ProjectedPoint>> projected_points;
   std::vector<std::optional<ProjectedLine>> projected_lines;
-  std::vector<LandmarkMatch> points, lines;  // landmark: index; feature of the image
-  int tested_points = 0, tested_lines = 0;   // in view
+  std::vector<LandmarkMatch> points, lines;  // landmark: its index; feature: that of the image
+  int tested_points = 0, tested_lines = 0;   // number of landmarks in view
 };
 
 SearchedImage SearchImage(const ImagingModel& imaging,

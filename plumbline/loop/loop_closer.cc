@@ -14,11 +14,12 @@
 namespace plumbline {
 namespace {
 
-constexpr std::size_t kCompared = 10;    // newest loops that a new one is held against
-constexpr std::size_t kMostWaiting = 5;  // loops that wait for another keyframe
-constexpr std::int64_t kWaitFor = 5;     // keyframes that such a loop may be old
+// Newest loops with which a new one is compared.
+constexpr std::size_t kCompared = 10;
+constexpr std::size_t kMostWaiting = 5;  // most loops that may wait for another keyframe
+constexpr std::int64_t kWaitFor = 5;     // age in keyframes after which such a loop is forgotten
 
-// By pair whether the loops agree by way of odometry.
+// Returns for each pair of loops whether they agree by way of odometry.
 std::vector<std::vector<bool>> Consistency(OdometryWays& odometry,
                                            const std::vector<PoseGraphEdge>& loops,
                                            double max_chi2) {
@@ -38,7 +39,7 @@ double DriftChi2(OdometryWays& odometry, const PoseGraphEdge& loop, const LoopEd
   return ClosingChi2(Compose({loop.to_from, edge.covariance}, *drifted));
 }
 
-// The landmarks of a keyframe, to be compared with those of others.
+// The landmarks that a keyframe shows, for comparison with those of others.
 class ShownLandmarks {
  public:
   explicit ShownLandmarks(const Frame& frame) : points_(frame.points), lines_(frame.lines) {
@@ -62,7 +63,7 @@ class ShownLandmarks {
   std::vector<LineId> lines_;
 };
 
-// Whether a candidate shares landmarks with one of some others.
+// Whether a candidate shares landmarks with one of some other keyframes.
 bool IsBesideAny(const Map& map, KeyFrameId candidate, const std::vector<KeyFrameId>& others) {
   if (others.empty()) return false;
   const ShownLandmarks shown(map.Find(candidate)->frame);
@@ -78,8 +79,8 @@ bool IsRefusedByOdometry(const LoopAttempt& attempt) {
 
 }  // namespace
 
-// The essential graph of a map with the drift that odometry has as a rule and, with one camera, as
-// it has it at worst. Each is made when it is asked for.
+// The essential graph of a map with the usual drift of odometry and, with one camera, with the
+// worst drift. Each graph is made when it is first asked for.
 class LoopCloser::Drifts {
  public:
   Drifts(const Map& map, bool free_scale, const LoopOptions& options)
@@ -193,7 +194,7 @@ std::optional<LoopClosure> LoopCloser::Close(const Map& map,
   return closure;
 }
 
-// What speaks for a loop beside the images. The attempt tells what speaks against it.
+// Whether other evidence than the images supports a loop. The attempt records what contradicts it.
 bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, LoopAttempt& attempt) {
   const LoopEdge& edge = *attempt.edge;
   const auto newest = LoopAsEdge(map, essential, edge);
@@ -210,8 +211,8 @@ bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, Loop
   if (attempt.uncertain) return false;
   attempt.inconsistent = !AgreesWithTheOthers(map, essential, *newest, odometry);
   if (attempt.inconsistent) return false;
-  // Where nobody beside the query could be asked, or odometry speaks against it as a rule, another
-  // query must say the same.
+  // Another query must confirm the loop where no neighbour of the query could be asked, or where
+  // the usual drift of odometry contradicts it.
   attempt.waits = (edge.evidence.asked == 0 || attempt.drifted_far) &&
                   !WasSaidBefore(map, essential, edge, *newest, odometry);
   if (attempt.waits) Wait(edge);
@@ -227,7 +228,7 @@ bool LoopCloser::AgreesWithTheOthers(const Map& map,
   for (std::size_t i = first; i < loops_.size(); ++i) {
     if (const auto loop = LoopAsEdge(map, essential, loops_[i])) known.push_back(*loop);
   }
-  // What agrees with all is in every largest set.
+  // A loop that agrees with all others is in every largest set.
   const bool agrees_with_all = std::all_of(known.begin(), known.end(), [&](const auto& loop) {
     return CycleChi2(odometry, newest, loop) <= options_.drift.max_chi2;
   });
@@ -259,7 +260,8 @@ void LoopCloser::Wait(const LoopEdge& edge) {
   if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
 }
 
-// Returns those that are not kept.
+// Takes the new loop and keeps only earlier ones that agree with it. Returns those that are not
+// kept.
 std::vector<LoopEdge> LoopCloser::Take(const LoopEdge& edge,
                                        const std::vector<bool>& earlier_kept) {
   std::vector<LoopEdge> kept;

@@ -17,71 +17,75 @@
 
 namespace plumbline {
 
-// What is told of a closed loop.
+// What is reported of a closed loop.
 struct LoopRecord {
   KeyFrameId query, candidate;
   LoopEvidence evidence;
-  double drift_chi2 = 0;  // of the relative pose against what odometry says
+  double drift_chi2 = 0;  // chi2 of the relative pose against that of odometry
   int merged_points = 0, merged_lines = 0;
-  double largest_shift = 0;  // of a keyframe, map units
-  double largest_turn = 0;   // of a keyframe, radians
-  double query_scale = 1;    // of lengths around the query
+  double largest_shift = 0;  // largest shift of a keyframe, map units
+  double largest_turn = 0;   // largest turn of a keyframe, radians
+  double query_scale = 1;    // factor by which lengths around the query change
 };
 
 struct LoopClosure {
-  MapEdit edit;  // for the map as it was given
+  MapEdit edit;  // applies to the map as it was given
   LoopRecord record;
-  // Earlier loops that the graph leaves out now. This has forgotten them; what they tie is to be
-  // untied after the edit (OpenLoop).
+  // Earlier loops that the graph leaves out now. The closer has forgotten them; the caller unties
+  // what they tie after the edit (OpenLoop).
   std::vector<LoopEdge> withdrawn;
 };
 
-// What became of a candidate that was looked at.
+// The result for a candidate that was looked at.
 struct LoopAttempt {
   KeyFrameId query, candidate;
-  std::optional<LoopRefusal> unverified;  // not the same place
-  std::optional<LoopEdge> edge;           // as measured, where it is the same place
-  double drift_chi2 = 0;                  // of the edge against what odometry says
+  std::optional<LoopRefusal> unverified;  // why it is not taken for the same place
+  // The measured edge, where it is the same place.
+  std::optional<LoopEdge> edge;
+  double drift_chi2 = 0;  // chi2 of the edge against odometry
   std::optional<ClosingRefusal> unclosed;
-  bool beyond_drift = false;  // odometry cannot be so wrong
-  bool drifted_far = false;   // it is more wrong than as a rule: one camera that turned
-  bool uncertain = false;     // the edge says too little: a nearer view is to come
-  bool inconsistent = false;  // the other loops say otherwise
-  bool waits = false;         // for another keyframe that sees it
+  bool beyond_drift = false;  // odometry cannot have drifted so far
+  // The usual drift contradicts the edge, but one camera that turned may have drifted so far.
+  bool drifted_far = false;
+  // The edge is not accurate enough: a nearer view is expected.
+  bool uncertain = false;
+  bool inconsistent = false;  // the other loops contradict it
+  // It waits for another keyframe that confirms it.
+  bool waits = false;
 };
 
-// Closes the loops of one map as it grows: verifies what an index of places proposes, holds it
-// against the drift of odometry and the loops there are, and makes a correction of it.
+// Closes the loops of one map as it grows. It verifies the candidates that an index of places
+// proposes, compares them with the drift of odometry and the loops there are, and makes a
+// correction.
 //
-// Its state are the loops that were closed, with their evidence. Deterministic; not thread-safe.
+// Its state is the loops that were closed, with their evidence. Deterministic; not thread-safe.
 class LoopCloser {
  public:
   LoopCloser(const ImagingModel& imaging, const LoopOptions& options);
 
   // Looks at the candidates for the newest keyframe, best first, and returns the first loop that
   // closes. Candidates that share landmarks with the newest keyframe already, or that are not in
-  // the map, are passed over. A loop is known to this from the moment that it is returned: the
-  // caller applies the edit.
+  // the map, are passed over. The returned loop counts as closed at once, and the caller has to
+  // apply the edit.
   //
   //   cost  VerifyLoop for each candidate, CloseLoop for those that pass
   std::optional<LoopClosure> Try(const Map& map,
                                  KeyFrameId newest,
                                  std::span<const KeyFrameId> candidates);
 
-  // Two keyframes that are known to see the same place since their maps were joined by it: it has a
-  // part in later corrections.
+  // Adds an edge by which two maps were joined. It takes part in later corrections.
   void Know(const LoopEdge& edge) { loops_.push_back(edge); }
 
   const std::vector<LoopEdge>& loops() const { return loops_; }
-  // What came of the last call of Try, by candidate that was looked at.
+  // The results of the last call of Try, one for each candidate that was looked at.
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
 
-  // Takes back a loop that proved wrong: it has no part in later corrections. What it ties in the
-  // map is the caller's to untie (OpenLoop). The index is that in loops().
+  // Takes back a loop that proved wrong, so that it takes no part in later corrections. The caller
+  // unties what it ties in the map (OpenLoop). `loop` is its index in loops().
   void Withdraw(std::size_t loop);
 
-  // What it goes on from beside the map. Another one of the same options that is given the state
-  // does what this one would do.
+  // What the closer needs, beside the map, to go on. Another closer of the same options that gets
+  // the state does what this one would do.
   struct State {
     std::vector<LoopEdge> loops;
     std::vector<LoopEdge> waiting;
@@ -129,7 +133,7 @@ class LoopCloser {
   ImagingModel imaging_;
   LoopOptions options_;
   std::vector<LoopEdge> loops_;
-  std::vector<LoopEdge> waiting_;  // seen by one keyframe only, the newest last
+  std::vector<LoopEdge> waiting_;  // loops seen by one keyframe only, the newest last
   std::vector<LoopAttempt> attempts_;
   KeyFrameId last_closed_;  // the last query that closed a loop, in whatever map it is
 };

@@ -15,7 +15,7 @@
 namespace plumbline {
 namespace {
 
-constexpr double kNearRadiusPx = 4;  // in the images of neighbours
+constexpr double kNearRadiusPx = 4;  // search radius in the images of neighbours
 
 ProjectionSearchOptions SearchOptions(double radius_px) {
   ProjectionSearchOptions options;
@@ -31,7 +31,8 @@ bool Before(const Landmark* a, const Landmark* b) {
   return a->id < b->id;
 }
 
-// Takes what both have out of both and returns the ids; both are ordered by id.
+// Removes from both lists what they have in common, and returns the ids of that. Both must be
+// ordered by id.
 template <class Landmark>
 auto TakeOutCommon(std::vector<const Landmark*>& a, std::vector<const Landmark*>& b) {
   std::vector<const Landmark*> common;
@@ -47,7 +48,7 @@ auto TakeOutCommon(std::vector<const Landmark*>& a, std::vector<const Landmark*>
   return ids;
 }
 
-// Features of a frame that show landmarks, and their places in the frame.
+// The features of a frame that show landmarks, and their indices in the frame.
 template <class Feature>
 struct FeaturesOfLandmarks {
   std::vector<Feature> features;
@@ -68,7 +69,8 @@ FeaturesOfLandmarks<Feature> WithLandmarks(const std::vector<Feature>& features,
   return out;
 }
 
-// Where a pair stands among the rest: alone, or as the first of several like it.
+// Returns for each pair whether it is to be kept: no other pair contradicts it, and it is the first
+// of several equal ones.
 template <class LandmarkId>
 std::vector<bool> Consistent(const std::vector<LandmarkPair<LandmarkId>>& pairs) {
   std::map<LandmarkId, LandmarkId> partner_of_query;

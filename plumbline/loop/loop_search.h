@@ -14,25 +14,25 @@
 
 namespace plumbline {
 
-// Landmarks of two places that may be one, and their matches.
+// Landmarks of two places that may be one, with their matches.
 struct LoopMatches {
   AlignmentProblem problem;
-  std::vector<LandmarkPair<PointId>> points;  // by AlignmentProblem::points
-  std::vector<LandmarkPair<LineId>> lines;    // by AlignmentProblem::lines
+  std::vector<LandmarkPair<PointId>> points;  // the pair of each entry of AlignmentProblem::points
+  std::vector<LandmarkPair<LineId>> lines;    // the pair of each entry of AlignmentProblem::lines
 };
 
-// A search of both places in each other's image.
+// The result of searching each place's landmarks in the other's image.
 struct MutualSearch {
-  SearchedImage in_candidate;  // landmarks around the query
-  SearchedImage in_query;      // landmarks around the candidate
+  SearchedImage in_candidate;  // landmarks around the query, searched in the candidate's image
+  SearchedImage in_query;      // landmarks around the candidate, searched in the query's image
   LoopMatches matches;
 };
 
-// What two keyframes and their neighbourhoods show. Landmarks that both sides have in common do not
-// take part: of two keyframes of one map they say what the map says.
+// The landmarks that two keyframes and their neighbourhoods show. Landmarks that both sides have in
+// common take no part: two keyframes of one map would only repeat what the map says.
 class LoopSearch {
  public:
-  // The maps must outlive it; they may be one.
+  // The maps must outlive this object; both may be the same map.
   LoopSearch(const Map& query_map,
              KeyFrameId query,
              const Map& candidate_map,
@@ -43,16 +43,16 @@ class LoopSearch {
   const LocalLandmarks& query() const { return query_; }
   const LocalLandmarks& candidate() const { return candidate_; }
 
-  // Landmarks of the two keyframes whose features look alike: mutually nearest descriptors with
-  // clear second ones.
+  // Returns pairs of landmarks of the two keyframes whose features look alike: their descriptors
+  // are nearest to each other, and the second nearest are clearly worse.
   LoopMatches MatchByLooks(const LoopVerificationOptions& options);
 
-  // Landmarks found where the relative pose says. Pairs of landmarks that contradict each other
-  // (one with two) are left out.
+  // Searches landmarks where the relative pose predicts them. Pairs that contradict each other (one
+  // landmark with two others) are left out.
   MutualSearch SearchBoth(const Similarity3& candidate_from_query, double radius_px);
 
-  // Landmarks around one of the two searched for in the image of a neighbour of the other, and the
-  // pairs this gives.
+  // Searches landmarks around one keyframe in the image of a neighbour of the other, and adds the
+  // resulting pairs.
   SearchedImage SearchInNeighbourOfQuery(KeyFrameId neighbour,
                                          const Similarity3& candidate_from_query,
                                          LoopMatches& matches);
@@ -60,7 +60,7 @@ class LoopSearch {
                                              const Similarity3& candidate_from_query,
                                              LoopMatches& matches);
 
-  // Without pairs that contradict each other or stand there twice.
+  // Removes pairs that contradict each other, and repeated pairs.
   void DropContradictions(LoopMatches& matches) const;
 
  private:
@@ -76,9 +76,10 @@ class LoopSearch {
   const Map& candidate_map_;
   ImagingModel imaging_;
   LocalLandmarks query_, candidate_;
-  std::vector<PointId> common_points_;  // ascending
+  std::vector<PointId> common_points_;  // ordered by id
   std::vector<LineId> common_lines_;
-  std::map<PointId, CameraPoint> in_query_, in_candidate_;  // computed so far
+  // Points in the frames of the two cameras, as far as they were computed.
+  std::map<PointId, CameraPoint> in_query_, in_candidate_;
 };
 
 }  // namespace plumbline

@@ -14,7 +14,7 @@
 namespace plumbline {
 namespace {
 
-// Keyframes around both ends of a loop. Ids ascend in the order of time, also of maps that were
+// The keyframes around both ends of a loop. Ids ascend in the order of time, even in maps that were
 // joined.
 class Ends {
  public:
@@ -28,7 +28,7 @@ class Ends {
 
   bool IsLate(KeyFrameId id) const { return 2 * id.value >= early_end_.value + late_end_.value; }
 
-  // Whether it is the loop that makes one landmark of these observations.
+  // Whether the loop makes one landmark of these observations.
   bool Ties(const Observations& seen) const {
     const auto first_late = std::find_if(
         seen.begin(), seen.end(), [&](const auto& entry) { return IsLate(entry.first); });
@@ -80,7 +80,7 @@ void AddAndRefresh(MapLine later, LineId earlier, MapEdit& edit) {
   edit.push_back(edit::RefreshLine{earlier});
 }
 
-// Parts those that the loop ties; `next`: the id for the first new one.
+// Splits the landmarks that the loop ties. `next` is the id of the first new landmark.
 template <class LandmarkId>
 void Part(const Map& map,
           const std::set<LandmarkId>& shown,

@@ -22,7 +22,7 @@ UncertainPose Measured(const PoseGraphEdge& edge) {
   return pose;
 }
 
-// Branch and bound over the members in ascending order.
+// Searches by branch and bound over the members in ascending order.
 class CliqueSearch {
  public:
   explicit CliqueSearch(const std::vector<std::vector<bool>>& joined) : joined_(joined) {}

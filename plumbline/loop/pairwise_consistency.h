@@ -10,16 +10,17 @@
 
 namespace plumbline {
 
-// How far two loops are from agreeing with each other by way of odometry: the squared Mahalanobis
-// norm of the cycle candidate, query, other query, other candidate and back (Mangelson, Dominic,
-// Eustice and Vasudevan, ICRA 2018, eq. 7). 0 where odometry does not tie them: nothing speaks
-// against the two. Cost: two ways.
+// Returns how far two loops are from agreeing with each other by way of odometry: the squared
+// Mahalanobis norm of the cycle candidate, query, other query, other candidate and back (Mangelson,
+// Dominic, Eustice and Vasudevan, ICRA 2018, eq. 7). Returns 0 where odometry does not tie them,
+// since nothing contradicts the two then. Cost: two ways.
 double CycleChi2(OdometryWays& odometry, const PoseGraphEdge& a, const PoseGraphEdge& b);
 
-// A largest set of which all are consistent with each other (a clique of the graph), ascending; of
-// several the first in the order of their members. consistent[i][j]: as [j][i].
+// Returns a largest set whose members are all consistent with each other (a clique of the graph),
+// ascending; of several such sets the first in the order of their members. consistent[i][j] must
+// equal consistent[j][i].
 //
-//   cost  exponential at worst; some microseconds for 30 of which most agree
+//   cost  exponential at worst; some microseconds for 30 members of which most agree
 std::vector<int> LargestConsistentSet(const std::vector<std::vector<bool>>& consistent);
 
 }  // namespace plumbline

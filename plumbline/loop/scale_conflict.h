@@ -11,18 +11,18 @@
 
 namespace plumbline {
 
-// A map of one camera that has the same things in two sizes.
+// The finding that a map of one camera has the same things in two sizes.
 struct ScaleConflict {
   KeyFrameId older;
   double scale = 1;  // lengths around the older keyframe / the same lengths around the newest
 };
 
-// Whether the newest keyframe of a map of one camera and an older one, some of those that look
-// alike, show the same things (VerifyLoop), but twice as large or half as large in the map, or
-// more, and certainly so: by five deviations of what is measured and of what the scale may have
-// drifted along the keyframes between (DriftOptions::log_scale). Frames may all have been tracked
-// meanwhile: every keyframe agrees with the one before it, and the unit of the map runs away. Of
-// what both keyframes have in common the map knows one size; nothing is asked of it.
+// Looks for an older keyframe of a map of one camera, among `candidates`, that shows the same
+// things as the newest keyframe (VerifyLoop) but at least twice as large or half as large in the
+// map. The difference must be certain by five deviations of the measurement and of the drift of the
+// scale along the keyframes between (DriftOptions::log_scale). All frames between may have been
+// tracked: every keyframe agrees with the one before it, and still the unit of the map runs away.
+// Landmarks that both keyframes show take no part, since the map has one size for them.
 //
 //   cost  VerifyLoop for each candidate: about 5 ms where it is refused
 std::optional<ScaleConflict> FindScaleConflict(const Map& map,

@@ -7,20 +7,20 @@
 namespace plumbline {
 
 // A relative pose b_from_a with the covariance of its left perturbation [rotation, translation, log
-// scale]; of a rigid motion the last row and column are zero.
+// scale]. For a rigid motion the last row and column are zero.
 struct UncertainPose {
   Similarity3 pose;
   Matrix7d covariance = Matrix7d::Zero();
 };
 
-// c_from_b * b_from_a of independent estimates, to first order.
+// Returns c_from_b * b_from_a; the estimates count as independent, to first order.
 UncertainPose Compose(const UncertainPose& c_from_b, const UncertainPose& b_from_a);
 
 UncertainPose Inverse(const UncertainPose& b_from_a);
 
-// The squared Mahalanobis norm of Log(pose): how far a chain of relative poses that comes back to
-// where it began is from closing. Rigid motions (no variance of the scale) have six degrees of
-// freedom, others seven. Infinite where the covariance is not positive definite.
+// Returns the squared Mahalanobis norm of Log(pose): how far a chain of relative poses that comes
+// back to its beginning is from closing. Rigid motions (no variance of the scale) have six degrees
+// of freedom, others seven. Infinite where the covariance is not positive definite.
 double ClosingChi2(const UncertainPose& a_from_a);
 
 }  // namespace plumbline

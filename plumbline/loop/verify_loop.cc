@@ -19,14 +19,17 @@
 namespace plumbline {
 namespace {
 
-constexpr double kFirstGate = 4;  // times the 95 % limits of chi2
+constexpr double kFirstGate = 4;  // factor on the 95 % limits of chi2
 constexpr double kLastGate = 1.5;
 constexpr double kLastRadiusPx = 4;
-constexpr double kLeastShare = 0.02;  // of landmarks found by chance, however few were
-constexpr int kLineWeight = 2;        // of a line against a point, in counts
-constexpr int kLeastTested = 15;      // landmarks in view of a neighbour that is worth asking
-constexpr std::size_t kAsked = 5;     // neighbours of either keyframe
-constexpr double kMaxChange = 24;     // chi2 of what neighbours change: 99.9 % of seven
+// Least share of landmarks that counts as found by chance.
+constexpr double kLeastShare = 0.02;
+constexpr int kLineWeight = 2;  // a line counts as so many points
+// Fewest landmarks in view of a neighbour that is worth asking.
+constexpr int kLeastTested = 15;
+constexpr std::size_t kAsked = 5;  // most neighbours of either keyframe that are asked
+// Largest chi2 of the change by neighbours: 99.9 % of seven degrees of freedom.
+constexpr double kMaxChange = 24;
 
 int Count(const std::vector<bool>& flags) {
   return static_cast<int>(std::count(flags.begin(), flags.end(), true));
@@ -36,7 +39,7 @@ int WeightedCount(const AlignmentResult& result) {
   return Count(result.points) + Count(result.sightings) + kLineWeight * Count(result.lines);
 }
 
-// Places of matches in one image and which cells of it should show something.
+// The places of matches in one image, and which cells of it should show something.
 class Coverage {
  public:
   explicit Coverage(const RectifiedCamera& camera)
@@ -52,7 +55,8 @@ class Coverage {
 
   int count() const { return count_; }
 
-  // Deviation of what was found along its least axis, as a part of the height of the image.
+  // Returns the deviation of the matches along its least axis, as a part of the height of the
+  // image.
   double Spread() const {
     if (count_ < 3) return 0;
     const Eigen::Vector2d mean = sum_ / count_;
@@ -105,7 +109,7 @@ Coverage CoverageOf(const RectifiedCamera& camera,
   return coverage;
 }
 
-// Lines found under the worst of some wrong shifts of the image.
+// Returns how many lines would be found under the worst of some wrong shifts of the image.
 int ShiftedLines(const IndexedFeatures& image,
                  const std::vector<std::optional<ProjectedLine>>& lines,
                  double radius_px) {
@@ -132,7 +136,7 @@ int ShiftedLines(const IndexedFeatures& image,
 
 double Share(int part, int whole) { return static_cast<double>(part) / std::max(1, whole); }
 
-// What a search found and what a wrong relative pose would.
+// The numbers of landmarks that a search found and that a wrong relative pose would find.
 struct Tally {
   int tested_points = 0, points = 0, shifted_points = 0;
   int tested_lines = 0, lines = 0, shifted_lines = 0;
@@ -159,7 +163,7 @@ Tally TallyOf(const RectifiedCamera& camera,
   return tally;
 }
 
-// One question to two keyframes.
+// The verification of one pair of keyframes.
 class Verification {
  public:
   Verification(LoopSearch& search,
@@ -175,7 +179,7 @@ class Verification {
   }
 
  private:
-  // First relative pose, then the searches.
+  // Finds the first relative pose, then searches landmarks with it.
   std::optional<LoopRefusal> Align() {
     const LoopMatches first = search_.MatchByLooks(options_);
     evidence_.first_matches =
@@ -216,7 +220,7 @@ class Verification {
     evidence_.tested =
         there.tested_points + there.tested_lines + back.tested_points + back.tested_lines;
     evidence_.chance_share = tally_share_;
-    // The two searches look at the same features: together they count once.
+    // The two searches look at the same features, so that together they count once.
     evidence_.log10_chance = 0.5 * (there.Log10Chance() + back.Log10Chance());
     evidence_.rival_share =
         Share(there.shifted_points + back.shifted_points, there.points + back.points);
@@ -228,8 +232,8 @@ class Verification {
     return std::nullopt;
   }
 
-  // Only what agrees counts as found: a window of the search finds something by itself now and
-  // then.
+  // Counts only matches that agree as found, since a search window finds something by itself now
+  // and then.
   void KeepToInliers(Tally& there, Tally& back) const {
     int seen_there = Count(result_.points);
     int seen_back = seen_there;
@@ -278,7 +282,7 @@ class Verification {
     return narrow ? std::optional(LoopRefusal::kNarrow) : std::nullopt;
   }
 
-  // Asks the neighbours; their pairs come along.
+  // Asks the neighbours; the pairs that they find take part in Settle().
   std::optional<LoopRefusal> Confirm() {
     LoopMatches more;
     const Similarity3& pose = result_.candidate_from_query;
@@ -305,9 +309,10 @@ class Verification {
            Log10BinomialTail(found.tested_lines, static_cast<int>(found.lines.size()), line_share_);
   }
 
-  // The relative pose once more, with what neighbours found: they see the place from elsewhere, and
-  // decide what the two keyframes leave open. Where it would be another one then, as far as the
-  // first one is certain, the map is bent around one of the two, and the first one stays.
+  // Refines the relative pose once more, with the pairs that neighbours found: these see the place
+  // from elsewhere, and decide what the two keyframes leave open. If the relative pose changes by
+  // more than its uncertainty allows, the map is bent around one of the two, and the first result
+  // stays.
   void Settle(const LoopMatches& more) {
     LoopMatches all = found_.matches;
     all.points.insert(all.points.end(), more.points.begin(), more.points.end());
@@ -331,7 +336,8 @@ class Verification {
     LimitCertainty();
   }
 
-  // Errors of landmarks have much in common: the keyframes they hang on, the calibration.
+  // Limits how certain the result may be. Errors of landmarks have much in common: the keyframes
+  // that they depend on, the calibration.
   void LimitCertainty() {
     result_.covariance *=
         std::max(1.0, static_cast<double>(WeightedCount(result_)) / options_.independent_matches);
@@ -357,7 +363,7 @@ class Verification {
   LoopEvidence evidence_;
   MutualSearch found_;
   AlignmentResult result_;
-  double tally_share_ = 0;  // of points that a wrong relative pose would find
+  double tally_share_ = 0;  // share of points and of lines that a wrong relative pose would find
   double line_share_ = 0;
   std::vector<LandmarkPair<PointId>> point_pairs_;
   std::vector<LandmarkPair<LineId>> line_pairs_;

@@ -18,13 +18,13 @@ namespace plumbline {
 // Why two keyframes are not taken to see the same place.
 enum class LoopRefusal {
   kFewMatches,   // few features look alike
-  kNoAgreement,  // those that do agree on no relative pose
-  kFewInliers,   // little is found where the relative pose says it should be
-  kLoose,        // what is found leaves the relative pose open
+  kNoAgreement,  // the features that look alike agree on no relative pose
+  kFewInliers,   // few landmarks are found where the relative pose predicts them
+  kLoose,        // the matches leave the relative pose open
   kChance,       // a wrong relative pose might find as much
   kRepeated,     // another shift of the image finds nearly as much
-  kNarrow,       // it is all in one small part of the image
-  kUnconfirmed,  // neighbouring keyframes do not find it
+  kNarrow,       // all matches lie in one small part of the image
+  kUnconfirmed,  // neighbouring keyframes do not confirm it
 };
 
 constexpr auto EnumNames(std::type_identity<LoopRefusal>) {
@@ -38,24 +38,24 @@ constexpr auto EnumNames(std::type_identity<LoopRefusal>) {
                     std::pair{LoopRefusal::kUnconfirmed, "unconfirmed"}};
 }
 
-// Whether two keyframes, of one map or of two, see the same place, and where they are to each
-// other: a similarity with one camera (baseline 0), else a rigid motion.
+// Decides whether two keyframes, of one map or of two, see the same place, and finds their relative
+// pose: a similarity with one camera (baseline 0), otherwise a rigid motion.
 //
 // Landmarks of the two whose features look alike give a first relative pose (AlignByRansac). With
-// it the landmarks around each are searched for in the other's image, and the relative pose is
-// refined from what is found, points and lines together (RefineAlignment); then once more, closer
-// by. What both sides have in common already (landmarks of one map that both show) does not take
-// part.
+// it the landmarks around each keyframe are searched in the other's image, and the relative pose is
+// refined from the matches, points and lines together (RefineAlignment). Both is repeated with a
+// smaller search radius. Landmarks that both keyframes show already (of one map) take no part.
 //
-// Believed where so many matches cannot be chance: they are set against how many the same search
-// would find at the best wrong shift of the image, by the tail of the binomial distribution. They
-// must also cover the image, fix the relative pose, and be found by keyframes beside the query.
+// The result is believed where so many matches cannot be chance: their number is compared, by the
+// tail of the binomial distribution, with what the same search would find at the best wrong shift
+// of the image. The matches must also cover the image, fix the relative pose, and be found by
+// keyframes beside the query.
 //
 // The covariance is that of RefineAlignment, but never smaller than what independent_matches would
-// leave: the errors of a map's landmarks have much in common.
+// leave, since the errors of a map's landmarks have much in common.
 //
 // Where the query has no neighbours that could be asked, evidence.asked is 0, and the caller must
-// wait for another query. Same input, same result.
+// wait for another query. The same input gives the same result.
 //
 //   cost  a refused candidate about 5 ms, an accepted one about 30 ms (1000 features)
 Expected<LoopEdge, LoopRefusal> VerifyLoop(const Map& query_map,
