@@ -17,7 +17,7 @@
 namespace plumbline {
 namespace {
 
-// log det(R + J^T W J) - log det R.
+// Returns log det(R + J^T W J) - log det R.
 template <class Rows, class Weight>
 double GainOf(const Eigen::LLT<Matrix6d>& rest, const Rows& rows, const Weight& weight) {
   using Square = Eigen::Matrix<double,
@@ -35,11 +35,11 @@ bool CutsLines(CuttingMethod method) {
   return method != CuttingMethod::kNone && method != CuttingMethod::kDrop;
 }
 
-// A point, or a line with its best cut, as it was last looked at.
+// A point, or a line with its best cut, as of the last time it was looked at.
 struct Candidate {
   double gain = 0;
-  std::size_t index = 0;   // points first, then lines
-  std::size_t looked = 0;  // how many were chosen then
+  std::size_t index = 0;   // index of points first, then of lines
+  std::size_t looked = 0;  // number of chosen features at that time
   LineCut cut;
 
   bool operator<(const Candidate& other) const {
@@ -59,7 +59,7 @@ class GreedyChoice {
     cuts_ = CutsLines(options.method);
   }
 
-  // `choice` says which lines may be chosen, and becomes the choice.
+  // Fills `choice`. On entry it says which lines may be chosen.
   void Run(std::size_t budget, ChosenFeatures& choice) {
     Refresh();
     std::priority_queue<Candidate> queue;
@@ -114,7 +114,7 @@ class GreedyChoice {
   std::span<const PointRows> points_;
   CuttingInformation information_;
   bool cuts_ = false;
-  InformationSums sums_;  // of what is chosen
+  InformationSums sums_;  // sums over the chosen features
   std::size_t chosen_ = 0;
   Eigen::LLT<Matrix6d> rest_;
 };

@@ -17,9 +17,9 @@ namespace plumbline {
 namespace {
 
 constexpr int kMaxSweeps = 20;
-// Sweeps end when one raises log det by less.
+// Sweeps end when one raises log det by less than this.
 constexpr double kSweepTolerance = 1e-4;
-// Fewer lines than this do not fix a pose; drop leaves as many.
+// Fewer lines than this do not fix a pose, so that drop leaves at least as many.
 constexpr std::size_t kMinLinesKept = 4;
 
 using Cuts = std::vector<LineCut>;
@@ -33,7 +33,7 @@ void Check(const CuttingProblem& problem) {
   }
 }
 
-// One pass over all lines (Algorithm 1). Returns how much log det has risen.
+// Does one pass over all lines (Algorithm 1). Returns how much log det has risen.
 double Sweep(const CuttingProblem& problem, CuttingInformation information, Cuts& cuts) {
   InformationSums sums = SumInformation(problem, cuts, information);
   double gain = 0;
@@ -53,8 +53,8 @@ Cuts CutGreedily(const CuttingProblem& problem, CuttingInformation information, 
   for (int sweep = 1; sweep < max_sweeps; ++sweep) {
     Cuts better = cuts;
     const double gain = Sweep(problem, information, better);
-    // The information as printed grows without bound where it becomes singular: summed anew it may
-    // be none at all.
+    // The information as printed grows without bound where it becomes singular, so that log det is
+    // computed anew from the cuts.
     const double before = LogDeterminantOf(problem, cuts, information);
     if (!(LogDeterminantOf(problem, better, information) >= before)) break;
     cuts = std::move(better);
@@ -87,7 +87,7 @@ Cuts CutJointly(const CuttingProblem& problem, CuttingInformation information) {
   return CutsOf(Ascend<Eigen::Dynamic>(objective, full).ratios);
 }
 
-// The mean variance of the two residuals at full length.
+// Returns the mean variance of the two residuals of the line at full length.
 double Uncertainty(const RectifiedCamera& camera, const CuttableLine& line) {
   const Eigen::Matrix2d weight =
       EvaluateCut(camera, line, {}, CuttingInformation::kIndependent).weight;

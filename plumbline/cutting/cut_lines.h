@@ -6,12 +6,12 @@
 
 #include <vector>
 
-// Good line cutting: of each 3D line only the piece is used for the pose that tells most about it
-// (second paper, section 4). Derivation and what is not right in print:
-// docs/methods/line-cutting.md.
+// Good line cutting: for the pose only the piece of each 3D line is used that tells most about it
+// (second paper, section 4). docs/methods/line-cutting.md has the derivation and what is not right
+// in print.
 namespace plumbline {
 
-// Cuts for all lines, in their order.
+// Returns cuts for all lines, in their order.
 //
 // What the caller does:
 //   1. At the predicted pose, put lines with a match into the camera's frame; leave out those with
@@ -23,21 +23,22 @@ namespace plumbline {
 //      measured image line (eq. 1, projected_ends). For residuals that measure the distance of
 //      observed ends from the projected line (observed_ends, Plücker lines), move the observed ends
 //      to ImageRatio(...) of the measured segment, oriented as the 3D one.
-//      Without weights (lines.weighting none), or with EvaluateCut(...).weight of cut_residuals.h:
-//      1 / v for independent, 2 x 2 for correlated information. The measurement's own weights of
-//      whole lines do not belong to cut points.
+//      Weigh them equally (lines.weighting none), or with EvaluateCut(...).weight of
+//      cut_residuals.h: 1 / v for independent, 2 x 2 for correlated information. The measurement's
+//      own weights of whole lines do not apply to cut points.
 //   4. Cut again only where the pose has moved much: the cuts depend on it weakly.
 //
-// How: gradient ascent on log det of the pose information (eq. 7) with its analytic gradient; each
-// single line from full length and from either end (section 5.1); joint as CuttingMethod says.
-// sigma_px is a floor: without it a line whose depth error falls along the viewing ray would be
-// infinitely informative. A direction of the pose that nothing fixes has kPriorInformation. Fewer
-// than three lines have no printed information; they stay whole.
+// How: gradient ascent on log det of the pose information (eq. 7) with its analytic gradient. Each
+// single line is started from full length and from either end (section 5.1); the joint search is
+// that of CuttingMethod. sigma_px is a floor: without it a line whose depth error falls along the
+// viewing ray would be infinitely informative. A direction of the pose that nothing fixes has
+// kPriorInformation. Fewer than three lines have no printed information; they stay whole.
 //
-// options.budget has no part here (choose_features.h).
+// options.budget is not used here (see choose_features.h).
 //
 // In the chosen information a cut is never worse than full length. Deterministic; greedy depends on
-// the order of the lines. Throws BugError where the input breaks the conditions above.
+// the order of the lines. Throws BugError where an end of a line has z <= kMinDepth, or a sigma_px
+// is not positive.
 //   cost: 60 lines 0.1 ms with greedy and independent; correlated twice, printed 25 times that
 std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOptions& options);
 

@@ -16,15 +16,16 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Nearer cut points are one point: their 2 x 2 covariance is singular in double precision.
+// Cut points nearer to each other than this are one point: their 2 x 2 covariance is singular in
+// double precision.
 constexpr double kMinRatioGap = 1e-4;
 
 Matrix3d CovarianceByRatio(const CuttableLine& line, double ratio) {
   return -2 * (1 - ratio) * line.start_covariance + 2 * ratio * line.end_covariance;
 }
 
-// How much of the residual at a ratio comes from the start and the end of the measured segment, and
-// the derivative of that by the ratio.
+// The shares of the start and of the end of the measured segment in the residual at a ratio, and
+// their derivatives by the ratio.
 struct ImageShares {
   Vector2d share, by_ratio;
 };
@@ -67,7 +68,7 @@ void SetPrinted(const CuttableLine& line,
   }
 }
 
-// Covariance of the two residuals and its derivatives by the two ratios.
+// Computes the covariance of the two residuals and its derivatives by the two ratios.
 void CovarianceOfResiduals(const CuttableLine& line,
                            const std::array<CutResidual, 2>& points,
                            const std::array<double, 2>& ratios,

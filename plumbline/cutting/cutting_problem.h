@@ -14,27 +14,30 @@
 
 #include <Eigen/Core>
 
-// What good line cutting starts from and gives (cut_lines.h), and the options of it.
+// The input and the result of good line cutting (cut_lines.h), and its options.
 namespace plumbline {
 
-// How the cuts of all lines are looked for.
+// How the cuts of all lines are found.
 enum class CuttingMethod {
-  kNone,          // full length
+  kNone,          // all lines keep their full length
   kGreedy,        // Algorithm 1: one line after the other, once
-  kGreedySweeps,  // the same until nothing changes
+  kGreedySweeps,  // Algorithm 1 again until nothing changes
   kJoint,         // all ratios at once, gradient ascent from full length
-  kDrop,          // leave out the most uncertain lines, keep the others whole
+  kDrop,          // the most uncertain lines are left out, the others stay whole
 };
-// How the information of the pose, which cutting maximizes, counts the two cut points of a line.
+// How the pose information, which cutting maximizes, counts the two cut points of a line.
 enum class CuttingInformation {
-  kIndependent,  // J^T W J, the two cut points taken as independent, as the paper does
-  kPrinted,      // second paper, eq 5 to the letter
-  kCorrelated,   // J^T C^-1 J with the covariance between the cut points: cutting changes nothing
+  // J^T W J: the two cut points count as independent, as in the paper.
+  kIndependent,
+  kPrinted,  // eq. 5 of the second paper to the letter
+  // J^T C^-1 J with the covariance between the cut points; cutting then changes nothing.
+  kCorrelated,
 };
-// How well the ends of a line are taken to be known where lines are cut.
+// How well the ends of a line count as known where lines are cut.
 enum class CuttingEnds {
-  kLandmark,      // as the information of the line says
-  kInverseDepth,  // all alike in image and inverse depth, as the second paper assumes
+  kLandmark,  // as the information of the line says
+  // All ends alike in image and inverse depth, as the second paper assumes.
+  kInverseDepth,
 };
 
 constexpr auto EnumNames(std::type_identity<CuttingMethod>) {
@@ -96,16 +99,20 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
         Range{0, 100000});
 }
 
-// A 3D line seen in the image, linearized at the present estimate of the pose.
+// A 3D line that the image shows, linearized at the present estimate of the pose.
 struct CuttableLine {
-  Segment3 segment_in_cam;           // ends at ratio 0 and 1; both with z > kMinDepth
-  Eigen::Matrix3d start_covariance;  // of the ends, camera frame, m^2; positive semidefinite,
-  Eigen::Matrix3d end_covariance;    // the errors of the two ends independent
-  Eigen::Vector3d image_line;        // as measured, scaled as by LineThrough(Segment2), pixels
-  double sigma_px = 1;               // of the measured line across itself; greater than 0
+  Segment3 segment_in_cam;  // ends at ratio 0 and 1, in the camera frame; both with z > kMinDepth
+  // Covariances of the ends, camera frame, m^2; positive semidefinite. The errors of the two ends
+  // are independent.
+  Eigen::Matrix3d start_covariance;
+  Eigen::Matrix3d end_covariance;
+  Eigen::Vector3d image_line;  // line as measured, scaled as by LineThrough(Segment2), pixels
+  // Deviation of the measured line across itself [px]; greater than 0.
+  double sigma_px = 1;
 };
 
-// All that CutLines has to know of one frame: its camera, its lines, and what else fixes the pose.
+// All that CutLines needs to know about one frame: its camera, its lines, and what else fixes the
+// pose.
 struct CuttingProblem {
   RectifiedCamera camera;
   std::vector<CuttableLine> lines;
@@ -115,29 +122,29 @@ struct CuttingProblem {
   Matrix6d other_information = Matrix6d::Zero();
 };
 
-// Where a line is cut: the piece from ratio `first` to ratio `second` of its 3D segment,
-// X(a) = (1 - a) start + a end, 0 <= first <= second <= 1. Equal ratios: one point counted twice.
+// A cut of a line: the piece from ratio `first` to ratio `second` of its 3D segment, X(a) = (1 - a)
+// start + a end, 0 <= first <= second <= 1. With equal ratios one point counts twice.
 struct LineCut {
   double first = 0, second = 1;
-  bool used = true;  // false: left out (drop)
+  bool used = true;  // false: the line is left out (drop)
 
-  // Equal bit by bit.
+  // Whether both are equal bit by bit.
   bool operator==(const LineCut&) const = default;
 };
 
-// The pose is held by so much in every direction, in rad^-2 and map units^-2: information matrices
-// of few lines stay regular, others do not notice.
+// Information that is added in every direction of the pose [rad^-2 and map units^-2]. It keeps the
+// information matrix of few lines regular, and is far too small to matter for others.
 inline constexpr double kPriorInformation = 1e-6;
 
-// The point that divides a segment at a ratio: 0 is its start, 1 its end.
+// Returns the point that divides a segment at a ratio: 0 is its start, 1 its end.
 inline Eigen::Vector3d PointAt(const Segment3& segment, double ratio) {
   return (1 - ratio) * segment.start + ratio * segment.end;
 }
-// The piece of a segment that a cut leaves.
+// Returns the piece of a segment that a cut leaves.
 inline Segment3 CutSegment(const Segment3& segment, const LineCut& cut) {
   return {PointAt(segment, cut.first), PointAt(segment, cut.second)};
 }
-// Where the image of PointAt(segment, ratio) lies between the images of the ends, 0 to 1.
+// Returns where the image of PointAt(segment, ratio) lies between the images of the ends, 0 to 1.
 inline double ImageRatio(const Segment3& segment_in_cam, double ratio) {
   const double end = ratio * segment_in_cam.end.z();
   return end / ((1 - ratio) * segment_in_cam.start.z() + end);

@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Coefficients of (1, a, a^2) of (w0 + a w1)^T Sigma (w0 + a w1).
+// Returns the coefficients of (1, a, a^2) in (w0 + a w1)^T Sigma (w0 + a w1).
 Vector3d QuadraticForm(const Vector3d& w0, const Vector3d& w1, const Matrix3d& sigma) {
   const Vector3d s0 = sigma * w0;
   return {w0.dot(s0), 2 * w1.dot(s0), w1.dot(sigma * w1)};
@@ -34,7 +34,7 @@ IndependentLineObjective::IndependentLineObjective(const RectifiedCamera& camera
   depth_ = x.z();
   depth_by_ratio_ = d.z();
   noise_ = line.sigma_px * line.sigma_px;
-  // w = z^2 g = z q - (q . X) e_z, linear in the ratio.
+  // w = z^2 g = z q - (q . X) e_z is linear in the ratio.
   const Vector3d w0 = x.z() * q - q.dot(x) * Vector3d::UnitZ();
   const Vector3d w1 = d.z() * q - q.dot(d) * Vector3d::UnitZ();
   start_variance_ = QuadraticForm(w0, w1, line.start_covariance);
@@ -68,7 +68,7 @@ double IndependentLineObjective::operator()(const Vector2d& ratios, Vector2d& gr
   const Point p = At(ratios(0)), q = At(ratios(1));
   const Vector3d gp = gram_ * p.power, gq = gram_ * q.power;
   const double ip = 1 / p.variance, iq = 1 / q.variance;
-  // The 2 x 2 determinant (1 + pp)(1 + qq) - pq^2.
+  // The 2 x 2 determinant is (1 + pp)(1 + qq) - pq^2.
   const double pp = p.power.dot(gp) * ip;
   const double qq = q.power.dot(gq) * iq;
   const double pq = p.power.dot(gq);

@@ -71,7 +71,7 @@ LogDeterminant EvaluateLogDeterminant(const InformationSums& sums,
     out.by_weighted = covariance;
     return out;
   }
-  // d(A^-1 B A^-1) = A^-1 dB A^-1 - A^-1 dA S - S dA A^-1 with S = A^-1 B A^-1.
+  // This is d(A^-1 B A^-1) = A^-1 dB A^-1 - A^-1 dA S - S dA A^-1 with S = A^-1 B A^-1.
   const Matrix6d inverse_plain = WithPrior(sums.plain).llt().solve(Matrix6d::Identity());
   const Matrix6d s = inverse_plain * sums.weighted * inverse_plain;
   const Matrix6d half = s * covariance * inverse_plain;

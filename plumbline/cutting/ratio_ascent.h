@@ -13,8 +13,9 @@ namespace plumbline {
 
 struct RatioAscentOptions {
   int max_iterations = 100;
-  double gradient_tolerance = 1e-4;  // largest entry of the gradient that the box leaves free
-  double step_tolerance = 1e-5;      // largest change of a ratio in an iteration
+  // Largest entry of the gradient that may remain where the box leaves it free.
+  double gradient_tolerance = 1e-4;
+  double step_tolerance = 1e-5;  // largest change of a ratio in the last iteration
 };
 
 template <int kSize>
@@ -25,12 +26,13 @@ struct RatioAscent {
   bool converged = false;
 };
 
-// A local maximum of a function of ratios in [0, 1] from `start`, by the spectral projected
-// gradient method (Birgin, Martinez and Raydan 2000): steps along the gradient, clipped to the box,
-// of the length that the last change of the gradient suggests (Barzilai and Borwein 1988). A step
-// may lower the value, but not below the least of the last kMemory: without this freedom such steps
-// lose their speed on long ridges. The best ratios seen are returned, never worse than the start.
-// `objective(ratios, gradient)` returns the value and sets the gradient. Deterministic.
+// Finds a local maximum of a function of ratios in [0, 1] from `start`, by the spectral projected
+// gradient method (Birgin, Martinez and Raydan 2000). Steps go along the gradient, clipped to the
+// box; their length follows from the last change of the gradient (Barzilai and Borwein 1988). A
+// step may lower the value, but not below the least of the last kMemory values: without this
+// freedom such steps lose their speed on long ridges. The best ratios seen are returned, never
+// worse than the start. `objective(ratios, gradient)` returns the value and sets the gradient.
+// Deterministic.
 template <int kSize, class Objective>
 class RatioAscender {
  public:
@@ -42,7 +44,8 @@ class RatioAscender {
   RatioAscent<kSize> From(const Vector& start) {
     RatioAscent<kSize> found = Run(start, kMemory);
     if (at_.value >= found.value) return found;
-    // It has wandered off to a lower maximum: once more from the best ratios, always upwards.
+    // The ascent has wandered off to a lower maximum: it starts again from the best ratios, always
+    // upwards.
     const int before = found.iterations;
     found = Run(found.ratios, 1);
     found.iterations += before;
@@ -87,7 +90,8 @@ class RatioAscender {
     return best;
   }
 
-  // False when no part of the step is good enough. `least` is what the value may fall to.
+  // Returns false when no part of the step is good enough. `least` is the lowest value that is
+  // allowed.
   bool Step(double length, double least) {
     const Vector direction = Clip(at_.ratios + length * at_.gradient) - at_.ratios;
     const double slope = at_.gradient.dot(direction);
@@ -99,7 +103,7 @@ class RatioAscender {
         at_ = next;
         return true;
       }
-      // The maximum of the parabola through both values and the slope, not too near to either.
+      // The maximum of the parabola through both values and the slope, kept away from both ends.
       const double best = 0.5 * part * part * slope / (at_.value + part * slope - next.value);
       part = std::isfinite(best) ? std::clamp(best, 0.1 * part, 0.5 * part) : 0.1 * part;
     }

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kStartLength = 0.02;
-// A later start must be better by this, in log det, so that rounding does not choose.
+// A later start must be better by this, in log det, so that rounding does not decide.
 constexpr double kClearlyBetter = 1e-9;
 
 template <class Objective>

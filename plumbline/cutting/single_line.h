@@ -8,11 +8,11 @@
 
 namespace plumbline {
 
-// The best cut of one line with all others as they are: gradient ascent from full length and from
-// either end (second paper, 5.1), the best of the three, or the present cut where none is better.
-// An end alone is stationary across the diagonal: both ratios have the same gradient, and no ascent
-// from there leads to two different ratios. The starts at the ends are therefore 0.02 long. `rest`
-// are the sums over the other lines.
+// The best cut of one line, with all other lines kept: gradient ascent from full length and from
+// either end (second paper, 5.1). It is the best of the three results, or the present cut where
+// none is better. A piece of length zero at an end is stationary across the diagonal: both ratios
+// have the same gradient, and no ascent from there leads to two different ratios. The starts at the
+// ends are therefore 0.02 long. `rest` are the sums over the other lines.
 struct SingleLineCut {
   LineCut cut;
   double gain = 0;     // gain of log det over the present cut; 0 where that is kept

@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of what is measured in images.
+// Transfer (base/byte_format.h) of features and corrections of disparities.
 
 template <class Archive, Like<StereoCorrection> T>
 void Transfer(Archive& archive, T& correction) {
@@ -32,13 +32,14 @@ void Transfer(Archive& archive, T& fingerprint) {
   TransferAll(archive, fingerprint.feature_format, fingerprint.settings);
 }
 
-// The descriptors of a list, one after the other; `get` gives that of an item.
+// Transfers the descriptors of a list, one after the other. `get` returns the descriptor of an
+// item.
 template <class Archive, class Items, class Get>
 void TransferDescriptors(Archive& archive, Items& items, const Get& get) {
   for (auto& item : items) Transfer(archive, get(item));
 }
 
-// The items of a list that are there: which, and pointers to them.
+// Transfers which items of a list are there; returns pointers to them.
 template <class Archive, class List>
 auto TransferPresence(Archive& archive, List& list) {
   using Item = std::remove_reference_t<decltype(*list.front())>;
@@ -106,7 +107,8 @@ void TransferLineFeatures(Archive& archive, Lines& lines) {
       archive, lines, [](auto& l) -> auto& { return l.descriptor; });
 }
 
-// Column by column (TransferColumn): numbers of single precision take four bytes.
+// Transfers features column by column (TransferColumn): numbers of single precision take four
+// bytes.
 template <class Archive, Like<Features> T>
 void Transfer(Archive& archive, T& features) {
   TransferPointFeatures(archive, features.points);

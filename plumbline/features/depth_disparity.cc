@@ -14,7 +14,7 @@
 namespace plumbline {
 namespace {
 
-// Spread of the depths around a pixel, relative to depth, that counts as an edge.
+// Spread of the depths around a pixel, relative to depth, from which on there is an edge.
 constexpr double kEdgeSpread = 0.05;
 
 class DepthModel {
@@ -41,8 +41,8 @@ struct DepthSample {
   double spread = 0;  // largest minus smallest valid depth of the neighbourhood
 };
 
-// Depth of the nearest pixel, with the spread over its 3x3 neighbourhood; nullopt where the pixel
-// or more than half of its neighbours have no depth.
+// Returns the depth of the nearest pixel, with the spread over its 3x3 neighbourhood; nullopt where
+// the pixel or more than half of its neighbours have no depth.
 std::optional<DepthSample> SampleDepth(const DepthImage& depth, const Eigen::Vector2d& px) {
   if (!(px.x() >= 0 && px.y() >= 0 && px.x() <= depth.width() - 1 &&
         px.y() <= depth.height() - 1)) {
@@ -70,12 +70,12 @@ std::optional<DepthSample> SampleDepth(const DepthImage& depth, const Eigen::Vec
   return DepthSample{static_cast<double>(z), static_cast<double>(spread)};
 }
 
-// Places along a line with their disparities, each number in a row of its own.
+// Samples along a line with their disparities, each kind of number in a vector of its own.
 struct LinePoints {
   std::vector<double> t;  // 0 at the start, 1 at the end of the line
   std::vector<double> disparity;
   std::vector<double> sigma;
-  std::vector<double> gate;  // how far off a fit may be
+  std::vector<double> gate;  // largest distance from a fit
 
   explicit LinePoints(int most) {
     for (std::vector<double>* row : {&t, &disparity, &sigma, &gate}) {
@@ -95,7 +95,7 @@ struct LinePoints {
 struct DisparityFit {
   double start = 0;
   double end = 0;
-  double sigma = 0;  // of either
+  double sigma = 0;  // deviation of either end
   int inliers = 0;
 
   double At(double t) const { return (1 - t) * start + t * end; }
@@ -116,7 +116,7 @@ struct CountInliers {
   }
 };
 
-// Least squares over the points that fit `guess`.
+// Fits a straight course by least squares to the points that agree with `guess`.
 std::optional<DisparityFit> Polish(const LinePoints& points, const DisparityFit& guess) {
   double s0 = 0;
   double s1 = 0;
@@ -142,13 +142,14 @@ std::optional<DisparityFit> Polish(const LinePoints& points, const DisparityFit&
   if (fit.inliers < 3 || determinant <= 1e-9 * s0 * s0) return std::nullopt;
   fit.start = (s2 * d0 - s1 * d1) / determinant;
   fit.end = fit.start + (s0 * d1 - s1 * d0) / determinant;
-  // Depth errors of neighbouring pixels are alike: averaging takes off half of them at most.
+  // Depth errors of neighbouring pixels are alike, so that averaging removes at most half of them.
   fit.sigma =
       std::max(0.5 * sigma / fit.inliers, std::sqrt(std::max(s2, s0 - 2 * s1 + s2) / determinant));
   return fit;
 }
 
-// The straight course of disparity that most points share; every pair far enough apart is tried.
+// Returns the straight course of disparity that most points share. Every pair of points that is far
+// enough apart is tried.
 std::optional<DisparityFit> FitDisparity(const LinePoints& points, int min_inliers) {
   constexpr double kMinSpan = 0.4;
   constexpr std::size_t kMaxTried = 12;
@@ -173,14 +174,15 @@ std::optional<DisparityFit> FitDisparity(const LinePoints& points, int min_inlie
   return fit;
 }
 
-// Fit to the depths on a copy of the segment moved sideways.
+// Fits a straight course to the depths along a copy of the segment that is moved sideways.
 std::optional<DisparityFit> FitTrack(const RectifiedCamera& camera,
                                      const DepthImage& depth,
                                      const Segment2& segment,
                                      double side,
                                      const DepthDisparityOptions& options) {
-  constexpr int kSamples = 32;         // along a line
-  constexpr double kMinInliers = 0.6;  // of these, on one straight line in space
+  constexpr int kSamples = 32;  // number of samples along a line
+  // Least share of the samples that lie on one straight line in space.
+  constexpr double kMinInliers = 0.6;
   const DepthModel model(camera, options);
   const Eigen::Vector2d direction = segment.Direction();
   const Eigen::Vector2d offset = side * Eigen::Vector2d(-direction.y(), direction.x());
@@ -198,7 +200,7 @@ std::optional<DisparityFit> FitTrack(const RectifiedCamera& camera,
   return FitDisparity(points, needed);
 }
 
-// The track, among those on the line and beside it, that is on the nearest surface.
+// Returns the course on the nearest surface, among those on the line and beside it.
 std::optional<DisparityFit> NearestTrack(const RectifiedCamera& camera,
                                          const DepthImage& depth,
                                          const Segment2& segment,
@@ -208,7 +210,7 @@ std::optional<DisparityFit> NearestTrack(const RectifiedCamera& camera,
   for (const double side : {0.0, kSidePx, -kSidePx}) {
     const std::optional<DisparityFit> fit = FitTrack(camera, depth, segment, side, options);
     if (!fit) continue;
-    // The line itself is preferred unless a side is nearer for certain.
+    // The line itself is preferred, unless one side is certainly nearer.
     constexpr double kCertain = 4;
     if (!best || fit->At(0.5) > best->At(0.5) + kCertain * std::max(best->sigma, fit->sigma)) {
       best = fit;
@@ -224,7 +226,7 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
                                                        const std::vector<PointFeature>& points,
                                                        const DepthDisparityOptions& options) {
   PLUMBLINE_CHECK(camera.baseline > 0, "depth needs a virtual baseline");
-  constexpr double kRegistrationSigmaPx = 0.5;  // of depth to colour
+  constexpr double kRegistrationSigmaPx = 0.5;  // deviation of the registration of depth to colour
   const DepthModel model(camera, options);
   std::vector<std::optional<Disparity>> result;
   result.reserve(points.size());
@@ -234,7 +236,8 @@ std::vector<std::optional<Disparity>> PointDisparities(const RectifiedCamera& ca
     if (!sample || !model.InRange(sample->z)) continue;
     if (sample->spread > kEdgeSpread * sample->z) continue;
     const double disparity = camera.DisparityFromDepth(sample->z);
-    // The spread covers two pixels: what the depth changes over a misregistration.
+    // The spread covers two pixels: half of it is the slope of the depth, which a misregistration
+    // turns into an error.
     const double slope = disparity * 0.5 * sample->spread / sample->z * kRegistrationSigmaPx;
     result.back() = Disparity{disparity, math::Hypot(model.DisparitySigma(sample->z), slope)};
   }
@@ -256,7 +259,7 @@ std::vector<std::optional<RightLine>> VirtualRightLines(const RectifiedCamera& c
     RightLine right;
     right.segment.start = line.segment.start - Eigen::Vector2d(fit->start, 0);
     right.segment.end = line.segment.end - Eigen::Vector2d(fit->end, 0);
-    // Disparity noise counts by its part across the line.
+    // Only the component of the disparity noise across the line counts.
     const double across = std::abs(line.segment.Direction().y()) * fit->sigma;
     right.sigma_px = math::Hypot(line.sigma_px, across);
     result.back() = right;

@@ -12,14 +12,15 @@
 namespace plumbline {
 namespace {
 
-// What one image gives by itself.
+// The features of one image by itself.
 struct SingleView {
   ImagePyramid pyramid;
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
 };
 
-// All that points need of the right image, which is searched for those of the left one.
+// Builds only the pyramid: points need no more of the right image, which is searched for those of
+// the left one.
 void BuildPyramidOnly(const GrayImage& image,
                       const ValidRegion& /*region*/,
                       const FeatureOptions& options,
@@ -48,12 +49,12 @@ void ExtractLines(const GrayImage& image,
   DescribeLines(gradient, &view.lines);
 }
 
-// The valid region that the caller gave, or all of the image.
+// Returns the valid region that the caller gave, or the whole image.
 const ValidRegion& RegionOf(const ValidRegion* given, const ValidRegion& whole) {
   return given ? *given : whole;
 }
 
-// The left view and, for stereo, what its points need of the right one.
+// Extracts the left view and, for stereo, what its points need of the right one.
 std::array<SingleView, 2> ExtractViews(const FeatureInput& input,
                                        const FeatureOptions& options,
                                        HelperThread* helper) {

@@ -25,7 +25,7 @@ struct FeatureOptions {
   bool lines = true;
   int line_count = 200;
   LineDetector line_detector = LineDetector::kDrawing;
-  bool parallel = true;  // in two threads; same result
+  bool parallel = true;  // work is done in two threads, with the same result
   OrbOptions orb;
   LineDetectionOptions line;
   StereoPointOptions stereo_points;
@@ -33,8 +33,9 @@ struct FeatureOptions {
   DepthDisparityOptions depth;
 };
 
-// Views of one rectified frame; the caller keeps the images alive. `left` is required; at most one
-// of `right` and `depth` is used (right first). Valid regions may be null: all pixels are real.
+// The images of one rectified frame, which the caller keeps alive. `left` is required; of `right`
+// and `depth` at most one is used (right first). A valid region may be null: then all pixels count
+// as valid.
 struct FeatureInput {
   const GrayImage* left = nullptr;
   const GrayImage* right = nullptr;
@@ -43,18 +44,20 @@ struct FeatureInput {
   const ValidRegion* right_valid = nullptr;
 };
 
-// What the pose of a frame is found from: points and lines of the left image, and for stereo and
-// RGB-D the disparities of the points, rounded to single precision. No line has a right line.
-// Images must have the size of the camera (BugError otherwise). Same input, same bytes.
-// With options.parallel the work is shared with the helper, or with one made for the call.
+// Measures what the pose of a frame is found from: points and lines of the left image, and for
+// stereo and RGB-D the disparities of the points, all rounded to single precision. No line gets a
+// right line. Images must have the size of the camera (BugError otherwise). The same input gives
+// the same bytes. With options.parallel the work is shared with the helper, or with one that is
+// made for the call.
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
                          const FeatureOptions& options,
                          HelperThread* helper = nullptr);
 
-// Where the lines that ExtractFeatures found are in the right image, or would be by the depth image
-// (see Features::line_right), rounded to single precision; one entry for each line. New landmarks
-// need it, and most frames make none. Costs as much as the lines of the left image.
+// Returns where the lines that ExtractFeatures found are in the right image, or would be by the
+// depth image (see Features::line_right), rounded to single precision; one entry for each line.
+// Only new landmarks need it, and most frames make none. Costs as much as the lines of the left
+// image.
 std::vector<std::optional<RightLine>> FindRightLines(const RectifiedCamera& camera,
                                                      const FeatureInput& input,
                                                      const FeatureOptions& options,

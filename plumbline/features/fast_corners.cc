@@ -19,14 +19,14 @@ constexpr std::size_t kCircle = 16;
 
 [[gnu::always_inline]] inline Byte Min(Byte a, Byte b) { return a < b ? a : b; }
 [[gnu::always_inline]] inline Byte Max(Byte a, Byte b) { return a > b ? a : b; }
-// How much a is above b; 0 where it is not.
+// Returns how much a is above b; 0 where it is not.
 [[gnu::always_inline]] inline Byte Excess(Byte a, Byte b) {
   return static_cast<Byte>(Max(a, b) - b);
 }
 
-// The largest of the minima of nine neighbours on the circle.
+// Returns the largest of the minima of nine neighbours on the circle.
 [[gnu::always_inline]] inline Byte BestOfNine(const Byte* v) {
-  Byte two[kCircle / 2], four[kCircle / 2];  // minima of as many from 2 k + 1 on
+  Byte two[kCircle / 2], four[kCircle / 2];  // minima of two and of four neighbours from 2 k + 1 on
   for (std::size_t k = 0; k < kCircle / 2; ++k) {
     two[k] = Min(v[2 * k + 1], v[(2 * k + 2) % kCircle]);
   }
@@ -41,7 +41,7 @@ constexpr std::size_t kCircle = 16;
   return best;
 }
 
-// Becomes vector code over the pixels of a row.
+// Computes the contrast of the pixels of a row. The loop becomes vector code.
 struct ContrastOfRow {
   [[gnu::always_inline]] static inline void Run(const Byte* row,
                                                 std::ptrdiff_t width,
@@ -65,7 +65,8 @@ struct ContrastOfRow {
                                          row + 3 * width - 1};
     ForBlocks<32>(
         count, [&](int first, auto size) __attribute__((always_inline)) {
-          Byte block[size];  // nothing else can be in its place, which need not be checked then
+          // a local array, which cannot overlap others, so that no check is needed
+          Byte block[size];
           for (int i = 0; i < size; ++i) {
             Byte brighter[kCircle], darker[kCircle];
             const Byte centre = row[first + i];
@@ -80,7 +81,7 @@ struct ContrastOfRow {
   }
 };
 
-// 1 where a pixel of a row is above the threshold and above the eight around it.
+// Marks pixels of a row with 1 that are above the threshold and above the eight pixels around them.
 struct MaximaOfRow {
   [[gnu::always_inline]] static inline void Run(const Byte* above,
                                                 const Byte* row,
@@ -127,7 +128,7 @@ void FastCorners::Collect(const PixelBox& part,
   const int last = std::min(part.y1, area_.y1) - 1;
   if (width <= 0 || part.y0 > last) return;
   PLUMBLINE_CHECK(part.x0 >= area_.x0 && part.y0 >= area_.y0, "a part of the area");
-  // Three rows of the part, what is beside it cut off.
+  // Three rows of the part, without the pixels beside it.
   const auto size = static_cast<std::size_t>(width);
   std::array<std::vector<Byte>, 3> rows;
   for (std::vector<Byte>& row : rows) row.assign(size + 2, 0);

@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// Pixels x0 to x1 - 1 of rows y0 to y1 - 1.
+// The pixels x0 to x1 - 1 of the rows y0 to y1 - 1.
 struct PixelBox {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -18,30 +18,30 @@ struct PixelBox {
 struct FastCorner {
   int x = 0;
   int y = 0;
-  float response = 0;  // the largest threshold of which the pixel is a corner, grey levels
+  float response = 0;  // the largest threshold at which the pixel is a corner, grey levels
 };
 
-// FAST corners of one image (Rosten and Drummond 2006), at any threshold: of 16 pixels on a circle
-// around a corner 9 in a row are all brighter than it, or all darker, by more than the threshold.
-// Those of cv::FAST with suppression of what is not a local maximum, at a fraction of the time
-// where several thresholds are asked for: how much contrast each pixel has is found once, for many
-// pixels at once, without asking what the pixels before were.
+// Finds FAST corners of one image (Rosten and Drummond 2006) at any threshold. Of 16 pixels on a
+// circle around a corner, 9 in a row are all brighter than it, or all darker, by more than the
+// threshold. The corners are those of cv::FAST with suppression of what is not a local maximum, but
+// take a fraction of the time where several thresholds are asked for: the contrast of each pixel is
+// computed once, for many pixels at once, independently of the pixels before.
 class FastCorners {
  public:
-  static constexpr int kReach = 3;  // of the circle from its centre
+  static constexpr int kReach = 3;  // radius of the circle
 
-  // Looks at the pixels of `area`, which is at least kReach away from the border. Cost: some 0.5 ns
-  // a pixel with AVX2, twice that without.
+  // Looks at the pixels of `area`, which must be at least kReach away from the border. Cost: some
+  // 0.5 ns a pixel with AVX2, twice that without.
   FastCorners(const GrayImage& image, const PixelBox& area);
 
-  // Appends the corners in a part of the area that exceed the threshold and those beside them
-  // there, row by row.
+  // Appends, row by row, the corners in a part of the area that exceed the threshold and the
+  // corners beside them in that part.
   void Collect(const PixelBox& part, int threshold, std::vector<FastCorner>* corners) const;
 
  private:
   PixelBox area_;
-  // Of each pixel of the area, with a border of one pixel of 0: the least difference in the best
-  // nine pixels.
+  // For each pixel of the area, with a border of one pixel of 0: the least difference among the
+  // best nine pixels.
   GrayImage contrast_;
 };
 

@@ -16,7 +16,7 @@ FrontEndFingerprint FingerprintOf(const FeatureOptions& options) {
   for (const std::string& key : table.Keys()) {
     if (key != "parallel") fingerprint.settings["features." + key] = table.Value(key);
   }
-  // Maps of earlier versions, which had these as options, may have been measured otherwise.
+  // Maps of earlier versions, which had these as options, may have been measured with other values.
   for (const auto& [key, value] : table.fixed()) fingerprint.settings["features." + key] = value;
   return fingerprint;
 }

@@ -17,7 +17,7 @@ PointGrid::PointGrid(const std::vector<Eigen::Vector2d>& positions,
   PLUMBLINE_CHECK(width > 0 && height > 0 && cell_px > 0, "size of the grid");
   columns_ = (width + cell_px - 1) / cell_px;
   rows_ = (height + cell_px - 1) / cell_px;
-  // Counting sort by cell.
+  // This is a counting sort by cell.
   const auto cell_of = [&](const Eigen::Vector2d& p) {
     return static_cast<std::size_t>(CellY(p.y()) * columns_ + CellX(p.x()));
   };

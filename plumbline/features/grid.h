@@ -8,20 +8,22 @@
 
 namespace plumbline {
 
-// Finds the positions in a pixel window without looking at all of them: an index over square cells.
-// Positions outside the image are clamped to the border cells and still found by exact distance.
+// Finds the positions in a pixel window without looking at all of them, by an index over square
+// cells. Positions outside the image belong to the border cells and are still found by exact
+// distance.
 class PointGrid {
  public:
   PointGrid() = default;
-  // Cost: O(n). `cell_px` about the usual radius of a query is best.
+  // Builds the index. It is best if `cell_px` is about the usual radius of a query. Cost: O(n).
   PointGrid(const std::vector<Eigen::Vector2d>& positions, int width, int height, int cell_px = 32);
 
-  // Indices of the positions with |dx| <= radius.x and |dy| <= radius.y, in the order of the cells.
+  // Returns the indices of the positions with |dx| <= radius.x and |dy| <= radius.y, in the order
+  // of the cells.
   std::vector<int> InWindow(const Eigen::Vector2d& center, const Eigen::Vector2d& radius) const;
   std::vector<int> InWindow(const Eigen::Vector2d& center, double radius) const {
     return InWindow(center, Eigen::Vector2d(radius, radius));
   }
-  // As InWindow, but into a vector that is reused (cleared first) to save allocations.
+  // Writes the indices into a vector that is reused (cleared first) to save allocations.
   void InWindow(const Eigen::Vector2d& center,
                 const Eigen::Vector2d& radius,
                 std::vector<int>* out) const;
@@ -34,7 +36,8 @@ class PointGrid {
 
   std::vector<Eigen::Vector2d> positions_;
   std::vector<int> cell_begin_;  // first entry of each cell in items_, row by row; one past the end
-  std::vector<int> items_;       // indices into positions_, by cell, ascending inside a cell
+  // Indices into positions_, ordered by cell, ascending inside a cell.
+  std::vector<int> items_;
   int cell_px_ = 32;
   int columns_ = 0;
   int rows_ = 0;

@@ -97,7 +97,7 @@ std::optional<PatchPlace> AlignShift(const ImagePatch& patch,
     if (step.norm() > limits.converged_px) continue;
     if (correlation < limits.min_correlation) return std::nullopt;
     // Both patches have the length one, so that the sum of squared residuals is 2 - 2 *
-    // correlation. Shift, brightness and contrast were estimated from the samples.
+    // correlation. Shift, brightness and contrast, four numbers, were estimated from the samples.
     constexpr double kEstimated = 4;
     const double variance =
         2 * (1 - correlation) / (static_cast<double>(patch.samples.size()) - kEstimated);

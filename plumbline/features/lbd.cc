@@ -13,22 +13,23 @@
 namespace plumbline {
 namespace {
 
-// Rows of samples parallel to the line, two pixels apart: the smoothed gradient holds no more.
+// Rows of samples parallel to the line are two pixels apart, since the smoothed gradient holds no
+// more detail.
 constexpr int kRowStep = 2;
 constexpr int kRows = (kLbdBands * kLbdBandWidth + kRowStep - 1) / kRowStep;
-// Samples along the line: one a pixel, fewer on longer lines.
+// There is one sample along the line for each pixel, and fewer on longer lines.
 constexpr int kMaxColumns = 96;
-// Fixed point: of directions, and of pixel coordinates (16 bits below the point).
+// Units of fixed point numbers: of directions, and of pixel coordinates (16 bits below the point).
 constexpr int kUnit = 256;
 constexpr double kOne = 65536;
 
-// Distance across from the line, pixels.
+// Returns the distance of a row or a band from the line, across it, in pixels.
 constexpr double RowOffset(int row) { return kRowStep * (row - 0.5 * (kRows - 1)); }
 constexpr double BandOffset(int band) { return kLbdBandWidth * (band - 0.5 * (kLbdBands - 1)); }
 
-// The rows that belong to a band and its two neighbours, and their weights (section 3.1 there): a
-// Gaussian over the whole region with deviation half its width, times one over the three bands with
-// deviation of one band.
+// The rows that belong to a band and its two neighbours, and their weights (section 3.1 of the
+// paper): a Gaussian over the whole region, whose deviation is half the width of the region, times
+// one over the three bands, whose deviation is one band.
 struct BandWeights {
   std::size_t begin = kRows;
   std::size_t end = 0;
@@ -54,12 +55,12 @@ std::array<BandWeights, kLbdBands> MakeWeights() {
   return bands;
 }
 
-// Mean over a row of samples of the positive and of the negative part of the gradient across the
-// line, and of that along it.
+// The means over a row of samples of the positive and of the negative part of the gradient, first
+// across the line, then along it.
 using RowSums = std::array<float, 4>;
 using RegionSums = std::array<RowSums, kRows>;
 
-// Where a row of samples begins and what is from one to the next, in fixed point.
+// The first place of a row of samples and the step between places, in fixed point.
 struct RowOfSamples {
   std::int64_t x, y, step_x, step_y;
   std::size_t size;
@@ -71,8 +72,8 @@ struct RowSamples {
   std::array<std::int16_t, kMaxColumns> dy;
 };
 
-// A row all of which is inside an image whose sides have less than 2^15 pixels. The places are
-// computed several at once, which looking them up is not.
+// Takes a row that is all inside an image with sides of less than 2^15 pixels. Several places are
+// computed at once, which is not possible for reading the pixels.
 struct TakeInside {
   [[gnu::always_inline]] static inline void Run(const GradientImage& gradient,
                                                 const RowOfSamples& row,
@@ -97,7 +98,8 @@ struct TakeInside {
   }
 };
 
-// Outside the image its border goes on. False when all of the row is outside.
+// Takes a row that is partly outside the image, whose border is continued there. Returns false when
+// all of the row is outside.
 bool TakeAcrossBorder(const GradientImage& gradient, RowOfSamples row, RowSamples* samples) {
   bool any = false;
   const std::int64_t width = gradient.width();
@@ -112,7 +114,7 @@ bool TakeAcrossBorder(const GradientImage& gradient, RowOfSamples row, RowSample
   return any;
 }
 
-// Takes samples at `size` places from `first` on. False when all are outside the image.
+// Takes samples at `size` places from `first` on. Returns false when all are outside the image.
 bool TakeSamples(const GradientImage& gradient,
                  const Eigen::Vector2d& first,
                  const Eigen::Vector2d& step,
@@ -137,7 +139,8 @@ bool TakeSamples(const GradientImage& gradient,
   return true;
 }
 
-// In whole numbers, so that the compiler may add in any order and use vector instructions.
+// Sums samples in whole numbers, so that the compiler may add in any order and use vector
+// instructions.
 struct SumSamples {
   [[gnu::always_inline]] static inline RowSums Run(const RowSamples& samples,
                                                    std::size_t size,
@@ -155,7 +158,8 @@ struct SumSamples {
       along_sum += along;
       along_size += std::abs(along);
     }
-    // Sum of the positive and of the negative parts from the sum and the sum of magnitudes.
+    // The sums of the positive and of the negative parts follow from the sum and the sum of
+    // magnitudes.
     const float scale = 0.5F / static_cast<float>(kUnit * static_cast<int>(size));
     return {scale * static_cast<float>(across_size + across_sum),
             scale * static_cast<float>(across_size - across_sum),
@@ -164,7 +168,7 @@ struct SumSamples {
   }
 };
 
-// False when the whole region is outside the image.
+// Sums the rows of the region. Returns false when all of it is outside the image.
 bool SumRows(const GradientImage& gradient, const Segment2& segment, RegionSums* sums) {
   RowSamples samples;
   const double length = segment.Length();
@@ -177,7 +181,7 @@ bool SumRows(const GradientImage& gradient, const Segment2& segment, RegionSums*
   const auto direction_y = static_cast<std::int16_t>(std::lround(kUnit * direction.y()));
   bool any = false;
   for (int row = 0; row < kRows; ++row) {
-    // The samples of one row lie between those of the next.
+    // The samples of one row lie between those of the next row.
     const double shift = row % 2 == 0 ? 0.25 : 0.75;
     const Eigen::Vector2d first = segment.start + shift * step + RowOffset(row) * normal;
     any = TakeSamples(gradient, first, step, size, &samples) || any;
@@ -187,8 +191,8 @@ bool SumRows(const GradientImage& gradient, const Segment2& segment, RegionSums*
   return any;
 }
 
-// Scales the entries first, first + 8 * i + k (k < 4) of all bands to unit norm, large ones
-// limited.
+// Scales the entries first, first + 8 * i + k (k < 4) of all bands to unit norm, and limits large
+// ones.
 void Normalize(LbdVector* vector, std::size_t first) {
   constexpr float kLimit = 0.4F;
   for (int pass = 0; pass < 2; ++pass) {
@@ -214,7 +218,8 @@ LbdVector ComputeLbdVector(const GradientImage& gradient, const Segment2& segmen
   static const std::array<BandWeights, kLbdBands> kWeights = MakeWeights();
   LbdVector result{};
   const double length = segment.Length();
-  // A line that long has left every image; this also keeps the pixel coordinates inside int.
+  // A line of this length has left every image. The limit also keeps the pixel coordinates inside
+  // int.
   if (!(length > 0) || !(length < 1e6) || !(segment.start.norm() < 1e6)) return result;
   RegionSums sums;
   if (!SumRows(gradient, segment, &sums)) return result;
@@ -243,8 +248,8 @@ LbdVector ComputeLbdVector(const GradientImage& gradient, const Segment2& segmen
 }
 
 Descriptor BinarizeLbd(const LbdVector& vector) {
-  // All pairs of the 9 bands in order, without 4 pairs of far bands: those see the least of the
-  // line.
+  // All pairs of the 9 bands are compared in order, except 4 pairs of far bands, which see the
+  // least of the line.
   Descriptor descriptor{};
   std::size_t bit = 0;
   for (std::size_t a = 0; a < kLbdBands; ++a) {

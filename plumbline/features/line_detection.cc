@@ -16,13 +16,13 @@ namespace {
 constexpr double kBorderPx = 3;
 constexpr double kSettledPx = 0.5;
 
-// The longest part of the segment that keeps its distance from invalid pixels.
+// Returns the longest part of the segment that keeps its distance from invalid pixels.
 std::optional<Segment2> ClipToValid(const Segment2& segment, const ValidRegion& valid) {
   const auto at = [&](int i, int steps) -> Eigen::Vector2d {
     return segment.start + static_cast<double>(i) / steps * (segment.end - segment.start);
   };
   const double length = segment.Length();
-  // Most segments lie well inside: a look every few pixels tells.
+  // Most segments lie well inside, which a test every few pixels shows.
   const int looks = 1 + static_cast<int>(length / (2 * kBorderPx));
   int inside = 0;
   while (inside <= looks && valid.Contains(at(inside, looks), kBorderPx)) ++inside;
@@ -43,7 +43,8 @@ std::optional<Segment2> ClipToValid(const Segment2& segment, const ValidRegion& 
   return Segment2{at(best_begin, steps), at(best_end, steps)};
 }
 
-// Directed, moved onto the edge; nullopt when too weak, too short or not an edge.
+// Returns the segment as a directed line, moved onto the edge; nullopt when it is too weak, too
+// short or not an edge.
 std::optional<LineFeature> MakeLine(const GradientImage& gradient,
                                     const Segment2& segment,
                                     double min_length,
@@ -53,7 +54,7 @@ std::optional<LineFeature> MakeLine(const GradientImage& gradient,
   line.segment = MeanNormalGradient(gradient, segment) > 0 ? segment.Reversed() : segment;
   line.sigma_px = std::max(options.min_sigma_px, 1.0);
   if (options.refine) {
-    // Again when that moved it: the first fit looked along a normal that was a few degrees off.
+    // The fit is repeated, because the first one looked along a normal that was a few degrees off.
     for (const int range : {3, 2}) {
       const std::optional<RefinedSegment> refined = RefineSegment(gradient, line.segment, range);
       if (!refined) return std::nullopt;
@@ -69,8 +70,8 @@ std::optional<LineFeature> MakeLine(const GradientImage& gradient,
   return line;
 }
 
-// One collinear neighbour after the other is joined to the longest segment it continues, where
-// the result is still found to be an edge. `lines` longest first.
+// Joins one collinear neighbour after the other to the longest segment that it continues, where the
+// result is still found to be an edge. `lines` must be ordered with the longest first.
 std::vector<LineFeature> MergeLines(const GradientImage& gradient,
                                     const std::vector<LineFeature>& lines,
                                     const LineDetectionOptions& options) {
@@ -106,7 +107,8 @@ void SortByLength(std::vector<LineFeature>* lines) {
   });
 }
 
-// The best by length times contrast, each worth less the more better ones its cell has.
+// Returns the best lines by length times contrast. Each is worth less, the more better lines its
+// cell has.
 std::vector<LineFeature> SelectLines(const std::vector<LineFeature>& lines,
                                      int width,
                                      int height,
@@ -154,7 +156,7 @@ std::vector<LineFeature> DetectLines(const GrayImage& image,
   PLUMBLINE_CHECK(gradient.width() == image.width() && gradient.height() == image.height(),
                   "gradient of the same image");
   const double min_length = options.min_length * std::max(image.width(), image.height());
-  // Pieces may be shorter when they can still be joined; drawing jumps small gaps by itself.
+  // Pieces may be shorter when they can still be joined. Drawing jumps small gaps by itself.
   const bool pieces = options.merge && detector != LineDetector::kDrawing;
   const double min_piece = pieces ? 0.6 * min_length : min_length;
   const RawSegmentOptions raw_options{

@@ -48,7 +48,7 @@ std::vector<std::size_t> CollinearIndex::Near(const Segment2& segment,
     }
   };
   collect(angle - width, angle + width);
-  // Angles wrap round at pi.
+  // Angles wrap around at pi.
   constexpr double kTurn = 2 * std::numbers::pi;
   if (angle + width > std::numbers::pi) collect(-std::numbers::pi, angle + width - kTurn);
   if (angle - width < -std::numbers::pi) collect(angle - width + kTurn, std::numbers::pi);
@@ -74,7 +74,7 @@ std::optional<Segment2> Join(const GradientImage& gradient,
   const double b1 = direction.dot(b.segment.end - a.segment.start);
   const double gap = std::max(b0 - a_length, -b1);
   if (gap > limits.gap * std::min(a_length, b.segment.Length())) return std::nullopt;
-  if (gap > 2) {  // the edge must be there in the gap too
+  if (gap > 2) {  // the edge must be there in the gap, too
     const Segment2 between = b0 > a_length ? Segment2{a.segment.end, b.segment.start}
                                            : Segment2{b.segment.end, a.segment.start};
     if (-MeanNormalGradient(gradient, between) < 0.4 * std::min(a.response, b.response)) {

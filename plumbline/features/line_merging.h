@@ -13,17 +13,18 @@ namespace plumbline {
 
 struct LineMergeLimits {
   double angle_deg = 1.5;
-  double offset_px = 1.2;  // across
-  double gap = 0.15;       // relative to the shorter of the two
+  double offset_px = 1.2;  // largest distance across the line
+  double gap = 0.15;       // largest gap, relative to the shorter of the two
 };
 
-// Finds the lines of a set that lie on the same infinite line as another one, without looking at
-// all: they are kept ordered by angle.
+// Finds the lines of a set that lie on the same infinite line as another one. Lines are kept
+// ordered by angle, so that not all have to be looked at.
 class CollinearIndex {
  public:
   explicit CollinearIndex(const std::vector<LineFeature>& lines);
 
-  // Lines directed like `segment` whose midpoint is on its line, within the limits; ascending.
+  // Returns the lines directed like `segment` whose midpoint is on its line, within the limits;
+  // ascending.
   std::vector<std::size_t> Near(const Segment2& segment, const LineMergeLimits& limits) const;
 
  private:
@@ -32,11 +33,12 @@ class CollinearIndex {
     std::size_t line;
     Eigen::Vector2d middle;
   };
-  std::vector<Entry> entries_;  // by angle, then line
+  std::vector<Entry> entries_;  // ordered by angle, then by line
 };
 
-// The segment that covers both when b continues (or overlaps) a on the same straight edge: like
-// direction, both ends of b close to the line of a, and the edge there in a gap between them too.
+// Returns the segment that covers both when b continues (or overlaps) a on the same straight edge.
+// Both must have the same direction, both ends of b must be close to the line of a, and the edge
+// must also be there in a gap between them.
 std::optional<Segment2> Join(const GradientImage& gradient,
                              const LineFeature& a,
                              const LineFeature& b,

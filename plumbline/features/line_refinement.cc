@@ -15,16 +15,16 @@ constexpr std::size_t kMaxSamples = 48;
 constexpr std::size_t kMinSamples = 6;
 constexpr double kMinInliers = 0.5;
 
-// Where the edge was found.
+// The places where the edge was found.
 struct EdgePoints {
-  std::array<float, kMaxSamples> along;   // from the midpoint, px
-  std::array<float, kMaxSamples> across;  // along the normal, px
+  std::array<float, kMaxSamples> along;   // distance from the midpoint along the segment, px
+  std::array<float, kMaxSamples> across;  // distance from the segment along the normal, px
   std::array<float, kMaxSamples> weight;
   std::size_t size = 0;
 };
 
-// Looks for the edge along rows or columns of pixels, whichever cross it more squarely: then the
-// gradient is needed at whole pixels only.
+// Looks for the edge along rows or columns of pixels, whichever cross it more squarely, so that the
+// gradient is needed only at whole pixels.
 class EdgeFinder {
  public:
   EdgeFinder(const GradientImage& gradient, const Segment2& segment, int range_px)
@@ -35,7 +35,7 @@ class EdgeFinder {
         by_rows_(std::abs(normal_.x()) >= std::abs(normal_.y())),
         range_(std::min(kMaxReach, static_cast<int>(range_px * std::numbers::sqrt2 + 0.5))) {}
 
-  // Places of the edge on about `samples` rows (columns) of the segment of this length.
+  // Returns places of the edge on about `samples` rows (columns) of a segment of this length.
   EdgePoints Find(double length, std::size_t samples) const {
     EdgePoints edges;
     const double major = by_rows_ ? direction_.y() : direction_.x();
@@ -52,7 +52,7 @@ class EdgeFinder {
  private:
   static constexpr int kMaxReach = 10;
 
-  // On one row (column) of pixels that the segment's line crosses at `along`.
+  // Looks for the edge on one row (column) of pixels, which the segment's line crosses at `along`.
   void FindOn(int grid, double along, EdgePoints* edges) const {
     const double place =
         by_rows_ ? middle_.x() + along * direction_.x() : middle_.y() + along * direction_.y();
@@ -81,7 +81,7 @@ class EdgeFinder {
     if (curvature >= 0) return;
     const float peak = 0.5F * (slope[best - 1] - slope[best + 1]) / curvature;
     const double offset = first + static_cast<int>(best) + static_cast<double>(peak) - place;
-    // A step along the row (column) goes partly across and partly along the segment.
+    // A step along the row (column) has a component across and one along the segment.
     const std::size_t n = edges->size++;
     edges->along[n] =
         static_cast<float>(along + offset * (by_rows_ ? direction_.x() : direction_.y()));
@@ -98,7 +98,7 @@ class EdgeFinder {
 };
 
 struct LineFit {
-  double offset = 0;  // across at the middle
+  double offset = 0;  // distance across the segment, in its middle
   double slope = 0;
   double scatter = 0;  // robust deviation of the edge points from the line, px
   double inliers = 0;
@@ -106,9 +106,10 @@ struct LineFit {
   double slope_variance = 0;
 };
 
-// The line through two of the edge points, one near each end, that has most of the others close by.
+// Returns the line through two of the edge points, one near each end, that has most of the others
+// close by.
 LineFit FirstGuess(const EdgePoints& edges) {
-  constexpr std::size_t kTries = 3;      // at each end
+  constexpr std::size_t kTries = 3;      // number of points at each end
   constexpr float kClose = 0.5F * 0.5F;  // square pixels
   const std::size_t third = edges.size / 3;
   LineFit best;
@@ -135,7 +136,7 @@ LineFit FirstGuess(const EdgePoints& edges) {
   return best;
 }
 
-// Robust deviation of the edge points from the line: from the median of the residuals.
+// Returns the robust deviation of the edge points from the line, from the median of the residuals.
 double Scatter(const EdgePoints& edges, const LineFit& fit) {
   std::array<float, kMaxSamples> residuals;
   const auto offset = static_cast<float>(fit.offset);
@@ -149,8 +150,8 @@ double Scatter(const EdgePoints& edges, const LineFit& fit) {
   return 1.4826 * static_cast<double>(*middle);
 }
 
-// One weighted fit; points `limit` or more away from the line so far do not count. False when too
-// few are left.
+// Does one weighted fit. Points that are `limit` or more away from the present line do not count.
+// Returns false when too few are left.
 bool Reweighted(const EdgePoints& edges, double limit, LineFit* fit) {
   double s0 = 0;
   double s1 = 0;
@@ -182,7 +183,7 @@ bool Reweighted(const EdgePoints& edges, double limit, LineFit* fit) {
   return true;
 }
 
-// Weighted straight line through the edge points, outliers pushed out by Tukey weights.
+// Fits a straight line to the edge points, with Tukey weights, which push outliers out.
 std::optional<LineFit> FitLine(const EdgePoints& edges) {
   LineFit fit = FirstGuess(edges);
   double limit = 1;

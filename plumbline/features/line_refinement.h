@@ -9,21 +9,22 @@
 
 namespace plumbline {
 
-// Mean over the segment of the gradient component along the image normal (-dy, dx) of LineThrough,
-// in grey levels per pixel: negative when the bright side is on the left.
+// Returns the mean over the segment of the gradient's component along the image normal (-dy, dx) of
+// LineThrough, in grey levels per pixel. It is negative when the bright side is on the left.
 double MeanNormalGradient(const GradientImage& gradient, const Segment2& segment);
 
 struct RefinedSegment {
   Segment2 segment;
-  double sigma_px = 0;  // deviation of an end point across the line, from the scatter of the fit
+  // Deviation of an end point across the line, from the scatter of the fit.
+  double sigma_px = 0;
 };
 
-// The segment moved onto the edge it follows: at up to 48 places the steepest descent of grey level
-// along the normal (-dy, dx) is found to sub-pixel by a parabola over the directional gradient, and
-// a line is fitted with Tukey weights. The end points keep their places along the segment. The
-// segment must be directed with the bright side on its left and lie within `range_px` (1 to 7) of
-// the edge. nullopt when fewer than half of the places show an edge on one line. Cost: about 2
-// microseconds.
+// Moves the segment onto the edge that it follows. At up to 48 places the steepest descent of grey
+// level along the normal (-dy, dx) is found to sub-pixel by a parabola over the directional
+// gradient, and a line is fitted with Tukey weights. The end points keep their places along the
+// segment. The segment must be directed with the bright side on its left and lie within `range_px`
+// (1 to 7) of the edge. Returns nullopt when fewer than half of the places show an edge on one
+// line. Cost: about 2 microseconds.
 std::optional<RefinedSegment> RefineSegment(const GradientImage& gradient,
                                             const Segment2& segment,
                                             int range_px);

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-// Whether both are pieces of one edge: then the one must not spoil the ratio test of the other.
+// Whether both are pieces of one edge, so that neither may spoil the ratio test of the other.
 bool Collinear(const Segment2& a, const Segment2& b) {
   constexpr double kMaxOffsetPx = 3;
   constexpr double kMinCosine = 0.998;
@@ -20,7 +20,7 @@ bool Collinear(const Segment2& a, const Segment2& b) {
   return std::abs(LineDistance(LineThrough(a), b.Midpoint())) < kMaxOffsetPx;
 }
 
-// What the comparison of places needs of a segment, computed once for all its pairs.
+// The numbers of a segment that the comparison of places needs, computed once for all its pairs.
 struct Place {
   double length;
   Eigen::Vector2d direction, midpoint;
@@ -60,13 +60,14 @@ struct Pairing {
   bool mutual = true;
 };
 
-// Best of each row of the table of distances (`none` where not allowed); ratio and mutual tests.
+// Finds the best match of each row of a table of distances (`none` where a pair is not allowed),
+// with ratio and mutual tests.
 class DistanceTable {
  public:
   DistanceTable(std::size_t rows, std::size_t columns)
       : rows_(rows), columns_(columns), distance_(rows * columns, kNone), best_row_(columns, -1) {}
 
-  // Row by row, each in the order of the columns.
+  // Sets a distance. To be called row by row, each in the order of the columns.
   void Set(std::size_t row, std::size_t column, int distance) {
     distance_[row * columns_ + column] = distance;
     int& best = best_row_[column];
@@ -85,7 +86,7 @@ class DistanceTable {
       const int distance = At(row, c);
       if (distance > pairing.max_distance || Ambiguous(row, c, b, pairing.ratio)) continue;
       if (pairing.mutual && best_row_[c] != static_cast<int>(row)) continue;
-      if (owner[c] >= 0) {  // only without the mutual test
+      if (owner[c] >= 0) {  // possible only without the mutual test
         LineMatch& earlier = matches[static_cast<std::size_t>(owner[c])];
         if (distance >= earlier.distance) continue;
         earlier.a = -1;
@@ -129,14 +130,14 @@ class DistanceTable {
   std::size_t rows_;
   std::size_t columns_;
   std::vector<int> distance_;
-  std::vector<int> best_row_;  // of each column; the first of equals
+  std::vector<int> best_row_;  // best row of each column; of equal ones the first
 };
 
-// What matching left and right lines asks of each of them time and again.
+// The numbers of a line that matching left and right lines needs repeatedly.
 struct StereoLine {
   Segment2 segment;
   Eigen::Vector2d direction;
-  double row_sine;  // of its angle with the rows
+  double row_sine;  // sine of its angle with the rows
 
   explicit StereoLine(const Segment2& s)
       : segment(s), direction(s.Direction()), row_sine(std::abs(direction.y())) {}
@@ -153,13 +154,13 @@ double FlatSine(double flat_angle_deg) { return math::Sin(flat_angle_deg * kDegr
 
 double RowSine(const Segment2& segment) { return std::abs(segment.Direction().y()); }
 
-// x of the infinite line through the segment at a row.
+// Returns x of the infinite line through the segment at a row.
 double XAtRow(const Segment2& segment, double row) {
   const Eigen::Vector2d d = segment.end - segment.start;
   return segment.start.x() + (row - segment.start.y()) / d.y() * d.x();
 }
 
-// Common part of two intervals divided by the shorter one.
+// Returns the length of the common part of two intervals, over that of the shorter one.
 double IntervalOverlap(double a0, double a1, double b0, double b1) {
   if (a0 > a1) std::swap(a0, a1);
   if (b0 > b1) std::swap(b0, b1);
@@ -188,7 +189,7 @@ bool SteepCompatible(const Segment2& left,
   return true;
 }
 
-// Some disparity of the allowed range must bring one line onto the other.
+// Whether some disparity of the allowed range brings one line onto the other.
 bool FlatCompatible(const Segment2& left,
                     const Segment2& right,
                     double max_disparity,
@@ -256,7 +257,7 @@ std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& ca
   std::vector<std::optional<RightLine>> result(left.size());
   for (const LineMatch& m : table.Match(right, {options.max_distance, options.ratio, true})) {
     const LineFeature& r = right[static_cast<std::size_t>(m.b)];
-    // An error of the calibration shifts the line along the rows, so across itself by this much.
+    // An error of the calibration shifts the line along the rows, and by this much across itself.
     const double shift = calibration_sigma_px * std::abs(r.segment.Direction().y());
     result[static_cast<std::size_t>(m.a)] = RightLine{r.segment, math::Hypot(r.sigma_px, shift)};
   }
@@ -273,7 +274,7 @@ std::optional<LineEndDisparity> LineEndDisparities(const LineFeature& left,
   }
   const double height = right.segment.end.y() - right.segment.start.y();
   const auto at = [&](const Eigen::Vector2d& end) {
-    // The noise of the right line between and beyond its ends, which are independent.
+    // The noise of the right line between and beyond its ends, whose errors are independent.
     const double t = (end.y() - right.segment.start.y()) / height;
     const double across = right.sigma_px * std::sqrt((1 - t) * (1 - t) + t * t);
     return Disparity{end.x() - XAtRow(right.segment, end.y()),

@@ -10,7 +10,7 @@
 
 namespace plumbline {
 
-// A line of one set and the line of the other set that is taken for the same one.
+// A line of one set and the line of the other set that counts as the same one.
 struct LineMatch {
   int a = -1;          // index into the first set
   int b = -1;          // index into the second set
@@ -19,20 +19,25 @@ struct LineMatch {
 
 // What two lines must have in common to be matched.
 struct LineMatchOptions {
-  int max_distance = 80;      // Hamming, of 256 bits
-  double ratio = 0.9;         // best / second best must be below; 1: no test
-  bool mutual = true;         // a must also be the best of b
-  double max_angle_deg = 20;  // difference of the directions (lines are directed: up to 180)
-  double max_offset_px = 80;  // distance of the midpoint of one from the line of the other
-  double max_shift_px = 120;  // distance of the midpoints minus half of both lengths; 0: no test
-  double min_length_ratio = 0.3;  // length of the shorter one / length of the longer one
+  int max_distance = 80;  // largest Hamming distance, of 256 bits
+  // Limit for the ratio of the best to the second best distance; 1: no test.
+  double ratio = 0.9;
+  bool mutual = true;  // whether a must also be the best match of b
+  // Largest difference of the directions (lines are directed: up to 180).
+  double max_angle_deg = 20;
+  // Largest distance of the midpoint of one line from the other line.
+  double max_offset_px = 80;
+  // Largest distance of the midpoints minus half of both lengths; 0: no test.
+  double max_shift_px = 120;
+  // Least length of the shorter line / length of the longer line.
+  double min_length_ratio = 0.3;
 };
 
-// Whether a and b may be the same line by their places in two images of near viewpoints.
+// Whether a and b may be the same line, by their places in two images from nearby viewpoints.
 bool LinesCompatible(const Segment2& a, const Segment2& b, const LineMatchOptions& options);
 
-// Pairs of lines with like descriptors and compatible places in two images, at most one pair for
-// each line. Ties go to the lower index; result ordered by `a`. Cost: O(|a| |b|).
+// Returns pairs of lines with similar descriptors and compatible places in two images, at most one
+// pair for each line. Ties go to the lower index; the result is ordered by `a`. Cost: O(|a| |b|).
 std::vector<LineMatch> MatchLines(const std::vector<LineFeature>& a,
                                   const std::vector<LineFeature>& b,
                                   const LineMatchOptions& options);
@@ -45,18 +50,21 @@ struct StereoLineOptions {
   int max_distance = 80;
   double ratio = 0.9;
   double max_angle_deg = 30;
-  double min_overlap = 0.5;     // common rows (columns for flat lines) / the shorter of the two
-  double min_depth_m = 0.25;    // gives the largest disparity
-  double flat_angle_deg = 5;    // lines flatter than this against the rows are matched across
-  double max_row_error_px = 2;  // flat lines: distance across
+  // Least common rows (columns for flat lines) / rows of the shorter line.
+  double min_overlap = 0.5;
+  double min_depth_m = 0.25;  // least depth, which gives the largest disparity
+  // Lines flatter than this against the rows are matched by their place across the rows.
+  double flat_angle_deg = 5;
+  // Largest distance of flat lines across the rows.
+  double max_row_error_px = 2;
 };
 
-// The same line in the right image of a rectified pair for each left line, or nullopt.
+// Returns for each left line of a rectified pair the same line in the right image, or nullopt.
 //
-// Both lines run the same way (bright side), overlap in rows, and the disparities at both ends of
-// the common rows lie in [0, fx * baseline / min_depth]; the nearest descriptor wins, both ways. A
-// line flatter than flat_angle is matched by its place across the rows alone: such a RightLine
-// constrains the line's plane, but LineEndDisparities gives nullopt for it.
+// Both lines run the same way (bright side) and overlap in rows, and the disparities at both ends
+// of the common rows lie in [0, fx * baseline / min_depth]. The nearest descriptor wins, in both
+// directions. A line flatter than flat_angle is matched by its place across the rows alone: its
+// RightLine constrains the line's plane, but LineEndDisparities gives nullopt for it.
 std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
                                                        const std::vector<LineFeature>& left,
                                                        const std::vector<LineFeature>& right,
@@ -67,10 +75,10 @@ struct LineEndDisparity {
   Disparity start, end;
 };
 
-// Disparities of the end points of a left line: where the rows through them meet the (infinite)
-// right line. sigma_px is the across-line noise of both lines divided by the sine of the angle
-// between line and row. nullopt when that angle is below `flat_angle_deg` or a disparity is not
-// positive.
+// Returns the disparities of the end points of a left line: where the rows through them meet the
+// (infinite) right line. sigma_px is the noise of both lines across themselves, divided by the sine
+// of the angle between line and row. Returns nullopt when that angle is below `flat_angle_deg` or a
+// disparity is not positive.
 std::optional<LineEndDisparity> LineEndDisparities(
     const LineFeature& left,
     const RightLine& right,

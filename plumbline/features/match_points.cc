@@ -29,7 +29,7 @@ bool SimilarShape(const PointFeature& a, const PointFeature& b, const PointMatch
   return std::abs(difference) <= options.max_angle_deg * std::numbers::pi / 180;
 }
 
-// Descriptors word by word: the first words of all, then the second ones, and so on.
+// Descriptors word by word: the first words of all descriptors, then the second words, and so on.
 class DescriptorWords {
  public:
   explicit DescriptorWords(const std::vector<PointFeature>& set)
@@ -48,8 +48,8 @@ class DescriptorWords {
   std::vector<std::uint64_t> words_;
 };
 
-// Hamming distances of one descriptor from many, several at once: bits are counted by adding
-// neighbouring fields, as CountBits does.
+// Computes the Hamming distances of one descriptor from many, several at once. Bits are counted by
+// adding neighbouring fields, as CountBits does.
 struct DistancesFrom {
   [[gnu::always_inline]] static inline void Run(const Descriptor& query,
                                                 const DescriptorWords& set,
@@ -62,7 +62,7 @@ struct DistancesFrom {
         static_cast<int>(set.size()), [&](int first, auto size) __attribute__((always_inline)) {
           std::uint32_t block[size];
           for (int i = 0; i < size; ++i) {
-            std::uint64_t sums = 0;  // of each byte
+            std::uint64_t sums = 0;  // sum of the bits of each byte
             for (std::size_t k = 0; k < 4; ++k) {
               std::uint64_t word = words[k][first + i] ^ own[k];
               word -= word >> 1U & kEverySecond;
@@ -79,7 +79,7 @@ struct DistancesFrom {
   }
 };
 
-// The best of all points of a set, or of those near it, for each query.
+// Finds the best point for each query among all points of a set, or among those near it.
 class CandidateSearch {
  public:
   CandidateSearch(const std::vector<PointFeature>& set, double radius)
@@ -129,7 +129,7 @@ class CandidateSearch {
 
  private:
   const std::vector<PointFeature>& set_;
-  DescriptorWords words_;  // where all are candidates
+  DescriptorWords words_;  // filled where all points are candidates
   std::vector<std::uint32_t> distances_;
   std::vector<int> near_;
   PointGrid grid_;
@@ -150,7 +150,7 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
     if (options.ratio < 1 && best.distance >= options.ratio * best.second) continue;
     const auto j = static_cast<std::size_t>(best.index);
     if (options.mutual && in_a.Find(b[j], options).index != static_cast<int>(i)) continue;
-    if (owner[j] >= 0) {  // only without the mutual test
+    if (owner[j] >= 0) {  // possible only without the mutual test
       PointMatch& earlier = matches[static_cast<std::size_t>(owner[j])];
       if (best.distance >= earlier.distance) continue;
       earlier.a = -1;

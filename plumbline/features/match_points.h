@@ -23,47 +23,51 @@ struct PointMatch {
 };
 
 struct PointMatchOptions {
-  int max_distance = 64;     // Hamming, of 256 bits
-  double ratio = 0.8;        // best / second best must be below; 1: no test
-  bool mutual = true;        // a must also be the best of b
-  double radius_px = 0;      // search window around the same position, half width; 0: everywhere
+  int max_distance = 64;  // largest Hamming distance, of 256 bits
+  // Limit for the ratio of the best to the second best distance; 1: no test.
+  double ratio = 0.8;
+  bool mutual = true;  // whether a must also be the best match of b
+  // Half width of the search window around the same position; 0: no window.
+  double radius_px = 0;
   int max_octave_step = 8;   // largest difference of octaves
   double max_angle_deg = 0;  // largest difference of orientations; 0: no test
 };
 
-// Pairs of points with like descriptors in two images, at most one pair for each point.
-// Ties go to the lower index; result ordered by `a`. Cost: O(|a| |b|) without a window.
+// Returns pairs of points with similar descriptors in two images, at most one pair for each point.
+// Ties go to the lower index; the result is ordered by `a`. Cost: O(|a| |b|) without a window.
 std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
                                     const std::vector<PointFeature>& b,
                                     const PointMatchOptions& options);
 
 struct StereoPointOptions {
-  double min_depth_m = 0.25;  // gives the largest disparity
-  int window_px = 5;          // half width of the correlation window, finest level
+  double min_depth_m = 0.25;  // least depth, which gives the largest disparity
+  // Half width of the correlation window at the finest level.
+  int window_px = 5;
   // Deviation that the pair's calibration adds to every disparity, relative to the width of the
-  // image: errors of angles and of the lens are the same part of an image of any size (8e-4: 1 px
+  // image: errors of angles and of the lens are the same part of an image of any size (8e-4 is 1 px
   // of 1250).
   double calibration_sigma = 8e-4;
 };
 
-// Both images of a rectified pair, levels of the same sizes, and where the right one is real.
+// The pyramids of a rectified pair, with levels of the same sizes, and the valid region of the
+// right image.
 struct StereoPyramids {
   const ImagePyramid& left;
   const ImagePyramid& right;
   const ValidRegion& right_valid;
 };
 
-// Disparity of each point of the left image of a rectified pair, nullopt where the right image does
-// not show it for certain.
+// Returns the disparity of each point of the left image of a rectified pair; nullopt where the
+// right image does not show the point for certain.
 //
-// Searched along the whole row of the right image, on the level where the point was found
-// (RowSearch): a corner need not be found as a corner in both images, which only every second one
-// is. Refined by a Gauss-Newton step for the sub-pixel shift, with the mean brightness of the
-// window free. Its pixels weigh the less the further they are from the corner, and windows of
-// coarse levels are smaller, against errors at depth edges. sigma_px comes from the curvature and
-// the residual of that correlation. Matches whose residual is far above the median are dropped.
-// Disparities are 0 < d <= fx * baseline / min_depth. A helper shares the levels; the
-// result is the same with and without one.
+// The point is searched along the whole row of the right image, on the level where it was found
+// (RowSearch). It need not be a corner in both images, which only every second one is. A
+// Gauss-Newton step finds the sub-pixel shift, with the mean brightness of the window free. Against
+// errors at depth edges, pixels of the window weigh less the further they are from the corner, and
+// windows of coarse levels are smaller. sigma_px comes from the curvature and the residual of that
+// correlation. Matches whose residual is far above the median are dropped. Disparities are 0 < d <=
+// fx * baseline / min_depth. A helper shares the levels; the result is the same with and without
+// one.
 std::vector<std::optional<Disparity>> MatchStereoPoints(const RectifiedCamera& camera,
                                                         const std::vector<PointFeature>& points,
                                                         const StereoPyramids& pyramids,

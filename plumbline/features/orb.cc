@@ -19,12 +19,15 @@
 namespace plumbline {
 namespace {
 
-constexpr int kLevels = 8;   // of the pyramid; by 1.2 the coarsest is 3.6 times smaller
-constexpr int kCellPx = 35;  // side of the cells of a level that have a threshold of their own
+// Levels of the pyramid; with a factor of 1.2 the coarsest is 3.6 times smaller.
+constexpr int kLevels = 8;
+// Side of the cells of a level, which each have a threshold.
+constexpr int kCellPx = 35;
 constexpr int kCentroidRadius = 15;
-constexpr int kPatchRadius = 20;  // the turned sampling pattern (18.4) and a shift stay inside
+// The turned sampling pattern (18.4) and a shift stay inside this radius.
+constexpr int kPatchRadius = 20;
 
-// Corners of one level, at least kPatchRadius from its border.
+// Returns the corners of one level that are at least kPatchRadius from its border.
 std::vector<FastCorner> DetectCorners(const GrayImage& image, const OrbOptions& options) {
   const PixelBox area{
       kPatchRadius, kPatchRadius, image.width() - kPatchRadius, image.height() - kPatchRadius};
@@ -49,8 +52,9 @@ std::vector<FastCorner> DetectCorners(const GrayImage& image, const OrbOptions& 
   return corners;
 }
 
-// The order of the corners of an image of this width in one number: first by `first`, which is
-// below 2^24, then the stronger, then row by row.
+// Returns the place of a corner in the order of selection as one number: ordered first by `first`,
+// which is below 2^24, then by strength, the strongest first, then row by row. `width` is that of
+// the image.
 constexpr int kStrongest = 255;
 std::uint64_t OrderOf(std::uint64_t first, const FastCorner& c, int width) {
   const auto weakness = static_cast<std::uint64_t>(kStrongest - static_cast<int>(c.response));
@@ -68,7 +72,7 @@ FastCorner CornerOf(std::uint64_t order, int width) {
           static_cast<float>(kStrongest - static_cast<int>(order >> 32 & 0xFFU))};
 }
 
-// Takes the strongest of each cell of a grid, then the second of each, and so on.
+// Takes the strongest corner of each cell of a grid, then the second of each, and so on.
 std::vector<FastCorner> SpreadSelect(std::vector<FastCorner> corners,
                                      int width,
                                      int height,
@@ -100,8 +104,8 @@ std::vector<FastCorner> SpreadSelect(std::vector<FastCorner> corners,
   return corners;
 }
 
-// The disc of kCentroidRadius around a corner, row by row: 1 and the distance along the row in it,
-// 0 beside it. Rows are two vectors long.
+// The disc of kCentroidRadius around a corner, row by row. Inside it each pixel has 1 and the
+// distance along the row, outside it 0. Rows are two vectors long.
 constexpr std::size_t kDiscRows = 2 * kCentroidRadius + 1;
 constexpr std::size_t kDiscColumns = kDiscRows + 1;
 struct Disc {
@@ -130,7 +134,7 @@ struct Moments {
 };
 
 struct DiscMoments {
-  // `corner`: the first pixel of the disc's square in an image of this width.
+  // `corner` is the first pixel of the disc's square in an image of this width.
   [[gnu::always_inline]] static inline Moments Run(const Disc& disc,
                                                    const std::uint8_t* corner,
                                                    std::ptrdiff_t width) {
@@ -149,7 +153,8 @@ struct DiscMoments {
   }
 };
 
-// Direction from the corner to the centroid of the grey levels around it (Rosin 1999), radians.
+// Returns the direction from the corner to the centroid of the grey levels around it (Rosin 1999),
+// in radians.
 double CentroidAngle(const GrayImage& image, int x, int y) {
   static const Disc kDisc = MakeDisc();
   const Moments moments = RunBest<DiscMoments>(
@@ -157,19 +162,21 @@ double CentroidAngle(const GrayImage& image, int x, int y) {
   return math::Atan2(static_cast<double>(moments.y), static_cast<double>(moments.x));
 }
 
-// Place of the extreme of a parabola through three values at -1, 0, 1; 0 when it is not between.
+// Returns the place of the extreme of a parabola through three values at -1, 0, 1; 0 when it is not
+// between them.
 double ParabolaPeak(double before, double at, double after) {
   const double curvature = before - 2 * at + after;
   if (curvature >= 0) return 0;
   return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
 }
 
-// Harris response at whole-pixel offsets, up to 2, from a corner; windows of 5x5 pixels, weighted
-// by a Gaussian: with a box, pixels that enter and leave at its border move the peak.
+// Computes the Harris response at whole-pixel offsets, up to 2, from a corner. Windows of 5x5
+// pixels are weighted by a Gaussian: in a box, pixels that enter and leave at its border would move
+// the peak.
 class HarrisAround {
  public:
   static constexpr std::size_t kLanes = 4;
-  using Responses = std::array<float, kLanes>;  // at -1, 0, 1, 2
+  using Responses = std::array<float, kLanes>;  // responses at -1, 0, 1, 2
 
   HarrisAround(const GrayImage& image, int x, int y) {
     for (int dy = -kReach; dy <= kReach; ++dy) {
@@ -191,7 +198,7 @@ class HarrisAround {
     }
   }
 
-  // On the row dy (at most 2 away), at kLanes places from -1 on.
+  // Returns the responses on row dy (at most 2 away), at kLanes places from -1 on.
   Responses OnRow(int dy) const {
     Sums xx{};
     Sums xy{};
@@ -210,7 +217,7 @@ class HarrisAround {
     return responses;
   }
 
-  // At a single place, at most 2 away.
+  // Returns the response at a single place, at most 2 away.
   float At(int dx, int dy) const {
     float xx = 0;
     float xy = 0;
@@ -263,12 +270,12 @@ class HarrisAround {
     return weights;
   }
 
-  // Of the derivatives along x and y: xx, xy, yy, one plane after the other.
+  // Products of the derivatives along x and y: xx, xy, yy, one plane after the other.
   std::array<float, static_cast<std::size_t>(3 * kPlane)> products_;
 };
 
-// Sub-pixel peak of the Harris response near a FAST corner, offset from the pixel centre. The peak
-// may lie on a neighbouring pixel.
+// Returns the sub-pixel peak of the Harris response near a FAST corner, as an offset from the pixel
+// centre. The peak may lie on a neighbouring pixel.
 Eigen::Vector2d CornerOffset(const GrayImage& image, int x, int y) {
   const HarrisAround harris(image, x, y);
   const std::array near{harris.OnRow(-1), harris.OnRow(0), harris.OnRow(1)};
@@ -303,18 +310,18 @@ void ExtractLevel(const PyramidLevel& level,
   const double scale = level.scale.maxCoeff();
   std::vector<FastCorner> corners = DetectCorners(level.image, options);
   std::erase_if(corners, [&](const FastCorner& c) {
-    // The border of the level was respected already; only invalid pixels are left to check.
+    // Detection kept to the border of the level already; only invalid pixels are left to check.
     const Eigen::Vector2d full = level.ToFull(Eigen::Vector2d(c.x, c.y));
     return !valid.Contains(full, (kPatchRadius - 1) * scale);
   });
   corners = SpreadSelect(std::move(corners), level.image.width(), level.image.height(), count);
   std::vector<PointFeature> points;
-  std::vector<Eigen::Vector2d> places;  // on the level
+  std::vector<Eigen::Vector2d> places;  // places on the level
   std::vector<OrientedPixel> pixels;
   for (const FastCorner& c : corners) {
     Eigen::Vector2d px(c.x, c.y);
     px += CornerOffset(level.image, c.x, c.y);
-    // Two corners may have moved to one peak; the first one is the stronger.
+    // Two corners may have moved to one peak; the first one is the stronger and stays.
     if (std::any_of(places.begin(), places.end(), [&](const Eigen::Vector2d& other) {
           return (other - px).squaredNorm() < 1;
         })) {
@@ -354,7 +361,7 @@ std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
   const double calibration_sigma_px = options.calibration_sigma * pyramid[0].image.width();
   double total = 0;
   for (const PyramidLevel& level : pyramid) total += 1 / level.scale.maxCoeff();
-  // What a level cannot fill is left to the ones above it.
+  // Points that a level cannot provide are taken from the levels above it.
   std::size_t wanted = 0;
   double share = 0;
   for (std::size_t octave = 0; octave < pyramid.size(); ++octave) {

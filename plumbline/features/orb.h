@@ -13,39 +13,43 @@
 
 namespace plumbline {
 
-// Contrast of a corner [grey levels] that is found wherever it is; weaker ones where there is no
-// such.
+// Contrast from which on a corner is always found [grey levels]. Weaker corners are found only in
+// cells that have none of it.
 inline constexpr int kCornerContrast = 20;
 
 struct OrbOptions {
   double scale_factor = 1.2;
-  int fast_min_threshold = 4;  // grey levels, in cells without a corner of kCornerContrast
-  double sigma_px = 0.2;       // of a sharp corner at octave 0
-  // What noise adds: of a corner of one grey level of contrast, less as the contrast grows.
+  // FAST threshold in cells without a corner of kCornerContrast, grey levels.
+  int fast_min_threshold = 4;
+  double sigma_px = 0.2;  // deviation of a sharp corner at octave 0
+  // Deviation that noise adds to a corner with a contrast of one grey level; it falls as the
+  // contrast grows.
   double noise_sigma_px = 6.7;
-  // What lenses and shutter that are not quite as the calibration says add to every corner,
-  // relative to the width of the image.
+  // Deviation that errors of the calibrated lens and of the shutter add to every corner, relative
+  // to the width of the image.
   double calibration_sigma = 5e-4;
 };
 
-// Corners with binary descriptors, spread evenly over the image and the levels of its pyramid.
+// Finds corners with binary descriptors, spread evenly over the image and the levels of its
+// pyramid.
 //
-// FAST corners (Rosten and Drummond 2006) on each level, with a lower threshold in cells that have
-// none; each level keeps a share of `count` that falls with its width, taken in turns from a grid
-// so that no textured spot takes all. Orientation by the intensity centroid and the steered BRIEF
-// pattern of ORB (Rublee et al., ICCV 2011), 256 bits. A corner moves to the
-// peak of the Harris response (parabola, at most 1.5 level pixels), which more than halves the
-// scatter between frames: 0.45 to 0.2 level pixels on EuRoC, where the Förstner point gives 0.50.
+// FAST corners (Rosten and Drummond 2006) are found on each level, with a lower threshold in cells
+// that have none. Each level keeps a share of `count` that falls with its width; corners are taken
+// in turns from a grid, so that no textured spot takes all. Orientation is by the intensity
+// centroid, the descriptor is the steered BRIEF pattern of ORB (Rublee et al., ICCV 2011), 256
+// bits. A corner moves to the peak of the Harris response (parabola, at most 1.5 level pixels).
+// This more than halves the scatter between frames: from 0.45 to 0.2 level pixels on EuRoC, where
+// the Förstner point gives 0.50.
 //
-// The scatter grows as the contrast falls: matched under true poses and depths, corners move by
-// 0.1 level pixels from frame to frame above 100 grey levels, 0.15 at 40, 0.3 at 17 and 1 below 7,
-// roughly hypot(0.1, 4 / contrast). The deviations are nearly in this proportion.
+// The scatter grows as the contrast falls. Matched under true poses and depths, corners move by 0.1
+// level pixels from frame to frame above 100 grey levels, by 0.15 at 40, by 0.3 at 17 and by 1
+// below 7, roughly hypot(0.1, 4 / contrast). The deviations are nearly in this proportion.
 //
-// `pyramid` must have been built with the factor of the options (BuildOrbPyramid).
-// Corners closer to an invalid pixel or to the border than the patch (20 level pixels) are left
-// out. Result: position and sigma (of corner and noise * scale of the octave, and the
-// calibration's) in pixels of the full image, ordered by octave, then as selected. Cost: about 4 ms
-// for 752x480 and 1000 points.
+// `pyramid` must have been built with the factor of the options (BuildOrbPyramid). Corners closer
+// to an invalid pixel or to the border than the patch (20 level pixels) are left out. Positions and
+// sigmas (of corner and noise * scale of the octave, and of the calibration) are in pixels of the
+// full image. The result is ordered by octave, then as selected. Cost: about 4 ms for 752x480 and
+// 1000 points.
 std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
                                      const ValidRegion& valid,
                                      int count,

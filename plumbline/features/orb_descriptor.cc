@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kPlaces = kOrbPattern.size() / 2;
 
-// The places that are compared, x and y apart, so that vector instructions turn several at once.
+// The places that are compared, x and y in separate arrays, so that vector instructions turn
+// several at once.
 struct PatternAxes {
   std::array<float, kPlaces> x;
   std::array<float, kPlaces> y;
@@ -34,13 +35,14 @@ constexpr PatternAxes AxesOfPattern() {
 
 constexpr PatternAxes kAxes = AxesOfPattern();
 
-// Where the turned places lie in the memory of an image of this width, from the corner.
+// Computes where the turned places lie in the memory of an image of this width, relative to the
+// corner.
 struct TurnPattern {
   [[gnu::always_inline]] static inline void Run(float cosine,
                                                 float sine,
                                                 float width,
                                                 std::array<std::int32_t, kPlaces>& offsets) {
-    // The nearest whole number of a value above -kOrbReach - 1; halves are rounded up.
+    // This rounds a value above -kOrbReach - 1 to the nearest whole number; halves are rounded up.
     constexpr float kShift = kOrbReach + 1.5F;
     constexpr int kWholeShift = kOrbReach + 1;
     for (std::size_t i = 0; i < kPlaces; ++i) {
@@ -48,7 +50,8 @@ struct TurnPattern {
       const float y = kAxes.y[i];
       const int row = static_cast<int>(x * sine + y * cosine + kShift) - kWholeShift;
       const int column = static_cast<int>(x * cosine - y * sine + kShift) - kWholeShift;
-      // Exact as a float, whose products vector instructions of every processor know.
+      // The product is exact as a float, and every processor has vector instructions for products
+      // of floats.
       offsets[i] = static_cast<int>(static_cast<float>(row) * width) + column;
     }
   }

@@ -9,22 +9,22 @@
 
 namespace plumbline {
 
-// A corner to describe: the pixel, and its orientation in radians.
+// A corner to describe: its pixel, and its orientation in radians.
 struct OrientedPixel {
   int x = 0;
   int y = 0;
   double angle = 0;
 };
 
-inline constexpr int kOrbReach = 18;  // pixels from a corner that its descriptor looks at
+inline constexpr int kOrbReach = 18;  // largest distance in pixels at which a descriptor looks
 
-// Steered BRIEF descriptors (Rublee et al., ICCV 2011, section 4) of pixels at least kOrbReach from
-// the border: 256 comparisons of two grey levels around each, on the image smoothed with 7 x 7
-// pixels and a deviation of 2.
+// Computes steered BRIEF descriptors (Rublee et al., ICCV 2011, section 4) of pixels at least
+// kOrbReach from the border: 256 comparisons of two grey levels around each, on the image smoothed
+// with 7 x 7 pixels and a deviation of 2.
 //
-// They are those of cv::ORB but for bits that rounding decides. OpenCV smooths what it describes in
-// floating point, in another way on each kind of processor; here it is done in whole numbers and
-// gives the same bits on all. Cost: about 0.5 ms for 1000 corners and a megapixel.
+// The descriptors are those of cv::ORB except for bits that rounding decides. OpenCV smooths the
+// image in floating point, in another way on each kind of processor; here it is done in whole
+// numbers and gives the same bits on all. Cost: about 0.5 ms for 1000 corners and a megapixel.
 std::vector<Descriptor> DescribeOrb(const GrayImage& image,
                                     const std::vector<OrientedPixel>& corners);
 

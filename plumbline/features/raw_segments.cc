@@ -37,7 +37,7 @@ std::vector<Segment2> Lsd(const GrayImage& image, double scale) {
   std::vector<cv::Vec4f> lines;
   cv::createLineSegmentDetector(cv::LSD_REFINE_NONE, scale)->detect(AsMat(image), lines);
   std::vector<Segment2> segments = ToSegments(lines);
-  // LSD gives (x + 1/2) / scale for the meeting point of four pixels of its smaller image, whose
+  // LSD returns (x + 1/2) / scale for the meeting point of four pixels of its smaller image, whose
   // place in the full image is (x + 1) / scale - 1/2.
   const double shift = 0.5 / scale - 0.5;
   for (Segment2& segment : segments) {
@@ -57,7 +57,7 @@ std::vector<Segment2> FindRawSegments(const GrayImage& image,
                                       const GradientImage& gradient,
                                       const RawSegmentOptions& options) {
   if (options.detector == LineDetector::kLsd) return Lsd(image, options.scale);
-  // Single pixels may be weaker than the mean over the line.
+  // Single pixels may be weaker than the mean over the line, which the contrast limits.
   const SegmentDrawingLimits limits{options.min_length * options.scale,
                                     2.0 / 3 * options.min_contrast};
   if (options.scale == 1) {

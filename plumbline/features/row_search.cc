@@ -21,14 +21,14 @@
 namespace plumbline {
 namespace {
 
-// Sixteen bytes are one instruction's worth.
+// A row of a window is sixteen bytes, which is one vector instruction's worth.
 constexpr int kWindowWidth = 2 * RowSearch::kReach;
 constexpr int kBefore = RowSearch::kReach;  // pixels of a window left of its place
 constexpr int kHalfHeight = 5;
-constexpr int kNone = 128;  // no slope
+constexpr int kNone = 128;  // value of a pixel without slope
 
 struct SlopesOfRow {
-  // Of pixels 1 to width - 2.
+  // Computes the slopes of pixels 1 to width - 2.
   [[gnu::always_inline]] static inline void Run(const std::uint8_t* above,
                                                 const std::uint8_t* row,
                                                 const std::uint8_t* below,
@@ -43,7 +43,7 @@ struct SlopesOfRow {
                 static_cast<std::int16_t>(above[x + 1] + 2 * row[x + 1] + below[x + 1]);
             const auto left =
                 static_cast<std::int16_t>(above[x - 1] + 2 * row[x - 1] + below[x - 1]);
-            // The half is rounded to the nearest, ties to even.
+            // Half of the difference is rounded to the nearest number, ties to even.
             const auto twice = static_cast<std::int16_t>(right - left + 2 * kNone);
             const auto half = static_cast<std::int16_t>(twice >> 1);
             const auto odd = static_cast<std::int16_t>(twice & half & 1);
@@ -56,9 +56,9 @@ struct SlopesOfRow {
   }
 };
 
-// Derivative along the row, smoothed over three rows (Sobel), halved, kNone where there is none.
-// Saturates where grey levels two pixels apart differ by more than 64. Over the border the image is
-// reflected: there is no slope in its first and last column.
+// Returns the derivative along the row, smoothed over three rows (Sobel) and halved; kNone where it
+// is zero. It saturates where grey levels two pixels apart differ by more than 64. The image is
+// reflected at its border, so that its first and last column have no slope.
 GrayImage Slopes(const GrayImage& image) {
   const int width = image.width();
   const int last = image.height() - 1;
@@ -76,12 +76,13 @@ GrayImage Slopes(const GrayImage& image) {
 // The pixels of a window in vectors of sixteen bytes.
 class Window {
  public:
-  // `first`: its first pixel in an image of this width.
+  // `first` is the window's first pixel in an image of this width.
   [[gnu::always_inline]] inline Window(const std::uint8_t* first, std::ptrdiff_t width) {
     for (int row = 0; row < kWindowHeight; ++row) rows_[row] = Load(first + row * width);
   }
 
-  // Sum of absolute differences from another window over every second row from kFirst on.
+  // Returns the sum of absolute differences from another window over every second row from kFirst
+  // on.
   template <int kFirst>
   [[gnu::always_inline]] inline int SumOfDifferences(const std::uint8_t* first,
                                                      std::ptrdiff_t width) const {
@@ -125,10 +126,10 @@ class Window {
   Row rows_[kWindowHeight];
 };
 
-// Sums of differences between a window and `count` others, each a pixel further to the right in
-// another image of the same width; windows are given by their first pixels. Exact where they are
-// least and up to 1 / ratio times as large; of what is further off only the part over every second
-// row, which is more than that already.
+// Computes sums of differences between a window and `count` others, each a pixel further to the
+// right in another image of the same width. Windows are given by their first pixels. Sums are exact
+// where they are at most 1 / ratio times the least sum. Larger sums are given only by their part
+// over every second row, which is larger than that already.
 struct SumDifferences {
   [[gnu::always_inline]] static inline void Run(const std::uint8_t* one,
                                                 const std::uint8_t* others,
@@ -146,7 +147,7 @@ struct SumDifferences {
       least = sum;
       likely = k;
     }
-    // The least of the sums over all rows is no larger than this one.
+    // The least of the sums over all rows is at most as large as this one.
     const int bound = least + window.SumOfDifferences<0>(others + likely, width);
     const int limit = static_cast<int>(bound / ratio) + 1;
     for (int k = 0; k < count; ++k) {
@@ -155,7 +156,7 @@ struct SumDifferences {
   }
 };
 
-// The sum of differences from a window without any slope.
+// Returns the sum of differences from a window without any slope.
 int SumOfSlopes(const GrayImage& slopes, const Eigen::Vector2i& at) {
   int sum = 0;
   for (int dy = -kHalfHeight; dy <= kHalfHeight; ++dy) {

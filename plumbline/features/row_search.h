@@ -11,23 +11,24 @@
 
 namespace plumbline {
 
-// Finds where the right image of a rectified pair shows what the left one shows at a pixel, to the
-// whole pixel: the place in the same row whose window (16 x 11 pixels) of horizontal grey-level
-// slopes has the least sum of absolute differences. Slopes, because the two cameras may differ in
-// brightness. A place counts if the sum is below `ratio` times that of any other place more
-// than 2 pixels away and of a window without slopes, and if the way back finds the pixel again:
-// what only one camera sees fails this. Both images have the same size.
+// Finds, to the whole pixel, where the right image of a rectified pair shows what the left one
+// shows at a pixel. This is the place in the same row whose window (16 x 11 pixels) of horizontal
+// grey-level slopes has the least sum of absolute differences. Slopes are compared because the two
+// cameras may differ in brightness. A place counts if the sum is below `ratio` times that of any
+// other place more than 2 pixels away and of a window without slopes, and if the search in the
+// opposite direction finds the pixel again, which fails for what only one camera sees. Both images
+// must have the same size.
 //
-// Not for several threads at once. Cost: some 2 ns for each pixel of the range, both
-// ways; the constructor, a few passes over both images.
+// May be used by one thread at a time. Cost: some 2 ns for each pixel of the range, for both
+// directions; the constructor makes a few passes over both images.
 class RowSearch {
  public:
-  static constexpr int kReach = 8;  // of a window from its place along the row
+  static constexpr int kReach = 8;  // half width of a window
 
   RowSearch(const GrayImage& left, const GrayImage& right);
 
-  // Column in the right image, at least x - max_disparity and at most x + 1 (a point far away,
-  // and noise); nullopt if there is none, or the window reaches over the border.
+  // Returns the column in the right image, at least x - max_disparity and at most x + 1 (a point
+  // far away, and noise); nullopt if there is none, or the window reaches over the border.
   std::optional<int> Find(const Eigen::Vector2i& left, int max_disparity, double ratio);
 
  private:
@@ -42,7 +43,7 @@ class RowSearch {
                           Columns columns,
                           double ratio);
 
-  GrayImage left_;  // slopes, 128: none
+  GrayImage left_;  // slopes; 128 means none
   GrayImage right_;
   std::vector<int> sums_;
 };

@@ -16,18 +16,23 @@
 namespace plumbline {
 namespace {
 
-constexpr int kBorder = 3;             // pixels around the image where no edge is looked for
-constexpr std::array kMaxTurn{5, 12};  // tangent of the largest angle of gradient and normal
-constexpr int kUnit = 256;             // fixed point of slopes
-constexpr float kMaxResidual = 1;      // of an edge point from the line predicted, px
-constexpr double kMaxScatter = 0.4;    // RMS of all edge points, px
-constexpr double kMinDensity = 0.75;   // of edge points on a segment
+// Width of the border of the image in which no edge is looked for.
+constexpr int kBorder = 3;
+// Tangent of the largest angle between gradient and normal, as a fraction.
+constexpr std::array kMaxTurn{5, 12};
+constexpr int kUnit = 256;  // fixed point of slopes
+// Largest distance of an edge point from the predicted line, px.
+constexpr float kMaxResidual = 1;
+constexpr double kMaxScatter = 0.4;  // RMS of all edge points, px
+// Least number of edge points on a segment / pixels of its major axis.
+constexpr double kMinDensity = 0.75;
 
 // What has been done at a pixel.
 enum Mark : std::uint8_t { kFree = 0, kTried = 1, kDrawn = 2 };
 
-// The gradient seen along one axis: edges that run along the major axis within about 45 degrees.
-// Such an edge is minor = f(major), and `across` (the derivative along the minor axis) is large.
+// The gradient as seen along one axis, for edges that run along this major axis within about 45
+// degrees. Such an edge is minor = f(major), and `across` (the derivative along the minor axis) is
+// large.
 struct AxisView {
   const std::int16_t* across;
   const std::int16_t* along;
@@ -53,7 +58,8 @@ struct Anchor {
   int strength;
 };
 
-// Least squares of minor = offset + slope * major over the points so far, major from the anchor.
+// Sums for the least squares fit of minor = offset + slope * major, with major relative to the
+// anchor.
 struct LineSums {
   int n = 0, m = 0;
   std::int64_t mm = 0;
@@ -74,7 +80,7 @@ struct Fit {
   float slope = 0;
   float reach = 0;  // kMaxResidual along the minor axis
   int turn = 0;     // slope times kUnit
-  int points = 0;   // that were fitted
+  int points = 0;   // number of points that were fitted
   double scatter = 0;
 };
 
@@ -93,8 +99,8 @@ Fit FitSums(const LineSums& s) {
           std::sqrt(std::max(0.0, squares / n) / (1 + slope * slope))};
 }
 
-// Whether the edge seems to go on straight from here, at least on one side: whether the gradient
-// a few pixels further on is turned little. A quick look that spares most walks.
+// Whether the edge seems to go on straight from here, at least on one side: the gradient a few
+// pixels further on must have nearly the same direction. This quick test spares most walks.
 bool Promising(const AxisView& view, int major, int minor) {
   constexpr int kAhead = 4;
   const std::ptrdiff_t here = view.Index(major, minor);
@@ -113,13 +119,13 @@ bool Promising(const AxisView& view, int major, int minor) {
   return false;
 }
 
-// One edge followed both ways from its anchor.
+// Follows one edge both ways from its anchor.
 class Walk {
  public:
   Walk(const AxisView& view, const Image<std::uint8_t>& marks, int min_slope)
       : view_(view), marks_(marks.data()), min_rise_(min_slope * kUnit) {}
 
-  // False when there is no straight edge. `path`: index of each edge pixel.
+  // Returns false when there is no straight edge. `path` receives the index of each edge pixel.
   bool Follow(int major, int minor, std::vector<std::ptrdiff_t>* path) {
     const std::ptrdiff_t i = view_.Index(major, minor);
     const std::ptrdiff_t step = view_.minor_step;
@@ -149,14 +155,14 @@ class Walk {
     return true;
   }
 
-  // Along the line.
+  // Returns the length along the line.
   double Length() const {
     return (last_major_[1] - last_major_[0]) * std::sqrt(1.0 + fit_.slope * fit_.slope);
   }
   double Scatter() const { return fit_.scatter; }
   double Density() const { return sums_.n / (last_major_[1] - last_major_[0] + 1.0); }
-  bool Rising() const { return sign_ > 0; }  // brighter at larger minor coordinates
-  // The end with the smaller (0) or larger (1) major coordinate: (major, minor).
+  bool Rising() const { return sign_ > 0; }  // whether larger minor coordinates are brighter
+  // Returns the end with the smaller (0) or larger (1) major coordinate, as (major, minor).
   Eigen::Vector2d End(int side) const {
     const int major = last_major_[static_cast<std::size_t>(side)];
     return {static_cast<double>(major),
@@ -167,20 +173,22 @@ class Walk {
  private:
   static constexpr int kSeedPoints = 6;
   static constexpr float kMaxSlope = 1.5F;
-  static constexpr double kRefitGrowth = 1.25;  // of the number of points
+  // Growth of the number of points after which the line is fitted again.
+  static constexpr double kRefitGrowth = 1.25;
 
-  // Minor coordinate, from the anchor's, of the edge at this major coordinate near `guess`.
+  // Returns the minor coordinate, relative to the anchor, of the edge at this major coordinate near
+  // `guess`.
   std::optional<float> EdgeNear(int major, float guess) const {
     const int center = Nearest(guess);
     if (center < kBorder || center >= view_.minor_size - kBorder) return std::nullopt;
     const std::ptrdiff_t middle = view_.Index(major, center);
     const std::ptrdiff_t step = view_.minor_step;
     const int turn = fit_.turn;
-    // Derivative across the line times kUnit, positive at the edge.
+    // Derivative across the line times kUnit; it is positive at the edge.
     const auto rise = [&](std::ptrdiff_t i) {
       return sign_ * (view_.across[i] * kUnit - turn * view_.along[i]);
     };
-    // The largest of three, and what is beside it.
+    // The largest of three derivatives, and the two beside it.
     int peak = rise(middle);
     int before = rise(middle - step);
     int after = rise(middle + step);
@@ -214,14 +222,14 @@ class Walk {
     path->push_back(view_.Index(major, Nearest(minor)));
   }
 
-  // Minor coordinate of the pixel nearest to this place, which is relative to the anchor. Exact
-  // from -1/2 on; further outside all that counts is that it is outside.
+  // Returns the minor coordinate of the pixel nearest to a place that is relative to the anchor. It
+  // is exact from -1/2 on; for smaller ones it only matters that the result is outside the image.
   int Nearest(float place) const {
     return static_cast<int>(static_cast<float>(anchor_minor_) + place + 0.5F);
   }
 
-  // Walks towards smaller (side 0) or larger (side 1) major coordinates. Every miss is a debt that
-  // a point pays back; the points behind a gap count once it is paid.
+  // Walks towards smaller (side 0) or larger (side 1) major coordinates. Every miss is a debt,
+  // which points pay back; the points behind a gap count once the debt is paid.
   void Extend(int side, std::vector<std::ptrdiff_t>* path) {
     const int direction = side == 1 ? 1 : -1;
     int& last = last_major_[static_cast<std::size_t>(side)];
@@ -261,7 +269,8 @@ class Walk {
                : fit_.offset + fit_.slope * static_cast<float>(major - anchor_major_);
   }
 
-  // Within a gap the fit stays.
+  // The state before a gap, to which the walk returns if the gap is not overcome. The fit is not
+  // part of it, since it stays the same within a gap.
   struct BeforeGap {
     LineSums sums;
     std::size_t path = 0;
@@ -282,10 +291,11 @@ class Walk {
     *last = state.last;
   }
 
-  static constexpr int kMaxGap = 8;         // px
-  static constexpr int kPointsPerMiss = 4;  // needed on the line for each pixel of a gap
+  static constexpr int kMaxGap = 8;  // px
+  // Points on the line that are needed for each pixel of a gap.
+  static constexpr int kPointsPerMiss = 4;
 
-  const AxisView view_;  // a copy, which nothing that is written can be a part of
+  const AxisView view_;  // a copy, so that the compiler knows that no write changes it
   const std::uint8_t* marks_;
   int min_rise_;
   int sign_ = 1;
@@ -300,9 +310,9 @@ class Walk {
 
 int Size(std::int16_t v) { return std::abs(static_cast<int>(v)); }
 
-// 1 where the derivative `across`, over a row of pixels, is at least min_strength, not below that
-// along the edge, and larger than beside it; `before` and `after` are the neighbours across.
-// Becomes vector code.
+// Marks with 1 the pixels of a row where the derivative `across` is at least min_strength, not
+// below that along the edge, and larger than beside it; `before` and `after` are the neighbours
+// across. The loop becomes vector code.
 struct MarkMaxima {
   [[gnu::always_inline]] static inline void Run(const std::int16_t* across,
                                                 const std::int16_t* along,
@@ -326,7 +336,8 @@ struct MarkMaxima {
   }
 };
 
-// Local maxima of the gradient on every `step`-th row (steep edges) and column (flat edges).
+// Returns local maxima of the gradient on every `step`-th row (steep edges) and column (flat
+// edges).
 std::vector<Anchor> FindAnchors(const GradientImage& gradient, int min_strength, int step) {
   std::vector<Anchor> anchors;
   const int width = gradient.width();
@@ -351,7 +362,8 @@ std::vector<Anchor> FindAnchors(const GradientImage& gradient, int min_strength,
   return anchors;
 }
 
-// Strongest first; equal ones in order. By counting, strengths in steps of 1/8 grey level.
+// Returns the anchors with the strongest first, equal ones in order. Sorts by counting, with
+// strengths in steps of 1/8 grey level.
 std::vector<Anchor> StrongestFirst(const std::vector<Anchor>& anchors) {
   constexpr std::size_t kBins = 1024;
   const auto bin = [](const Anchor& a) {
@@ -370,7 +382,8 @@ Segment2 Directed(const Walk& walk, bool steep) {
     const Eigen::Vector2d end = walk.End(side);
     return steep ? Eigen::Vector2d(end.y(), end.x()) : end;
   };
-  // With y down a line that runs down has its left at larger x, one that runs right at smaller y.
+  // With y down, a line that runs down has its left side at larger x, one that runs right at
+  // smaller y.
   const Segment2 segment{place(0), place(1)};
   return walk.Rising() == steep ? segment : segment.Reversed();
 }
@@ -385,7 +398,7 @@ std::vector<Segment2> DrawSegments(const GradientImage& gradient,
   const std::array<AxisView, 2> views{FlatEdges(gradient), SteepEdges(gradient)};
   Image<std::uint8_t> marks(gradient.width(), gradient.height(), kFree);
   std::vector<std::ptrdiff_t> path;
-  // The shortest segment, at 45 degrees, still has two anchors.
+  // With this step even the shortest segment, at 45 degrees, has two anchors.
   constexpr double kMaxStep = 6;
   const int step =
       static_cast<int>(std::clamp(limits.min_length / (2 * std::numbers::sqrt2), 1.0, kMaxStep));

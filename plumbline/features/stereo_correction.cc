@@ -44,9 +44,10 @@ bool StereoCorrection::IsFinite() const {
 
 namespace {
 
-// The number of single precision that solves measured = corrected + displacement_at(measured). The
-// displacement changes with the place by far less than the place does, so each round gains two
-// digits or more, and the rounding takes the rest: the solution is exact.
+// Returns the number of single precision that solves measured = corrected +
+// displacement_at(measured). The displacement changes with the place by far less than the place
+// does, so that each round gains two digits or more. The rounding removes the rest, and the
+// solution is exact.
 template <class DisplacementAt>
 double Measured(double corrected, const DisplacementAt& displacement_at) {
   constexpr int kMaxRounds = 12;

@@ -10,20 +10,20 @@
 
 namespace plumbline {
 
-// How far the right image of a pair is displaced along its rows from where the calibration has it:
-// a smooth error of the rectification, which is different from place to place and does not average
-// out. A quadratic polynomial over the right image, in pixels:
+// How far the right image of a pair is displaced along its rows from where the calibration has it.
+// This is a smooth error of the rectification, which differs from place to place and does not
+// average out. It is a quadratic polynomial over the right image, in pixels:
 //
 //   c(x, y) = k0 + k1 x + k2 y + k3 x^2 + k4 x y + k5 y^2
 //
 // with x, y from the principal point in halves of the image's width. A disparity measured as d is
-// right as d - c. For RGB-D the right image is virtual and c an error of the depths.
+// corrected to d - c. For RGB-D the right image is virtual, and c is an error of the depths.
 class StereoCorrection {
  public:
-  StereoCorrection() = default;  // none
+  StereoCorrection() = default;  // no displacement
   StereoCorrection(const RectifiedCamera& camera, const Vector6d& coefficients);
 
-  // The terms that the coefficients multiply, at a place of the right image.
+  // Returns the terms that the coefficients multiply, at a place of the right image.
   static Vector6d Terms(const RectifiedCamera& camera, const Eigen::Vector2d& px);
 
   double At(const Eigen::Vector2d& px) const;
@@ -31,7 +31,7 @@ class StereoCorrection {
   bool operator==(const StereoCorrection&) const = default;
   bool IsFinite() const;
 
-  // Calls visit for each number that `correction`, const or not, is made of.
+  // Calls visit for each number of which `correction`, const or not, is made.
   template <class Correction, class Visitor>
   static void VisitNumbers(Correction& correction, const Visitor& visit) {
     visit(correction.centre_.x());
@@ -48,9 +48,9 @@ class StereoCorrection {
   Vector6d coefficients_ = Vector6d::Zero();
 };
 
-// Gives disparities of points and right lines another correction than the one they have, `before`.
-// What was measured, a number of single precision, is found again exactly (where the correction
-// changes by less than half a pixel from pixel to pixel) and corrected anew: the result does not
+// Gives disparities of points and right lines another correction than `before`, which they have.
+// The measured number, which has single precision, is recovered exactly (where the correction
+// changes by less than half a pixel from pixel to pixel) and corrected anew. The result does not
 // depend on the corrections in between, to the last bit.
 void Correct(const StereoCorrection& before,
              const StereoCorrection& correction,

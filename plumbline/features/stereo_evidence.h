@@ -7,12 +7,13 @@
 namespace plumbline {
 
 // What the disparities of all keyframes so far say about the errors of a stereo pair: normal
-// equations of the coefficients of a StereoCorrection. It speaks of the rig, not of a map, and sums
-// of evidence of different keyframes are evidence.
+// equations of the coefficients of a StereoCorrection. The evidence is about the rig, not about a
+// map, and evidence of different keyframes can be added.
 struct StereoEvidence {
   Matrix6d information = Matrix6d::Zero();
   Vector6d weighted = Vector6d::Zero();
-  Matrix6d moments = Matrix6d::Zero();  // of the terms over all evidence, scales as they are
+  // Second moments of the terms over all evidence, with scales as they are.
+  Matrix6d moments = Matrix6d::Zero();
 };
 
 }  // namespace plumbline

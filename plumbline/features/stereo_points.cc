@@ -17,14 +17,15 @@ namespace plumbline {
 namespace {
 
 constexpr int kMaxWindow = 15;
-// Best sum of differences over the second best elsewhere in the row: repeated texture is above.
+// Largest ratio of the best sum of differences to the second best elsewhere in the row. Repeated
+// texture is above it.
 constexpr double kMaxRatio = 0.9;
-// Floor of a disparity's deviation on the level image, below which sampling errors are not known.
+// Least deviation of a disparity on the level image, below which sampling errors are not known.
 constexpr double kMinSigmaPx = 0.08;
 constexpr std::size_t kMaxPatch =
     static_cast<std::size_t>((2 * kMaxWindow + 1) * (2 * kMaxWindow + 1));
 
-// A square of grey levels with its mean taken off.
+// A square of grey levels without their mean.
 struct Patch {
   std::array<float, kMaxPatch> value;
 };
@@ -48,12 +49,12 @@ bool ReadPatch(const GrayImage& image, int x, int y, int half, Patch* patch) {
 
 struct Correlation {
   double x = 0;         // place in the right level image
-  double sigma = 1;     // of x, level pixels
+  double sigma = 1;     // deviation of x, level pixels
   double residual = 0;  // mean absolute difference, grey levels
 };
 
-// Weights of a window's pixels: a Gaussian, since what is far from the corner is more likely to be
-// at another depth. For the same reason the windows of coarse levels, which take in more of the
+// The weights of a window's pixels: a Gaussian, since pixels far from the corner are more likely to
+// be at another depth. For the same reason the windows of coarse levels, which cover more of the
 // scene, have fewer pixels, by the square root of the level's scale.
 class CorrelationWindow {
  public:
@@ -83,13 +84,13 @@ class CorrelationWindow {
   float total_ = 0;
 };
 
-// One Gauss-Newton step for the shift along x with the mean brightness free. Sums over the window,
-// weighted.
+// One Gauss-Newton step for the shift along x, with the mean brightness free. The numbers are
+// weighted sums over the window.
 struct ShiftStep {
   double delta = 0;
-  double curvature = 0;  // squared derivatives
-  double squares = 0;    // squared residuals
-  double absolute = 0;   // magnitudes of residuals
+  double curvature = 0;  // sum of squared derivatives
+  double squares = 0;    // sum of squared residuals
+  double absolute = 0;   // sum of the magnitudes of residuals
 };
 
 std::optional<ShiftStep> StepAt(
@@ -148,7 +149,8 @@ std::optional<Correlation> RefineShift(
     if (std::abs(step->delta) < 0.01) break;
   }
   const auto total = static_cast<double>(window.total());
-  // Residuals of neighbours are correlated: about every fourth pixel tells something new.
+  // Residuals of neighbours are correlated, so that only about every fourth pixel tells something
+  // new.
   constexpr double kCorrelated = 4;
   return Correlation{place,
                      std::sqrt(kCorrelated * step->squares / total / step->curvature),
@@ -160,7 +162,7 @@ struct Found {
   double residual = 0;  // grey levels
 };
 
-// Points of one octave: what they share, and the search for each.
+// Matches the points of one octave. It holds what they share, and searches for each.
 class OctaveMatcher {
  public:
   OctaveMatcher(const RectifiedCamera& camera,
@@ -195,9 +197,10 @@ class OctaveMatcher {
   }
 
  private:
-  // Does the window around a place of the right level show what the camera saw?
+  // Whether the window around a place of the right level has only pixels that the camera saw.
   bool IsReal(const Eigen::Vector2i& at) const {
-    constexpr int kRefinement = 3;  // pixels that refinement may move, and their neighbours
+    // Pixels by which refinement may move the window, and their neighbours.
+    constexpr int kRefinement = 3;
     const int radius = std::max(window_.half() + kRefinement, RowSearch::kReach);
     return right_valid_.Contains(right_.ToFull(at.cast<double>()),
                                  radius * right_.scale.maxCoeff());
@@ -214,7 +217,7 @@ class OctaveMatcher {
 
 void DropPoorResiduals(std::vector<std::optional<Found>>* matches) {
   constexpr double kAlwaysGood = 3;  // grey levels
-  constexpr double kPoor = 4;        // times the median
+  constexpr double kPoor = 4;        // factor on the median
   std::vector<double> residuals;
   for (const std::optional<Found>& match : *matches) {
     if (match) residuals.push_back(match->residual);

@@ -18,12 +18,13 @@ namespace plumbline {
 // A 256-bit binary descriptor: ORB for points, LBD for lines.
 using Descriptor = std::array<std::uint64_t, 4>;
 
-// The number of bits in which two descriptors differ, 0 to 256.
+// Returns the number of bits in which two descriptors differ, 0 to 256.
 inline int HammingDistance(const Descriptor& a, const Descriptor& b) {
   return CountBits(Descriptor{a[0] ^ b[0], a[1] ^ b[1], a[2] ^ b[2], a[3] ^ b[3]});
 }
 
-// A corner in the rectified image. Position in pixels of the full-size image whatever the octave.
+// A corner in the rectified image. Its position is in pixels of the full-size image in every
+// octave.
 struct PointFeature {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double sigma_px = 1;  // standard deviation of each coordinate (grows with the octave)
@@ -33,9 +34,9 @@ struct PointFeature {
   Descriptor descriptor{};
 };
 
-// A straight edge in the rectified image, directed so that the brighter side is on its left in
-// image coordinates seen with y down (the same physical edge keeps its direction from image to
-// image).
+// A straight edge in the rectified image. It is directed so that the brighter side is on its left
+// in image coordinates seen with y down, so that a physical edge keeps its direction from image to
+// image.
 struct LineFeature {
   Segment2 segment;
   double sigma_px = 1;  // standard deviation of each end point across the line
@@ -44,10 +45,11 @@ struct LineFeature {
   Descriptor descriptor{};
 };
 
-// The same line in the right image (real, or virtual from a depth image), directed as the left one.
+// A line in the right image (real, or virtual from a depth image), directed as the left line that
+// it belongs to.
 struct RightLine {
   Segment2 segment;
-  double sigma_px = 1;  // of each end point across the line
+  double sigma_px = 1;  // standard deviation of each end point across the line
 };
 
 // Everything measured in one rectified frame. The vectors of one kind have equal length.

@@ -26,7 +26,7 @@ bool ValidRegion::Contains(const Eigen::Vector2d& px, double radius) const {
   }
   if (distance_.empty()) return true;
   // An invalid pixel at chessboard distance d leaves a clear square of half-width d - 1/2 around
-  // the pixel centre; the rounding of the position takes up to another 1/2.
+  // the pixel centre. Rounding the position takes up to another 1/2.
   const int x = static_cast<int>(std::lround(px.x()));
   const int y = static_cast<int>(std::lround(px.y()));
   const int distance = distance_.at(x, y);

@@ -17,7 +17,7 @@ struct View {
   std::size_t feature = 0;
 };
 
-// The newest observations whose keyframes are in the map, oldest first.
+// The newest observations whose keyframes are in the map, the oldest of them first.
 class NewestViews {
  public:
   NewestViews(const IdTable<KeyFrameId, KeyFrame>& keyframes, const Observations& observations) {
@@ -33,7 +33,7 @@ class NewestViews {
   std::span<const View> views() const { return std::span(views_).subspan(begin_); }
 
  private:
-  std::array<View, kMaxObservations> views_;  // from begin_ on
+  std::array<View, kMaxObservations> views_;  // used from begin_ on
   std::size_t begin_ = kMaxObservations;
 };
 
@@ -47,7 +47,7 @@ Eigen::Vector3d MeanViewDirection(std::span<const View> views, const Eigen::Vect
   return sum.normalized();
 }
 
-// `descriptor_of` gives that of a view.
+// Returns the most typical descriptor of the views. `descriptor_of` returns that of a view.
 template <class DescriptorOf>
 const Descriptor& MostTypical(std::span<const View> views, const DescriptorOf& descriptor_of) {
   const std::size_t count = views.size();

@@ -8,11 +8,11 @@
 
 namespace plumbline {
 
-// Recomputes what a landmark looks like from its observations: the descriptor with the least median
-// Hamming distance to the others (ties: the oldest keyframe's), the mean viewing direction, and for
-// points the distance and octave of the newest observation, from which the octave at any other
-// distance follows. Cost O(n^2) in the number of observations, at most the newest 12 of which
-// count.
+// Recomputes from its observations what a landmark looks like. The descriptor is the one with the
+// least median Hamming distance to the others (ties: the oldest keyframe's), the viewing direction
+// is the mean. Points also get distance and octave of the newest observation, from which the octave
+// at any other distance follows. Only the newest 12 observations count. Cost: O(n^2) in their
+// number.
 void RefreshAppearance(const IdTable<KeyFrameId, KeyFrame>& keyframes, MapPoint& point);
 void RefreshAppearance(const IdTable<KeyFrameId, KeyFrame>& keyframes, MapLine& line);
 

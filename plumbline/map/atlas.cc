@@ -70,7 +70,7 @@ void Atlas::SetHistory(const History& history) {
   joined_ = history.joined;
   next_map_ = history.next_map;
   for (const auto& [gone, kept] : joined_) {
-    // The older map stays: going from one to the next ends.
+    // The older map is always the one that stays, so that following the joins comes to an end.
     PLUMBLINE_CHECK(kept < gone && Find(gone) == nullptr, "a map that took in an older one");
     PLUMBLINE_CHECK(Find(Current(gone)) != nullptr, "a map without place");
   }

@@ -11,40 +11,41 @@
 namespace plumbline {
 
 // The maps of one system. Keyframes and landmarks have ids that no other map of the atlas uses, so
-// that maps can be joined without renaming anything; ids ascend in the order of creation. At most
+// that maps can be joined without renaming anything. Ids ascend in the order of creation. At most
 // one map grows at a time, the active one.
 class Atlas {
  public:
   const std::map<MapId, Map>& maps() const { return maps_; }
   bool empty() const { return maps_.empty(); }
-  // nullptr where there is none.
+  // Returns nullptr where there is no such map.
   const Map* Find(MapId id) const;
   Map* Find(MapId id);
 
-  // The map that grows; invalid, or a BugError, before the first.
+  // The map that grows. Before the first map its id is invalid, and asking for the map throws
+  // BugError.
   MapId active_id() const { return active_; }
   const Map& active() const;
   Map& active();
 
   // Opens an empty map and makes it the active one.
   Map& Start();
-  // Goes on with a map of the atlas (BugError where there is none).
+  // Makes a map of the atlas the active one (BugError where there is none of this id).
   Map& Activate(MapId id);
-  // Takes in a map as it is, under its own id, without making it active: one that was saved. No map
-  // of this id may be there (BugError).
+  // Adds a map as it is, under its own id, without making it active, for instance a saved one. The
+  // atlas must have no map of this id (BugError).
   void Adopt(Map map);
 
-  // Makes one map of two (Map::Absorb): `kept` takes in `gone`, which leaves the atlas, and becomes
-  // the active map if `gone` was. BugError where one of them is not there, or `kept` is not the
-  // older.
+  // Makes one map of two (Map::Absorb). `kept` takes in `gone`, which leaves the atlas, and becomes
+  // the active map if `gone` was. Throws BugError where one of them is missing, or `kept` is not
+  // the older one.
   Map& Join(MapId kept, MapId gone, const Similarity3& kept_from_gone);
-  // The map that `id` is part of today: itself, or the one that took it in.
+  // Returns the map that `id` is part of today: itself, or the map that took it in.
   MapId Current(MapId id) const;
-  // Maps that were taken in, and by which.
+  // The maps that were taken in, each with the map that took it in.
   const std::map<MapId, MapId>& joined() const { return joined_; }
 
-  // What is not to be seen from the maps that there are: those that were taken in, and the id of
-  // the next one. For an atlas that goes on as another one would.
+  // What the present maps do not show: which maps were taken in, and the id of the next map. An
+  // atlas needs it to go on as another one would.
   struct History {
     std::map<MapId, MapId> joined;
     MapId next_map{0};
@@ -55,10 +56,10 @@ class Atlas {
     }
   };
   History history() const { return {joined_, next_map_}; }
-  // BugError where a map would stand for one that is not there.
+  // Throws BugError where a map would be part of one that the atlas does not have.
   void SetHistory(const History& history);
 
-  // The first id that no keyframe of any map has had.
+  // Returns the first id that no keyframe of any map has had.
   KeyFrameId NextKeyFrameId() const;
 
  private:

@@ -65,13 +65,13 @@ void Transfer(Archive& archive, T& score) {
   TransferAll(archive, score.visible, score.found);
 }
 
-// A frame without its features and matches.
+// Transfers a frame without its features and matches.
 template <class Archive, Like<Frame> T>
 void TransferPlace(Archive& archive, T& frame) {
   TransferAll(archive, frame.id, frame.stamp_ns, frame.cam_from_world);
 }
 
-// A keyframe of a map without its features, and without its matches, which follow from the
+// Transfers a keyframe of a map without its features and matches. The matches follow from the
 // observations of the landmarks.
 template <class Archive, Like<KeyFrame> T>
 void TransferPlace(Archive& archive, T& k) {
@@ -79,11 +79,11 @@ void TransferPlace(Archive& archive, T& k) {
   TransferPlace(archive, k.frame);
 }
 
-// Lists of landmarks are lists of pointers here, to what is to be written or filled in.
+// A list of pointers to the landmarks that are to be written or filled in.
 template <class Landmark>
 using LandmarkList = std::vector<Landmark*>;
 
-// Numbers of a vector with three of them for each item.
+// Transfers vectors of three numbers, one for each item.
 template <class Archive, class Items, class Get>
 void TransferVectors(Archive& archive, Items& items, const Get& get) {
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -92,8 +92,9 @@ void TransferVectors(Archive& archive, Items& items, const Get& get) {
   }
 }
 
-// How many each landmark has; then the keyframes, each by its distance from the one before (the
-// first: from the one that made the landmark), and the features.
+// Transfers observations: first their number for each landmark, then the keyframes, each as the
+// difference to the one before (the first: to the keyframe that made the landmark), then the
+// features.
 template <class Archive, class Landmark>
 void TransferObservations(Archive& archive, LandmarkList<Landmark>& landmarks) {
   std::vector<std::int32_t> counts;
@@ -123,7 +124,7 @@ void TransferObservations(Archive& archive, LandmarkList<Landmark>& landmarks) {
     };
     std::size_t next = 0;
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      // Wraps around instead of overflowing where the numbers are wild.
+      // Unsigned numbers wrap around instead of overflowing where a file has wild numbers.
       auto id = static_cast<std::uint64_t>(landmarks[i]->created_by.value);
       for (std::int32_t k = 0; k < counts[i]; ++k) {
         if (next == total) fail();
@@ -138,9 +139,10 @@ void TransferObservations(Archive& archive, LandmarkList<Landmark>& landmarks) {
   }
 }
 
-// The descriptor of a landmark is that of one of the features that show it, most often: then the
-// place of that observation is kept in place of it. `descriptor_of(keyframe, feature)` gives the
-// descriptor of a feature, null where there is no such feature.
+// Transfers the descriptors of landmarks. Most often the descriptor is that of one of the features
+// that show the landmark; then the index of that observation is kept instead.
+// `descriptor_of(keyframe, feature)` returns the descriptor of a feature, null where there is no
+// such feature.
 template <class Archive, class Landmark, class DescriptorOf>
 void TransferLandmarkDescriptors(Archive& archive,
                                  LandmarkList<Landmark>& landmarks,
@@ -185,7 +187,7 @@ void TransferLandmarkDescriptors(Archive& archive,
       archive, others, [](auto* landmark) -> auto& { return landmark->descriptor; });
 }
 
-// What points and lines have in common: at the end, since it needs the observations.
+// Transfers what points and lines have in common. It comes last, since it needs the observations.
 template <class Archive, class Landmark, class DescriptorOf>
 void TransferLandmarks(Archive& archive,
                        LandmarkList<Landmark>& landmarks,
@@ -229,7 +231,7 @@ inline bool IsSymmetric(const Eigen::Matrix4d& matrix) {
   return true;
 }
 
-// Information is symmetric, most often to the last bit: then the upper half is kept alone.
+// Information is symmetric, most often to the last bit. Only its upper half is kept then.
 template <class Archive, Like<MapLine> Line, class DescriptorOf>
 void TransferAllOf(Archive& archive, LandmarkList<Line>& lines, const DescriptorOf& descriptor_of) {
   TransferVectors(

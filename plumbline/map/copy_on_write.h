@@ -7,11 +7,11 @@
 
 namespace plumbline {
 
-// A value, or none, that copies share until one of them is to change it, which then gets a value of
-// its own. A copy costs as much as a pointer.
+// A value, or none, that copies share until one of them is to change it. That copy then gets a
+// value of its own. A copy costs as much as a pointer.
 //
-// Different copies may be used in different threads at once: what is shared is only read. One copy
-// is for one thread, as a plain value would be.
+// Different copies may be used in different threads at once, since a shared value is only read. One
+// copy is for one thread, like a plain value.
 template <class T>
 class CopyOnWrite {
  public:
@@ -35,10 +35,10 @@ class CopyOnWrite {
   const T& operator*() const { return shared_->value; }
   const T* operator->() const { return &shared_->value; }
 
-  // The value, to be changed, until the next copy is made; where others have it, too, a copy of it
-  // takes its place here.
+  // Returns the value for changes, until the next copy is made. If others share the value, this one
+  // is given a copy first.
   T& Own() {
-    // What those have read that gave it up comes before what is written now.
+    // The acquire puts the reads of those that gave the value up before the writes to come.
     if (shared_->owners.load(std::memory_order_acquire) != 1) *this = CopyOnWrite(shared_->value);
     return shared_->value;
   }

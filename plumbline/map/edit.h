@@ -14,16 +14,17 @@
 
 namespace plumbline {
 
-// The changes a map can undergo. Each algorithm reads a Map and returns an Edit; Map::Apply is the
+// The changes that a map can undergo. Algorithms read a Map and return an Edit; Map::Apply is the
 // one place where a map changes.
 namespace edit {
 
-// The keyframe with its matches; matches of landmarks that were merged or removed meanwhile follow
-// the merge or are dropped.
+// Adds a keyframe with its matches. Matches with landmarks that were merged meanwhile follow the
+// merge; those with landmarks that were removed are dropped.
 struct AddKeyFrame {
   KeyFrame keyframe;
 };
-// Its frames from then on hang on the parent with the relative pose at the time of the removal.
+// Removes a keyframe. Frames that refer to it refer to its parent from then on, with the relative
+// pose at the time of the removal.
 struct RemoveKeyFrame {
   KeyFrameId id;
 };
@@ -31,31 +32,31 @@ struct SetPose {
   KeyFrameId id;
   Rigid3 cam_from_world;
 };
-// Moves keyframes, each by a similarity of its own (new from old world), and all that hangs on
-// them: a landmark goes with the newest keyframe that shows it; removed keyframes, and frames whose
-// pose is kept relative to a keyframe, follow by themselves (Placement). Keyframes that are not
-// named stay. Where keyframes that see the same move alike, no reprojection changes. Scales other
-// than 1 are for maps of a single camera: disparities do not change with them.
+// Moves keyframes, each by a similarity of its own (new from old world), and all that belongs to
+// them. A landmark moves with the newest keyframe that shows it. Removed keyframes, and frames
+// whose pose is kept relative to a keyframe, follow by themselves (Placement). Keyframes that are
+// not named stay. Where keyframes that see the same landmarks move alike, no reprojection changes.
+// Scales other than 1 are for maps of a single camera, since disparities do not change with them.
 struct MoveKeyFrames {
   std::map<KeyFrameId, Similarity3> new_from_old;
 };
 
-// What corrects the disparities of all keyframes, those of later ones too.
+// Sets the correction of the disparities of all keyframes, later ones included.
 struct CorrectStereo {
   StereoCorrection correction;
-  // Features of keyframes of the map that have it already (WithCorrection), by id: those of others
-  // are made when the edit is applied.
+  // Features of keyframes of the map that have the correction already (WithCorrection). Those of
+  // other keyframes are computed when the edit is applied.
   std::vector<std::pair<KeyFrameId, std::shared_ptr<const IndexedFeatures>>> ready = {};
 };
 
-// Gives a keyframe features in place of those that it has: the same ones in the same order, some of
-// them at places that are known better. The map's stereo correction is applied to them.
+// Replaces the features of a keyframe by the same features in the same order, of which some are at
+// places that are known better. The map's stereo correction is applied to them.
 struct MoveFeatures {
   KeyFrameId id;
   std::shared_ptr<const IndexedFeatures> indexed;
 };
 
-// The landmark and its observations.
+// Adds a landmark with its observations.
 struct AddPoint {
   MapPoint point;
 };
@@ -97,14 +98,16 @@ struct RemoveLineObservation {
   LineId id;
   KeyFrameId keyframe;
 };
-// The observations of `gone` pass to `kept`, where the keyframe does not show `kept` already.
+// Merges two landmarks: observations of `gone` become observations of `kept`, where the keyframe
+// does not show `kept` already.
 struct MergePoints {
   PointId kept, gone;
 };
 struct MergeLines {
   LineId kept, gone;
 };
-// New appearance: descriptor, viewing direction and reference scale from the observations.
+// Recomputes the appearance from the observations: descriptor, viewing direction and reference
+// scale.
 struct RefreshPoint {
   PointId id;
 };
@@ -114,7 +117,7 @@ struct RefreshLine {
 struct ScorePoint {
   PointId id;
   int visible = 0;
-  int found = 0;  // both are added to the score
+  int found = 0;  // both numbers are added to the score
 };
 struct ScoreLine {
   LineId id;

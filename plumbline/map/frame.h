@@ -16,33 +16,35 @@
 
 namespace plumbline {
 
-// The features of one frame with their index by image cell. Never changed once made, so frames,
-// keyframes and snapshots share it.
+// The features of one frame with their index by image cell. They are never changed once made, so
+// that frames, keyframes and snapshots share them.
 struct IndexedFeatures {
   Features features;
   PointGrid point_grid;
-  StereoCorrection correction = {};  // that the disparities and right lines have
+  StereoCorrection correction = {};  // correction that disparities and right lines have
 };
 
-// The features with another correction; the same where it is the one they have.
+// Returns the features with another correction; the same object where they have it already.
 std::shared_ptr<const IndexedFeatures> WithCorrection(
     const std::shared_ptr<const IndexedFeatures>& indexed, const StereoCorrection& correction);
 
-// The features with the places of their lines in the right image, as measured (FindRightLines).
+// Returns the features with the places of their lines in the right image, as measured
+// (FindRightLines).
 std::shared_ptr<const IndexedFeatures> WithRightLines(
     const std::shared_ptr<const IndexedFeatures>& indexed,
     std::vector<std::optional<RightLine>> measured);
 
-// Measured features with their index, for images of this size, given a correction.
+// Returns measured features with a correction and their index, for images of the camera's size.
 std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
                                                      Features measured,
                                                      const StereoCorrection& correction = {});
 
-// The features as they were measured, without the correction. Exact for what IndexFeatures and
-// WithCorrection made of features in single precision (RoundToSinglePrecision).
+// Returns the features as they were measured, without the correction. The result is exact for what
+// IndexFeatures and WithCorrection made of features in single precision (RoundToSinglePrecision).
 Features MeasuredFeatures(const IndexedFeatures& indexed);
 
-// A frame with a pose and its matches: for each feature the landmark it shows, invalid id for none.
+// A frame with a pose and its matches: the landmark that each feature shows, an invalid id for
+// none.
 struct Frame {
   FrameId id;
   std::int64_t stamp_ns = 0;
@@ -54,17 +56,18 @@ struct Frame {
   const Features& features() const { return indexed->features; }
 };
 
-// A frame kept in the map. Its features and matches are those of the frame it was made from; the
-// matches grow and shrink with the map.
+// A frame that is kept in the map. Its features are those of the frame it was made from; its
+// matches change with the map.
 struct KeyFrame {
   KeyFrameId id;
   KeyFrameId parent;  // the keyframe it was tracked against; invalid for the first
   Frame frame;
-  // How often a length around the keyframe that was 1 when it came into the map is 1 today: the
+  // The present length of what had the length 1 around the keyframe when it came into the map: the
   // product of the scales of all motions it took part in (edit::MoveKeyFrames).
   double unit = 1;
-  std::int64_t number = 0;  // how many keyframes the map had taken in before; the map counts
-  SessionId session{0};     // that its frame is of
+  // Number of keyframes that the map had taken in before; the map sets it.
+  std::int64_t number = 0;
+  SessionId session{0};  // session of its frame
 };
 
 }  // namespace plumbline

@@ -12,13 +12,13 @@
 namespace plumbline {
 namespace {
 
-// Keyframes of a file that knows no session are of one without a name.
+// Returns the sessions of an atlas. Files that know no sessions have one without a name.
 std::vector<Session> SessionsOf(const AtlasContext& context) {
   if (!context.sessions.empty()) return context.sessions;
   return {Session()};
 }
 
-// Adds the sessions of another atlas; returns by session of that one which one it is.
+// Adds the sessions of another atlas. Returns for each of its sessions the id that it has now.
 std::vector<SessionId> AddSessions(const std::vector<Session>& added,
                                    std::vector<Session>& sessions) {
   std::vector<SessionId> names;

@@ -7,21 +7,21 @@
 
 namespace plumbline {
 
-// The maps of two saved atlases in one.
+// The maps of two saved atlases in one atlas.
 struct GatheredAtlases {
-  SavedAtlas saved;  // active is the first one's active map
-  MapId second;      // the second one's active map; invalid where it has none
+  SavedAtlas saved;  // its active map is the first atlas's
+  // Active map of the second atlas; invalid where it has none.
+  MapId second;
 };
 
-// Brings the maps of two atlases of the same camera together, side by side: those of the first as
-// they are, those of the second with ids behind them (Renumbered). Sessions that both have, by
-// their ids, are one. The evidence about the stereo pair adds up where it is of one rig and of
-// different sessions, so that none counts twice; else it is that of the first, as camera, options
-// and front end are. O(observations of the second).
+// Puts the maps of two atlases of the same camera side by side. Maps of the first keep their ids,
+// those of the second get ids behind them (Renumbered). A session that both have, by its id,
+// becomes one. The evidence about the stereo pair is added up where it comes from one rig and from
+// different sessions, so that none counts twice; otherwise it is that of the first, as are camera,
+// options and front end. O(observations of the second).
 GatheredAtlases Gather(SavedAtlas first, const SavedAtlas& second);
 
-// After maps of the atlas were joined: what was kept beside the map that is gone goes to the one
-// that took it in.
+// Hands what was kept beside a map that was joined to the map that took it in.
 void SettleJoined(SavedAtlas& saved);
 
 }  // namespace plumbline

@@ -17,25 +17,25 @@
 
 namespace plumbline {
 
-// Entries by ids that are given one after the other: read like a std::map, in the order of the ids,
-// but an id is found without a search. A table of pages of kPage ids each; a page is there while
-// one of its ids is. Memory beside the entries: at most a page for each entry, and a pointer for
-// kPage ids up to the largest there ever was.
+// Entries keyed by ids that are given one after the other. It is read like a std::map, in the order
+// of the ids, but finds an id without a search. It is a table of pages of kPage ids each; a page
+// exists while one of its ids does. Memory beside the entries: at most a page for each entry, and a
+// pointer for every kPage ids up to the largest that was ever used.
 //
-// Copies share pages and entries until one of them changes them (CopyOnWrite): a copy costs a
-// pointer for each page, and may be read in another thread while this one goes on changing. So an
+// Copies share pages and entries until one of them changes them (CopyOnWrite). A copy costs a
+// pointer for each page, and may be read in another thread while this one goes on changing. An
 // entry stays where it is until it is changed after a copy was made.
 //
-// Each page knows when it last changed, so that whoever follows a large table looks at the pages
-// that changed since the last look. A change is an entry that was added, removed, or handed out by
-// a function that is not const, whatever became of it.
+// Each page knows when it last changed, so that those who follow a large table look only at pages
+// that changed since their last look. A change is an entry that was added, removed, or handed out
+// by a function that is not const, whatever became of it.
 template <class Id, class T>
 class IdTable {
  public:
   using Entry = std::pair<const Id, T>;
   static constexpr std::size_t kPage = 64;
 
-  // Goes through the entries by id.
+  // Goes through the entries in the order of their ids.
   class Iterator {
    public:
     using iterator_category = std::bidirectional_iterator_tag;
@@ -72,12 +72,12 @@ class IdTable {
     Iterator(const IdTable* table, std::size_t place) : table_(table), place_(place) {}
 
     const IdTable* table_ = nullptr;
-    std::size_t place_ = 0;  // that of an entry, or kEnd
+    std::size_t place_ = 0;  // place of an entry, or kEnd
   };
   using ReverseIterator = std::reverse_iterator<Iterator>;
 
   IdTable() = default;
-  // The whole copy counts as changed after all changes of the other one. O(pages).
+  // The whole copy counts as changed, later than all changes of the other table. O(pages).
   IdTable(const IdTable& other)
       : pages_(other.pages_),
         size_(other.size_),
@@ -96,20 +96,21 @@ class IdTable {
   Iterator end() const { return {this, kEnd}; }
   ReverseIterator rbegin() const { return ReverseIterator(end()); }
   ReverseIterator rend() const { return ReverseIterator(begin()); }
-  // The entry of an id, or end().
+  // Returns the entry of an id, or end().
   Iterator find(Id id) const { return {this, Find(id) == nullptr ? kEnd : PlaceOf(id)}; }
   bool contains(Id id) const { return Find(id) != nullptr; }
-  // Throws std::out_of_range where there is none.
+  // Throws std::out_of_range where there is no entry of the id.
   const T& at(Id id) const {
     const T* entry = Find(id);
     if (entry == nullptr) throw std::out_of_range("no entry of this id");
     return *entry;
   }
-  // The first entry of an id that is not less, or that is greater.
+  // Returns the first entry with an id not less than this one (lower_bound), or greater
+  // (upper_bound).
   Iterator lower_bound(Id id) const { return {this, NextPlace(id.valid() ? PlaceOf(id) : 0)}; }
   Iterator upper_bound(Id id) const { return {this, NextPlace(id.valid() ? PlaceOf(id) + 1 : 0)}; }
 
-  // nullptr where there is none, also of an id that is not valid. O(1).
+  // Returns nullptr where there is no entry, and for an invalid id. O(1).
   const T* Find(Id id) const {
     if (!id.valid() || PageOf(id) >= pages_.size()) return nullptr;
     const CopyOnWrite<Page>& page = pages_[PageOf(id)];
@@ -117,8 +118,8 @@ class IdTable {
     const CopyOnWrite<Entry>& entry = page->entries[PlaceInPage(id)];
     return entry ? &entry->second : nullptr;
   }
-  // Returns the entry so that it can be changed, or nullptr where there is none. The pointer is
-  // good for changes until the table is copied.
+  // Returns the entry so that it can be changed, or nullptr where there is none. The pointer may be
+  // used for changes until the table is copied.
   T* Find(Id id) {
     if (!contains(id)) return nullptr;
     Page& page = pages_[PageOf(id)].Own();
@@ -126,7 +127,7 @@ class IdTable {
     return &page.entries[PlaceInPage(id)].Own().second;
   }
 
-  // Calls change(id, entry) for all entries, by id.
+  // Calls change(id, entry) for all entries, in the order of their ids.
   template <class Change>
   void ForEach(const Change& change) {
     ++changes_;
@@ -141,7 +142,7 @@ class IdTable {
     }
   }
 
-  // An id that is there already keeps its entry.
+  // Adds an entry; an id that is there already keeps its entry.
   void Insert(Id id, T entry) {
     if (contains(id)) return;
     if (pages_.size() <= PageOf(id)) pages_.resize(PageOf(id) + 1);
@@ -169,15 +170,17 @@ class IdTable {
     page.changed = changes_;
   }
 
-  // How many changes there were.
+  // Returns how many changes there were.
   std::uint64_t changes() const { return changes_; }
-  // Page n has the ids n * kPage to n * kPage + kPage - 1; those from this number on never were.
+  // Returns the number of pages. Page n has the ids n * kPage to n * kPage + kPage - 1; no id of a
+  // later page was ever used.
   std::size_t page_count() const { return pages_.size(); }
-  // The value of changes() after the last change of a page; 0 where none of its ids is there.
+  // Returns the value of changes() after the last change of a page; 0 where none of its ids is
+  // there.
   std::uint64_t PageChanged(std::size_t page) const {
     return page < pages_.size() && pages_[page] ? std::max(pages_[page]->changed, copied_at_) : 0;
   }
-  // Calls take(id, entry) for all of a page, by id.
+  // Calls take(id, entry) for all entries of a page, in the order of their ids.
   template <class Take>
   void ForEachOfPage(std::size_t page, const Take& take) const {
     if (PageChanged(page) == 0) return;
@@ -188,7 +191,7 @@ class IdTable {
     }
   }
 
-  // Pages that are there, for those who want to know what the table takes.
+  // Returns the number of pages that exist, which tells the memory of the table.
   std::size_t pages() const {
     return static_cast<std::size_t>(std::count_if(
         pages_.begin(), pages_.end(), [](const auto& page) { return static_cast<bool>(page); }));
@@ -197,8 +200,9 @@ class IdTable {
  private:
   struct Page {
     std::array<CopyOnWrite<Entry>, kPage> entries;
-    std::uint64_t taken = 0;    // a bit for each entry that is there
-    std::uint64_t changed = 0;  // changes_ after its last change, of the table that changed it
+    std::uint64_t taken = 0;  // one bit for each entry that is there
+    // The counter changes_ after its last change, in the table that changed it.
+    std::uint64_t changed = 0;
   };
 
   static constexpr std::size_t kEnd = std::numeric_limits<std::size_t>::max();
@@ -208,7 +212,7 @@ class IdTable {
   static std::size_t PlaceInPage(Id id) { return PlaceOf(id) % kPage; }
   static std::uint64_t Bit(std::size_t place_in_page) { return std::uint64_t{1} << place_in_page; }
 
-  // The place of the first entry from this place on, or kEnd.
+  // Returns the place of the first entry from this place on, or kEnd.
   std::size_t NextPlace(std::size_t place) const {
     std::uint64_t mask = ~std::uint64_t{0} << (place % kPage);
     for (std::size_t page = place / kPage; page < pages_.size(); ++page) {
@@ -218,7 +222,7 @@ class IdTable {
     }
     return kEnd;
   }
-  // The place of the last entry before this place, where there is one.
+  // Returns the place of the last entry before this place, where there is one.
   std::size_t PlaceBefore(std::size_t place) const {
     std::size_t page = std::min(place / kPage, pages_.size());
     std::uint64_t mask = page < pages_.size() ? Bit(place % kPage) - 1 : 0;
@@ -239,10 +243,10 @@ class IdTable {
     std::swap(copied_at_, other.copied_at_);
   }
 
-  std::vector<CopyOnWrite<Page>> pages_;  // by id; none where none of the ids is there
+  std::vector<CopyOnWrite<Page>> pages_;  // none where no id of the page is there
   std::size_t size_ = 0;
   std::uint64_t changes_ = 0;
-  std::uint64_t copied_at_ = 0;  // changes_ when this became a copy
+  std::uint64_t copied_at_ = 0;  // changes_ at the time this became a copy
 };
 
 }  // namespace plumbline

@@ -9,11 +9,12 @@
 
 namespace plumbline {
 
-// Poses of the left camera as delivered at the keyframes of a map, in the order of time. A
-// trajectory has one pose at a time: of keyframes of one time, which a merged map may have, it has
-// the one with the lowest number.
+// Returns the poses of the left camera as delivered at the keyframes of a map, in order of time. A
+// trajectory has one pose at a time: of several keyframes of one time, which a merged map may have,
+// it has the one with the lowest number.
 //
-//   rectified_from_left  of the camera as delivered to the one that the map's features are in
+//   rectified_from_left  rotation from the camera as delivered to the one in which the map's
+//                        features are
 Trajectory KeyFrameTrajectory(const Map& map, const Eigen::Quaterniond& rectified_from_left);
 
 }  // namespace plumbline

@@ -13,30 +13,31 @@
 
 namespace plumbline {
 
-// What is needed to find a point in an image: its place and its looks.
+// What is needed to find a point in an image: its place and its appearance.
 struct PointModel {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();        // world
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();        // in the world
   Eigen::Vector3d view_direction = Eigen::Vector3d::Zero();  // mean unit vector from the cameras
-  double reference_distance = 0;  // from the camera, at which the point shows in octave
-  int reference_octave = 0;       // reference_octave
-  Descriptor descriptor{};        // the most typical of its observations
+  // Distance from the camera at which the point shows in octave reference_octave.
+  double reference_distance = 0;
+  int reference_octave = 0;  // octave at reference_distance
+  Descriptor descriptor{};   // the most typical descriptor of its observations
 };
 
-// What is needed to find a line in an image. The infinite line is what optimization works on; the
-// interval [start, end] of parameters along it (PluckerLine::PointAt) serves search and display
-// only.
+// What is needed to find a line in an image. Optimization works on the infinite line; the interval
+// [start, end] of parameters along it (PluckerLine::PointAt) serves search and display only.
 struct LineModel {
-  PluckerLine line;  // world; directed with the brighter side as LineFeature says
+  PluckerLine line;  // in the world; directed with the brighter side as LineFeature says
   double start = 0;
   double end = 0;
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // of the orthonormal tangent, poses fixed
+  // Information of the orthonormal tangent, with the poses held.
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   Eigen::Vector3d view_direction = Eigen::Vector3d::Zero();
   Descriptor descriptor{};
 
   Segment3 Interval() const { return {line.PointAt(start), line.PointAt(end)}; }
 };
 
-// How often the tracker expected to see a landmark and how often it did.
+// How often the tracker expected to see a landmark, and how often it saw it.
 struct TrackingScore {
   int visible = 1;
   int found = 1;

@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-// Follows the merges from id to the landmark that stands today.
+// Follows the merges from an id to the landmark that it is part of today.
 template <class LandmarkId, class Landmark>
 LandmarkId Follow(const IdTable<LandmarkId, LandmarkId>& merged,
                   const IdTable<LandmarkId, Landmark>& landmarks,
@@ -54,7 +54,7 @@ KeyFrameId Map::ParentOf(KeyFrameId id) const {
 }
 
 Placement Map::PlaceOf(KeyFrameId id) const {
-  // Up to a keyframe that is in the map: one step, but in maps of older files.
+  // Goes up to a keyframe that is in the map: one step, except in maps of older files.
   std::vector<const RemovedKeyFrame*> chain;
   while (const RemovedKeyFrame* removed = removed_keyframes_.Find(id)) {
     chain.push_back(removed);
@@ -90,7 +90,7 @@ MapRecord Map::Record() const {
           {merged_lines_.begin(), merged_lines_.end()}};
 }
 
-// Carries out single changes. Overloads of Do() are what std::visit dispatches to.
+// Carries out single changes; std::visit calls its overloads of Do().
 struct MapChanger {
   Map& map;
 
@@ -105,8 +105,8 @@ struct MapChanger {
     return Landmarks(id).Find(id);
   }
 
-  // A keyframe shows a landmark with one feature, and a feature shows one landmark: whichever was
-  // there before is let go.
+  // Adds an observation. A keyframe shows a landmark with one feature, and a feature shows one
+  // landmark, so that earlier observations of either are removed.
   template <class LandmarkId>
   void Observe(LandmarkId id, KeyFrameId keyframe_id, int feature) {
     auto* landmark = FindLandmark(id);
@@ -121,7 +121,7 @@ struct MapChanger {
     landmark->observations.emplace(keyframe_id, feature);
   }
 
-  // A landmark without observations leaves the map.
+  // Removes an observation. A landmark without observations leaves the map.
   template <class LandmarkId>
   void Unobserve(LandmarkId id, KeyFrameId keyframe_id) {
     auto* landmark = FindLandmark(id);
@@ -181,7 +181,7 @@ struct MapChanger {
     }
   }
 
-  // Each goes with the newest keyframe that shows it.
+  // Moves each landmark with the newest keyframe that shows it.
   template <class LandmarkId, class Landmark>
   static void MoveLandmarks(IdTable<LandmarkId, Landmark>& landmarks,
                             const edit::MoveKeyFrames& change) {
@@ -191,7 +191,7 @@ struct MapChanger {
     });
   }
 
-  // Matches of the new keyframe become observations of the landmarks as they stand today.
+  // Makes the matches of a new keyframe observations of the landmarks as they are today.
   template <class LandmarkId>
   void ObserveMatches(KeyFrameId keyframe_id, const std::vector<LandmarkId>& matches) {
     for (std::size_t i = 0; i < matches.size(); ++i) {

@@ -18,76 +18,81 @@
 
 namespace plumbline {
 
-// Keyframes, points and lines of one connected world, keyed by id. Read by all, changed by Apply
-// alone. A copy shares with the other map what neither has changed since: it costs some
-// microseconds for a thousand landmarks, and may be read in another thread.
+// Keyframes, points and lines of one connected world, keyed by id. Many read it, only Apply changes
+// it. A copy shares with the other map what neither has changed since. Copying takes some
+// microseconds for a thousand landmarks, and the copy may be read in another thread.
 class Map {
  public:
   explicit Map(MapId id = MapId{0}) : id_(id) {}
 
   MapId id() const { return id_; }
-  // In the order of their ids. The pages of the tables tell when they last changed, so that whoever
-  // shows a large map need not compare all of it.
+  // The tables, in the order of the ids. Their pages tell when they last changed, so that those who
+  // show a large map need not compare all of it.
   const IdTable<KeyFrameId, KeyFrame>& keyframes() const { return keyframes_; }
   const IdTable<PointId, MapPoint>& points() const { return points_; }
   const IdTable<LineId, MapLine>& lines() const { return lines_; }
 
-  // nullptr where there is no such object (any more). As long as the map has not changed.
+  // Returns nullptr where there is no such object (any more). The pointer is valid until the map
+  // changes.
   const KeyFrame* Find(KeyFrameId id) const;
   const MapPoint* Find(PointId id) const;
   const MapLine* Find(LineId id) const;
 
-  // How many merges are remembered, of each kind. Matches that are on their way into the map are
-  // those of the last few keyframes; a merge more than this one and the one of the oldest landmark
-  // is forgotten.
+  // Number of merges of each kind that are remembered. Matches that are on their way into the map
+  // are those of the last few keyframes. When there are more merges, that of the oldest landmark is
+  // forgotten.
   static constexpr std::size_t kMostMerges = std::size_t{1} << 16U;
 
-  // The landmark that `id` is today: itself, what it was merged into, or an invalid id.
+  // Returns the landmark that `id` is today: itself, the one it was merged into, or an invalid id.
   PointId Current(PointId id) const;
   LineId Current(LineId id) const;
 
-  // Place of a keyframe that is or was in the map: a removed one moves with its parent.
+  // Returns the place of a keyframe that is or was in the map: a removed one moves with its parent.
   Placement PlaceOf(KeyFrameId id) const;
   Rigid3 PoseOf(KeyFrameId id) const { return PlaceOf(id).cam_from_world; }
-  // Whether it is or was in the map.
+  // Whether a keyframe is or was in the map.
   bool Knows(KeyFrameId id) const;
-  // KeyFrame::parent, also of a removed keyframe; invalid for one that the map does not know.
+  // Returns KeyFrame::parent, even of a removed keyframe; invalid for one that the map does not
+  // know.
   KeyFrameId ParentOf(KeyFrameId id) const;
-  // KeyFrame::number, also of a removed keyframe.
+  // Returns KeyFrame::number, even of a removed keyframe.
   std::int64_t NumberOf(KeyFrameId id) const;
 
   // Grows with every edit that is applied.
   std::int64_t version() const { return version_; }
 
-  // New landmarks get ids from these on, or higher ones: an atlas gives an id once in all its maps.
+  // Makes new landmarks get at least these ids, since an atlas uses an id only once in all its
+  // maps.
   void ReserveIds(PointId next_point, LineId next_line);
 
-  // Ids for new objects: higher than any used before.
+  // Ids for new objects, higher than any used before.
   KeyFrameId NextKeyFrameId() const { return next_keyframe_; }
   PointId NextPointId() const { return next_point_; }
   LineId NextLineId() const { return next_line_; }
 
-  // The correction that the disparities of all keyframes have.
+  // The correction that is applied to the disparities of all keyframes.
   const StereoCorrection& stereo_correction() const { return stereo_correction_; }
 
-  // What is to be written down beside keyframes and landmarks; a MapBuilder makes the map of it.
+  // Returns what has to be saved beside keyframes and landmarks. A MapBuilder makes the map of all
+  // of it.
   MapRecord Record() const;
 
   // Carries out the changes in order. Changes that name an object that an earlier change removed
   // are skipped.
   void Apply(const MapEdit& edit);
 
-  // Takes in all of another map of the same atlas, which uses none of this map's ids, moved by
-  // `this_from_other` (of the worlds; scale 1 where depth is measured). Its keyframes count as
-  // taken in after those of this map, and their disparities get this map's stereo correction; what
-  // both maps show is there twice until it is fused. O(size of the other map).
+  // Takes in all of another map of the same atlas, which uses none of this map's ids. The other map
+  // is moved by `this_from_other` (from world to world; scale 1 where depth is measured). Its
+  // keyframes count as taken in after those of this map, and their disparities get this map's
+  // stereo correction. Landmarks that both maps have are there twice until they are fused. O(size
+  // of the other map).
   void Absorb(Map other, const Similarity3& this_from_other);
 
   // Throws BugError when observations and matches disagree or a landmark has none.
   void CheckInvariants() const;
 
  private:
-  // One overload for each kind of change; points and lines share the templates behind them.
+  // Has one overload for each kind of change; points and lines share the templates behind them.
   friend struct MapChanger;
   friend class MapBuilder;
 
@@ -102,11 +107,12 @@ class Map {
   IdTable<PointId, MapPoint> points_;
   IdTable<LineId, MapLine> lines_;
   RemovedKeyFrames removed_keyframes_;
-  IdTable<PointId, PointId> merged_points_;  // what is gone, and what it became
+  // key: the landmark that is gone; value: the one it became
+  IdTable<PointId, PointId> merged_points_;
   IdTable<LineId, LineId> merged_lines_;
 };
 
-// Where the points of a map are in the world, in the order of their ids.
+// Returns the places of the points of a map in the world, in the order of their ids.
 std::vector<Eigen::Vector3d> PointPositions(const Map& map);
 
 }  // namespace plumbline

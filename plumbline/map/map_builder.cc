@@ -163,7 +163,8 @@ void MapBuilder::Add(MapLine line) {
   AddLandmark(map_.next_line_, std::move(line), map_.lines_);
 }
 
-// Every keyframe hangs on none, or on one that the map knows, and there is a first one.
+// Checks that every keyframe has no parent or one that the map knows, and that there is a first
+// one.
 void MapBuilder::CheckParents() const {
   std::map<KeyFrameId, KeyFrameId> parents;
   for (const auto& [id, removed] : map_.removed_keyframes_.entries()) {

@@ -9,26 +9,27 @@
 
 namespace plumbline {
 
-// Ids of a map to be built are below this: a map has an index of all of its ids.
+// All ids of a map to be built must be less than this, because a map has an index of all of its
+// ids.
 inline constexpr std::int64_t kMaxBuiltId = std::int64_t{1} << 26;
 
-// Makes a map from what was written down of one: Map::Record, its keyframes, its points, its lines,
-// each kind in the order of the ids. Trusts nothing: throws InputError "<source>: expected a map
-// that agrees with itself, found ..." for what no map can be, so that whatever Finish gives serves
-// all functions of Map. Cost: O(observations) and some hash-free searches.
+// Makes a map from its saved parts: Map::Record, its keyframes, its points, its lines, each kind in
+// the order of the ids. The parts are checked: for what no map can be it throws InputError
+// "<source>: expected a map that agrees with itself, found ...", so that the result of Finish
+// serves all functions of Map. Cost: O(observations) and some searches.
 class MapBuilder {
  public:
-  // `source` names where the map comes from in messages.
+  // `source` names the origin of the map in messages.
   MapBuilder(MapRecord record, std::string source);
 
-  // Matches of the keyframe follow from the observations of the landmarks; those that it has are
-  // cleared. Its features must have the map's stereo correction (BugError).
+  // Adds a keyframe. Its matches are cleared, since they follow from the observations of the
+  // landmarks. Its features must have the map's stereo correction (BugError).
   void Add(KeyFrame keyframe);
-  // After all keyframes that observe them.
+  // Adds a landmark, after all keyframes that observe it.
   void Add(MapPoint point);
   void Add(MapLine line);
 
-  // What was added so far.
+  // The map of all parts that were added so far.
   const Map& map() const { return map_; }
 
   Map Finish();

@@ -11,7 +11,7 @@
 
 namespace plumbline {
 
-// All of a map but its keyframes and landmarks: with these it is the whole map (MapBuilder).
+// All of a map except its keyframes and landmarks. Together they are the whole map (MapBuilder).
 struct MapRecord {
   MapId id{0};
   std::int64_t version = 0;
@@ -21,7 +21,8 @@ struct MapRecord {
   LineId next_line{0};
   StereoCorrection stereo_correction;
   std::map<KeyFrameId, RemovedKeyFrame> removed_keyframes;
-  std::map<PointId, PointId> merged_points;  // what is gone, and what it became
+  // key: the landmark that is gone; value: the one it became
+  std::map<PointId, PointId> merged_points;
   std::map<LineId, LineId> merged_lines;
 };
 

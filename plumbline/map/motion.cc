@@ -9,8 +9,8 @@ namespace {
 
 using Matrix64 = Eigen::Matrix<double, 6, 4>;
 
-// d(moment, direction) / d(tangent) where |direction| = 1: the homogeneous vector of the
-// orthonormal form, divided by the length of its direction.
+// Returns d(moment, direction) / d(tangent) with |direction| = 1, by dividing the homogeneous
+// vector of the orthonormal form by the length of its direction.
 Matrix64 PluckerJacobian(const OrthonormalLine& line) {
   const Eigen::Matrix<double, 6, 1> h = line.Homogeneous();
   const Matrix64 dh = HomogeneousJacobian(line);
@@ -19,7 +19,7 @@ Matrix64 PluckerJacobian(const OrthonormalLine& line) {
   return dh / length - h * dlength / (length * length);
 }
 
-// d(tangent of the moved line) / d(tangent of the line).
+// Returns d(tangent of the moved line) / d(tangent of the line).
 Eigen::Matrix4d TangentJacobian(const Similarity3& s,
                                 const OrthonormalLine& from,
                                 const OrthonormalLine& to) {

@@ -8,22 +8,22 @@
 
 namespace plumbline {
 
-// Moves single parts of a map from one place of its world to another: X_new = new_from_old * X.
-// What moves by the same similarity stays as it is for a camera among it: directions and image
-// positions do not change, depths are multiplied by the scale.
+// Functions that move single parts of a map from one place of its world to another: X_new =
+// new_from_old * X. A camera that moves by the same similarity as what it sees keeps its view:
+// directions and image positions stay, depths are multiplied by the scale.
 
-// The camera keeps its view of all that moves with it.
+// Moves a keyframe, which keeps its view of all that moves with it.
 void Move(const Similarity3& new_from_old, KeyFrame& keyframe);
 
-// Position, viewing direction and reference distance.
+// Moves position, viewing direction and reference distance.
 void Move(const Similarity3& new_from_old, PointModel& point);
 
-// The line, its interval, viewing direction, and the information: that of the orthonormal tangent
-// of the moved line. The tangents are tied to first order by the derivative of (moment, direction),
-// eq. 19, and the similarity, which is linear in them.
+// Moves the line, its interval, viewing direction and information, which is that of the orthonormal
+// tangent of the moved line. To first order the two tangents are related by the derivative of
+// (moment, direction), eq. 19, and by the similarity, which is linear in these.
 void Move(const Similarity3& new_from_old, LineModel& line);
 
-// The line in a world moved by a similarity: eq. 9 with moments multiplied by the scale.
+// Returns the line in a world moved by a similarity: eq. 9 with moments multiplied by the scale.
 PluckerLine Transform(const Similarity3& new_from_old, const PluckerLine& line);
 
 }  // namespace plumbline

@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// The feature that each keyframe shows a landmark with, by keyframe: used like a std::map, but one
+// The feature with which each keyframe shows a landmark. It is used like a std::map, but is one
 // piece of memory, since mapping goes through the observations of thousands of landmarks for every
 // keyframe. Keyframes are added mostly at the end.
 class Observations {
@@ -43,7 +43,7 @@ class Observations {
     return place->second;
   }
 
-  // Keeps the feature of a keyframe that is there already.
+  // Adds an observation; a keyframe that is there already keeps its feature.
   void emplace(KeyFrameId keyframe, int feature) {
     const auto place = LowerBound(keyframe);
     if (place == end() || place->first != keyframe) entries_.insert(place, {keyframe, feature});
@@ -63,7 +63,7 @@ class Observations {
     });
   }
 
-  std::vector<value_type> entries_;  // ascending
+  std::vector<value_type> entries_;  // ordered by keyframe
 };
 
 }  // namespace plumbline

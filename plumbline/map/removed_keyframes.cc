@@ -7,7 +7,7 @@
 namespace plumbline {
 namespace {
 
-// What hung on a keyframe that leaves the map, beside the parent of this one.
+// Returns an entry that referred to a leaving keyframe, relative to the parent of that keyframe.
 RemovedKeyFrame BesideParentOf(const RemovedKeyFrame& leaving, const RemovedKeyFrame& hanging) {
   RemovedKeyFrame moved = hanging;
   moved.parent = leaving.parent;

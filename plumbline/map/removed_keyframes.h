@@ -12,18 +12,18 @@
 
 namespace plumbline {
 
-// A keyframe that left the map, beside a keyframe that stayed: its parent, or what this one hung on
-// when it left itself.
+// A keyframe that left the map, relative to a keyframe that stayed: its parent, or the keyframe to
+// which the parent referred when it left.
 struct RemovedKeyFrame {
   KeyFrameId parent;
   RelativePose from_parent;
-  double unit = 1;  // its own when it left
+  double unit = 1;  // its own unit when it left
   std::int64_t number = 0;
 };
 
-// The keyframes that left a map. Each hangs on one that is in the map: where this one leaves, too,
-// what hangs on it hangs on its parent from then on, so that no chains grow however long the map
-// is used. A keyframe takes about 180 bytes here.
+// The keyframes that left a map. Each refers to one that is in the map. When that one leaves, too,
+// all that refers to it refers to its parent from then on, so that no chains grow however long the
+// map is used. A removed keyframe takes about 180 bytes.
 class RemovedKeyFrames {
  public:
   RemovedKeyFrames() = default;
@@ -31,17 +31,18 @@ class RemovedKeyFrames {
 
   const std::map<KeyFrameId, RemovedKeyFrame>& entries() const { return entries_; }
   bool contains(KeyFrameId id) const { return entries_.contains(id); }
-  // nullptr where it is not one of them.
+  // Returns nullptr where the keyframe was not removed.
   const RemovedKeyFrame* Find(KeyFrameId id) const;
 
-  // The keyframe leaves the map; its parent is in the map. Cost: that of what hangs on it.
+  // Adds a keyframe that leaves the map; its parent must be in the map. Cost: that of the entries
+  // that refer to it.
   void Add(KeyFrameId id, const RemovedKeyFrame& entry);
-  // Those of another map, whose ids are others; their numbers grow by `shift`.
+  // Takes in the entries of another map, which uses other ids; their numbers grow by `shift`.
   void Absorb(RemovedKeyFrames other, std::int64_t shift);
 
  private:
   std::map<KeyFrameId, RemovedKeyFrame> entries_;
-  std::map<KeyFrameId, std::vector<KeyFrameId>> hanging_;  // by parent
+  std::map<KeyFrameId, std::vector<KeyFrameId>> hanging_;  // entries by parent
 };
 
 }  // namespace plumbline

@@ -18,32 +18,32 @@
 
 namespace plumbline {
 
-// What belongs to a map of an atlas without being the map itself.
+// What belongs to a map of an atlas beside the map itself.
 struct MapContext {
   Uuid uuid;
   YoungLandmarks young;
 };
 
-// What the maps of an atlas were made with, and what a run that goes on with them needs beside
-// them.
+// What the maps of an atlas were made with, and what else a run needs to go on with them.
 struct AtlasContext {
-  RectifiedCamera camera;  // that all features were measured with
+  RectifiedCamera camera;  // camera with which all features were measured
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
-  double octave_scale = 1.2;  // of the image pyramid of points
-  // The rig that the evidence speaks of (FingerprintOf(Calibration)); 0: not known. With another
+  double octave_scale = 1.2;  // scale between octaves of the points' image pyramid
+  // The rig from which the evidence comes (FingerprintOf(Calibration)); 0: unknown. With another
   // calibration the evidence is worth nothing; the corrections that maps have stay right.
   std::uint64_t calibration = 0;
   StereoEvidence stereo_evidence;
   FrontEndFingerprint front_end;
-  std::string options_yaml;       // that decided about the results
-  std::vector<Session> sessions;  // by KeyFrame::session
+  std::string options_yaml;       // options that decided about the results
+  std::vector<Session> sessions;  // index: KeyFrame::session
   std::map<MapId, MapContext> maps;
 };
 
 struct SavedAtlas {
   Atlas atlas;
   AtlasContext context;
-  std::uint32_t file_version = 0;  // of the format of the file it was read from; 0: of no file
+  // Version of the format of the file it was read from; 0: not read from a file.
+  std::uint32_t file_version = 0;
 };
 
 }  // namespace plumbline

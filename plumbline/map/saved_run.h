@@ -8,11 +8,12 @@
 
 namespace plumbline {
 
-// A run in the middle: what is needed to go on with the next frame as if it had never stopped.
+// A run in the middle: all that is needed to go on with the next frame as if it had never stopped.
 struct SavedRun {
-  SavedAtlas maps;    // and what they were made with; the options are those of the run
-  std::string state;  // all else, in bytes that the system alone understands
-  std::string input;  // what the frames were, in words of whoever feeds them; "" where not said
+  SavedAtlas maps;    // the maps and what they were made with; the options are those of the run
+  std::string state;  // everything else, in bytes that only the system understands
+  // What the frames were, in words of those who feed them; "" where they said nothing.
+  std::string input;
 };
 
 }  // namespace plumbline

@@ -48,7 +48,7 @@ SnapshotPoint Copy(const MapPoint& p) { return {p, p.id, static_cast<int>(p.obse
 
 SnapshotLine Copy(const MapLine& l) { return {l, l.id, static_cast<int>(l.observations.size())}; }
 
-// Copies each of the landmarks once, by id.
+// Copies each landmark once, in the order of the ids.
 template <class LandmarkId, class Element>
 void CopyAll(const Map& map, std::vector<LandmarkId>& ids, std::vector<Element>& copies) {
   std::sort(ids.begin(), ids.end());

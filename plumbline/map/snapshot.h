@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// What tracking needs to know of a landmark.
+// What tracking needs to know about a landmark.
 struct SnapshotPoint : PointModel {
   PointId id;
   int observation_count = 0;
@@ -23,15 +23,15 @@ struct SnapshotLine : LineModel {
   int observation_count = 0;
 };
 
-// The part of the map around one keyframe as it was at one time. Immutable: the tracker reads it
-// while mapping goes on.
+// The part of the map around one keyframe at one time. It is immutable: the tracker reads it while
+// mapping goes on.
 struct MapSnapshot {
   MapId map;
   KeyFrameId centre;
-  StereoCorrection stereo_correction;           // of disparities
-  std::map<KeyFrameId, Rigid3> cam_from_world;  // keyframes of the window
-  // Places of the centre and of those that snapshots before were taken around: what the tracker's
-  // last pose may hang on, also where the keyframe left the map meanwhile.
+  StereoCorrection stereo_correction;           // correction of the disparities
+  std::map<KeyFrameId, Rigid3> cam_from_world;  // poses of the keyframes of the window
+  // Places of the centre and of the centres of earlier snapshots. The tracker's last pose may refer
+  // to one of these, even where the keyframe has left the map meanwhile.
   std::map<KeyFrameId, Placement> places;
   std::shared_ptr<const KeyFrame> reference;  // the centre, for matching by appearance
   std::vector<SnapshotPoint> points;          // sorted by id
@@ -42,12 +42,12 @@ struct MapSnapshot {
   const SnapshotLine* Find(LineId id) const;
 };
 
-// Keyframes whose landmarks a frame is tracked against.
+// Largest number of keyframes whose landmarks a frame is tracked against.
 inline constexpr int kSnapshotKeyFrames = 40;
 
 // Copies the landmarks seen by `centre`, by its covisible keyframes and by their closest
 // neighbours, at most max_keyframes keyframes in all. `earlier` are keyframes that are or were in
-// the map, whose places the tracker may ask for. Order of a megabyte.
+// the map, and whose places the tracker may ask for. The result takes about a megabyte.
 std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
                                                 KeyFrameId centre,
                                                 int max_keyframes = kSnapshotKeyFrames,

@@ -15,15 +15,15 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of frames and snapshots as the state of a run has them
-// (StateWriter, StateReader). What is read may be used: lists that go together have one length,
-// what is searched is sorted.
+// Transfer (base/byte_format.h) of frames and snapshots as part of the state of a run (StateWriter,
+// StateReader). What is read can be used safely: lists that belong together have one length, and
+// lists that are searched are sorted.
 
 [[noreturn]] inline void FailState(const StateReader& archive, const std::string& what) {
   throw InputError(archive.source() + ": expected a state that agrees with itself, found " + what);
 }
 
-// Features as they were measured, and the correction that they have.
+// Transfers features as they were measured, and the correction that they have.
 template <class Archive, Like<IndexedFeatures> T>
 void Transfer(Archive& archive, T& indexed) {
   if constexpr (Archive::kReading) {
@@ -64,7 +64,7 @@ void Transfer(Archive& archive, T& l) {
   TransferAll(archive, l.line, l.start, l.end, l.information, l.view_direction, l.descriptor);
 }
 
-// The part of a landmark that is a model, const as the landmark is.
+// Returns the part of a landmark that is a model, const if the landmark is.
 template <class Model, class Landmark>
 auto& ModelOf(Landmark& landmark) {
   return static_cast<std::conditional_t<std::is_const_v<Landmark>, const Model, Model>&>(landmark);

@@ -17,16 +17,16 @@
 
 namespace plumbline {
 
-// The state of a run as bytes (base/byte_format.h): many parts of it share what never changes,
-// features, images, snapshots. Each is written where it is met first, later a number stands for it,
-// and the parts that are read share it again.
+// Writes the state of a run as bytes (base/byte_format.h). Many parts of it share objects that
+// never change: features, images, snapshots. Each object is written where it is met first; later a
+// number stands for it, so that the parts share it again after reading.
 class StateWriter : public ByteWriter {
  public:
   struct Place {
-    std::uint64_t number = 0;  // in the order of meeting, from 1 on; 0: there is no object
+    std::uint64_t number = 0;  // order in which objects are met, from 1 on; 0: no object
     bool is_new = false;
   };
-  // The object must live as long as the writer.
+  // Returns the number of an object, which must live as long as the writer.
   Place PlaceOf(const void* object) {
     if (object == nullptr) return {};
     const auto [entry, is_new] = numbers_.try_emplace(object, numbers_.size() + 1);
@@ -39,7 +39,7 @@ class StateWriter : public ByteWriter {
 
 class StateReader : public ByteReader {
  public:
-  // The camera is that of all features, whose index is made anew.
+  // `camera` is the one with which all features were measured; their index is computed anew.
   StateReader(std::span<const std::uint8_t> bytes,
               std::string source,
               const RectifiedCamera& camera)
@@ -47,7 +47,8 @@ class StateReader : public ByteReader {
 
   const RectifiedCamera& camera() const { return camera_; }
 
-  // Whether this is the number of an object that comes next; then it has its place from now on.
+  // Whether this number stands for an object that follows now. If so, the object has its number
+  // from now on.
   bool Begins(std::uint64_t number) {
     if (number != objects_.size() + 1) return false;
     objects_.emplace_back();
@@ -57,7 +58,7 @@ class StateReader : public ByteReader {
   void Keep(std::uint64_t number, std::shared_ptr<const T> object) {
     objects_[static_cast<std::size_t>(number) - 1] = {&typeid(T), std::move(object)};
   }
-  // InputError for a number of none, or of an object of another kind.
+  // Throws InputError for a number of no object, or of an object of another kind.
   template <class T>
   std::shared_ptr<const T> Known(std::uint64_t number) const {
     if (number == 0) return nullptr;

@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// Landmarks too young to be trusted. Some may have left the map.
+// Landmarks that are too young to be trusted. Some may have left the map.
 struct YoungLandmarks {
   std::vector<PointId> points;
   std::vector<LineId> lines;
