@@ -18,7 +18,7 @@ std::string EncodeBase64(std::string_view bytes) {
       group = group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      // n bytes fill n + 1 digits.
+      // n bytes fill n + 1 digits of a group of four.
       const bool filled = i + k <= bytes.size();
       text += filled ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
     }

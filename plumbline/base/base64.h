@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-// The bytes in base64 (RFC 4648, with padding). O(n).
+// Returns the bytes in base64 (RFC 4648, with padding). O(n).
 std::string EncodeBase64(std::string_view bytes);
 
 }  // namespace plumbline

@@ -22,20 +22,20 @@
 
 namespace plumbline {
 
-// How values become bytes and come back, each exactly. For every type there is one
+// How values become bytes and come back, each exactly. For every type there is one function
 //
 //   template <class Archive, Like<Features> T>
 //   void Transfer(Archive& archive, T& value);
 //
 // for both directions: with a ByteWriter it writes a value, which may be const, with a ByteReader
-// it reads into a default one. Those of other modules stand in their byte_format.h; they find each
-// other by the namespace of the archive. Changing one changes every format made of it.
+// it reads into a default one. Those of other modules are in their byte_format.h; the namespace of
+// the archive lets them find each other. A change of one changes every format made of it.
 
 // T, const or not.
 template <class T, class Plain>
 concept Like = std::same_as<std::remove_const_t<T>, Plain>;
 
-// Numbers that are not finite are refused when they are read: nothing that is kept has any.
+// Numbers that are not finite are refused when they are read, since nothing that is kept has any.
 template <class Archive, StreamedNumber T>
 void Transfer(Archive& archive, T& value) {
   archive(value);
@@ -53,8 +53,8 @@ void TransferAll(Archive& archive, Fields&... fields) {
   (Transfer(archive, fields), ...);
 }
 
-// The number of items of a list. Every item takes a byte or more, so that a damaged number cannot
-// ask for more memory than a multiple of what the file holds.
+// Transfers the number of items of a list. Every item takes a byte or more, so that a damaged
+// number cannot ask for more memory than a multiple of what the file holds.
 template <class Archive>
 std::size_t TransferCount(Archive& archive, std::size_t count, std::size_t bytes_per_item = 1) {
   auto stored = static_cast<std::uint64_t>(count);
@@ -112,7 +112,8 @@ requires(Archive::kReading) void Transfer(Archive& archive, std::optional<T>& it
   archive(present);
   item.reset();
   if (present == 0) return;
-  // Not emplace(): clang 14 takes a nested class with values of its own for one without a default.
+  // Not emplace(): clang 14 takes a nested class with default member values for one without a
+  // default constructor.
   T value = T();
   Transfer(archive, value);
   item = std::move(value);
@@ -134,7 +135,7 @@ requires(!Archive::kReading) void Transfer(Archive& archive, const std::vector<T
   for (const T& item : items) Transfer(archive, item);
 }
 
-// Keys ascend; one that does not is refused.
+// Keys must ascend; a map whose keys do not is refused.
 template <class Archive, class Key, class T>
 requires(Archive::kReading) void Transfer(Archive& archive, std::map<Key, T>& items) {
   const std::size_t count = TransferCount(archive, 0);
@@ -164,7 +165,7 @@ requires(!Archive::kReading) void Transfer(Archive& archive, const std::deque<T>
   for (const T& item : items) Transfer(archive, item);
 }
 
-// Items ascend; one that does not is refused.
+// Items must ascend; a set whose items do not is refused.
 template <class Archive, class T>
 requires(Archive::kReading) void Transfer(Archive& archive, std::set<T>& items) {
   const std::size_t count = TransferCount(archive, 0);
@@ -183,7 +184,7 @@ requires(!Archive::kReading) void Transfer(Archive& archive, const std::set<T>& 
   for (const T& item : items) Transfer(archive, item);
 }
 
-// An enumerator that has a name (EnumNames); any other number is refused when it is read.
+// Transfers an enumerator that has a name (EnumNames). Any other number is refused when it is read.
 template <class Archive, class T>
 requires(std::is_enum_v<T>) void Transfer(Archive& archive, T& value) {
   using Plain = std::remove_const_t<T>;
@@ -200,12 +201,13 @@ requires(std::is_enum_v<T>) void Transfer(Archive& archive, T& value) {
   }
 }
 
-// A class that shows all that it is to be written and read by, its own business otherwise:
+// Transfers a class that shows all that is to be written and read by
 //
 //   template <class Self, class Visitor>
 //   static void VisitState(Self& self, const Visitor& visit) { visit(self.first_, self.second_); }
 //
-// Where it has a member `bool IsConsistent() const` as well, what is read and is not is refused.
+// Where the class also has a member `bool IsConsistent() const`, what was read is refused if it
+// returns false.
 struct IgnoreFields {
   template <class... Fields>
   void operator()(Fields&...) const {}
@@ -226,16 +228,16 @@ void Transfer(Archive& archive, T& object) {
   }
 }
 
-// One number of every item of a list, in as few bytes each as all of them fit into: doubles that
-// are floats in four, whole numbers of small size in one. The bytes of equal weight lie side by
-// side (all lowest ones, all second ones, ...), since they are alike and pack well. `get` gives the
-// number of an item: a reference to an integer (not std::uint64_t) or a double.
+// Transfers one number of every item of a list, in as few bytes each as all of them fit into:
+// doubles that are floats in four, small whole numbers in one. Bytes of equal weight lie side by
+// side (all lowest ones, all second ones, ...), since they are alike and compress well. `get`
+// returns the number of an item: a reference to an integer (not std::uint64_t) or a double.
 template <class Archive, class Items, class Get>
 void TransferColumn(Archive& archive, Items& items, const Get& get);
 
 namespace column {
 
-// A whole number without its sign: small for small magnitudes.
+// Turns a signed number into an unsigned one that is small for small magnitudes.
 inline std::uint64_t Folded(std::int64_t value) {
   return (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63);
 }
@@ -243,8 +245,8 @@ inline std::int64_t Unfolded(std::uint64_t bits) {
   return static_cast<std::int64_t>(bits >> 1U) ^ -static_cast<std::int64_t>(bits & 1U);
 }
 
-// Whether a number in single precision holds the value exactly. Looks at the bits: GCC 12 loses
-// conversions to float and back where it takes two of them together.
+// Whether a number in single precision holds the value exactly. This looks at the bits, since GCC
+// 12 drops conversions to float and back where it takes two of them together.
 inline bool IsFloat(double value) {
   constexpr std::uint64_t kLost = (std::uint64_t{1} << 29U) - 1;
   constexpr std::uint64_t kLeast = 1023 - 126, kMost = 1023 + 127;
@@ -254,7 +256,7 @@ inline bool IsFloat(double value) {
   return zero || ((bits & kLost) == 0 && exponent >= kLeast && exponent <= kMost);
 }
 
-// Bits of each number and the bytes that hold the widest.
+// The bits of each number, and how many bytes hold the widest.
 struct Bits {
   std::vector<std::uint64_t> values;
   std::uint8_t bytes = 1;

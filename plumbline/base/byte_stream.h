@@ -17,8 +17,8 @@ namespace plumbline {
 template <class T>
 concept StreamedNumber = std::is_integral_v<T> || std::is_same_v<T, double>;
 
-// Numbers as bytes, little-endian whatever the machine. A writer and a reader are called alike, so
-// that one function template describes a format for both directions (byte_format.h).
+// Writes numbers as bytes, little-endian on every machine. Writer and reader have the same
+// interface, so that one function template describes a format for both directions (byte_format.h).
 class ByteWriter {
  public:
   static constexpr bool kReading = false;
@@ -29,13 +29,14 @@ class ByteWriter {
     if constexpr (std::is_same_v<T, double>) {
       bits = std::bit_cast<std::uint64_t>(value);
     } else {
-      bits = static_cast<std::uint64_t>(value);  // NOLINT(bugprone-signed-char-misuse): bytes alone
+      // NOLINT(bugprone-signed-char-misuse): only the bytes count
+      bits = static_cast<std::uint64_t>(value);
     }
     for (std::size_t i = 0; i < sizeof(T); ++i)
       bytes_ += static_cast<char>((bits >> (8 * i)) & 255U);
   }
 
-  // `count` bytes to be filled in by the caller, valid until the next call.
+  // Returns `count` bytes to be filled in by the caller, valid until the next call.
   std::span<char> Append(std::size_t count) {
     bytes_.resize(bytes_.size() + count);
     return {bytes_.data() + bytes_.size() - count, count};
@@ -48,7 +49,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-// Throws InputError "<source>: ends early" when there are not enough bytes.
+// Reads numbers. Throws InputError "<source>: ends early" when there are not enough bytes.
 class ByteReader {
  public:
   static constexpr bool kReading = true;
@@ -68,7 +69,7 @@ class ByteReader {
     }
   }
 
-  // The next `count` bytes.
+  // Returns the next `count` bytes.
   std::span<const std::uint8_t> Take(std::size_t count) {
     if (remaining() < count) throw InputError(source_ + ": ends early");
     at_ += count;

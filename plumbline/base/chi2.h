@@ -13,8 +13,9 @@ inline constexpr double kChi2OneDof95 = 3.841;
 inline constexpr double kChi2TwoDof95 = 5.991;
 inline constexpr double kChi2TwoDof99 = 9.21;
 
-// The value that a chi2 variable with `dof` >= 1 degrees of freedom stays below with 95 %. Exact to
-// 1e-3 for dof <= 12, else by the approximation of Wilson and Hilferty (error below 0.1 %).
+// Returns the value that a chi2 variable with `dof` >= 1 degrees of freedom stays below with 95 %.
+// It is exact to 1e-3 for dof <= 12; for others it is the approximation of Wilson and Hilferty
+// (error below 0.1 %).
 inline double Chi2Limit95(int dof) {
   constexpr std::array kLimits{0.0,
                                kChi2OneDof95,

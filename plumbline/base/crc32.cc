@@ -9,7 +9,7 @@ namespace {
 
 using Tables = std::array<std::array<std::uint32_t, 256>, 8>;
 
-// tables[k][b]: the remainder of byte b followed by k zero bytes.
+// tables[k][b] is the remainder of byte b followed by k zero bytes.
 constexpr Tables MakeTables() {
   Tables tables{};
   for (std::uint32_t b = 0; b < 256; ++b) {
@@ -31,7 +31,7 @@ constexpr Tables kTables = MakeTables();
 std::uint32_t Crc32(std::span<const std::uint8_t> bytes, std::uint32_t crc) {
   crc = ~crc;
   std::size_t i = 0;
-  // Eight bytes at a time: each is pushed through as many zero bytes as follow it.
+  // Eight bytes are taken at a time. Each is pushed through as many zero bytes as follow it.
   for (; i + 8 <= bytes.size(); i += 8) {
     const std::uint8_t* p = bytes.data() + i;
     crc = kTables[7][(crc ^ p[0]) & 255U] ^ kTables[6][((crc >> 8) ^ p[1]) & 255U] ^

@@ -17,7 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// An unrounded value: high + low, low below an ulp of high.
+// An unrounded value high + low, with low below an ulp of high.
 struct Pair {
   double high;
   double low;
@@ -27,14 +27,14 @@ constexpr Pair kHalfPi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 constexpr Pair kPi = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 constexpr Pair kTwoPi = {0x1.921fb54442d18p+2, 0x1.1a62633145c07p-52};
 
-// The sum of two numbers without rounding (Knuth 1969).
+// Returns the sum of two numbers without rounding (Knuth 1969).
 Pair Sum(double a, double b) {
   const double sum = a + b;
   const double part = sum - a;
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
-// coefficients[0] + x (coefficients[1] + x (...)).
+// Returns coefficients[0] + x (coefficients[1] + x (...)).
 template <std::size_t N>
 double Polynomial(const std::array<double, N>& coefficients, double x) {
   double sum = coefficients[N - 1];
@@ -42,13 +42,14 @@ double Polynomial(const std::array<double, N>& coefficients, double x) {
   return sum;
 }
 
-// x less the nearest multiple of pi/2, which is the quadrant-th (modulo 4).
+// x minus the nearest multiple of pi/2, which is the quadrant-th (modulo 4).
 struct Reduced {
   int quadrant;
-  Pair angle;  // within pi/4
+  Pair angle;  // between -pi/4 and pi/4
 };
 
-// After Cody and Waite (1980): pi/2 in three parts, whose multiples by `turns` are exact.
+// Reduces as Cody and Waite (1980) do: pi/2 is split into three parts, whose products with `turns`
+// are exact.
 Reduced ReduceSmall(double x) {
   constexpr double kFirst = 0x1.921fb544p+0;  // 33 bits
   constexpr double kSecond = 0x1.0b4611a6p-34;
@@ -62,7 +63,8 @@ Reduced ReduceSmall(double x) {
 Reduced Reduce(double x) {
   constexpr double kMaxSmall = 0x1p19;  // its quadrant has 19 bits
   if (std::abs(x) < kMaxSmall) return ReduceSmall(x);
-  // Whole turns of 2 pi as a double leave an exact remainder; what this misses of 2 pi comes after.
+  // Subtracting whole turns of 2 pi as a double leaves an exact remainder; the error of that 2 pi
+  // is corrected afterwards.
   const double remainder = std::remainder(x, kTwoPi.high);
   const double turns = std::round((x - remainder) / kTwoPi.high);
   const Pair rest = Sum(remainder, -turns * kTwoPi.low);
@@ -71,7 +73,7 @@ Reduced Reduce(double x) {
   return {part.quadrant, Sum(part.angle.high, part.angle.low + rest.low)};
 }
 
-// Taylor series within pi/4.
+// Taylor series for angles within pi/4.
 double SinOf(const Pair& angle) {
   constexpr std::array<double, 8> kSeries = {-1.0 / 6,
                                              1.0 / 120,
@@ -96,18 +98,18 @@ double CosOf(const Pair& angle) {
                                              -1.0 / 6402373705728000};
   const double z = angle.high * angle.high;
   const double sum = 1 - 0.5 * z;
-  // 1 - sum is exact: what 1 - z/2 lost is added to the small terms.
+  // 1 - sum is exact, so that what 1 - z/2 lost can be added to the small terms.
   return sum + (((1 - sum) - 0.5 * z) + (z * z * Polynomial(kSeries, z) - angle.high * angle.low));
 }
 
-// The sine of the angle and `quarters` right angles.
+// Returns the sine of the angle plus `quarters` right angles.
 double SinAfter(const Pair& angle, int quarters) {
   const auto turn = static_cast<unsigned>(quarters) % 4;
   const double value = turn % 2 == 0 ? SinOf(angle) : CosOf(angle);
   return turn < 2 ? value : -value;
 }
 
-// atan(k/8).
+// The values of atan(k/8).
 constexpr std::array<Pair, 9> kAtanOfEighths = {{{0, 0},
                                                  {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
                                                  {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
@@ -118,8 +120,8 @@ constexpr std::array<Pair, 9> kAtanOfEighths = {{{0, 0},
                                                  {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
                                                  {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
 
-// start + sign * atan(small / large), 0 <= small <= large: with c = k/8 the nearest to the ratio,
-// atan(ratio) = atan(c) + atan((small - c large) / (large + c small)).
+// Returns start + sign * atan(small / large) for 0 <= small <= large. With c = k/8 nearest to the
+// ratio, atan(ratio) = atan(c) + atan((small - c large) / (large + c small)).
 double AnglePast(const Pair& start, double sign, double small, double large) {
   constexpr std::array<double, 7> kSeries = {
       -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
@@ -134,13 +136,13 @@ double AnglePast(const Pair& start, double sign, double small, double large) {
   return base.high + (sign * ratio + (sign * cubic + low));
 }
 
-// mantissa 2^exponent, the mantissa within [sqrt(1/2), sqrt(2)].
+// The number mantissa 2^exponent, with the mantissa within [sqrt(1/2), sqrt(2)].
 struct Scaled {
   double mantissa;
   int exponent;
 };
 
-// x > 0, finite.
+// Returns x > 0, which must be finite, in scaled form.
 Scaled Normalized(double x) {
   Scaled result{};
   result.mantissa = std::frexp(x, &result.exponent);  // within [1/2, 1)
@@ -151,9 +153,9 @@ Scaled Normalized(double x) {
   return result;
 }
 
-constexpr Pair kLog2 = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};  // 32 bits and the rest
+constexpr Pair kLog2 = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};  // 32 bits, and the rest
 
-// x 2^exponent; the power is a product of two where it has no double of its own.
+// Returns x 2^exponent. The power is a product of two where no double holds it.
 double ScaledBy(double x, int exponent) {
   const auto power = [](int n) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52U);
@@ -194,7 +196,7 @@ double Atan2(double y, double x) {
   const double large = std::max(across, along);
   if (large == 0 || along == kInfinity) return std::copysign(backwards ? kPi.high : 0, y);
   if (across == kInfinity) return std::copysign(kHalfPi.high, y);
-  // Away from where sums overflow and products lose digits.
+  // The scale keeps away from where sums overflow and products lose digits.
   const double scale = large > 0x1p1000 ? 0x1p-4 : large < 0x1p-900 ? 0x1p100 : 1;
   across *= scale;
   along *= scale;
@@ -236,7 +238,7 @@ double Exp(double x) {
   return ScaledBy(1 + (r + (rest.low + r * r * Polynomial(kSeries, r))), exponent);
 }
 
-// After Kahan: what rounding exp(x) does to the difference, it does to the logarithm as well.
+// After Kahan: rounding exp(x) does the same to the difference and to the logarithm.
 double Expm1(double x) {
   const double power = Exp(x);
   if (power == 1 || std::isinf(power) || std::isnan(power)) return power == 1 ? x : power;
@@ -254,7 +256,7 @@ double Log(double x) {
   if (std::isnan(x) || x < 0) return kNaN;
   if (x == 0) return -kInfinity;
   if (x == kInfinity) return x;
-  // log((1 + s) / (1 - s)) = 2 s + 2/3 s^3 + ..., |s| < 0.172.
+  // The series is log((1 + s) / (1 - s)) = 2 s + 2/3 s^3 + ..., |s| < 0.172.
   constexpr std::array<double, 10> kSeries = {2.0 / 3,
                                               2.0 / 5,
                                               2.0 / 7,
@@ -269,14 +271,14 @@ double Log(double x) {
   const double f = scaled.mantissa - 1;
   const double s = f / (2 + f);
   const double z = s * s;
-  // 2 s = f - s f = f - f^2/2 + s f^2/2: f is exact, the others are small.
+  // 2 s = f - s f = f - f^2/2 + s f^2/2, where f is exact and the other terms are small.
   const double half_square = 0.5 * f * f;
   const double small =
       half_square - (s * (half_square + z * Polynomial(kSeries, z)) + scaled.exponent * kLog2.low);
   return scaled.exponent * kLog2.high - (small - f);
 }
 
-// After Kahan, as Expm1.
+// After Kahan, with the same idea as in Expm1.
 double Log1p(double x) {
   const double sum = 1 + x;
   if (sum == 1 || sum == kInfinity) return x;

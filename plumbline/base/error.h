@@ -22,8 +22,8 @@ class BugError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-// Throws BugError that names file and line of the caller (by the compilers' built-ins, which give
-// what std::source_location would; clang 14 cannot read that header of GCC 12).
+// Throws BugError that names file and line of the caller. These come from the compilers' built-ins,
+// which give what std::source_location would; clang 14 cannot read that header of GCC 12.
 [[noreturn]] inline void FailCheck(std::string_view expression,
                                    std::string_view why,
                                    const char* file = __builtin_FILE(),

@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-// Text as it may stand in the body of an HTML page or in an attribute within quotes.
+// Returns the text in a form that may stand in the body of an HTML page or in a quoted attribute.
 std::string EscapeHtml(std::string_view text);
 
 }  // namespace plumbline

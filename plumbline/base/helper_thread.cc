@@ -11,8 +11,8 @@ namespace plumbline {
 namespace {
 
 // Sends a thread to another processor than the caller's, where the program may use more than one.
-// Linux wakes a thread beside the one that wakes it where it takes the other processors to be busy,
-// which idle ones of a virtual machine seem to be, and moves it some milliseconds later.
+// Linux wakes a thread on the processor of the one that wakes it if the other processors seem busy,
+// which idle ones of a virtual machine do, and moves it some milliseconds later.
 void LeaveProcessorOfCaller(pthread_t thread) {
   cpu_set_t others;
   const int here = sched_getcpu();

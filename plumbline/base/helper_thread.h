@@ -9,9 +9,9 @@
 
 namespace plumbline {
 
-// A thread that helps whoever asks, one caller at a time, and waits in between. What is shared by
-// two threads for every frame is so without a new thread each time, which would have to queue
-// behind whatever runs: a thread that wakes goes first.
+// A thread that helps one caller at a time, and waits in between. Work that two threads share for
+// every frame thus needs no new thread each time. A new thread would have to queue behind all that
+// runs; a thread that wakes goes first.
 class HelperThread {
  public:
   // Throws std::system_error when no thread can be started.
@@ -20,11 +20,12 @@ class HelperThread {
   HelperThread& operator=(const HelperThread&) = delete;
   ~HelperThread();
 
-  // Asks for work(), which may not throw; one call of Finish follows. False, and nothing is asked,
-  // while it helps somebody else. Thread-safe.
+  // Asks for work(), which may not throw; one call of Finish must follow. Returns false, and asks
+  // for nothing, while the thread helps another caller. Thread-safe.
   bool Ask(std::function<void()> work);
-  // Returns when what this caller has asked for is done, or at once, without it, where it has not
-  // begun: on a busy machine a caller that has done all the work itself waits for nothing.
+  // Returns when the work that this caller has asked for is done, or at once, without doing it,
+  // where it has not begun: on a busy machine a caller that has done all the work itself waits for
+  // nothing.
   void Finish();
 
  private:
@@ -35,8 +36,8 @@ class HelperThread {
   bool helping_ = false;
   bool working_ = false;
   bool stop_ = false;
-  std::function<void()> work_;  // what is asked for and has not begun
-  std::thread thread_;          // last, so that it finds the rest
+  std::function<void()> work_;  // work that was asked for and has not begun
+  std::thread thread_;          // declared last, so that it is started when the other members exist
 };
 
 }  // namespace plumbline

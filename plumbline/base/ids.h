@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// A number that names one object of one kind; ids of different kinds do not mix. Ordered, so that
-// containers keyed by id iterate in the same order in every run.
+// A number that names one object of one kind. Ids of different kinds cannot be mixed. They are
+// ordered, so that containers keyed by id iterate in the same order in every run.
 template <class Tag>
 struct Id {
   std::int64_t value = -1;
@@ -24,7 +24,8 @@ using KeyFrameId = Id<struct KeyFrameTag>;  // order of creation
 using PointId = Id<struct PointTag>;
 using LineId = Id<struct LineTag>;
 using MapId = Id<struct MapTag>;
-using SessionId = Id<struct SessionTag>;  // a run of the camera; index into the list of them
+// A run of the camera: the index into the list of sessions.
+using SessionId = Id<struct SessionTag>;
 
 }  // namespace plumbline
 

@@ -6,7 +6,7 @@
 
 namespace plumbline {
 
-// A number that counts from 0, as what containers are asked with.
+// Turns a number that counts from 0 into the type of indices of containers.
 constexpr std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace plumbline

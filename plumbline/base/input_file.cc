@@ -49,7 +49,7 @@ std::string ReadInputFile(const fs::path& path, std::uint64_t largest) {
   if (!fs::is_regular_file(status)) {
     throw InputError(path.string() + ": expected a file, found " + KindOf(path));
   }
-  // Some file systems tell no sizes: what is read counts.
+  // Some file systems tell no sizes, so that the bytes that were read are counted.
   const auto too_large = [&] {
     throw InputError(path.string() + ": expected a file of at most " + Size(largest) +
                      ", found a larger one");

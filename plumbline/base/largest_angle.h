@@ -8,13 +8,14 @@
 
 namespace plumbline {
 
-// The largest of many angles between 0 and pi, each given as the two sides atan2 takes. The angle
-// itself is computed only where it may be the largest: atan2 takes ten times as long as telling.
+// The largest of many angles between 0 and pi, each given by the two arguments of atan2. An angle
+// is computed only where it may be the largest: atan2 takes ten times as long as that test.
 class LargestAngle {
  public:
-  // Whether atan2(across, along) is larger than all before, and than 0. across >= 0.
+  // Adds an angle; returns whether atan2(across, along) is larger than all before, and than 0.
+  // across >= 0.
   bool Add(double across, double along) {
-    // Where two are as good as equal, the rounded angles decide.
+    // Where two angles are nearly equal, the rounded angles decide.
     constexpr double kClearly = 1e-12;
     const double ahead = across * along_, behind = along * across_;
     if (ahead - behind < -kClearly * (std::abs(ahead) + std::abs(behind))) return false;
@@ -30,7 +31,7 @@ class LargestAngle {
 
  private:
   double angle_ = 0;
-  double across_ = 0, along_ = 1;  // of it
+  double across_ = 0, along_ = 1;  // arguments of atan2 for angle_
 };
 
 }  // namespace plumbline

@@ -39,7 +39,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> NearestName(std::string_view name,
                                        std::span<const std::string> candidates) {
-  constexpr std::size_t kLongest = 200;  // no name is; distances to megabytes would take minutes
+  // No name is longer; distances of megabytes would take minutes.
+  constexpr std::size_t kLongest = 200;
   if (name.size() > kLongest) return std::nullopt;
   const std::string_view last = LastPart(name);
   const std::size_t limit = std::max<std::size_t>(2, last.size() / 2);

@@ -10,13 +10,13 @@
 
 namespace plumbline {
 
-// Least number of steps that turn `a` into `b`: a character inserted, deleted or replaced, or two
-// neighbours swapped (no part is changed twice).
+// Returns the least number of steps that turn `a` into `b`. A step inserts, deletes or replaces a
+// character, or swaps two neighbours (no part is changed twice).
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
-// The candidate a user most likely meant by `name`: the one of least edit distance, the first of
-// equals; nullopt when all are too far off to be of help. For dotted names a candidate whose last
-// part is near also counts, so that `seed` finds `slam.seed`.
+// Returns the candidate that a user most likely meant by `name`: the one of least edit distance,
+// the first of equal ones; nullopt when all are too different to be of help. For dotted names a
+// candidate whose last part is near also counts, so that `seed` finds `slam.seed`.
 std::optional<std::string> NearestName(std::string_view name,
                                        std::span<const std::string> candidates);
 

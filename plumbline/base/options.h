@@ -28,7 +28,7 @@ namespace plumbline {
 //     return std::array{std::pair{E::kFirst, "first"}, std::pair{E::kSecond, "second"}};
 //   }
 
-// The name of an enumerator, as EnumNames lists it.
+// Returns the name of an enumerator, as EnumNames lists it.
 template <class Enum>
 std::string NameOf(Enum value) {
   for (const auto& [candidate, name] : EnumNames(std::type_identity<Enum>{})) {
@@ -53,17 +53,18 @@ concept OptionGroup = requires(T& t, FieldProbe probe) {
   VisitFields(probe, t);
 };
 
-// What was an option of a group in earlier versions and is a constant of the code now, so that
-// their files can still be read. Beside the struct stands a function found by ADL:
+// An option of a group in earlier versions that is a constant of the code now. Its row lets files
+// of these versions be read. Beside the struct stands a function found by ADL:
 //
 //   constexpr auto FixedOptions(std::type_identity<LocalBaOptions>) {
 //     return std::array{FixedOption{"initial_lambda", "1e-04"}};
 //   }
 //
-// A constant that changes changes its row.
+// Where a constant changes, its row has to change, too.
 struct FixedOption {
-  std::string_view key;    // in its group; dotted where a group inside it is gone as well
-  std::string_view value;  // as a file of options has it
+  // Key in its group; dotted where a group inside it is gone as well.
+  std::string_view key;
+  std::string_view value;  // value as a file of options has it
 };
 
 template <class T>

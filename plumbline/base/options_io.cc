@@ -32,7 +32,7 @@ std::string Join(const std::vector<std::string>& names) {
   return joined;
 }
 
-// Double-quoted YAML scalar.
+// Returns a double-quoted YAML scalar.
 std::string Quoted(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -52,7 +52,7 @@ bool Bounded(const OptionField& field) {
   return field.range && (!std::isinf(field.range->min) || !std::isinf(field.range->max));
 }
 
-// What is allowed, in words: "one of a | b", "a whole number, 1 to 10".
+// Returns in words what is allowed: "one of a | b", "a whole number, 1 to 10".
 std::string Allowed(const OptionField& field) {
   struct Name {
     std::string operator()(const bool*) const { return "true or false"; }
@@ -82,7 +82,8 @@ bool InRange(const OptionField& field, double value) {
          (!field.range || (field.range->min <= value && value <= field.range->max));
 }
 
-// Writes the value named by a text to its option; false when the text is not allowed there.
+// Writes the value that a text names to its option; returns false when the text is not allowed
+// there.
 struct Store {
   const OptionField& field;
   const std::string& text;
@@ -162,8 +163,8 @@ struct Setting {
   int line;
 };
 
-// Collects the leaves of a YAML map, depth first in the order of the file, with dotted keys. Groups
-// may repeat others by YAML's aliases, even themselves: a limit keeps that from growing without
+// Collects the leaves of a YAML map, depth first in the order of the file, with dotted keys. By
+// YAML's aliases groups may repeat others, even themselves; a limit keeps that from growing without
 // end.
 class Flattener {
  public:
@@ -289,7 +290,7 @@ std::string OptionTable::Dump() const {
 std::string OptionTable::Dump(const std::function<bool(const OptionField&)>& wanted) const {
   std::string out;
   std::size_t group = 0;
-  std::vector<const Group*> open;  // groups that contain the present option and are not written yet
+  std::vector<const Group*> open;  // groups with the present option that are not written yet
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     for (; group < groups_.size() && groups_[group].first_field == i; ++group) {
       open.push_back(&groups_[group]);

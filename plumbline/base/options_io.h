@@ -18,14 +18,14 @@
 
 namespace plumbline {
 
-// An enum option seen as the index of one of its names.
+// An enum option, as the index of one of its names.
 struct EnumField {
   std::vector<std::string> names;
   std::function<std::size_t()> get;
   std::function<void(std::size_t)> set;
 };
 
-// One option: where its value lives and what may be said about it.
+// One option: where its value is, and what describes it.
 struct OptionField {
   using Target =
       std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, EnumField>;
@@ -61,27 +61,28 @@ class OptionTable {
   void LoadFile(const std::filesystem::path& path);
   // Loads options from text; `source` stands for the file name in messages.
   void LoadText(const std::string& text, const std::string& source);
-  // One setting "key=value" of the command line.
+  // Applies one setting "key=value" of the command line.
   void Set(std::string_view assignment);
-  // One setting that somebody else read; messages begin with `where`, such as "room.yaml:7".
+  // Applies one setting that the caller has read; messages begin with `where`, such as
+  // "room.yaml:7".
   void Set(const std::string& key, const std::string& text, const std::string& where);
 
-  // Throws InputError where a number lies outside the range of its option: one that was set in the
-  // struct itself, which nobody checks.
+  // Throws InputError where a number lies outside the range of its option. This finds numbers that
+  // were set in the struct itself, where nothing checks them.
   void CheckRanges() const;
 
-  // A YAML document of all options with help, range and choices as comments. LoadText of it gives
-  // the same values again, to the last bit.
+  // Returns a YAML document of all options with help, range and choices as comments. LoadText of it
+  // gives the same values again, to the last bit.
   std::string Dump() const;
-  // The same of the options that are wanted, with the groups they are in.
+  // Returns such a document of only the wanted options, with the groups they are in.
   std::string Dump(const std::function<bool(const OptionField&)>& wanted) const;
-  // The value of one option as Dump writes it; InputError for an unknown key.
+  // Returns the value of one option as Dump writes it; throws InputError for an unknown key.
   std::string Value(std::string_view key) const;
   static std::string ValueOf(const OptionField& field);
-  // Dotted keys of all options, in the order of the structs.
+  // Returns the dotted keys of all options, in the order of the structs.
   std::vector<std::string> Keys() const;
   const std::vector<OptionField>& fields() const { return fields_; }
-  // What was an option in earlier versions: dotted key, and the value that it is fixed at.
+  // Options of earlier versions: the dotted key of each, and the value at which it is fixed.
   const std::map<std::string, std::string>& fixed() const { return fixed_; }
 
  private:
@@ -148,7 +149,7 @@ class OptionTable {
   }
 
   bool IsGroup(std::string_view key) const;
-  // Whether a text has what is no option any more at the value that it is fixed at.
+  // Whether a text gives an option of earlier versions the value at which it is fixed.
   bool IsFixedAt(const std::string& key, const std::string& text) const;
 
   std::vector<OptionField> fields_;

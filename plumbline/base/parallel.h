@@ -13,13 +13,13 @@
 
 namespace plumbline {
 
-// Calls of fn(i) for i in [0, n) that several threads share.
+// The calls of fn(i) for i in [0, n), shared by several threads.
 template <class Function>
 class SharedCalls {
  public:
   SharedCalls(int n, const Function& fn) : n_(n), fn_(fn), failed_index_(n) {}
 
-  // Does one after the other until none is left; called in every thread that takes part.
+  // Does one call after the other until none is left. Called in every thread that takes part.
   void Work() {
     for (int i = next_.fetch_add(1); i < n_; i = next_.fetch_add(1)) {
       try {
@@ -31,7 +31,8 @@ class SharedCalls {
     }
   }
 
-  // After all threads: the exception of the least i, if there is one.
+  // Rethrows the exception of the least i, if there is one. To be called after all threads have
+  // ended.
   void Rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -84,7 +85,7 @@ void ParallelFor(int n, HelperThread* helper, const Function& fn) {
   calls.Rethrow();
 }
 
-// The results fn(0), ..., fn(n - 1) in this order. The type of the results needs a default value.
+// Returns the results fn(0), ..., fn(n - 1) in this order. Their type needs a default value.
 template <class Result, class Function>
 std::vector<Result> ParallelMap(int n, int threads, const Function& fn) {
   std::vector<Result> results(static_cast<std::size_t>(std::max(n, 0)));

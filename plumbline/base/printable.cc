@@ -18,14 +18,15 @@ bool Continues(std::string_view text, std::size_t at) {
   return at < text.size() && (Byte(text, at) & 0xC0U) == 0x80U;
 }
 
-// A character of UTF-8; `bytes` is 0 where there is none.
+// A character of UTF-8; `bytes` is 0 where there is no valid one.
 struct Character {
   std::uint32_t code = 0;
   std::size_t bytes = 0;
 };
 
 Character CharacterAt(std::string_view text, std::size_t at) {
-  constexpr std::uint32_t kFewest[] = {0, 0, 0x80, 0x800, 0x10000};  // that so many bytes are for
+  // Least code that needs so many bytes.
+  constexpr std::uint32_t kFewest[] = {0, 0, 0x80, 0x800, 0x10000};
   const std::uint8_t first = Byte(text, at);
   if (first < 0x80) return {first, 1};
   const std::size_t bytes = first >= 0xF8   ? 0
@@ -44,7 +45,7 @@ Character CharacterAt(std::string_view text, std::size_t at) {
   return {code, bytes};
 }
 
-// Whether a terminal only shows the character: it is no control character, and it does not turn the
+// Whether a terminal only shows the character: it is no control character, and does not change the
 // direction of the text around it.
 bool IsShown(std::uint32_t code) {
   const auto within = [code](std::uint32_t first, std::uint32_t last) {
@@ -89,7 +90,7 @@ std::string Escaped(std::string_view text) {
 
 std::string Printable(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return Escaped(text);
-  // No character of UTF-8 is cut in two.
+  // No character of UTF-8 may be cut in two.
   std::size_t head = longest * 2 / 3;
   std::size_t tail = text.size() - (longest - head);
   while (head > 0 && Continues(text, head)) --head;

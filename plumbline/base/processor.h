@@ -21,7 +21,7 @@
 
 namespace plumbline {
 
-// Whether the processor has AVX2 and counts bits by an instruction, and the C library says so:
+// Whether the processor has AVX2 and an instruction that counts bits, and the C library says so:
 // GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 hides it from us as it does from the library.
 inline bool HasAvx2() {
 #if defined(__x86_64__)
@@ -32,32 +32,32 @@ inline bool HasAvx2() {
 #endif
 }
 
-// Kernel::Run compiled for every processor of the architecture.
+// Calls Kernel::Run, compiled for every processor of the architecture.
 template <class Kernel, class... Arguments>
 auto RunAnywhere(Arguments&&... arguments) {
   return Kernel::Run(std::forward<Arguments>(arguments)...);
 }
 
-// The same compiled for one with AVX2, without fused multiply-add: the same operations in the same
-// order round in the same way, so that both give the same bytes. Only where HasAvx2.
+// Calls Kernel::Run, compiled for AVX2 without fused multiply-add. The same operations in the same
+// order round in the same way, so that the bytes are those of RunAnywhere. Only where HasAvx2().
 template <class Kernel, class... Arguments>
 PLUMBLINE_TARGET_AVX2 auto RunWithAvx2(Arguments&&... arguments) {
   return Kernel::Run(std::forward<Arguments>(arguments)...);
 }
 
-// Kernel::Run as this processor runs it fastest. Run has to be a static function of plain loops
-// that is always inlined ([[gnu::always_inline]] inline); what it calls is compiled for AVX2 where
-// it is inlined, too. Cost beyond the kernel's: a branch.
+// Calls Kernel::Run in the version that is fastest on this processor. Run has to be a static
+// function of plain loops that is always inlined ([[gnu::always_inline]] inline); functions that it
+// calls are compiled for AVX2 where they are inlined, too. Cost beyond the kernel's: a branch.
 template <class Kernel, class... Arguments>
 auto RunBest(Arguments&&... arguments) {
   return HasAvx2() ? RunWithAvx2<Kernel>(std::forward<Arguments>(arguments)...)
                    : RunAnywhere<Kernel>(std::forward<Arguments>(arguments)...);
 }
 
-// Calls block(first, size) so that 0 to count - 1 are covered: size is a constant, kBlock, and the
-// last block overlaps the one before where count is no multiple of it; with fewer in all, blocks of
-// one. For kernels whose rest after the last whole vector would take as long as all the vectors;
-// what a block writes must not be what another one reads.
+// Calls block(first, size) so that 0 to count - 1 are covered. `size` is a constant, kBlock, and
+// the last block overlaps the one before where count is no multiple of it; with fewer than kBlock
+// in all, blocks have one. This is for kernels whose rest after the last whole vector would take as
+// long as all the vectors. What a block writes must not be what another one reads.
 template <int kBlock, class Block>
 [[gnu::always_inline]] inline void ForBlocks(int count, const Block& block) {
   if (count < kBlock) {

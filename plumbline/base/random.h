@@ -17,11 +17,12 @@
 
 namespace plumbline {
 
-// A stream of random numbers that depends on (seed, name, index) only: each place that draws makes
-// its own, Rng(options.seed, "two_view", frame), so that a new draw in one place shifts no other.
+// A stream of random numbers that depends on (seed, name, index) only. Each place that draws makes
+// its own, Rng(options.seed, "two_view", frame), so that a new draw in one place changes no other.
 //
-// xoshiro256** (Blackman and Vigna 2018), its state filled by splitmix64. The distributions are our
-// own, since those of the standard library differ from one implementation to another.
+// The generator is xoshiro256** (Blackman and Vigna 2018), with its state filled by splitmix64. The
+// distributions are our own, since those of the standard library differ from one implementation to
+// another.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed, std::string_view stream = {}, std::uint64_t index = 0) {
@@ -35,7 +36,7 @@ class Rng {
     for (std::uint64_t& word : state_) word = SplitMix(mix);
   }
 
-  // Uniform in all 2^64 values.
+  // Returns a number uniform in all 2^64 values.
   std::uint64_t Next() {
     const std::uint64_t result = std::rotl(state_[1] * 5, 7) * 9;
     const std::uint64_t shifted = state_[1] << 17U;
@@ -48,12 +49,12 @@ class Rng {
     return result;
   }
 
-  // Uniform in [0, 1), 53 bits.
+  // Returns a number uniform in [0, 1), with 53 bits.
   double Uniform() { return static_cast<double>(Next() >> 11U) * 0x1p-53; }
-  // Uniform in [low, high).
+  // Returns a number uniform in [low, high).
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
 
-  // Uniform in {0, ..., count - 1}, without bias. count > 0.
+  // Returns a number uniform in {0, ..., count - 1}, without bias. count > 0.
   std::size_t Index(std::size_t count) {
     PLUMBLINE_CHECK(count > 0, "an index into nothing");
     // The lowest 2^64 mod count values are drawn again.
@@ -63,13 +64,14 @@ class Rng {
     return static_cast<std::size_t>(value % count);
   }
 
-  // Normal with mean 0 and the given standard deviation (Box-Muller, one of the two values).
+  // Returns a normal number with mean 0 and the given standard deviation (Box-Muller, one of the
+  // two values).
   double Normal(double sigma = 1) {
     const double radius = std::sqrt(-2 * math::Log(1 - Uniform()));
     return sigma * radius * math::Cos(2 * std::numbers::pi * Uniform());
   }
 
-  // Every order equally likely (Fisher-Yates).
+  // Puts the values into a random order, every order equally likely (Fisher-Yates).
   template <class T>
   void Shuffle(std::vector<T>& values) {
     for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[Index(i)]);

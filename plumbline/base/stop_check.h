@@ -6,9 +6,9 @@
 
 namespace plumbline {
 
-// Asked again and again by what may take long, in whatever thread that runs; true: end now. Once
-// true it stays true. An empty one never stops anything. A call should take no more than a
-// microsecond.
+// Returns true when work is to end now. Work that may take long asks it again and again, in the
+// thread that does it. Once true it must stay true. An empty function never stops anything. A call
+// should take no more than a microsecond.
 using StopCheck = std::function<bool()>;
 
 inline bool IsToStop(const StopCheck& stop) { return stop && stop(); }

@@ -20,7 +20,7 @@ namespace {
   throw InputError(fmt::format("{}:{}: expected {}", source, line, message));
 }
 
-// Goes through a document as it is read, before aliases are followed, and keeps the keys of the
+// Goes through a document as it is read, before aliases are followed, and knows the keys of the
 // groups that are open.
 class KeyCheck : public YAML::EventHandler {
  public:
@@ -60,10 +60,10 @@ class KeyCheck : public YAML::EventHandler {
   struct Open {
     bool map = false;
     bool value_next = false;          // a key was read
-    std::map<std::string, int> keys;  // with their lines
+    std::map<std::string, int> keys;  // keys with their lines
   };
 
-  // A node in the innermost list or group, or the document's own; `text` of a scalar.
+  // Takes a node in the innermost list or group, or the document's own. `text` is that of a scalar.
   void Value(const YAML::Mark& mark, const std::string* text) {
     if (open_.empty() || !open_.back().map) return;
     Open& group = open_.back();

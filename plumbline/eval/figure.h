@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// A drawing of lines and words, to be written as SVG or painted as an image. Units: pixels, x
-// right, y down.
+// A drawing of lines and words, which can be written as SVG or painted as an image. Units: pixels,
+// x right, y down.
 struct Figure {
   struct Color {
     std::uint8_t r = 0, g = 0, b = 0;
@@ -35,7 +35,7 @@ struct Figure {
   std::vector<Text> texts;
 };
 
-// The figure as a self-contained SVG document, white background.
+// Returns the figure as a self-contained SVG document with white background.
 std::string ToSvg(const Figure& figure);
 
 }  // namespace plumbline

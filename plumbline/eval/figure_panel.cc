@@ -76,7 +76,7 @@ Eigen::AlignedBox2d EqualScale(const Eigen::AlignedBox2d& range, double aspect) 
 std::pair<int, int> AxesOfMostMotion(std::span<const EvaluatedPose> poses) {
   Eigen::AlignedBox3d box;
   for (const EvaluatedPose& pose : poses) box.extend(pose.reference.translation);
-  int least = 2;  // on equal terms z, which is up in most worlds
+  int least = 2;  // where sizes are equal it is z, which is up in most worlds
   for (const int axis : {1, 0}) {
     if (box.sizes()(axis) < box.sizes()(least)) least = axis;
   }

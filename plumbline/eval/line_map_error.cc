@@ -15,7 +15,7 @@
 namespace plumbline {
 namespace {
 
-// A set of segments with what is needed to find those close to another.
+// A set of segments with what is needed to find those close to another segment.
 class SegmentSet {
  public:
   void Add(const Segment3& segment) {
@@ -27,7 +27,8 @@ class SegmentSet {
   std::size_t size() const { return entries_.size(); }
   const Segment3& operator[](std::size_t i) const { return entries_[i].segment; }
 
-  // Those of agreeing direction whose bounding box comes within the distance of the segment's.
+  // Returns the segments of agreeing direction whose bounding box comes within the distance of the
+  // segment's.
   std::vector<std::size_t> Near(const Segment3& segment, double distance, double max_angle) const {
     Eigen::AlignedBox3d box(segment.start);
     box.extend(segment.end);
@@ -71,7 +72,7 @@ std::optional<double> Share(double part, double whole) {
   return std::min(1.0, part / whole);
 }
 
-// The stretches of a true line that are asked for.
+// Returns the stretches of a true line that a map should have.
 std::vector<Stretch> AskedStretches(const TrueLine& line, const LineMapErrorOptions& options) {
   if (options.viewers) return SeenStretches(line, *options.viewers);
   const std::optional<std::int64_t> frames = line.VisibleFrames();
@@ -117,7 +118,7 @@ void MeasureRecall(std::span<const TrueLine> truth,
   }
 }
 
-// Root mean square distance of a segment's points from an infinite line.
+// Returns the root mean square distance of a segment's points from an infinite line.
 double DistanceFromLine(const Segment3& segment, const Segment3& line) {
   const Eigen::Vector3d u = line.Direction();
   const auto across = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d {
@@ -153,7 +154,7 @@ LineCounterpart FindCounterpart(const Segment3& segment,
   return *best;
 }
 
-// What lies between the covered stretches.
+// Appends the pieces between the covered stretches.
 void AppendGaps(const Segment3& segment,
                 const std::vector<Stretch>& covered,
                 std::vector<Segment3>& gaps) {
@@ -166,7 +167,8 @@ void AppendGaps(const Segment3& segment,
   if (length > from) gaps.push_back(PartOf(segment, {from, length}));
 }
 
-// Also finds the counterparts. Returns what is not covered at the largest tolerance.
+// Measures the precision and finds the counterparts. Returns what is not covered at the largest
+// tolerance.
 std::vector<Segment3> MeasurePrecision(const SegmentSet& truth,
                                        const SegmentSet& estimate,
                                        const LineMapErrorOptions& options,
@@ -198,7 +200,7 @@ std::vector<Segment3> MeasurePrecision(const SegmentSet& truth,
   return gaps;
 }
 
-// The part of a line that the orthogonal projection of a segment takes.
+// Returns the part of a line that the orthogonal projection of a segment covers.
 Stretch Projection(const Segment3& segment, const Segment3& line) {
   const Eigen::Vector3d u = line.Direction();
   const double length = line.Length();

@@ -20,35 +20,38 @@ namespace plumbline {
 struct LineMapErrorOptions {
   // Distances that count as covered, metres, ascending.
   std::vector<double> tolerances = {0.01, 0.02, 0.05, 0.10};
-  // Directions further apart than this, radians, do not agree. 5 degrees is what a segment of 10 cm
-  // has when its ends are 4 mm off to opposite sides: less would refuse short segments for ordinary
-  // noise, while much more would let a line that merely crosses another one cover it. Long segments
-  // are bound by the tolerance, which then allows less.
+  // Directions that differ by more than this [radians] do not agree. A segment of 10 cm differs by
+  // 5 degrees when its ends are 4 mm off to opposite sides: a smaller limit would refuse short
+  // segments for ordinary noise, while a much larger one would let a line that merely crosses
+  // another one cover it. Long segments are limited more by the tolerance.
   double max_angle = 5 * std::numbers::pi / 180;
-  // What is asked for: the stretches that enough of these see from near enough (SeenStretches).
-  // nullopt: all of each line that enough frames of the sequence see. The rest still counts as
-  // true.
+  // The stretches that enough of these viewers see from near enough are asked for (SeenStretches).
+  // nullopt: all of each line that enough frames of the sequence see. Other stretches still count
+  // as true.
   std::optional<LineViewers> viewers;
-  int min_visible_frames = 3;  // without viewers
-  // Further from all surfaces than this, metres, is in the air.
+  int min_visible_frames = 3;  // used without viewers
+  // What is further from all surfaces than this [metres] is in the air.
   double surface_limit = 0.05;
 };
 
 // The true line that an estimated segment stands for.
 struct LineCounterpart {
-  std::size_t true_line = 0;  // index
-  std::size_t tolerance = 0;  // index of the smallest tolerance that at least half of it is within
-  double angle = 0;           // radians
-  double distance = 0;        // metres; root mean square over the part within the tolerance
+  std::size_t true_line = 0;  // index of the true line
+  // Index of the smallest tolerance at which at least half of the segment is covered.
+  std::size_t tolerance = 0;
+  double angle = 0;  // in radians
+  // Root mean square over the part within the tolerance, in metres.
+  double distance = 0;
 };
 
-// Shares are in [0, 1]; nullopt where there is nothing to take a share or a median of.
+// Results at one tolerance. Shares are in [0, 1]; nullopt where there is nothing to take a share or
+// a median of.
 struct LineMapErrorAt {
   double tolerance = 0;          // metres
   std::optional<double> recall;  // share of the length asked for that was found
-  std::array<std::optional<double>, kTrueLineKinds> recall_by_kind;  // by TrueLineKind
+  std::array<std::optional<double>, kTrueLineKinds> recall_by_kind;  // recall of each TrueLineKind
   std::optional<double> precision;        // share of the estimated length that is right
-  std::size_t with_counterpart = 0;       // estimated segments
+  std::size_t with_counterpart = 0;       // estimated segments with a counterpart
   std::optional<double> median_angle;     // median angle to the true lines, radians
   std::optional<double> median_distance;  // median distance from the true lines, metres
   std::optional<double> segments_per_line;
@@ -56,13 +59,13 @@ struct LineMapErrorAt {
 };
 
 struct LineMapError {
-  std::size_t true_lines = 0, asked_lines = 0;  // all; seen in enough frames
-  double true_length = 0, asked_length = 0;     // metres
+  std::size_t true_lines = 0, asked_lines = 0;  // all lines; those seen in enough frames
+  double true_length = 0, asked_length = 0;     // their lengths in metres
   std::size_t estimated_segments = 0;
   double estimated_length = 0;
-  std::vector<LineMapErrorAt> at;  // for each tolerance
-  // What no true line covers at the largest tolerance: its length, and where it lies; nullopt
-  // without surfaces or without such length.
+  std::vector<LineMapErrorAt> at;  // one for each tolerance
+  // What no true line covers at the largest tolerance: its length, and how far it is from surfaces.
+  // The latter is nullopt without surfaces or without such length.
   double uncovered_length = 0;
   std::optional<SurfaceDistance> uncovered_from_surfaces;
   std::vector<bool> asked;  // whether each true line is asked for

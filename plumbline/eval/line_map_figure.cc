@@ -27,8 +27,8 @@ struct ColoredSegment {
   double width = 1;
 };
 
-// The part of a segment inside a box (Liang and Barsky, A new concept and method for line clipping,
-// 1984).
+// Returns the part of a segment inside a box (Liang and Barsky, A new concept and method for line
+// clipping, 1984).
 std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox2d& box) {
   const Vector2d d = segment.end - segment.start;
   double from = 0, to = 1;
@@ -46,7 +46,8 @@ std::optional<Segment2> Clipped(const Segment2& segment, const Eigen::AlignedBox
   return Segment2{segment.start + from * d, segment.start + to * d};
 }
 
-// True lines at the back, segments without counterpart in front.
+// Returns the segments in drawing order: true lines at the back, segments without counterpart in
+// front.
 std::vector<ColoredSegment> Layers(std::span<const TrueLine> truth,
                                    std::span<const Segment3> estimate,
                                    const LineMapError& error) {
@@ -88,7 +89,7 @@ void DrawView(const std::vector<ColoredSegment>& layers,
 void DrawLegend(const Vector2d& right, Figure& figure) {
   const std::pair<const char*, Figure::Color> entries[] = {
       {"without", kUnmatchedColor}, {"with counterpart", kMatchedColor}, {"true", kTrueColor}};
-  const double widths[] = {72, 140, 0};  // of the words, with a gap
+  const double widths[] = {72, 140, 0};  // widths of the words, with a gap
   Vector2d place = right;
   for (std::size_t i = 0; i < std::size(entries); ++i) {
     figure.texts.push_back(

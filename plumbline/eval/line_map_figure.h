@@ -11,13 +11,14 @@
 
 namespace plumbline {
 
-// A line map over the lines of the known world, from above and from the side: true lines grey
-// (light where too few frames see them), estimated segments green where they have a counterpart,
-// red where they have none.
+// Draws a line map over the lines of the known world, from above and from the side. True lines are
+// grey (light where too few frames see them), estimated segments green where they have a
+// counterpart, and red where they have none.
 //
 //   truth, estimate, error  as given to CompareLineMaps, and its result
 //   poses                   of the same world; "above" is along the axis in which the reference
 //                           moves least
+//
 // The view is that of the true lines; what lies outside is cut off.
 Figure LineMapFigure(std::span<const TrueLine> truth,
                      std::span<const Segment3> estimate,

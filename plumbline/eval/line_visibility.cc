@@ -22,7 +22,7 @@ std::array<Eigen::Vector3d, 4> ImageSides(const Camera& camera) {
     PLUMBLINE_CHECK(found, "the image lies within the domain of its distortion");
     return *found;
   };
-  // (x - left, 0, 1) . (x, y, 1) >= 0 and so on, each through the middle of a border.
+  // Each plane goes through the middle of a border: (x - left, 0, 1) . (x, y, 1) >= 0 and so on.
   const double x0 = ray(0, bottom / 2).x(), x1 = ray(right, bottom / 2).x();
   const double y0 = ray(right / 2, 0).y(), y1 = ray(right / 2, bottom).y();
   return {Eigen::Vector3d(1, 0, -x0), {-1, 0, x1}, {0, 1, -y0}, {0, -1, y1}};
@@ -35,7 +35,8 @@ bool IsVisible(const TrueLine& line, int frame) {
   });
 }
 
-// What one viewer sees of a segment; the planes are in the camera frame, the segment in the world.
+// Returns what one viewer sees of a segment. The planes are in the camera frame, the segment in the
+// world.
 std::optional<Stretch> SeenFrom(const LineViewer& viewer,
                                 const Segment3& segment,
                                 const LineViewers& viewers) {

@@ -15,41 +15,41 @@
 
 namespace plumbline {
 
-// A frame of a sequence and where its camera truly was.
+// A frame of a sequence, and where its camera truly was.
 struct LineViewer {
-  int frame = 0;  // counted as in TrueLine::visible
+  int frame = 0;  // number of the frame as in TrueLine::visible
   Rigid3 camera_from_world;
 };
 
-// The frames from which true lines may have been mapped, and what counts as having been seen.
+// The frames from which true lines may have been mapped, and when a line counts as seen.
 struct LineViewers {
   std::vector<LineViewer> frames;
-  // Normals, in the camera frame, of the planes through the camera's centre that bound what is in
-  // the image; they point inwards.
+  // Normals, in the camera frame, of the planes through the camera's centre that bound the image.
+  // They point inwards.
   std::array<Eigen::Vector3d, 4> image_sides;
   int min_frames = 5;
-  double max_distance = 6;  // metres, from the camera's centre
+  double max_distance = 6;  // distance from the camera's centre, metres
 };
 
-// The keyframes of a run as viewers.
+// Returns the keyframes of a run as viewers.
 //
-// The image is taken as the ideal rectangle through the middles of its four borders: with barrel
-// distortion it lies inside the image, whose corners are left out.
+// The image counts as the ideal rectangle through the middles of its four borders. With barrel
+// distortion that lies inside the image, whose corners are then left out.
 //
-//   camera        of the sequence, as delivered
-//   frame_stamps  of the sequence, ascending
+//   camera        camera of the sequence, as delivered
+//   frame_stamps  stamps of the sequence, ascending
 //   keyframes     stamps of the keyframes; those that are no frame or have no evaluated pose are
 //                 left out
-//   poses         of the run, with the reference beside
+//   poses         poses of the run, with the reference beside
 LineViewers ViewersOf(const Camera& camera,
                       std::span<const std::int64_t> frame_stamps,
                       std::span<const std::int64_t> keyframes,
                       std::span<const EvaluatedPose> poses);
 
-// The parts of a true line that at least min_frames of the viewers see, each from max_distance or
-// nearer: inside the image, in a frame that sees some of the line. What hides only a part of the
-// line in that frame is not known. Exact: a ball and four planes cut a stretch out of the line for
-// each viewer. Lines without recorded frames count as seen in all.
+// Returns the parts of a true line that at least min_frames of the viewers see, each from
+// max_distance or nearer: inside the image, in a frame that sees some of the line. What hides only
+// a part of the line in that frame is not known. Exact: a ball and four planes cut a stretch out of
+// the line for each viewer. Lines without recorded frames count as seen in all.
 std::vector<Stretch> SeenStretches(const TrueLine& line, const LineViewers& viewers);
 
 }  // namespace plumbline

@@ -16,7 +16,7 @@ namespace {
 constexpr double kCell = 0.005, kMostCells = 200'000;
 constexpr int kCellsPerChunk = 50;
 
-// Parallelograms with their bounding boxes, asked for the one nearest to a point.
+// Parallelograms with their bounding boxes, for finding the one nearest to a point.
 class SurfaceSearch {
  public:
   explicit SurfaceSearch(std::span<const Parallelogram> surfaces) {
@@ -33,9 +33,10 @@ class SurfaceSearch {
     return std::sqrt(nearest2);
   }
 
-  // Only what may be nearest to a point of the ball.
+  // Returns only the surfaces that may be nearest to a point of the ball.
   SurfaceSearch Near(const Eigen::Vector3d& centre, double radius) const {
-    // A point of the ball has the surface nearest to the centre within `reach` - radius.
+    // A point of the ball is at most `reach` - radius away from the surface that is nearest to the
+    // centre.
     const double reach = Distance(centre) + 2 * radius;
     SurfaceSearch near;
     for (const Entry& entry : entries_) {
@@ -60,7 +61,7 @@ struct Cell {
   double distance = 0, length = 0;
 };
 
-// Cells of one piece, cut evenly, no longer than `longest`.
+// Adds the cells of one piece, which are equally long and no longer than `longest`.
 void AddCells(const Segment3& piece,
               double longest,
               const SurfaceSearch& surfaces,

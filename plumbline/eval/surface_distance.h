@@ -13,11 +13,12 @@ namespace plumbline {
 // How far pieces of lines are from the nearest surface, each piece weighted with its length.
 struct SurfaceDistance {
   double median = 0;        // metres
-  double share_beyond = 0;  // share of the length that is further away than the limit; in [0, 1]
+  double share_beyond = 0;  // share of the length that is further away than the limit, in [0, 1]
 };
 
-// Cuts the pieces into cells of 5 mm (longer ones where the pieces sum up to more than 1 km) and
-// takes each cell's middle for all of it: an error of at most half a cell in each distance.
+// Returns the distances of pieces. These are cut into cells of 5 mm (longer ones where the pieces
+// sum up to more than 1 km), and each cell has the distance of its middle: an error of at most half
+// a cell in each distance.
 //
 //   pieces, surfaces  metres, in one world
 //   fails             nullopt without surfaces and where the pieces have no length

@@ -32,7 +32,7 @@ std::vector<EvaluatedPose> Associate(const Trajectory& reference,
   return poses;
 }
 
-// Root mean square distance from the mean.
+// Returns the root mean square distance from the mean.
 double Spread(std::span<const Eigen::Vector3d> points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points) mean += point / static_cast<double>(points.size());
@@ -55,13 +55,13 @@ PathSpread SpreadOf(std::span<const EvaluatedPose> poses) {
 }
 
 // Returns the alignment of poses whose positions do not determine all of it. The positions decide
-// what they can, which is a line's direction, the scale along it and the mean; the orientations
-// decide what is left, with a weight that moves nothing else: the turn about the line, or the whole
-// rotation where all positions are in one place. The rotation is that of Umeyama's eq. 40, for
-// which only the sum of both correlations is needed.
+// what they can: the direction of a line, the scale along it and the mean. The orientations decide
+// the rest, with a weight that changes nothing else: the turn about the line, or the whole rotation
+// where all positions are in one place. The rotation is that of Umeyama's eq. 40, for which only
+// the sum of both correlations is needed.
 Similarity3 AlignByOrientations(std::span<const EvaluatedPose> poses, bool free_scale) {
-  constexpr double kWeight = 1e-9;     // of orientations, where that of positions is 1
-  constexpr double kRounding = 1e-12;  // of a spread, relative to the coordinates
+  constexpr double kWeight = 1e-9;     // weight of orientations, where that of positions is 1
+  constexpr double kRounding = 1e-12;  // spread relative to the coordinates
   const double share = 1 / static_cast<double>(poses.size());
   Eigen::Vector3d source = Eigen::Vector3d::Zero(), target = source;
   for (const EvaluatedPose& pose : poses) {
@@ -127,7 +127,7 @@ double MedianOf(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-// Index pairs into the associated poses, a duration apart.
+// Returns index pairs into the associated poses that are a duration apart.
 std::vector<std::pair<std::size_t, std::size_t>> PairsByTime(
     const std::vector<EvaluatedPose>& poses, std::int64_t duration_ns) {
   constexpr std::int64_t kToleranceDivisor = 20;
@@ -142,7 +142,7 @@ std::vector<std::pair<std::size_t, std::size_t>> PairsByTime(
   return pairs;
 }
 
-// Index pairs into the associated poses, a number of rows of the estimate apart.
+// Returns index pairs into the associated poses that are a number of rows of the estimate apart.
 std::vector<std::pair<std::size_t, std::size_t>> PairsByRow(const std::vector<EvaluatedPose>& poses,
                                                             const Trajectory& estimate,
                                                             int frames) {
@@ -268,8 +268,8 @@ Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera) {
 Trajectory MirroredY(const Trajectory& trajectory) {
   Trajectory mirrored = trajectory;
   for (StampedPose& pose : mirrored) {
-    // M R M negates the entries of R with exactly one index y: the rotation axis keeps y and turns
-    // around in x and z.
+    // M R M negates the entries of R with exactly one index y: the rotation axis keeps its y and
+    // negates x and z.
     Eigen::Quaterniond& q = pose.world_from_camera.rotation;
     q.x() = -q.x();
     q.z() = -q.z();

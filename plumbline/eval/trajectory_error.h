@@ -19,9 +19,9 @@ namespace plumbline {
 
 // Which free motion of the whole estimate is taken out before positions are compared.
 enum class TrajectoryAlignment {
-  kNone,  // both in the same world already
+  kNone,  // both are in the same world already
   kSe3,   // rotation and translation
-  kSim3,  // and scale (monocular)
+  kSim3,  // rotation, translation and scale (monocular)
 };
 constexpr auto EnumNames(std::type_identity<TrajectoryAlignment>) {
   return std::array{std::pair{TrajectoryAlignment::kNone, "none"},
@@ -31,8 +31,9 @@ constexpr auto EnumNames(std::type_identity<TrajectoryAlignment>) {
 
 // How a reference pose is found for a pose of the estimate.
 enum class TrajectoryAssociation {
-  kInterpolate,  // the reference at the very time of the estimate
-  kNearest,      // the reference pose nearest in time, as older tools do
+  kInterpolate,  // the reference is interpolated at the time of the estimate
+  // The reference pose nearest in time is taken, as older tools do.
+  kNearest,
 };
 constexpr auto EnumNames(std::type_identity<TrajectoryAssociation>) {
   return std::array{std::pair{TrajectoryAssociation::kInterpolate, "interpolate"},
@@ -42,53 +43,55 @@ constexpr auto EnumNames(std::type_identity<TrajectoryAssociation>) {
 // Distance in time of the two poses whose relative motion is compared.
 struct RelativeWindow {
   std::int64_t duration_ns = 3'000'000'000;  // used when frames == 0
-  int frames = 0;                            // > 0: rows of the estimate instead
+  int frames = 0;                            // > 0: a number of rows of the estimate instead
 };
 
 // How CompareTrajectories aligns, associates and windows.
 struct TrajectoryErrorOptions {
   TrajectoryAlignment alignment = TrajectoryAlignment::kSe3;
   TrajectoryAssociation association = TrajectoryAssociation::kInterpolate;
-  std::int64_t max_gap_ns = 100'000'000;  // between reference poses interpolated (KITTI: 0.25 s)
-  std::int64_t max_difference_ns = 20'000'000;  // of the nearest reference pose
+  // Largest gap between reference poses that are interpolated (KITTI: 0.25 s).
+  std::int64_t max_gap_ns = 100'000'000;
+  // Largest distance in time of the nearest reference pose.
+  std::int64_t max_difference_ns = 20'000'000;
   RelativeWindow window = {};
 };
 
-// What a set of non-negative errors comes to. The median of an even number of them is the mean of
+// Statistics of a set of non-negative errors. The median of an even number of them is the mean of
 // the middle two.
 struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = 0, mean = 0, median = 0, max = 0;
 };
 
-// The statistics of some errors; nullopt where there are none. O(n).
+// Returns the statistics of some errors; nullopt where there are none. O(n).
 std::optional<ErrorStatistics> StatisticsOf(std::vector<double> errors);
 
 // A pose of the estimate beside the reference at that time.
 struct EvaluatedPose {
-  std::size_t row = 0;  // in the estimate
+  std::size_t row = 0;  // row in the estimate
   std::int64_t stamp_ns = 0;
   Rigid3 reference;           // world_from_camera
-  Rigid3 estimate;            // the same, aligned to the world of the reference
+  Rigid3 estimate;            // world_from_camera, aligned to the world of the reference
   double position_error = 0;  // metres
   double rotation_error = 0;  // radians
 };
 
-// Error of the motion from one evaluated pose to another, a window later.
+// Error of the motion from one evaluated pose to another one, a window later.
 struct RelativeError {
   std::size_t from = 0, to = 0;  // indices into TrajectoryError::poses
   double translation = 0;        // metres per second
   double rotation = 0;           // radians per second
 };
 
-// All that CompareTrajectories finds out.
+// The result of CompareTrajectories.
 struct TrajectoryError {
-  std::size_t estimated = 0;                   // poses of the estimate
+  std::size_t estimated = 0;                   // number of poses of the estimate
   Similarity3 reference_from_estimate;         // the alignment
-  std::optional<AlignmentFailure> degenerate;  // positions do not determine the alignment
-  std::vector<EvaluatedPose> poses;            // those associated, in time order
-  std::vector<RelativeError> relative;         // those that span the window, in time order
-  ErrorStatistics ate;                         // positions after alignment, metres
+  std::optional<AlignmentFailure> degenerate;  // why positions alone do not determine the alignment
+  std::vector<EvaluatedPose> poses;            // the associated poses, in order of time
+  std::vector<RelativeError> relative;         // pairs that span the window, in order of time
+  ErrorStatistics ate;                         // distances of positions after alignment, metres
   std::optional<double> scale_drift;           // with kSim3: see ScaleDrift
   std::optional<ErrorStatistics> rpe;  // metres per second; nullopt: no pair spans the window
   std::optional<ErrorStatistics> roe;  // radians per second
@@ -98,18 +101,17 @@ struct TrajectoryError {
 //
 // ATE: distances of corresponding positions after the alignment that minimises their squares
 // (Umeyama), over all associated poses. Where the positions lie on a line or in one place,
-// `degenerate` says so, and what they leave open comes from the orientations of all poses: the turn
-// about the line, or all of the rotation. The scale is 1 where there is no spread.
+// `degenerate` says so, and what they leave open follows from the orientations of all poses: the
+// turn about the line, or the whole rotation. The scale is 1 where there is no spread.
 //
 // RPE and ROE (relative position and orientation error): for every pair (a, b) of associated poses
 // one window apart, E = (A_ref^-1 B_ref)^-1 (A_est^-1 B_est); |translation of E| and rotation angle
-// of E, divided by the time between a and b in the estimate. The estimate enters with the scale of
-// the alignment; rotation and translation of the alignment do not matter. Pairs:
+// of E, divided by the time between a and b in the estimate. The estimate has the scale of the
+// alignment; rotation and translation of the alignment do not matter. Pairs:
 //   duration   b is the associated pose nearest to a's time plus the duration (the earlier of two),
 //              taken when within 5 % of the duration
-//   frames     b is so many rows of the estimate after a, taken when the time between is at
-//   most 1.5
-//              times what the median spacing of rows gives (a longer one spans lost frames)
+//   frames     b is so many rows of the estimate after a, taken when the time between is at most
+//              1.5 times what the median spacing of rows gives (a longer one spans lost frames)
 //
 //   reference, estimate  of the same camera, stamps ascending, metres
 //   fails    nullopt when no pose of the estimate has a reference
@@ -118,35 +120,38 @@ std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
                                                    const Trajectory& estimate,
                                                    const TrajectoryErrorOptions& options);
 
-// The motion of the whole estimate, already aligned, after which poses agree best: positions and
-// orientations together, as the squared distances of the camera centre and of the six points 1 m
-// from it along the camera's axes. Positions alone do not tell the rotation of a path that is short
-// or straight, though all that is seen from it hangs on it.
+// Returns the motion of the whole estimate, already aligned, after which poses agree best.
+// Positions and orientations count together, as the squared distances of the camera centre and of
+// the six points 1 m from it along the camera's axes. Positions alone do not tell the rotation of a
+// path that is short or straight, though all that is seen from it depends on that rotation.
 //
 //   poses    at least one; the estimates as CompareTrajectories leaves them
 //   result   reference_from_aligned, scale 1
 //   cost     O(n)
 Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
 
-// How the scale of an estimate changed: its unit over the true one in the last fifth of the poses,
-// divided by that in the first fifth, less 1. Positive: what is estimated has become larger.
+// Returns how the scale of an estimate changed: its unit over the true one in the last fifth of the
+// poses, divided by that in the first fifth, minus 1. Positive: what is estimated has become
+// larger.
 //
 // The unit of a stretch is its spread (root mean square distance from the mean position) over the
-// true one: for small errors the scale of its own alignment, and defined on straight paths, too.
+// true one. For small errors this is the scale of its own alignment, and it is defined on straight
+// paths, too.
 //
-//   poses    in time order; the estimates in any world and unit, but all in one: units of two maps
-//            of one camera have nothing to do with one another
-//   fails    nullopt where the camera does not get far in one of the two: their true spread must be
-//            a twentieth of that of all poses
+//   poses    in order of time; the estimates in any world and unit, but all in one: units of two
+//            maps of one camera have nothing to do with one another
+//   fails    nullopt where the camera does not get far in one of the two fifths: their true spread
+//            must be a twentieth of that of all poses
 //   cost     O(n)
 std::optional<double> ScaleDrift(std::span<const EvaluatedPose> poses);
 
-// The trajectory of what carries the camera turned into the camera's: world_from_body *
+// Returns the trajectory of the camera for one of the body that carries it: world_from_body *
 // body_from_camera.
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera);
 
-// The trajectory in the world mirrored in y, seen by a camera mirrored in y: for ground truth that
-// goes with a negative focal length fy (ICL-NUIM). M R M and M t with M = diag(1, -1, 1).
+// Returns the trajectory in the world mirrored in y, seen by a camera mirrored in y, for ground
+// truth that belongs to a negative focal length fy (ICL-NUIM). It is M R M and M t with M = diag(1,
+// -1, 1).
 Trajectory MirroredY(const Trajectory& trajectory);
 
 }  // namespace plumbline

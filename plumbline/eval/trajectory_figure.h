@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// The evaluated trajectory from above beside its reference, and below the position error over time.
-// "Above" is along the axis in which the reference moves least.
+// Draws the evaluated trajectory from above beside its reference, and below it the position error
+// over time. "Above" is along the axis in which the reference moves least.
 Figure TrajectoryFigure(const TrajectoryError& error);
 
 }  // namespace plumbline

@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-// Ratio of standard deviations below which a set has no second direction.
+// Ratio of standard deviations below which a set of points has no second direction.
 constexpr double kCollinearRatio = 1e-6;
 
 struct Moments {
@@ -61,7 +61,7 @@ std::optional<AlignmentFailure> DegeneracyOf(const Eigen::Matrix3d& covariance,
   const Eigen::Vector3d values = EigenvaluesOf<3>(covariance);
   const double first = std::sqrt(std::max(0.0, values(2)));
   const double second = std::sqrt(std::max(0.0, values(1)));
-  // Relative to the coordinates: below this the spread is rounding error.
+  // Below this ratio to the coordinates the spread is rounding error.
   if (!(first > 1e-12 * (1e-3 + mean.norm()))) return AlignmentFailure::kCoincident;
   if (!(second > kCollinearRatio * first)) return AlignmentFailure::kCollinear;
   return std::nullopt;
@@ -81,7 +81,7 @@ Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3
   if (const auto failure = DegeneracyOf(m.target_covariance, m.target_mean)) return *failure;
 
   const RotationFit fit = FitRotation(m.cross);
-  // Sets that do not correspond can have a common direction only.
+  // Sets that do not correspond may have only one direction in common.
   if (!(fit.singular_values(1) > 1e-13 * fit.singular_values(0))) {
     return AlignmentFailure::kCollinear;
   }

@@ -15,9 +15,11 @@
 namespace plumbline {
 
 enum class AlignmentFailure {
-  kTooFewPoints,  // below three with a positive weight
-  kCoincident,    // all points of a set in one place: neither rotation nor scale
-  kCollinear,     // points on one line: the rotation about it is free
+  kTooFewPoints,  // fewer than three points with a positive weight
+  // All points of a set are in one place: neither rotation nor scale is determined.
+  kCoincident,
+  // All points are on one line: the rotation about it is free.
+  kCollinear,
 };
 constexpr auto EnumNames(std::type_identity<AlignmentFailure>) {
   return std::array{std::pair{AlignmentFailure::kTooFewPoints, "fewer than three poses"},
@@ -32,7 +34,8 @@ struct Alignment {
 
 enum class AlignmentScale { kFixed, kFree };
 
-// The rigid motion (kFixed) or similarity (kFree) that minimises sum w |target - S source|^2.
+// Returns the rigid motion (kFixed) or similarity (kFree) that minimises sum w |target - S
+// source|^2.
 //
 // Umeyama, Least-squares estimation of transformation parameters between two point patterns, PAMI
 // 1991, eq. 40-42, with weights.
@@ -40,8 +43,7 @@ enum class AlignmentScale { kFixed, kFree };
 //   source, target  corresponding points, same length
 //   weights         empty (all 1) or as long as the points, >= 0
 //   fails           degenerate sets. A set counts as collinear when its second standard deviation
-//   is
-//                   below 1e-6 of its first: its rotation is then not determined
+//                   is below 1e-6 of its first: its rotation is then not determined
 //   cost            O(n)
 Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3d> source,
                                                   std::span<const Eigen::Vector3d> target,

@@ -14,7 +14,7 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of motions, cameras, lines.
+// Transfer (base/byte_format.h) of motions, cameras and lines.
 
 template <class Archive, class Scalar, int kRows, int kColumns>
 void Transfer(Archive& archive, Eigen::Matrix<Scalar, kRows, kColumns>& matrix) {

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-// What is known of the sensor: one camera, and where there are, a second one or a depth image.
+// What is known of the sensor: one camera, and a second one or a depth image where there is one.
 struct Calibration {
   Camera left;
   std::optional<Camera> right;
@@ -18,8 +18,8 @@ struct Calibration {
   bool rectified = false;
   std::optional<double> depth_factor;  // RGB-D: value of the depth image per metre
   std::optional<double> rate_hz;
-  std::optional<Rigid3>
-      body_from_left;  // body: the frame of the ground truth, where not the camera
+  // body: the frame of the ground truth, where that is not the camera's.
+  std::optional<Rigid3> body_from_left;
 };
 
 }  // namespace plumbline

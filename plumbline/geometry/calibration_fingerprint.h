@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// A number, never 0, that is the same for the same rig: all numbers of the calibration that say
-// where things appear in the images, and the ideal camera that was made of them.
+// Returns a number, never 0, that is the same for the same rig. It is made of all numbers of the
+// calibration that say where things appear in the images, and of the ideal camera made from them.
 std::uint64_t FingerprintOf(const Calibration& calibration, const RectifiedCamera& camera);
 
 }  // namespace plumbline

@@ -21,7 +21,7 @@ namespace {
 constexpr int kMaxNewtonSteps = 20;
 constexpr double kConverged = 1e-13;
 
-// sum of coefficients[i] x^i.
+// Returns the sum of coefficients[i] x^i.
 double Evaluate(std::span<const double> coefficients, double x) {
   double value = 0;
   for (std::size_t i = coefficients.size(); i-- > 0;) value = value * x + coefficients[i];
@@ -38,8 +38,8 @@ double Bisect(std::span<const double> polynomial, double low, double high) {
   return low;
 }
 
-// Sign changes of a polynomial in [0, limit], ascending. Between two roots of the derivative the
-// polynomial is monotonic, hence has at most one.
+// Returns the sign changes of a polynomial in [0, limit], ascending. Between two roots of the
+// derivative the polynomial is monotonic and has at most one.
 std::vector<double> SignChanges(std::span<const double> polynomial, double limit) {
   if (polynomial.size() < 2) return {};
   std::vector<double> derivative;
@@ -59,7 +59,8 @@ std::vector<double> SignChanges(std::span<const double> polynomial, double limit
   return roots;
 }
 
-// Coefficients in u = s^2 of the radial factor 1 + c1 s^2 + c2 s^4 ..., s = r or theta.
+// Returns the coefficients in u = s^2 of the radial factor 1 + c1 s^2 + c2 s^4 ..., with s = r or
+// theta.
 std::array<double, 5> RadialFactor(const CameraIntrinsics& in) {
   const std::array<double, 5>& k = in.distortion;
   switch (in.model) {
@@ -73,7 +74,7 @@ std::array<double, 5> RadialFactor(const CameraIntrinsics& in) {
   return {1, 0, 0, 0, 0};
 }
 
-// d(s factor(s^2))/ds as a polynomial in u = s^2.
+// Returns d(s factor(s^2))/ds as a polynomial in u = s^2.
 std::array<double, 5> RadialSlope(const CameraIntrinsics& in) {
   std::array<double, 5> slope = RadialFactor(in);
   for (std::size_t i = 0; i < slope.size(); ++i) slope[i] *= static_cast<double>(2 * i + 1);
@@ -83,7 +84,7 @@ std::array<double, 5> RadialSlope(const CameraIntrinsics& in) {
 double MaxRadius(const CameraIntrinsics& in) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const bool equidistant = in.model == DistortionModel::kEquidistant;
-  // Far beyond any image: 89.4 degrees off the axis.
+  // This is far beyond any image: 89.4 degrees off the axis.
   constexpr double kFarRadius = 100;
   constexpr double kRightAngle = std::numbers::pi / 2;
   const double limit = equidistant ? kRightAngle * kRightAngle : kFarRadius * kFarRadius;
@@ -169,7 +170,7 @@ std::optional<double> Camera::UndistortRadius(double distorted_radius) const {
     const double error = distorted_of(s) - distorted_radius;
     (error > 0 ? high : low) = s;
     if (std::abs(error) < kConverged) break;
-    // Newton where it stays in the bracket, bisection where it does not.
+    // Takes a Newton step where it stays in the bracket, otherwise bisects.
     s -= error / Evaluate(RadialSlope(intrinsics_), s * s);
     if (!(s > low && s < high)) s = 0.5 * (low + high);
   }

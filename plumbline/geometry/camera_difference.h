@@ -17,8 +17,9 @@ struct TurnedCamera {
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
 };
 
-// What tells two cameras apart, such as "fx 458.6 and 460.1" or "images of 752x480 and 640x480
-// pixels"; nullopt where they are the same but for rounding (1e-9 of each number; 1e-9 radians).
+// Returns the differences of two cameras, such as "fx 458.6 and 460.1" or "images of 752x480 and
+// 640x480 pixels"; nullopt where they are the same up to rounding (1e-9 of each number; 1e-9
+// radians).
 std::optional<std::string> CameraDifference(const TurnedCamera& a, const TurnedCamera& b);
 
 }  // namespace plumbline

@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// Standard deviation in the worst direction: the square root of the largest eigenvalue. Infinite
-// where the covariance has numbers that are not finite.
+// Returns the standard deviation in the worst direction: the square root of the largest eigenvalue.
+// Infinite where the covariance has numbers that are not finite.
 double LargestSigma(const Eigen::Matrix3d& covariance);
 
 }  // namespace plumbline

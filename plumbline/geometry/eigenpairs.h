@@ -8,14 +8,14 @@ namespace plumbline {
 
 // Eigenvalues and eigenvectors of small symmetric matrices, by Eigen's SelfAdjointEigenSolver. A
 // compiler needs up to five seconds for it wherever it is used; here each size is compiled once, in
-// eigenpairs.cc. Of a matrix only the lower triangle is read.
+// eigenpairs.cc. Only the lower triangle of a matrix is read.
 template <int N>
 struct Eigenpairs {
   Eigen::Matrix<double, N, 1> values;   // ascending
   Eigen::Matrix<double, N, N> vectors;  // of unit length, one a column
 };
 
-// N: 2, 3, 4, 6, 9. What is not finite has eigenvalues that are not.
+// N: 2, 3, 4, 6, 9. A matrix that is not finite has eigenvalues that are not finite.
 template <int N>
 Eigenpairs<N> EigenpairsOf(const Eigen::Matrix<double, N, N>& symmetric);
 

@@ -16,7 +16,8 @@
 namespace plumbline {
 namespace {
 
-// Share of the moment, |m| / sqrt(|m|^2 + |d|^2), below which a line counts as through the origin.
+// Share of the moment, |m| / sqrt(|m|^2 + |d|^2), below which a line counts as going through the
+// origin.
 constexpr double kThroughOrigin = 1e-9;
 
 struct NormalEquations {
@@ -26,7 +27,7 @@ struct NormalEquations {
   double worst = 0;  // largest |residual| / sigma
 };
 
-// What a view has to do with a line, whatever the line: the image line from moment and direction.
+// Returns for each view the matrix that makes the image line of moment and direction.
 std::vector<Eigen::Matrix<double, 3, 6>> ImageFromLine(const RectifiedCamera& camera,
                                                        std::span<const LineView> views) {
   Eigen::Matrix3d K;  // ProjectMoment
@@ -42,7 +43,7 @@ std::vector<Eigen::Matrix<double, 3, 6>> ImageFromLine(const RectifiedCamera& ca
   return out;
 }
 
-// The two end point distances of each view (eq. 13, 16-18).
+// Linearizes the two end point distances of each view (eq. 13, 16-18).
 NormalEquations Linearize(std::span<const LineView> views,
                           const std::vector<Eigen::Matrix<double, 3, 6>>& image_from_line,
                           const OrthonormalLine& line) {
@@ -64,7 +65,7 @@ NormalEquations Linearize(std::span<const LineView> views,
       equations.information += J.transpose() * J;
       equations.gradient += residual * J.transpose();
       equations.chi2 += residual * residual;
-      // Written so that NaN is kept.
+      // The comparison is written so that NaN is kept.
       if (!(std::abs(residual) <= equations.worst)) equations.worst = std::abs(residual);
     }
   }
@@ -77,12 +78,12 @@ struct PlanePair {
 };
 
 PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
-  // The normals have unit length: where their cosine is larger by more than rounding, the angle is
+  // The normals have unit length. Where their cosine is larger by more than rounding, the angle is
   // smaller.
   constexpr double kRounding = 1e-12;
   PlanePair widest;
   LargestAngle largest;
-  double cosine = 1;  // of the widest
+  double cosine = 1;  // cosine of the widest pair
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (std::size_t j = i + 1; j < planes.size(); ++j) {
       const Eigen::Vector3d n1 = planes[i].head<3>();
@@ -97,8 +98,8 @@ PlanePair WidestPair(const std::vector<Eigen::Vector4d>& planes) {
   return widest;
 }
 
-// eq. 25 about an origin on the line through the widest pair of planes, lengths in units of its
-// distance from the camera.
+// Returns the line of eq. 25 about an origin on the line through the widest pair of planes, with
+// lengths in units of its distance from the camera.
 std::optional<PluckerLine> LinearLine(const RectifiedCamera& camera,
                                       std::span<const LineView> views,
                                       const std::vector<Eigen::Vector4d>& planes,
@@ -126,7 +127,7 @@ std::optional<PluckerLine> LinearLine(const RectifiedCamera& camera,
   return PluckerLine{point.cross(local->direction), local->direction};
 }
 
-// Gauss-Newton as long as chi2 falls.
+// Refines the line by Gauss-Newton, as long as chi2 falls.
 OrthonormalLine Refine(const RectifiedCamera& camera,
                        std::span<const LineView> views,
                        OrthonormalLine line,
@@ -145,8 +146,8 @@ OrthonormalLine Refine(const RectifiedCamera& camera,
   return line;
 }
 
-// Directs the line as the first segment, by where its ends lie. nullopt when one is behind a
-// camera.
+// Directs the line as the first segment, by the places of its ends. Returns nullopt when one of
+// them is behind a camera.
 std::optional<PluckerLine> DirectAsFirst(const RectifiedCamera& camera,
                                          std::span<const LineView> views,
                                          PluckerLine line) {
@@ -165,7 +166,8 @@ std::optional<PluckerLine> DirectAsFirst(const RectifiedCamera& camera,
 std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera,
                                                    const LineView& view) {
   if (!(view.segment.Length() > 0)) return std::nullopt;
-  // Normal to the two rays, from points near the image, hence well conditioned.
+  // The normal to the two rays is computed from points near the image, so that it is well
+  // conditioned.
   const Eigen::Vector3d normal =
       camera.Unproject(view.segment.start).cross(camera.Unproject(view.segment.end)).normalized();
   Eigen::Vector4d plane;
@@ -180,7 +182,8 @@ Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
     const LineTriangulationOptions& options) {
   using enum LineTriangulationFailure;
   if (views.size() < 2) return kTooFewViews;
-  // Works in the frame of the first camera: no line it sees as a line goes through that origin.
+  // Everything is computed in the frame of the first camera: no line that this camera sees as a
+  // line goes through that origin.
   const Rigid3 world_from_local = Inverse(views.front().cam_from_world);
   std::vector<LineView> local(views.begin(), views.end());
   std::vector<Eigen::Vector4d> planes;

@@ -14,9 +14,9 @@
 
 namespace plumbline {
 
-// A line with the covariance of `delta` in Retract(ToOrthonormal(line), delta). It belongs to the
-// frame of the line: near a line through the origin the tangent loses a dimension and the
-// covariance grows without bound.
+// A line with the covariance of `delta` in Retract(ToOrthonormal(line), delta). The covariance
+// belongs to the frame of the line: near a line through the origin the tangent loses a dimension
+// and the covariance grows without bound.
 struct LineEstimate {
   PluckerLine line;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
@@ -26,55 +26,59 @@ struct LineEstimate {
 struct LineView {
   Rigid3 cam_from_world;
   Segment2 segment;
-  double sigma_px = 1;  // of each end point across the line
+  double sigma_px = 1;  // standard deviation of each end point across the line
 };
 
-// The pose of the right camera of a rectified pair, displaced by the baseline along +x.
+// Returns the pose of the right camera of a rectified pair, displaced by the baseline along +x.
 inline Rigid3 RightCamera(const RectifiedCamera& camera, const Rigid3& left_from_world) {
   return {left_from_world.rotation,
           left_from_world.translation - Eigen::Vector3d(camera.baseline, 0, 0)};
 }
 
-// The plane (n, d), n.X + d = 0, |n| = 1, in the world through the camera centre and a segment.
-// nullopt for a segment of zero length.
+// Returns the plane (n, d), n.X + d = 0, |n| = 1, in the world, through the camera centre and a
+// segment. Returns nullopt for a segment of zero length.
 std::optional<Eigen::Vector4d> InterpretationPlane(const RectifiedCamera& camera,
                                                    const LineView& view);
 
-// What TriangulateLine asks of the views.
+// The conditions that TriangulateLine sets to the views.
 struct LineTriangulationOptions {
-  double min_plane_angle = 0.02;  // smallest largest angle between two interpretation planes [rad]
+  // Least angle [rad] that the widest pair of interpretation planes must have.
+  double min_plane_angle = 0.02;
   // Largest distance of an end point from the reprojected line, in its sigmas, in every view.
   double max_residual_sigma = 3;
-  int max_iterations = 6;  // Gauss-Newton steps after the linear solution; 0 leaves the linear one
+  // Gauss-Newton steps after the linear solution; with 0 the linear solution is the result.
+  int max_iterations = 6;
 };
 
 // Why TriangulateLine gives no line.
 enum class LineTriangulationFailure {
   kTooFewViews,
-  kEmptySegment,       // of zero length
+  kEmptySegment,       // a segment has zero length
   kParallelPlanes,     // all planes within min_plane_angle: the line lies in an epipolar plane
   kBehindCamera,       // an end of a segment is not in front of its camera
   kInconsistentViews,  // a residual above max_residual_sigma
-  kSingular,           // through the centre of the camera or the world's origin
+  // The line goes through the centre of a camera or the world's origin.
+  kSingular,
 };
 
-// A line made of views, and how well they agree on it.
+// A line made from views, and how well they agree on it.
 struct TriangulatedLine {
   LineEstimate estimate;  // in the world, directed as the first view's segment
   double chi2 = 0;        // sum of squared end point distances over their variances
   int residuals = 0;      // number of them; chi2 has residuals - 4 degrees of freedom
 };
 
-// A line from its segments in two or more views.
+// Finds a line from its segments in two or more views.
 //
-// Linear: the two leading right singular vectors of the stacked interpretation planes are two
-// planes through the line (first paper, eq. 25, 24). Differs from the paper: rows scaled to unit
-// normals and weighted by length over sigma, origin moved to the line, since otherwise the sum that
-// the SVD minimises means nothing. Then Gauss-Newton on the distances of the measured end points
-// from the reprojected line (eq. 13), whose normal matrix gives the covariance. The paper's test
-// m.d < 0.01 is met by any two planes; the reprojection into every view stands in its place.
+// The linear solution comes first: the two leading right singular vectors of the stacked
+// interpretation planes are two planes through the line (first paper, eq. 25, 24). It differs from
+// the paper: rows are scaled to unit normals and weighted by length over sigma, and the origin is
+// moved to the line, since otherwise the sum that the SVD minimises means nothing. Then
+// Gauss-Newton minimises the distances of the measured end points from the reprojected line (eq.
+// 13); its normal matrix gives the covariance. The paper's test m.d < 0.01 is met by any two
+// planes; the reprojection into every view takes its place.
 //
-// Cost: O(n^2) for the angle, else O(n).
+// Cost: O(n^2) for the angle, otherwise O(n).
 Expected<TriangulatedLine, LineTriangulationFailure> TriangulateLine(
     const RectifiedCamera& camera,
     std::span<const LineView> views,

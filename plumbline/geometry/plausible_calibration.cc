@@ -13,18 +13,19 @@
 namespace plumbline {
 namespace {
 
-// Focal lengths in longer sides of the image: from more than a half circle to a telescope.
+// Focal lengths relative to the longer side of the image: from more than a half circle to a
+// telescope.
 constexpr double kMinFocal = 0.01, kMaxFocal = 1000;
-// How far the principal point may lie outside of an image that was cut out, in longer sides.
+// Largest distance of the principal point from an image that was cut out, in longer sides.
 constexpr double kFarthestCentre = 10;
 constexpr double kLargestCoefficient = 1e6;
-// A pair that is declared rectified: what rounding in a calibration file may leave.
+// What rounding in a calibration file may leave in a pair that is declared rectified.
 constexpr double kMaxRectifiedAngle = 1e-3;  // radians
-constexpr double kMaxRectifiedTilt = 0.02;   // of the baseline
-// Optical axes further apart see nothing in common.
+constexpr double kMaxRectifiedTilt = 0.02;   // relative to the baseline
+// Optical axes that are further apart see nothing in common.
 constexpr double kMaxAxesAngleDeg = 120;
 
-// Numbers and texts one after the other, numbers with six digits.
+// Returns numbers, with six digits, and texts one after the other.
 template <class... Parts>
 std::string Text(const Parts&... parts) {
   std::ostringstream text;
@@ -32,7 +33,7 @@ std::string Text(const Parts&... parts) {
   return text.str();
 }
 
-// Written so that NaN is outside.
+// The comparison is written so that NaN is outside.
 bool Within(double value, double min, double max) { return value >= min && value <= max; }
 
 std::optional<std::string> RangeFault(
@@ -42,7 +43,8 @@ std::optional<std::string> RangeFault(
 }
 
 std::string Place(const Eigen::Vector3d& p) {
-  return Text("(", p.x() + 0.0, ", ", p.y() + 0.0, ", ", p.z() + 0.0, ") m");  // no minus at 0
+  // + 0.0 leaves no minus at 0
+  return Text("(", p.x() + 0.0, ", ", p.y() + 0.0, ", ", p.z() + 0.0, ") m");
 }
 
 std::optional<std::string> TurnFault(const Calibration& calibration,
@@ -138,7 +140,7 @@ std::optional<std::string> PairFault(const Calibration& calibration) {
                 right.height());
   }
   const Eigen::Vector3d centre = Inverse(calibration.right_from_left).translation;
-  // Written so that NaN fails.
+  // The comparison is written so that NaN fails.
   if (!(centre.x() > 0 && centre.x() > centre.tail<2>().norm())) {
     return Text("expected the right camera to the right (+x) of the left one, found it at ",
                 Place(centre));

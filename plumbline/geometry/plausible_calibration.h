@@ -11,10 +11,10 @@
 
 namespace plumbline {
 
-// What the numbers of a calibration must be for any real sensor, generously. Numbers beyond are
-// slips of a file (a missing decimal point, other units, keys exchanged); some would overflow
-// later, others end in results that mean nothing. All of it stands here, so that every format of
-// files is held to the same; who reads a file says where in it the number stands.
+// Limits, generous ones, that the numbers of a calibration meet for any real sensor. Numbers beyond
+// them are slips of a file (a missing decimal point, other units, keys exchanged). Some would
+// overflow later, others would give results that mean nothing. All limits are here, so that every
+// format of files is held to the same ones. The reader of a file says where in it a number is.
 //
 // Each function returns what was expected and what was found, "expected rate_hz from 0.0001 to
 // 100000 Hz, found 1e+300", or nullopt where nothing is wrong. NaN is wrong everywhere.
@@ -23,33 +23,34 @@ constexpr int kLongestSide = 100'000;              // pixels
 constexpr std::int64_t kMostPixels = 100'000'000;  // pixels that an image may have
 constexpr double kMinBaseline = 1e-4;              // metres
 constexpr double kMaxBaseline = 1e3;
-constexpr double kLongestLever = 1e4;              // metres, from the camera to the body
+constexpr double kLongestLever = 1e4;              // metres, distance of the camera from the body
 constexpr double kMinRate = 1e-4, kMaxRate = 1e5;  // Hz
 constexpr double kMinDepthFactor = 1e-3, kMaxDepthFactor = 1e7;
 
-// Checks a width and height in pixels, whole numbers or not.
+// Checks a width and height in pixels, which need not be whole numbers.
 std::optional<std::string> SizeFault(double width, double height);
 
-// Focal lengths and the principal point against the size of the image, which SizeFault took.
-// `number`, where given, becomes the place among fx, fy, cx, cy of the first that is at fault.
+// Checks focal lengths and principal point against the size of the image, which must have passed
+// SizeFault. `number`, where given, becomes the index among fx, fy, cx, cy of the first number at
+// fault.
 std::optional<std::string> IntrinsicsFault(const CameraIntrinsics& intrinsics,
                                            std::size_t* number = nullptr);
 
-// Whether the lens model has a ray for at least half of the image, whose intrinsics IntrinsicsFault
-// took. O(1).
+// Checks that the lens model has a ray for at least half of the image. The intrinsics must have
+// passed IntrinsicsFault. O(1).
 std::optional<std::string> DistortionFault(const CameraIntrinsics& intrinsics);
 
-// Whether the right camera stands to the right of the left one, at a baseline of kMinBaseline to
-// kMaxBaseline, looks the same way, has images of the same size and, where these are declared
-// rectified, is not turned. Of a calibration with `right`.
+// Checks the cameras of a calibration with `right`. The right camera must stand to the right of the
+// left one, at a baseline of kMinBaseline to kMaxBaseline, look the same way, have images of the
+// same size and, where these are declared rectified, not be turned.
 std::optional<std::string> PairFault(const Calibration& calibration);
 
-// Checks a whole calibration: sizes, intrinsics and lenses of its cameras, how they stand to one
-// another, and the depth factor. It is for calibrations that a program puts together, of which no
-// reader of files has checked the parts.
+// Checks a whole calibration: sizes, intrinsics and lenses of its cameras, their poses to one
+// another, and the depth factor. It is for calibrations that a program puts together, whose parts
+// no reader of files has checked.
 std::optional<std::string> CalibrationFault(const Calibration& calibration);
 
-// Whether images that are declared rectified have no distortion.
+// Checks that images that are declared rectified have no distortion.
 std::optional<std::string> RectifiedFault(const Calibration& calibration);
 
 std::optional<std::string> RateFault(double rate_hz);

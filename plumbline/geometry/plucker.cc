@@ -11,7 +11,7 @@ namespace plumbline {
 
 PluckerLine LineThroughPoints(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d direction = (b - a).normalized();
-  // The midpoint keeps the moment accurate for both ends.
+  // The moment of the midpoint is accurate for both ends.
   return {(0.5 * (a + b)).cross(direction), direction};
 }
 
@@ -79,7 +79,7 @@ OrthonormalLine RetractStraight(const OrthonormalLine& line, const Eigen::Vector
   const double n = h.squaredNorm();
   const double s = 2 * c / (n + std::sqrt(std::max(0.0, n * n - 4 * c * c)));
   const Eigen::Vector3d direction = d - s * m;
-  if (!(direction.norm() > kTiny)) return Retract(line, delta);  // a line at infinity
+  if (!(direction.norm() > kTiny)) return Retract(line, delta);  // the line is at infinity
   return ToOrthonormal({m - s * d, direction});
 }
 

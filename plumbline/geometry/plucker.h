@@ -12,9 +12,9 @@
 namespace plumbline {
 
 // An infinite 3D line in Plücker coordinates: |direction| = 1, moment = X x direction for every
-// point X on the line (the first paper prints d x X in eq. 6, which does not go with its eq. 9, 24
-// and 30; docs/methods/plucker-lines.md). The moment is normal to the plane through the line and
-// the origin, its length the distance of the line from the origin.
+// point X on the line. (The first paper prints d x X in eq. 6, which contradicts its eq. 9, 24 and
+// 30; see docs/methods/plucker-lines.md.) The moment is normal to the plane through the line and
+// the origin; its length is the distance of the line from the origin.
 struct PluckerLine {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
@@ -48,7 +48,8 @@ struct OrthonormalLine {
   Eigen::Quaterniond U = Eigen::Quaterniond::Identity();
   Eigen::Vector2d w = Eigen::Vector2d::UnitY();
 
-  // m = w.x u1, d = w.y u2: homogeneous, |m|^2 + |d|^2 = 1. What dm/ddelta and dd/ddelta refer to.
+  // Returns m = w.x u1 and d = w.y u2, homogeneous with |m|^2 + |d|^2 = 1: the numbers to which
+  // dm/ddelta and dd/ddelta refer.
   Eigen::Matrix<double, 6, 1> Homogeneous() const;
 };
 
@@ -62,13 +63,14 @@ PluckerLine ToPlucker(const OrthonormalLine& line);
 OrthonormalLine Retract(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
 // U <- Exp(delta.head<3>()) U, w turned by delta(3): a turn about the axes of the frame instead of
-// the line's own, as PPL-SLAM has it (reference [20] of the first paper).
+// those of the line, as PPL-SLAM has it (reference [20] of the first paper).
 OrthonormalLine RetractLeft(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
-// Retract() to first order in delta, for optimization: (m, d) moves straight along its derivative,
-// then to the nearest pair with m . d = 0. The moment of the line in any camera, and with it the
-// projected line, is linear in (m, d), so that a Gauss-Newton step ends where it meant to, also a
-// long one; turning U and w leads away from there along an arc (docs/methods/plucker-lines.md).
+// Does what Retract() does to first order in delta, for optimization: (m, d) moves straight along
+// its derivative, then to the nearest pair with m . d = 0. The moment of the line in any camera,
+// and with it the projected line, is linear in (m, d). Even a long Gauss-Newton step therefore ends
+// where it is meant to, while turning U and w leads away along an arc
+// (docs/methods/plucker-lines.md).
 OrthonormalLine RetractStraight(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
 // d(m, d)/d(delta) at delta = 0 of the homogeneous 6-vector (eq. 19 with w21 in place of w12).

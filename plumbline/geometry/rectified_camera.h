@@ -6,19 +6,19 @@
 
 namespace plumbline {
 
-// left.x - right.x of a point in a rectified pair, measured in the right image or computed from a
-// depth image, with its standard deviation.
+// The disparity of a point in a rectified pair, left.x - right.x, measured in the right image or
+// computed from a depth image, with its standard deviation.
 struct Disparity {
   double px = 0;
   double sigma_px = 1;
 };
 
-// The camera that all stages behind rectification see: an ideal pinhole, and beside it a second,
+// The camera that all stages behind rectification see: an ideal pinhole. Beside it is a second,
 // equal one displaced by `baseline` along +x (right camera of a rectified pair). For RGB-D images
 // the right camera is virtual: depth z is carried as the disparity fx * baseline / z.
 //
-// Camera frame: x right, y down, z forward. Pixel centres at integer coordinates. Lengths in
-// metres; of a single camera in the map's unit.
+// Camera frame: x right, y down, z forward. Pixel centres at integer coordinates. Lengths are in
+// metres, for a single camera in the map's unit.
 struct RectifiedCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   double baseline = 0;  // 0: monocular
@@ -32,8 +32,8 @@ struct RectifiedCamera {
   Eigen::Vector3d Unproject(const Eigen::Vector2d& px) const {
     return {(px.x() - cx) / fx, (px.y() - cy) / fy, 1.0};
   }
-  // Added to x in the left camera's frame, it gives x in the frame of a camera of the pair: index 0
-  // is the left (or only) camera, 1 the right one.
+  // Returns what is added to x in the left camera's frame to get x in the frame of a camera of the
+  // pair: index 0 is the left (or only) camera, 1 the right one.
   double ShiftInto(int index) const { return index == 0 ? 0.0 : -baseline; }
   // Disparity in pixels of a point at depth z > 0.
   double DisparityFromDepth(double z) const { return fx * baseline / z; }

@@ -14,8 +14,8 @@ struct RotationFit {
   Eigen::Vector3d singular_values;
 };
 
-// The rotation R that turns vectors s_i best into t_i, from their correlation sum w_i t_i s_i^T: it
-// maximises trace(R^T correlation), and so minimises sum w_i |t_i - R s_i|^2.
+// Returns the rotation R that turns vectors s_i best into t_i, from their correlation sum w_i t_i
+// s_i^T. It maximises trace(R^T correlation), and so minimises sum w_i |t_i - R s_i|^2.
 //
 // Umeyama, Least-squares estimation of transformation parameters between two point patterns, PAMI
 // 1991, eq. 40 and 43.

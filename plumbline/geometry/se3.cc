@@ -74,7 +74,7 @@ Eigen::Matrix3d InverseLeftJacobianSo3(const Eigen::Vector3d& w) {
   const double t = w.norm();
   const Eigen::Matrix3d W = Skew(w);
   const double t2 = t * t;
-  // By the half angle: the form with (1 + cos t) / sin t is 0 / 0 at pi.
+  // The half angle is used because the form with (1 + cos t) / sin t is 0 / 0 at pi.
   const double b = t < 1e-3 ? 1.0 / 12 + t2 / 720 : (1 - 0.5 * t / math::Tan(0.5 * t)) / t2;
   return Eigen::Matrix3d::Identity() - 0.5 * W + b * W * W;
 }

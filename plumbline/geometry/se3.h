@@ -25,8 +25,8 @@ Eigen::Quaterniond ExpSo3(const Eigen::Vector3d& w);
 // Inverse of ExpSo3 with |result| <= pi.
 Eigen::Vector3d LogSo3(const Eigen::Quaterniond& q);
 
-// Returns the rotation by the least angle that turns the direction of `from` into that of `to`; of
-// directions that are opposite to 0.1 degrees, one by some half turn.
+// Returns the rotation by the least angle that turns the direction of `from` into that of `to`.
+// Where the directions are opposite to 0.1 degrees, it is one by some half turn.
 Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 // Left Jacobian of SO(3): Exp(w + dw) = Exp(LeftJacobianSo3(w) dw) Exp(w) to first order.
@@ -42,20 +42,20 @@ struct Rigid3 {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
 
-  // A point of frame a, in frame b.
+  // Returns a point of frame a in frame b.
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
     return rotation * point + translation;
   }
-  // b_from_x of b_from_a and a_from_x.
+  // Returns b_from_x, the product of b_from_a and a_from_x.
   Rigid3 operator*(const Rigid3& a_from_x) const {
     return {(rotation * a_from_x.rotation).normalized(),
             rotation * a_from_x.translation + translation};
   }
-  // The motion as a matrix of homogeneous coordinates.
+  // Returns the motion as a matrix of homogeneous coordinates.
   Eigen::Matrix4d Matrix() const;
 };
 
-// a_from_b of b_from_a.
+// Returns a_from_b for b_from_a.
 inline Rigid3 Inverse(const Rigid3& b_from_a) {
   const Eigen::Quaterniond inverse = b_from_a.rotation.conjugate();
   return {inverse, -(inverse * b_from_a.translation)};
@@ -66,7 +66,7 @@ Rigid3 ExpSe3(const Vector6d& tangent);
 // Inverse of ExpSe3, with a rotation part of at most pi.
 Vector6d LogSe3(const Rigid3& motion);
 
-// exp(tangent) * motion, the update of all pose optimization here.
+// Returns exp(tangent) * motion, the update of all pose optimization here.
 inline Rigid3 RetractLeft(const Rigid3& motion, const Vector6d& tangent) {
   return ExpSe3(tangent) * motion;
 }
@@ -74,8 +74,8 @@ inline Rigid3 RetractLeft(const Rigid3& motion, const Vector6d& tangent) {
 // Adjoint: T exp(x) T^-1 = exp(Adjoint(T) x).
 Matrix6d Adjoint(const Rigid3& motion);
 
-// The motion a fraction s in [0, 1] of the way from a to b: slerp of the rotation, straight line of
-// the translation.
+// Returns the motion a fraction s in [0, 1] of the way from a to b: slerp of the rotation, straight
+// line of the translation.
 Rigid3 Interpolate(const Rigid3& a, const Rigid3& b, double s);
 
 // Angle of the rotation between two orientations, radians in [0, pi].

@@ -16,7 +16,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Stretch kAll{-kInfinity, kInfinity}, kNone{kInfinity, -kInfinity};
 
-// The s with |offset + s step| <= radius.
+// Returns the s with |offset + s step| <= radius.
 Stretch InsideBall(const Eigen::Vector3d& offset, const Eigen::Vector3d& step, double radius) {
   const double a = step.squaredNorm(), b = offset.dot(step);
   const double c = offset.squaredNorm() - radius * radius;
@@ -27,7 +27,7 @@ Stretch InsideBall(const Eigen::Vector3d& offset, const Eigen::Vector3d& step, d
   return {(-b - root) / a, (-b + root) / a};
 }
 
-// The s with 0 <= offset + s step <= limit.
+// Returns the s with 0 <= offset + s step <= limit.
 Stretch Between(double offset, double step, double limit) {
   if (step == 0) return offset >= 0 && offset <= limit ? kAll : kNone;
   const double s0 = -offset / step, s1 = (limit - offset) / step;

@@ -31,9 +31,9 @@ using Segment2 = Segment<2>;
 // A segment in space, metres.
 using Segment3 = Segment<3>;
 
-// The infinite image line through a segment, l = (a, b, c) with a^2 + b^2 = 1, so that
-// l . (x, y, 1) is the signed distance of a pixel from the line. (a, b) is the direction turned by
-// +90 degrees in image coordinates (x right, y down). Undefined for a segment of zero length.
+// Returns the infinite image line through a segment, l = (a, b, c) with a^2 + b^2 = 1, so that l .
+// (x, y, 1) is the signed distance of a pixel from the line. (a, b) is the direction turned by +90
+// degrees in image coordinates (x right, y down). Undefined for a segment of zero length.
 Eigen::Vector3d LineThrough(const Segment2& segment);
 
 // Signed distance of a pixel from a line l scaled to a^2 + b^2 = 1.
@@ -58,13 +58,14 @@ double Distance(const Segment3& segment, const Eigen::Vector3d& point);
 struct Stretch {
   double from = 0, to = 0;
 
-  // Metres.
+  // Returns the length in metres.
   double Length() const { return to - from; }
 };
 
-// The points of `segment` no further than `radius` from `axis`, of any direction; nullopt where
-// there are none. Exact: they lie between the first and the last point that the segment shares with
-// the cylinder around the axis and the balls about its ends, which together are convex.
+// Returns the points of `segment` no further than `radius` from `axis`, in any direction; nullopt
+// where there are none. Exact: they lie between the first and the last point that the segment
+// shares with the cylinder around the axis and the balls around its ends, which together are
+// convex.
 std::optional<Stretch> StretchWithin(const Segment3& segment, const Segment3& axis, double radius);
 
 }  // namespace plumbline

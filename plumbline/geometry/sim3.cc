@@ -11,9 +11,9 @@
 namespace plumbline {
 namespace {
 
-// W = int_0^1 exp(u log_scale) Exp(u w) du, the matrix that takes the translation tangent to the
-// translation. With A = log_scale I + [w]x it is the series sum A^k / (k + 1)!; a quarter of A (or
-// less) converges fast, and W(2A) = (exp(A) + I) W(A) / 2.
+// Returns W = int_0^1 exp(u log_scale) Exp(u w) du, the matrix that turns the translation tangent
+// into the translation. With A = log_scale I + [w]x it is the series sum A^k / (k + 1)!. A quarter
+// of A (or less) converges fast, and W(2A) = (exp(A) + I) W(A) / 2.
 Eigen::Matrix3d TranslationFactor(const Eigen::Vector3d& w, double log_scale) {
   constexpr double kSmall = 0.5;
   constexpr int kTerms = 16;
@@ -36,7 +36,7 @@ Eigen::Matrix3d TranslationFactor(const Eigen::Vector3d& w, double log_scale) {
   return factor;
 }
 
-// ad(x) of sim(3): ad(x) y = [x, y].
+// Returns ad(x) of sim(3): ad(x) y = [x, y].
 Matrix7d SmallAdjoint(const Vector7d& tangent) {
   const Eigen::Matrix3d W = Skew(tangent.head<3>());
   const Eigen::Vector3d v = tangent.segment<3>(3);

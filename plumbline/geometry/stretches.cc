@@ -16,8 +16,8 @@ std::vector<Stretch> WellCovered(std::span<const Stretch> stretches,
                                  std::span<const Stretch> expected,
                                  int count,
                                  double share) {
-  // Changes of the two numbers at one place; begins before ends, so that stretches that touch are
-  // one.
+  // A place where one of the two numbers changes. Begins come before ends, so that stretches that
+  // touch are one.
   struct Event {
     double place;
     bool ends;
@@ -44,7 +44,7 @@ std::vector<Stretch> WellCovered(std::span<const Stretch> stretches,
     wanted += events[i].expected;
     const bool more = i + 1 < events.size() && events[i + 1].place == events[i].place &&
                       events[i + 1].ends == events[i].ends;
-    if (more) continue;  // all that begins here, then all that ends here
+    if (more) continue;  // first all that begins here, then all that ends here
     const bool enough = covered >= count && covered >= share * wanted;
     if (enough && !inside) parts.push_back({events[i].place, events[i].place});
     if (!enough && inside) parts.back().to = events[i].place;

@@ -9,21 +9,22 @@
 
 namespace plumbline {
 
-// The parts of a line that at least `count` of the stretches cover: disjoint, ascending, stretches
-// that touch count as one. With count 1 their union. O(n log n).
+// Returns the parts of a line that at least `count` of the stretches cover. They are disjoint and
+// ascending; stretches that touch count as one. With count 1 this is the union. O(n log n).
 std::vector<Stretch> CoveredAtLeast(std::span<const Stretch> stretches, int count);
 
-// The parts covered by at least `count` of the stretches and by at least `share` times as many of
-// them as of `expected`: where it was shown often enough of the times it should have been.
+// Returns the parts that at least `count` of the stretches cover, and at least `share` times as
+// many of them as of `expected`: where the line was shown often enough, compared with how often it
+// should have been.
 std::vector<Stretch> WellCovered(std::span<const Stretch> stretches,
                                  std::span<const Stretch> expected,
                                  int count,
                                  double share);
 
-// Parts with gaps of at most `max_gap` closed. Parts: disjoint, ascending.
+// Returns the parts with gaps of at most `max_gap` closed. `parts` must be disjoint and ascending.
 std::vector<Stretch> WithGapsClosed(std::span<const Stretch> parts, double max_gap);
 
-// Sum of the lengths.
+// Returns the sum of the lengths.
 double TotalLength(std::span<const Stretch> stretches);
 
 }  // namespace plumbline

@@ -7,7 +7,7 @@
 namespace plumbline {
 namespace {
 
-// First pose at or after the stamp.
+// Returns the first pose at or after the stamp.
 Trajectory::const_iterator LowerBound(const Trajectory& trajectory, std::int64_t stamp_ns) {
   return std::ranges::lower_bound(trajectory, stamp_ns, {}, &StampedPose::stamp_ns);
 }

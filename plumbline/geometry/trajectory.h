@@ -10,7 +10,7 @@
 
 namespace plumbline {
 
-// Where a camera was at one time.
+// The pose of a camera at one time.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   Rigid3 world_from_camera;
@@ -19,24 +19,24 @@ struct StampedPose {
 // Poses of one camera, stamps strictly ascending.
 using Trajectory = std::vector<StampedPose>;
 
-// Pose at a stamp: linear in position, slerp in orientation between the two neighbours. nullopt
-// outside the trajectory's time and where the neighbours are more than max_gap_ns apart; a stamp
-// that the trajectory contains is always answered. O(log n).
+// Returns the pose at a stamp: linear in position, slerp in orientation between the two neighbours.
+// Returns nullopt outside the trajectory's time and where the neighbours are more than max_gap_ns
+// apart; a stamp that the trajectory contains always has a pose. O(log n).
 std::optional<Rigid3> InterpolateAt(const Trajectory& trajectory,
                                     std::int64_t stamp_ns,
                                     std::int64_t max_gap_ns);
 
-// Index of the pose nearest in time (the earlier one of two equally near), nullopt when further
-// away than max_difference_ns. O(log n).
+// Returns the index of the pose nearest in time (the earlier one of two equally near ones); nullopt
+// when it is further away than max_difference_ns. O(log n).
 std::optional<std::size_t> NearestIndex(const Trajectory& trajectory,
                                         std::int64_t stamp_ns,
                                         std::int64_t max_difference_ns);
 
-// The trajectory with time running backwards: a pose at t comes at mirror_ns - t. Done twice, it
-// gives the trajectory itself.
+// Returns the trajectory with time running backwards: a pose at t moves to mirror_ns - t. Applied
+// twice, this gives the original trajectory.
 Trajectory TimeReversed(Trajectory trajectory, std::int64_t mirror_ns);
 
-// Sum of the distances between successive positions, metres.
+// Returns the sum of the distances between successive positions, in metres.
 double PathLength(const Trajectory& trajectory);
 
 }  // namespace plumbline

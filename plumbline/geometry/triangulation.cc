@@ -16,7 +16,7 @@ namespace {
 
 using Row = Eigen::RowVector3d;
 
-// Camera centres, two for a view with a disparity, in the world.
+// Returns the camera centres in the world, two for a view with a disparity.
 std::vector<Eigen::Vector3d> CentresOf(const RectifiedCamera& camera,
                                        std::span<const PointView> views) {
   std::vector<Eigen::Vector3d> centres;
@@ -41,7 +41,8 @@ double LargestParallax(const std::vector<Eigen::Vector3d>& centres, const Eigen:
   return largest.angle();
 }
 
-// Homogeneous least squares on u (row 3) - (row 1) = 0 and the like, in the first camera's frame.
+// Solves homogeneous least squares on u (row 3) - (row 1) = 0 and the like, in the first camera's
+// frame.
 std::optional<Eigen::Vector3d> LinearPoint(const RectifiedCamera& camera,
                                            std::span<const PointView> views) {
   const Rigid3 world_from_local = Inverse(views.front().cam_from_world);
@@ -90,7 +91,7 @@ std::vector<Eigen::Matrix3d> RotationsOf(std::span<const PointView> views) {
   return rotations;
 }
 
-// nullopt when the point is not in front of every camera.
+// Returns nullopt when the point is not in front of every camera.
 std::optional<NormalEquations> Linearize(const RectifiedCamera& camera,
                                          std::span<const PointView> views,
                                          const std::vector<Eigen::Matrix3d>& rotations,
@@ -131,7 +132,7 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
   const std::vector<Eigen::Vector3d> centres = CentresOf(camera, views);
   if (centres.size() < 2) return kTooFewViews;
   const std::optional<Eigen::Vector3d> start = LinearPoint(camera, views);
-  if (!start) return kSmallParallax;  // at infinity
+  if (!start) return kSmallParallax;  // the point is at infinity
   Eigen::Vector3d point = *start;
   const std::vector<Eigen::Matrix3d> rotations = RotationsOf(views);
   std::optional<NormalEquations> equations = Linearize(camera, views, rotations, point);
@@ -140,7 +141,7 @@ Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
     const Eigen::Vector3d step = SolveSymmetric<3>(equations->information, equations->gradient);
     const Eigen::Vector3d trial = point - step;
     std::optional<NormalEquations> trial_equations = Linearize(camera, views, rotations, trial);
-    // Also ends where the step is not finite.
+    // The loop also ends where the step is not finite.
     if (!trial_equations || !(trial_equations->chi2 <= equations->chi2)) break;
     point = trial;
     equations = std::move(trial_equations);

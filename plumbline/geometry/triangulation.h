@@ -18,7 +18,7 @@ struct PointEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // m^2
 };
 
-// The point in another frame.
+// Returns the point in another frame.
 PointEstimate Transform(const Rigid3& b_from_a, const PointEstimate& point_in_a);
 
 // A point seen by one camera (or, with a disparity, by a pair).
@@ -30,12 +30,13 @@ struct PointView {
 };
 
 struct PointTriangulationOptions {
-  double min_parallax = 0.02;  // smallest largest angle between two viewing rays [rad]
-  int max_iterations = 6;      // Gauss-Newton steps
+  // Least angle [rad] that the widest pair of viewing rays must have.
+  double min_parallax = 0.02;
+  int max_iterations = 6;  // Gauss-Newton steps
 };
 
 enum class PointTriangulationFailure {
-  kTooFewViews,    // less than two rays; a view with a disparity has two
+  kTooFewViews,    // fewer than two rays; a view with a disparity has two
   kSmallParallax,  // all rays within min_parallax
   kBehindCamera,   // depth <= 0 in a view
   kSingular,       // the measurements do not fix the point
@@ -48,10 +49,11 @@ struct TriangulatedPoint {
   int residuals = 0;    // number of them; chi2 has residuals - 3 degrees of freedom
 };
 
-// A point from two or more views: linear (DLT in the first camera's frame), then Gauss-Newton on
-// the reprojection and disparity errors, whose normal matrix gives the covariance.
+// Finds a point from two or more views. The linear solution (DLT in the first camera's frame) is
+// refined by Gauss-Newton on the reprojection and disparity errors; the normal matrix gives the
+// covariance.
 //
-// Whether chi2 is acceptable is for the caller to judge. O(n), parallax O(n^2).
+// The caller has to judge whether chi2 is acceptable. O(n), parallax O(n^2).
 Expected<TriangulatedPoint, PointTriangulationFailure> TriangulatePoint(
     const RectifiedCamera& camera,
     std::span<const PointView> views,

@@ -14,12 +14,13 @@ std::optional<double> TrimmedParameter(const RectifiedCamera& camera,
   const PluckerLine line = Transform(cam_from_world, line_in_world);
   const Eigen::Vector3d image_line = camera.ProjectMoment(line.moment);
   const double scale = image_line.head<2>().norm();
-  // Seen end-on, or on the horizon of the image plane.
+  // The line is seen end-on, or on the horizon of the image plane.
   if (!(scale > kParallel * image_line.norm()) || !(line.moment.norm() > 0)) return std::nullopt;
   const Eigen::Vector3d l = image_line / scale;
   const Eigen::Vector2d foot = px - LineDistance(l, px) * l.head<2>();  // eq. 26, 27
   const double c = l.x() * foot.y() - l.y() * foot.x();
-  // The plane through the centre and the image line (l2, -l1, c): K^T times it.
+  // The normal of the plane through the centre and the image line (l2, -l1, c) is K^T times that
+  // line.
   const Eigen::Vector3d normal(
       camera.fx * l.y(), -camera.fy * l.x(), camera.cx * l.y() - camera.cy * l.x() + c);
   const double incidence = normal.dot(line.direction);

@@ -12,38 +12,37 @@
 
 namespace plumbline {
 
-// A piece of a PluckerLine by parameters: Foot() + t * direction.
+// A piece of a PluckerLine, from parameter start to parameter end: Foot() + t * direction.
 struct LineInterval {
   double start = 0;
   double end = 0;
 };
 
-// The parameter of the point of a 3D line that a pixel beside its projection stands for.
+// Returns the parameter of the point of a 3D line that belongs to a pixel beside its projection.
 //
 // Cuts the line with the plane through the camera centre and the image line that meets the
-// projected line at right angles in the foot of the pixel (first paper, eq. 26-30; the
+// projected line at right angles in the foot of the pixel (first paper, eq. 26-30). The
 // perpendicular image line is (l2, -l1, l1 y - l2 x) through the foot (x, y), in place of eq.
-// 28-29, which fail for horizontal and vertical lines).
+// 28-29, which fail for horizontal and vertical lines.
 //
 //   cam_from_world  pose of the camera; line_in_world in the same world
 //   px              rectified pixel
 //   returns         parameter along line_in_world
-//   fails           nullopt: the point is behind the camera, the line goes through the camera
-//   centre
-//                   or runs parallel to the viewing plane
+//   fails           nullopt: the point is behind the camera, or the line goes through the camera
+//                   centre or runs parallel to the viewing plane
 std::optional<double> TrimmedParameter(const RectifiedCamera& camera,
                                        const Rigid3& cam_from_world,
                                        const PluckerLine& line_in_world,
                                        const Eigen::Vector2d& px);
 
-// Both ends of an observed segment. end < start where the segment runs against the line's
-// direction.
+// Returns the parameters of both ends of an observed segment. end < start where the segment runs
+// against the line's direction.
 std::optional<LineInterval> TrimToSegment(const RectifiedCamera& camera,
                                           const Rigid3& cam_from_world,
                                           const PluckerLine& line_in_world,
                                           const Segment2& segment);
 
-// The two points of an interval.
+// Returns the segment between the two points of an interval.
 inline Segment3 SegmentOf(const PluckerLine& line, const LineInterval& interval) {
   return {line.PointAt(interval.start), line.PointAt(interval.end)};
 }

@@ -15,9 +15,9 @@ namespace plumbline {
 
 // What makes a straight line of a known world visible.
 enum class TrueLineKind {
-  kGeometry,  // an edge of a body
-  kTexture,   // painted on a surface
-  kShadow,    // the border of a shadow
+  kGeometry,  // it is an edge of a body
+  kTexture,   // it is painted on a surface
+  kShadow,    // it is the border of a shadow
 };
 constexpr auto EnumNames(std::type_identity<TrueLineKind>) {
   return std::array{std::pair{TrueLineKind::kGeometry, "geometry"},
@@ -26,14 +26,14 @@ constexpr auto EnumNames(std::type_identity<TrueLineKind>) {
 }
 inline constexpr std::size_t kTrueLineKinds = EnumNames(std::type_identity<TrueLineKind>{}).size();
 
-// Frames first to last of a sequence, both included, counted from 0.
+// The frames `first` to `last` of a sequence, both included, counted from 0.
 struct FrameRange {
   int first = 0, last = 0;
 
   bool operator==(const FrameRange&) const = default;
 };
 
-// A straight line of a known world: what a perfect line map would hold.
+// A straight line of a known world, as a perfect line map would have it.
 struct TrueLine {
   Segment3 segment;  // metres, world of the ground truth
   TrueLineKind kind = TrueLineKind::kGeometry;

@@ -14,18 +14,18 @@
 namespace plumbline {
 namespace {
 
-constexpr int kUnit = 32;  // of a pixel
+constexpr int kUnit = 32;  // parts of a pixel
 
 struct Place {
   int first;
-  int next_weight;  // of kUnit
+  int next_weight;  // weight in parts of kUnit
 };
 
-// The pixel at or before a place and the weight of the next one; both are in the image, whatever
-// the place.
+// Returns the pixel at or before a place, and the weight of the next pixel. Both pixels are in the
+// image, whatever the place.
 Place PlaceOf(float place, int size) {
   constexpr float kLimit = 32768;
-  // To the nearest, ties to even.
+  // Rounds to the nearest number, ties to even.
   const auto units = static_cast<int>(std::nearbyint(std::clamp(place, -kLimit, kLimit) * kUnit));
   const int first = units >> 5;
   if (first < 0) return {0, 0};
@@ -33,7 +33,7 @@ Place PlaceOf(float place, int size) {
   return {first, units & (kUnit - 1)};
 }
 
-// There is always a next pixel: that of a single row or column is itself.
+// There is always a next pixel: a single row or column is its own neighbour.
 int AtLeastTwo(int size) { return std::max(size, 2); }
 
 GrayImage Doubled(const GrayImage& image) {

@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// Mean over a size x size window around each pixel, border pixels repeated. size >= 1; 1 changes
-// nothing.
+// Returns the mean over a size x size window around each pixel; border pixels are repeated. size >=
+// 1; 1 changes nothing.
 GrayImage BoxFiltered(const GrayImage& image, int size);
 
 }  // namespace plumbline

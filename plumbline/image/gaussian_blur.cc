@@ -16,7 +16,7 @@ constexpr int kReach = 3;
 constexpr int kTaps = 2 * kReach + 1;
 constexpr int kBlock = 32;
 
-// A row of pixels, `padded` from kReach before its first one on, in 256ths.
+// Blurs a row of pixels, in 256ths. `padded` begins kReach before its first pixel.
 struct BlurAlong {
   [[gnu::always_inline]] static inline void Run(const std::uint8_t* padded,
                                                 const BlurWeights& weights,
@@ -67,7 +67,7 @@ struct BlurAcross {
   }
 };
 
-// The pixel that stands for one beyond the border of a row or column of this size.
+// Returns the pixel that stands for one beyond the border of a row or column of this size.
 int Inside(int place, int size, ImageBorder border) {
   if (border == ImageBorder::kRepeated || size == 1) return std::clamp(place, 0, size - 1);
   while (place < 0 || place >= size) place = place < 0 ? -place : 2 * (size - 1) - place;
@@ -83,7 +83,7 @@ GrayImage Blurred(const GrayImage& image, const BlurWeights& weights, ImageBorde
   if (image.empty()) return result;
   const auto columns = static_cast<std::size_t>(width);
   std::vector<std::uint8_t> padded(columns + 2 * kReach);
-  // The last rows that were blurred along, row y in y modulo kKept.
+  // The last rows that were blurred along the row, with row y at y modulo kKept.
   constexpr int kKept = kTaps + 1;
   std::array<std::vector<std::uint16_t>, kKept> kept;
   for (auto& row : kept) row.resize(columns);

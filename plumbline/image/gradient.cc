@@ -19,13 +19,13 @@ namespace plumbline {
 
 namespace {
 
-// Three rows of pixels, weighted 1, 2, 1 and -1, 0, 1, with a column more at either end.
+// Three rows of pixels, weighted by 1, 2, 1 and by -1, 0, 1, with one more column at either end.
 struct RowPair {
   std::vector<std::int16_t> smooth;
   std::vector<std::int16_t> change;
 };
 
-// The Sobel operator on one row, whose border is repeated.
+// Applies the Sobel operator to one row, whose border is repeated.
 struct SobelOfRow {
   [[gnu::always_inline]] static inline void Run(const std::uint8_t* above,
                                                 const std::uint8_t* row,

@@ -11,7 +11,8 @@
 
 namespace plumbline {
 
-// An image of one channel, rows top to bottom without padding. A value: copies copy the pixels.
+// An image of one channel, rows top to bottom without padding. It is a value: a copy copies the
+// pixels.
 template <class T>
 class Image {
  public:
@@ -49,7 +50,8 @@ class Image {
 
 // Grey levels, 0 black to 255 white.
 using GrayImage = Image<std::uint8_t>;
-using DepthImage = Image<float>;  // metres along z; 0 where there is no measurement
+// Metres along z; 0 where there is no measurement.
+using DepthImage = Image<float>;
 
 // What the sensors delivered at one instant, as decoded, before rectification.
 struct SensorFrame {

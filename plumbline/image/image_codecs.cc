@@ -26,13 +26,13 @@ struct DestroyTurboJpeg {
 };
 using TurboJpeg = std::unique_ptr<void, DestroyTurboJpeg>;
 
-// How libspng is asked for an image, and how the pixels come.
+// The format in which libspng is asked for an image, and the type of the matrix that receives it.
 struct PngPixels {
   int format = 0;
-  int type = 0;  // of the matrix
+  int type = 0;  // type of the matrix
 };
 
-// A type of -1: a kind of image that is not decoded here.
+// Returns the format for a kind of image; a type of -1 where that kind is not decoded here.
 PngPixels PixelsOf(const spng_ihdr& header) {
   const bool grey = header.color_type == SPNG_COLOR_TYPE_GRAYSCALE;
   const bool color = header.color_type == SPNG_COLOR_TYPE_TRUECOLOR ||

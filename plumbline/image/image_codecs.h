@@ -10,26 +10,27 @@
 
 namespace plumbline {
 
-// PNG, JPEG and WebP by libspng, TurboJPEG and libwebp, which are small: OpenCV's own codecs bring
-// a hundred libraries along (opencv_modules.h). Matrices are as OpenCV's codecs give and take them:
-// CV_8UC1, CV_8UC3 (blue, green, red) or CV_16UC1 (PNG alone).
+// Codecs of PNG, JPEG and WebP by libspng, TurboJPEG and libwebp, which are small: OpenCV's own
+// codecs bring a hundred libraries along (opencv_modules.h). Matrices are as OpenCV's codecs give
+// and take them: CV_8UC1, CV_8UC3 (blue, green, red) or CV_16UC1 (PNG alone).
 
-// Grey images of up to 16 bits and colours of 8 bits; alpha is left out. Empty for PNG files of
-// other kinds, and for bytes that libspng refuses.
+// Decodes grey images of up to 16 bits and colours of 8 bits; alpha is left out. Returns an empty
+// matrix for other kinds of PNG files, and for bytes that libspng refuses.
 cv::Mat DecodePng(std::span<const std::uint8_t> bytes);
 
-// Grey images and colours; an orientation in the file is ignored. Empty for JPEG files of other
-// kinds (CMYK), and for bytes that TurboJPEG refuses; where it only warns there is an image.
+// Decodes grey images and colours; an orientation in the file is ignored. Returns an empty matrix
+// for other kinds of JPEG files (CMYK), and for bytes that TurboJPEG refuses; where it only warns
+// there is an image.
 cv::Mat DecodeJpeg(std::span<const std::uint8_t> bytes);
 
-// Colours, also of grey images, since WebP knows no other; alpha is left out. Empty for animations
-// and for bytes that libwebp refuses.
+// Decodes to colours, even grey images, since WebP knows nothing else; alpha is left out. Returns
+// an empty matrix for animations and for bytes that libwebp refuses.
 cv::Mat DecodeWebp(std::span<const std::uint8_t> bytes);
 
-// The bytes of a file, compressed for speed rather than size.
+// Returns the bytes of a file, compressed for speed rather than size.
 std::string EncodePng(const cv::Mat& image);
 
-// The bytes of a file. quality: 1 to 100. For CV_8UC1.
+// Returns the bytes of a file. quality: 1 to 100. For CV_8UC1.
 std::string EncodeJpeg(const cv::Mat& image, int quality);
 
 }  // namespace plumbline

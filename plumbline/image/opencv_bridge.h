@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-// A cv::Mat header over the pixels of an Image; no copy. The Image must outlive it. OpenCV has no
-// const matrices: do not write through the Mat of a const Image.
+// Returns a cv::Mat header over the pixels of an Image, without a copy. The Image must outlive it.
+// OpenCV has no const matrices: do not write through the Mat of a const Image.
 template <class T>
 cv::Mat AsMat(const Image<T>& image) {
   return cv::Mat(

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kLibrary = "libplumbline_opencv.so";
 constexpr const char* kFunction = "PlumblineOpenCvModules";
 
-// Whether a library could not be loaded for want of memory, by what glibc says of it.
+// Whether a library could not be loaded for lack of memory, judged by the message of glibc.
 bool IsOutOfMemory(std::string_view reason) {
   constexpr std::array kReasons{"failed to map segment", "annot allocate", "cannot map zero-fill"};
   return std::any_of(kReasons.begin(), kReasons.end(), [&](const char* text) {
@@ -27,8 +27,8 @@ bool IsOutOfMemory(std::string_view reason) {
 }
 
 const OpenCvModules& Load() {
-  // The folder is in the search path of whoever links this module (CMakeLists.txt). The library
-  // stays until the process ends, since threads of its libraries may.
+  // The folder is in the search path of every binary that links this module (CMakeLists.txt). The
+  // library stays loaded until the process ends, since threads of its libraries may run until then.
   void* library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     const char* reason = dlerror();  // NOLINT(concurrency-mt-unsafe): of this thread, in glibc

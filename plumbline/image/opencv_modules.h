@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// cv::VideoCapture, whose functions these are; see there. Backends are its constants, cv::CAP_...
+// The functions of cv::VideoCapture; see there. Backends are its constants cv::CAP_...
 class VideoCapture {
  public:
   virtual ~VideoCapture() = default;
@@ -28,24 +28,24 @@ class VideoCapture {
   virtual void Set(int property, double value) = 0;
 };
 
-// What is needed of OpenCV's modules imgcodecs, videoio and ximgproc. They bring FFmpeg, GStreamer
-// and GDAL along, some 230 libraries that take half a second and 60 MB to load, and most runs need
-// none of them: so they are linked by a library of their own, which is loaded when somebody first
-// asks for it.
+// What the program needs of OpenCV's modules imgcodecs, videoio and ximgproc. They bring FFmpeg,
+// GStreamer and GDAL along, some 230 libraries that take half a second and 60 MB to load, and most
+// runs need none of them. A library of its own therefore links them, which is loaded when it is
+// first needed.
 class OpenCvModules {
  public:
   virtual ~OpenCvModules() = default;
 
-  // cv::imdecode; empty where it refuses.
+  // Does what cv::imdecode does; the result is empty where that refuses.
   virtual cv::Mat DecodeImage(std::span<const std::uint8_t> bytes, int flags) const = 0;
   virtual std::unique_ptr<VideoCapture> NewVideoCapture() const = 0;
-  // Line segments by cv::ximgproc::EdgeDrawing, each from (x, y) to (x, y).
+  // Returns line segments by cv::ximgproc::EdgeDrawing, each from (x, y) to (x, y).
   virtual std::vector<cv::Vec4f> EdgeDrawingLines(const cv::Mat& image) const = 0;
 };
 
-// Loads the library libplumbline_opencv.so at the first call: from where it was built, or was
-// installed beside the program. InputError where it cannot be loaded. May be called by several
-// threads.
+// Loads the library libplumbline_opencv.so at the first call, from where it was built or was
+// installed beside the program. Throws InputError where it cannot be loaded. May be called by
+// several threads.
 const OpenCvModules& LoadOpenCvModules();
 
 }  // namespace plumbline

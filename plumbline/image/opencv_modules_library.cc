@@ -54,7 +54,7 @@ class LinkedModules : public OpenCvModules {
 }  // namespace
 }  // namespace plumbline
 
-// Unnamed by C++, so that LoadOpenCvModules() finds it.
+// The name is not mangled, so that LoadOpenCvModules() finds it.
 extern "C" __attribute__((visibility("default"))) const plumbline::OpenCvModules*
 PlumblineOpenCvModules() {
   static const plumbline::LinkedModules modules;

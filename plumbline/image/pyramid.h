@@ -27,9 +27,9 @@ struct PyramidLevel {
 // An image and smaller copies of it; level 0 has full size.
 using ImagePyramid = std::vector<PyramidLevel>;
 
-// Each level is the level below resized (bilinear) so that level k is `factor`^k times smaller than
-// level 0. Stops early before a side would be shorter than `min_side` pixels; level 0 is always
-// there.
+// Returns a pyramid. Each level is the level below resized (bilinear), so that level k is
+// `factor`^k times smaller than level 0. It stops before a side would be shorter than `min_side`
+// pixels; level 0 is always there.
 ImagePyramid BuildPyramid(const GrayImage& image, int levels, double factor, int min_side = 40);
 
 }  // namespace plumbline

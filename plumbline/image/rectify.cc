@@ -44,7 +44,7 @@ std::optional<Eigen::Vector2d> RectifiedTangents(const View& view, const Eigen::
   return Eigen::Vector2d(turned.head<2>() / turned.z());
 }
 
-// Shrinks the extent to one whose sides stay inside the raw image's curved border.
+// Shrinks the extent until its sides are inside the raw image's curved border.
 void ShrinkToInside(const View& view, Extent& extent) {
   constexpr int kSamples = 64;
   const double right = view.camera->width() - 1;
@@ -103,7 +103,8 @@ bool SamePinhole(const Camera& a, const Camera& b) {
          std::abs(p.cy - q.cy) < kTolerance;
 }
 
-// Rotation that turns x to the baseline and z to the mean optical axis, as near as that allows.
+// Returns the rotation that turns x to the baseline and z to the mean optical axis, as near as that
+// allows.
 Eigen::Quaterniond StereoRotation(const Rigid3& left_from_right) {
   const Eigen::Vector3d x = left_from_right.translation.normalized();
   const Eigen::Vector3d axis =
@@ -118,7 +119,8 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// Throws InputError where a fault was found. A calibration read from a file was checked with it.
+// Throws InputError where a fault was found. Calibrations that were read from a file have passed
+// the same checks before.
 void Refuse(const std::optional<std::string>& fault) {
   if (fault) throw InputError("calibration: " + *fault);
 }
@@ -184,8 +186,8 @@ Rectifier::Rectifier(Rectifier&&) noexcept = default;
 Rectifier& Rectifier::operator=(Rectifier&&) noexcept = default;
 
 Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration) {
-  // Turns depth into disparity [m]: about the baseline of sensors of structured light, so that
-  // these are the disparities that they measured.
+  // Baseline that turns depth into disparity [m]. It is about that of sensors with structured
+  // light, so that the disparities are those that they measured.
   constexpr double kVirtualBaseline = 0.08;
   const Camera& left = calibration_.left;
   const bool stereo = calibration_.right.has_value();

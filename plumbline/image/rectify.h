@@ -24,14 +24,14 @@ struct RectifiedFrame {
   std::optional<DepthImage> depth;
 };
 
-// Turns raw images into those of an ideal pinhole camera, stereo pairs with corresponding points in
-// the same row.
+// Turns raw images into those of an ideal pinhole camera, and stereo pairs into pairs with
+// corresponding points in the same row.
 //
 // Stereo: both images are turned so that x runs along the baseline and z along the mean of the two
 // optical axes. Mono, RGB-D: only the distortion is removed. The ideal camera has the input's size
-// and square pixels; its focal length is the smallest at which (nearly) every pixel of both images
-// comes from a real pixel, kept within 0.5 to 1.3 of the raw one. Images that need nothing are
-// handed through as they are.
+// and square pixels. Its focal length is the smallest at which (nearly) every pixel of both images
+// comes from a real pixel, kept within 0.5 to 1.3 of the raw one. Images that need no change are
+// passed on as they are.
 class Rectifier {
  public:
   // Throws InputError where the two cameras of a pair differ in size, the second one is not to the
@@ -44,29 +44,30 @@ class Rectifier {
   // The ideal camera; its baseline is the true one (stereo), the virtual one (RGB-D) or 0 (mono).
   const RectifiedCamera& camera() const { return camera_; }
   const Calibration& calibration() const { return calibration_; }
-  // Turns directions of the left camera as delivered into its rectified frame (same centre).
+  // Turns directions of the left camera as delivered into its rectified frame, which has the same
+  // centre.
   const Eigen::Quaterniond& rectified_left_from_left() const { return rectified_left_from_left_; }
 
-  // The ideal images of a frame; pass an rvalue to save copies where nothing is to be done. Linear
-  // interpolation at 1/32 px, depth by the nearest neighbour. Pixels from beyond the raw image
-  // repeat its border (depth: 0). A right or depth image that the calibration does not know is
-  // dropped, one that is missing stays missing. Throws InputError on images of another size than
-  // calibrated. One thread may call it while others do. A helper takes
-  // the right or depth image.
+  // Returns the ideal images of a frame; pass an rvalue to save copies where nothing is to be done.
+  // Linear interpolation at 1/32 px, depth by the nearest neighbour. Pixels from beyond the raw
+  // image repeat its border (depth: 0). A right or depth image that the calibration does not know
+  // is dropped; one that is missing stays missing. Throws InputError for images of another size
+  // than calibrated. Several threads may call it at once. A helper, if given, does the right or
+  // depth image.
   RectifiedFrame Apply(SensorFrame frame, HelperThread* helper = nullptr) const;
 
-  // 255 where all of a pixel comes from real pixels, 0 where not; same size as the images. Edges
-  // along its border are not edges of the scene.
+  // 255 where all of a pixel comes from real pixels, otherwise 0; same size as the images. Edges
+  // along the border of this region are not edges of the scene.
   const GrayImage& left_mask() const { return left_mask_; }
   const GrayImage& right_mask() const { return right_mask_; }  // empty without a right camera
 
-  // Where a raw pixel comes to lie in the ideal image, without rounding. nullopt beyond the domain
-  // of the camera model or behind the rectified image plane.
+  // Returns where a raw pixel lies in the ideal image, without rounding. Returns nullopt beyond the
+  // domain of the camera model or behind the rectified image plane.
   std::optional<Eigen::Vector2d> RectifyLeft(const Eigen::Vector2d& raw_px) const;
   std::optional<Eigen::Vector2d> RectifyRight(const Eigen::Vector2d& raw_px) const;
 
  private:
-  struct Maps;  // of cv::remap; null where images pass unchanged
+  struct Maps;  // maps as of cv::remap; null where images pass unchanged
 
   Calibration calibration_;
   RectifiedCamera camera_;

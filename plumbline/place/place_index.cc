@@ -14,8 +14,8 @@
 namespace plumbline {
 namespace {
 
-// What a vote is worth by the bits that differ, in parts of kOne: the parabola that ends with 0 one
-// bit beyond the reach.
+// What a vote is worth by the number of bits that differ, in parts of kOne: a parabola that reaches
+// 0 one bit beyond the reach.
 constexpr std::uint64_t kOne = 256;
 using NearnessTable = std::array<std::uint64_t, kSignatureBits + 1>;
 
@@ -26,7 +26,7 @@ constexpr NearnessTable Nearness(std::uint64_t reach) {
   return table;
 }
 
-// Signatures of the strongest, strongest first.
+// Returns the signatures of the strongest features, the strongest first.
 template <class Feature, class ToSignature>
 std::vector<Signature> Strongest(const std::vector<Feature>& features,
                                  std::size_t most,
@@ -48,18 +48,19 @@ std::array<std::vector<Signature>, 2> SignaturesOf(const Features& features) {
           Strongest(features.lines, PlaceIndex::kLines, LineSignature)};
 }
 
-// The votes of the features of one image: whole numbers, so that no order changes their sum.
+// Counts the votes of the features of one image. Votes are whole numbers, so that no order changes
+// their sum.
 class Poll {
  public:
   explicit Poll(std::size_t slots) : nearest_(slots, kNone), votes_(slots, 0) {}
 
-  // A feature of the image and one of a keyframe differ in so many bits.
+  // Tells that the present feature of the image and one of a keyframe differ in so many bits.
   void Meet(std::uint32_t slot, int distance) {
     if (nearest_[slot] == kNone) met_.push_back(slot);
     nearest_[slot] = std::min(nearest_[slot], static_cast<std::uint8_t>(distance));
   }
 
-  // The keyframes met since the last call get the vote of the feature, by their nearness.
+  // Gives each keyframe met since the last call the vote of the feature, weighed by their nearness.
   void Count(std::size_t keyframes, const NearnessTable& nearness) {
     const auto all = static_cast<double>(keyframes);
     const auto rarity = static_cast<std::uint64_t>(
@@ -78,20 +79,21 @@ class Poll {
 
  private:
   static constexpr std::uint8_t kNone = 255;
-  std::vector<std::uint8_t> nearest_;  // of the feature at hand, by slot
-  std::vector<std::uint32_t> met_;     // slots that it has met
-  std::vector<std::uint64_t> votes_;   // by slot
-  std::uint64_t all_ = 0;              // that a keyframe can get
+  std::vector<std::uint8_t> nearest_;  // nearest distance of the present feature, by slot
+  std::vector<std::uint32_t> met_;     // slots that the present feature has met
+  std::vector<std::uint64_t> votes_;   // votes of each slot
+  std::uint64_t all_ = 0;              // the votes that a keyframe can get at most
 };
 
-// Which keyframes may get votes, by slot: found out when the first feature of one is near.
+// Decides which keyframes may get votes, by slot. A keyframe is asked about when a feature of it is
+// first found near.
 class Electorate {
  public:
   Electorate(const std::vector<KeyFrameId>& by_slot, const std::function<bool(KeyFrameId)>& allowed)
       : by_slot_(by_slot), allowed_(allowed), known_(by_slot.size(), Known::kNothing) {}
 
-  // Those features of a leaf that are not known to be of a keyframe that is not allowed. Most of
-  // what looks alike is of the keyframes around, which are not.
+  // Returns the features of a leaf that may be of an allowed keyframe. Most of what looks alike is
+  // of the keyframes around the camera, which are not allowed.
   void Choose(std::span<const FeatureName> leaf, std::vector<FeatureName>* names) const {
     names->resize(leaf.size());
     std::size_t count = 0;
@@ -110,7 +112,7 @@ class Electorate {
     return known_[slot] == Known::kAllowed;
   }
 
-  // Those allowed that were asked for, in this order.
+  // Returns the allowed keyframes that were asked about, in this order.
   const std::vector<std::uint32_t>& found() const { return found_; }
 
  private:
@@ -121,7 +123,7 @@ class Electorate {
   std::vector<std::uint32_t> found_;
 };
 
-// The best first, the older of two that are equal.
+// Keeps the best candidates, the best first; of two equal ones the older comes first.
 void KeepBest(std::size_t most, std::vector<PlaceCandidate>* candidates) {
   const auto better = [](const PlaceCandidate& a, const PlaceCandidate& b) {
     return a.score != b.score ? a.score > b.score : a.id < b.id;
@@ -136,7 +138,7 @@ void KeepBest(std::size_t most, std::vector<PlaceCandidate>* candidates) {
 
 }  // namespace
 
-// The most telling bits are shared out among the trees of a kind.
+// The trees of a kind share the most telling bits among them.
 PlaceIndex::Kind::Kind(std::size_t features) : signatures(features) {
   for (std::size_t i = 0; i < kTrees; ++i) {
     trees[i] = SignatureTree(static_cast<int>(i), static_cast<int>(kTrees));
@@ -243,7 +245,7 @@ std::vector<PlaceCandidate> PlaceIndex::Query(
 }
 
 std::size_t PlaceIndex::Memory() const {
-  constexpr std::size_t kMapNode = 48;  // of a red-black tree
+  constexpr std::size_t kMapNode = 48;  // size of a node of a red-black tree
   std::size_t bytes = by_slot_.capacity() * sizeof(KeyFrameId) + slots_.size() * kMapNode +
                       free_slots_.capacity() * sizeof(std::uint32_t);
   for (const Kind& kind : kinds_) {

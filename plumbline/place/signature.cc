@@ -5,7 +5,7 @@
 namespace plumbline {
 namespace {
 
-// Indices of bits of a descriptor, of 256.
+// The indices of bits in a descriptor of 256 bits.
 using BitOrder = std::array<std::uint8_t, kSignatureBits>;
 
 constexpr BitOrder kPointBits = {

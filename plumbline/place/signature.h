@@ -10,24 +10,24 @@
 
 namespace plumbline {
 
-// Half of the bits of a descriptor, those that tell places apart best: the first is the highest
+// Half of the bits of a descriptor: those that tell places apart best, beginning with the highest
 // bit of the first word. The first bits are also hardly correlated, so that they divide features
 // evenly. Which bits these are was measured once (docs/methods/places.md).
 using Signature = std::array<std::uint32_t, 4>;
 inline constexpr int kSignatureBits = 128;
 
-// The signature of a point's descriptor (ORB), and that of a line's (LBD). Cost: a tenth of a
+// Return the signature of a point's descriptor (ORB), and of a line's (LBD). Cost: a tenth of a
 // microsecond.
 Signature PointSignature(const Descriptor& descriptor);
 Signature LineSignature(const Descriptor& descriptor);
 
-// Bit `index` of a signature, counted from the first.
+// Returns bit `index` of a signature, counted from the first.
 inline bool BitOf(const Signature& signature, int index) {
   const auto bit = static_cast<unsigned>(index);
   return (signature[bit / 32] >> (31 - bit % 32) & 1U) != 0;
 }
 
-// How many bits differ.
+// Returns how many bits differ.
 inline int HammingDistance(const Signature& a, const Signature& b) {
   const auto pair = [](std::uint32_t high, std::uint32_t low) {
     return std::uint64_t{high} << 32U | low;

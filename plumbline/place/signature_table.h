@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// A feature of a keyframe in an index: the keyframe's slot and the feature's place among its own.
+// Names a feature of a keyframe in an index, by the keyframe's slot and the feature's index in it.
 struct FeatureName {
   static constexpr std::uint32_t kFeatureBits = 9;
   static constexpr std::uint32_t kMaxFeatures = 1U << kFeatureBits;
@@ -29,40 +29,40 @@ struct FeatureName {
   friend auto operator<=>(FeatureName, FeatureName) = default;
 };
 
-// Signatures by slot. Each slot has room for the same number of them, so that the place of one in
-// memory follows from its name: most of the time of a query is spent on waiting for signatures.
+// Signatures by slot. Each slot has room for the same number of them, so that the address of a
+// signature follows from its name: a query spends most of its time on waiting for signatures.
 class SignatureTable {
  public:
-  // `room`: signatures of a slot at most, and not more than FeatureName::kMaxFeatures.
+  // `room` is the most signatures that a slot can have, and at most FeatureName::kMaxFeatures.
   explicit SignatureTable(std::size_t room);
 
-  // BugError for more than there is room or there are names for.
+  // Throws BugError for more signatures than there is room or there are names for.
   void Set(std::uint32_t slot, std::span<const Signature> signatures);
 
   std::span<const Signature> Of(std::uint32_t slot) const {
     return {blocks_[slot / kBlock].get() + slot % kBlock * room_, counts_[slot]};
   }
-  // How many a slot has.
+  // Returns how many signatures a slot has.
   std::size_t Count(std::uint32_t slot) const { return counts_[slot]; }
   const Signature& operator[](FeatureName name) const {
     return blocks_[name.slot() / kBlock][name.slot() % kBlock * room_ + name.feature()];
   }
-  // The signatures of these features. They lie far apart in memory; read like this, without a
-  // decision between two of them, the processor fetches several at once.
+  // Reads the signatures of these features. They lie far apart in memory. Without a decision
+  // between two of them the processor fetches several at once.
   void Read(std::span<const FeatureName> names, std::vector<Signature>* signatures) const {
     signatures->resize(names.size());
     for (std::size_t i = 0; i < names.size(); ++i) (*signatures)[i] = (*this)[names[i]];
   }
 
-  // Bytes, with what is set aside for more.
+  // Returns the memory in bytes, reserves included.
   std::size_t Memory() const;
 
  private:
-  static constexpr std::uint32_t kBlock = 16;  // slots
+  static constexpr std::uint32_t kBlock = 16;  // slots in a block of memory
 
   std::size_t room_;
   std::vector<std::unique_ptr<Signature[]>> blocks_;
-  std::vector<std::uint16_t> counts_;  // by slot
+  std::vector<std::uint16_t> counts_;  // number of signatures of each slot
 };
 
 }  // namespace plumbline

@@ -79,7 +79,7 @@ std::span<const FeatureName> SignatureTree::Telling(const Node& leaf) const {
 }
 
 std::size_t SignatureTree::Memory() const {
-  constexpr std::size_t kBlock = 8;  // that an allocation costs
+  constexpr std::size_t kBlock = 8;  // overhead of an allocation
   std::size_t bytes =
       nodes_.capacity() * sizeof(Node) + free_pairs_.capacity() * sizeof(std::uint32_t);
   for (const Node& node : nodes_) {
@@ -100,7 +100,7 @@ std::uint32_t SignatureTree::NewPair() {
   return first;
 }
 
-// Grows by few at a time: there are many leaves, and doubling would waste a third.
+// Leaves grow by few at a time: there are many, and doubling would waste a third.
 void SignatureTree::Put(Node& leaf, FeatureName feature) {
   if (leaf.count % kStep == 0) {
     auto larger = std::make_unique<FeatureName[]>(leaf.count + kStep);
@@ -118,7 +118,7 @@ void SignatureTree::Split(std::uint32_t node, int depth, const SignatureTable& t
     for (std::uint32_t i = 0; i < nodes_[node].count; ++i) {
       Put(nodes_[Child(node, depth, table[features[i]])], features[i]);
     }
-    // At most one of the two has too many: all of them.
+    // At most one of the two children has too many features, which then are all of them.
     node = nodes_[children].count > kLeafCapacity ? children : children + 1;
     ++depth;
   }
@@ -137,7 +137,7 @@ void SignatureTree::Gather(std::uint32_t node, std::vector<FeatureName>* feature
   nodes_[node] = Node();
 }
 
-// Makes a leaf of a node.
+// Makes a node a leaf.
 void SignatureTree::Join(std::uint32_t node) {
   std::vector<FeatureName> features;
   Gather(node, &features);

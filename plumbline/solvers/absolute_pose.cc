@@ -24,7 +24,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Three = std::array<Vector3d, 3>;
 
-// Axes along the first side of a triangle, across it in its plane, and normal to it.
+// Returns axes along the first side of a triangle, across it in its plane, and normal to it.
 Matrix3d AxesOf(const Three& corners) {
   Matrix3d axes;
   axes.col(0) = (corners[1] - corners[0]).normalized();
@@ -33,9 +33,9 @@ Matrix3d AxesOf(const Three& corners) {
   return axes;
 }
 
-// The poses that show three points in three directions of unit length, at most four (Grunert 1841,
-// in the form of Haralick et al., IJCV 1994). With the distances s and its multiples u s and v s,
-// the law of cosines for the three sides leaves a polynomial of degree four in v.
+// Returns the poses that show three points in three directions of unit length, at most four
+// (Grunert 1841, in the form of Haralick et al., IJCV 1994). With the distances s and its multiples
+// u s and v s, the law of cosines for the three sides leaves a polynomial of degree four in v.
 std::vector<Rigid3> PosesOfThree(const Three& world, const Three& rays) {
   const double a2 = (world[1] - world[2]).squaredNorm();
   const double b2 = (world[0] - world[2]).squaredNorm();
@@ -72,7 +72,7 @@ std::vector<Rigid3> PosesOfThree(const Three& world, const Three& rays) {
   return poses;
 }
 
-// What RANSAC asks of the problem. Errors are in pixels, those of points behind the camera
+// The problem as RANSAC needs it. Errors are in pixels; those of points behind the camera are
 // infinite.
 class PointsProblem {
  public:
@@ -113,7 +113,7 @@ class PointsProblem {
     return static_cast<double>(Inliers(pose)) / static_cast<double>(size());
   }
 
-  // Gauss-Newton on the points that agree, which may become others on the way.
+  // Improves a pose by Gauss-Newton on the points that agree, which may change on the way.
   Rigid3 Improve(const Rigid3& start) const {
     constexpr int kSteps = 5;
     Rigid3 pose = start;
@@ -131,7 +131,7 @@ class PointsProblem {
     return pose;
   }
 
-  bool Same(const Rigid3&, const Rigid3&) const { return true; }  // the best one only is kept
+  bool Same(const Rigid3&, const Rigid3&) const { return true; }  // only the best pose is kept
 
  private:
   double SquaredError(const Rigid3& pose, const PointInImage& point) const {
@@ -140,7 +140,7 @@ class PointsProblem {
     return (camera_.Project(in_camera) - point.px).squaredNorm();
   }
 
-  // By the left perturbation exp([w, v]) of the pose.
+  // Adds a point, with derivatives by the left perturbation exp([w, v]) of the pose.
   void AddTo(const Rigid3& pose,
              const PointInImage& point,
              Matrix6d& information,
@@ -166,7 +166,8 @@ class PointsProblem {
 std::optional<Rigid3> PoseFromPoints(const RectifiedCamera& camera,
                                      const std::vector<PointInImage>& points,
                                      double max_error_px) {
-  constexpr std::size_t kMinPoints = 6;  // three fix a pose, any fourth may agree by chance
+  // Three points fix a pose, and any fourth one may agree by chance.
+  constexpr std::size_t kMinPoints = 6;
   constexpr RansacBudget kBudget{.confidence = 0.999, .max_iterations = 300};
   if (points.size() < kMinPoints) return std::nullopt;
   const PointsProblem problem(camera, points, max_error_px);

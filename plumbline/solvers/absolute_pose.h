@@ -15,12 +15,13 @@ struct PointInImage {
   Eigen::Vector2d px;
 };
 
-// The pose (cam_from_world) that the points agree with best: RANSAC over three points (Grunert
-// 1841) in at most 300 rounds; every new best pose is refined with the points that agree
-// (ransac.h). A point agrees when it projects within max_error_px of its pixel. Same input, same
-// pose.
+// Returns the pose (cam_from_world) with which the points agree best: RANSAC over three points
+// (Grunert 1841) in at most 300 rounds; every new best pose is refined with the points that agree
+// (ransac.h). A point agrees when it projects within max_error_px of its pixel. The same input
+// gives the same pose.
 //
-// nullopt with fewer than 6 points, or when fewer than 6 agree. Below a millisecond for 100 points.
+// Returns nullopt with fewer than 6 points, or when fewer than 6 agree. Cost: less than a
+// millisecond for 100 points.
 std::optional<Rigid3> PoseFromPoints(const RectifiedCamera& camera,
                                      const std::vector<PointInImage>& points,
                                      double max_error_px);

@@ -14,13 +14,13 @@ double SampsonChi2(const Eigen::Matrix3d& essential, const RayMatch& match) {
   const double error = match.b.homogeneous().dot(in_b);
   const double variance = match.sigma_b * match.sigma_b * in_b.head<2>().squaredNorm() +
                           match.sigma_a * match.sigma_a * in_a.head<2>().squaredNorm();
-  return variance > 0 ? error * error / variance : 0;  // 0: both are epipoles
+  return variance > 0 ? error * error / variance : 0;  // 0 where both points are epipoles
 }
 
 EpipolarCost::EpipolarCost(std::span<const RayMatch> matches) {
   const std::size_t count = (matches.size() + kBlock - 1) / kBlock;
   padding_ = static_cast<int>(count * kBlock - matches.size());
-  Blocks exact;  // of infinite variance
+  Blocks exact;  // matches of infinite variance
   exact.ax = exact.ay = exact.bx = exact.by = Block::Zero();
   exact.variance_a = exact.variance_b = Block::Constant(1e200);
   blocks_.assign(count, exact);

@@ -11,18 +11,20 @@
 
 namespace plumbline {
 
-// Squared Sampson distance of a match over its variance: chi-square with one degree of freedom.
+// Returns the squared Sampson distance of a match over its variance: chi-square with one degree of
+// freedom.
 double SampsonChi2(const Eigen::Matrix3d& essential, const RayMatch& match);
 
-// Matches laid out for scoring many essential matrices.
+// Matches in a layout for scoring many essential matrices.
 class EpipolarCost {
  public:
   explicit EpipolarCost(std::span<const RayMatch> matches);
 
-  // Sum over the matches of min(SampsonChi2, gate); stops, with part of the sum, once above limit.
+  // Returns the sum over the matches of min(SampsonChi2, gate). Stops with a part of the sum once
+  // that is above `limit`.
   double Truncated(const Eigen::Matrix3d& essential, double gate, double limit) const;
 
-  // Matches with SampsonChi2 below gate.
+  // Returns the number of matches with SampsonChi2 below gate.
   int CountBelow(const Eigen::Matrix3d& essential, double gate) const;
 
  private:
@@ -35,7 +37,8 @@ class EpipolarCost {
   static Block Chi2(const Eigen::Matrix3d& essential, const Blocks& matches);
 
   std::vector<Blocks> blocks_;
-  int padding_ = 0;  // matches at the end that are always exact
+  // Matches at the end that only fill the last block; their residual is always 0.
+  int padding_ = 0;
 };
 
 }  // namespace plumbline

@@ -14,7 +14,7 @@
 namespace plumbline {
 namespace {
 
-// Polynomials in x, y, z of degree one, two and three by their monomials. The cubic ones are in the
+// The monomials of polynomials in x, y, z of degree one, two and three. The cubic ones are in the
 // order of elimination: the first ten are solved for, the others are x, y and 1 times powers of z.
 struct Exponents {
   int x, y, z;
@@ -37,7 +37,7 @@ constexpr std::array<Exponents, 20> kCubic{{{3, 0, 0}, {0, 3, 0}, {2, 1, 0}, {1,
                                             {1, 0, 2}, {1, 0, 1}, {1, 0, 0}, {0, 1, 2}, {0, 1, 1},
                                             {0, 1, 0}, {0, 0, 3}, {0, 0, 2}, {0, 0, 1}, {0, 0, 0}}};
 
-// Where the products of monomials go.
+// Returns the index of the product of each pair of monomials.
 template <std::size_t kA, std::size_t kB, std::size_t kProduct>
 constexpr auto ProductTable(const std::array<Exponents, kA>& a,
                             const std::array<Exponents, kB>& b,
@@ -75,7 +75,7 @@ void AddProduct(const Quadratic& a, const Linear& b, Cubic& sum) {
 
 using LinearMatrix = std::array<std::array<Linear, 3>, 3>;
 
-// det E (eq. 6).
+// Returns det E (eq. 6).
 Cubic Determinant(const LinearMatrix& E) {
   Cubic sum = Cubic::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -89,7 +89,8 @@ Cubic Determinant(const LinearMatrix& E) {
   return sum;
 }
 
-// The ten constraints: det E = 0 and E E^T E - 1/2 trace(E E^T) E = 0 (eq. 7), one a row.
+// Returns the ten constraints det E = 0 and E E^T E - 1/2 trace(E E^T) E = 0 (eq. 7), one in each
+// row.
 Eigen::Matrix<double, 10, 20> Constraints(const LinearMatrix& E) {
   std::array<std::array<Quadratic, 3>, 3> square{};  // E E^T, then without half its trace
   for (std::size_t i = 0; i < 3; ++i) {
@@ -118,7 +119,8 @@ Eigen::Matrix<double, 10, 20> Constraints(const LinearMatrix& E) {
 using Quartic = std::array<double, 5>;  // in z, lowest power first
 using PolynomialMatrix = std::array<std::array<Quartic, 3>, 3>;
 
-// Rows upper - z lower of the eliminated system: what stands before x, y and 1 (Nistér's B).
+// Returns the rows `upper` minus z times `lower` of the eliminated system: the factors of x, y and
+// 1 (Nistér's B).
 PolynomialMatrix EliminateToZ(const Eigen::Matrix<double, 10, 10>& right) {
   PolynomialMatrix B{};
   for (std::size_t row = 0; row < 3; ++row) {
@@ -162,7 +164,7 @@ std::array<double, 11> Determinant(const PolynomialMatrix& B) {
   return sum;
 }
 
-// (x, y) with B(z) (x, y, 1) = 0.
+// Returns (x, y) with B(z) (x, y, 1) = 0.
 std::optional<Eigen::Vector2d> SolveForXY(const PolynomialMatrix& B, double z) {
   Eigen::Matrix3d at;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -206,7 +208,7 @@ Eigen::Matrix3d MatrixByRows(const Eigen::Matrix<double, 9, 1>& e) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(e.data());
 }
 
-// x -> scale (x - centre) with mean 0 and mean square 2.
+// The map x -> scale (x - centre), which gives points mean 0 and mean square 2.
 struct Normalization {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   double scale = 1;

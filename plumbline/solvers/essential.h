@@ -14,23 +14,25 @@
 
 namespace plumbline {
 
-// The essential matrices E, x_b . E x_a = 0, of five matches: up to ten, Frobenius norm 1.
+// Returns the essential matrices E, x_b . E x_a = 0, of five matches: up to ten, with Frobenius
+// norm 1.
 //
 // Nistér, "An efficient solution to the five-point relative pose problem" (PAMI 2004): the null
 // space of the five equations (eq. 9), the ten cubic constraints on its coefficients (eq. 6, 7),
-// elimination to a 3 x 3 matrix of polynomials in z and the roots of its determinant, of degree
-// ten. Works for points of one plane, too; fails (empty) where the five equations are dependent.
-// Cost: about 10 us.
+// elimination to a 3 x 3 matrix of polynomials in z, and the roots of its determinant, of degree
+// ten. Works for points of one plane, too. The result is empty where the five equations are
+// dependent. Cost: about 10 us.
 std::vector<Eigen::Matrix3d> EssentialFromFivePoints(std::span<const RayMatch, 5> matches);
 
-// The essential matrix nearest to eight or more matches: linear least squares on centred and scaled
-// coordinates (Hartley 1997), then two equal singular values and a zero one. nullopt where the
-// matches leave more than one solution, as those of one plane do (their null space has dimension
-// 3).
+// Returns the essential matrix nearest to eight or more matches: linear least squares on centred
+// and scaled coordinates (Hartley 1997), then two equal singular values and a zero one. Returns
+// nullopt where the matches leave more than one solution, as those of one plane do (their null
+// space has dimension 3).
 std::optional<Eigen::Matrix3d> EssentialFromEightPoints(std::span<const RayMatch> matches);
 
-// The four poses with this essential matrix: two rotations, each with a translation of length 1 and
-// its opposite. Which is meant is told by the points: they must be in front of both cameras.
+// Returns the four poses with this essential matrix: two rotations, each with a translation of
+// length 1 and its opposite. The points tell which one is right: they must be in front of both
+// cameras.
 std::array<Rigid3, 4> PosesFromEssential(const Eigen::Matrix3d& essential);
 
 }  // namespace plumbline

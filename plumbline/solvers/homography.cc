@@ -12,7 +12,7 @@
 namespace plumbline {
 namespace {
 
-// The matrix that takes the projective basis e1, e2, e3, (1, 1, 1) to four points.
+// Returns the matrix that takes the projective basis e1, e2, e3, (1, 1, 1) to four points.
 std::optional<Eigen::Matrix3d> FromBasis(const Eigen::Vector3d& p,
                                          const Eigen::Vector3d& q,
                                          const Eigen::Vector3d& r,
@@ -28,7 +28,7 @@ std::optional<Eigen::Matrix3d> FromBasis(const Eigen::Vector3d& p,
   return columns * weights.asDiagonal();
 }
 
-// Mean variance of a coordinate of x_b - H x_a / (H x_a).z.
+// Returns the mean variance of a coordinate of x_b - H x_a / (H x_a).z.
 double TransferVariance(const Eigen::Matrix3d& H,
                         const RayMatch& match,
                         const Eigen::Vector3d& mapped) {
@@ -89,12 +89,12 @@ double SquaredTransferError(const Eigen::Matrix3d& homography, const RayMatch& m
 }
 
 std::vector<PlanarMotion> MotionsFromHomography(const Eigen::Matrix3d& homography) {
-  // Ascending; columns of V are the right singular vectors.
+  // Eigenvalues ascend; the columns of V are the right singular vectors.
   const Eigenpairs<3> eigen = EigenpairsOf<3>(homography.transpose() * homography);
   const Eigen::Vector3d& squares = eigen.values;
   if (!(squares(0) > 1e-18 * squares(2))) return {};
-  // R + t n^T / d has 1 as its middle singular value, and the ratio of the distances of the plane
-  // from the two cameras, which is positive, as its determinant.
+  // R + t n^T / d has the middle singular value 1. Its determinant is the ratio of the distances of
+  // the plane from the two cameras, which is positive.
   const double sign = homography.determinant() < 0 ? -1 : 1;
   const Eigen::Matrix3d H = sign / std::sqrt(squares(1)) * homography;
   const double largest = squares(2) / squares(1);
@@ -110,7 +110,7 @@ std::vector<PlanarMotion> MotionsFromHomography(const Eigen::Matrix3d& homograph
   const double d = std::sqrt(std::max(0.0, (largest - 1) / (largest - smallest)));
   std::vector<PlanarMotion> motions;
   for (const double side : {1.0, -1.0}) {
-    // u and v2 span a plane in which H keeps lengths: it turns as the camera does.
+    // u and v2 span a plane in which H keeps lengths, so that it turns there as the camera does.
     const Eigen::Vector3d v2 = V.col(1);
     const Eigen::Vector3d u = c * V.col(0) + side * d * V.col(2);
     const Eigen::Vector3d normal = v2.cross(u);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxDegree = 15;
 
-// Points of [-1, 1], ascending: never more than a degree and the two ends.
+// Points of [-1, 1], ascending. There are never more than a degree and the two ends.
 struct Points {
   std::array<double, kMaxDegree + 2> x{};
   std::size_t count = 0;
@@ -44,7 +44,7 @@ struct Polynomial {
   }
 };
 
-// The one root between low and high, where the polynomial has opposite signs.
+// Returns the one root between low and high, where the polynomial has opposite signs.
 double RootBetween(const Polynomial& p, double low, double high, double at_low) {
   double x = 0.5 * (low + high);
   for (int i = 0; i < 100; ++i) {
@@ -59,7 +59,7 @@ double RootBetween(const Polynomial& p, double low, double high, double at_low) 
   return x;
 }
 
-// Roots in [-1, 1].
+// Returns the roots in [-1, 1].
 Points RootsInside(const Polynomial& p) {
   Points roots;
   if (p.degree == 0) return roots;
@@ -101,7 +101,7 @@ std::vector<double> RealRoots(std::span<const double> coefficients) {
   const Points outside = RootsInside(reversed);
   for (std::size_t i = 0; i < outside.count; ++i) {
     const double inverse = outside.x[i];
-    // Roots at exactly +-1 were found above.
+    // Roots at exactly +-1 are among those inside.
     if (inverse != 0 && std::abs(inverse) < 1) roots.push_back(1 / inverse);
   }
   std::sort(roots.begin(), roots.end());

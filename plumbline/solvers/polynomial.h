@@ -7,12 +7,12 @@
 
 namespace plumbline {
 
-// The real roots of c[0] + c[1] x + ... + c[n] x^n, ascending, n at most 15.
+// Returns the real roots of c[0] + c[1] x + ... + c[n] x^n, ascending, with n at most 15.
 //
-// Between the extrema (roots of the derivative, found in the same way) a polynomial has one root or
-// none: Newton steps inside a shrinking bracket. Those beyond [-1, 1] are found as inverses of the
-// roots of the reversed polynomial. Roots of even multiplicity may be missed, where rounding keeps
-// the polynomial off zero. Cost: a few microseconds for degree ten.
+// Between two extrema (roots of the derivative, found in the same way) a polynomial has one root or
+// none, which Newton steps inside a shrinking bracket find. Roots beyond [-1, 1] are found as
+// inverses of the roots of the reversed polynomial. Roots of even multiplicity may be missed where
+// rounding keeps the polynomial off zero. Cost: a few microseconds for degree ten.
 std::vector<double> RealRoots(std::span<const double> coefficients);
 
 }  // namespace plumbline

@@ -23,7 +23,7 @@ namespace {
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-// A pose with what all its residuals share.
+// A pose with the numbers that all its residuals share.
 struct SampsonModel {
   SampsonModel(const Rigid3& b_from_a, const Eigen::Matrix<double, 3, 2>& across_t)
       : R(b_from_a.rotation.toRotationMatrix()), t(b_from_a.translation), basis(across_t) {}
@@ -38,7 +38,7 @@ struct SampsonModel {
 SampsonResidual SampsonModel::Evaluate(const RayMatch& match) const {
   const Eigen::Vector3d b = match.b.homogeneous();
   const Eigen::Vector3d q = R * match.a.homogeneous();
-  const Eigen::Vector3d in_b = t.cross(q);    // epipolar line, E x_a
+  const Eigen::Vector3d in_b = t.cross(q);    // the epipolar line, E x_a
   const Eigen::Vector3d across = b.cross(t);  // R E^T x_b
   const Eigen::Vector2d in_a = R.leftCols<2>().transpose() * across;
   const double error = b.dot(in_b);
@@ -51,8 +51,8 @@ SampsonResidual SampsonModel::Evaluate(const RayMatch& match) const {
   const double inverse_sigma = 1 / std::sqrt(variance);
   r.value = error * inverse_sigma;
 
-  // error = b . (t x q): by w, with dq = w x q, and by t. Half the derivative of the variance: the
-  // same for the lines, weighted with themselves.
+  // The error is b . (t x q). Its derivatives are those by w, with dq = w x q, and by t. Half the
+  // derivative of the variance has the same form for the lines, weighted with themselves.
   const Eigen::Vector3d line_b(variance_b * in_b.x(), variance_b * in_b.y(), 0);
   const Eigen::Vector3d line_a = variance_a * (R.leftCols<2>() * in_a);
   const Eigen::Vector3d of_q = line_b.cross(t);  // d(line_b . (t x q)) / dq
@@ -72,9 +72,9 @@ struct NormalEquations {
   double cost = 0;
 };
 
-// Tukey's biweight of a squared residual: loss, and weight of the normal equations.
+// Tukey's biweight of a squared residual: its loss, and its weight in the normal equations.
 struct Biweight {
-  double limit;  // squared
+  double limit;  // square of the limit
 
   double Loss(double chi2) const {
     if (chi2 >= limit) return limit / 6;
@@ -113,7 +113,7 @@ double CostOf(std::span<const RayMatch> matches, const Rigid3& pose, const Biwei
   return cost;
 }
 
-// Under the loss that RefinePose has by default.
+// Returns the cost of a pose under the loss that RefinePose has by default.
 double RefinementCost(std::span<const RayMatch> matches, const Rigid3& pose) {
   constexpr double kScale = PoseRefinementOptions{}.loss_scale;
   return CostOf(matches, pose, Biweight{kScale * kScale});
@@ -128,7 +128,7 @@ Rigid3 Moved(const Rigid3& pose, const Vector5d& step) {
 Vector5d Step(const NormalEquations& equations, double damping) {
   Matrix5d damped = equations.information;
   damped.diagonal() *= 1 + damping;
-  // Where nothing is known nothing moves.
+  // A direction about which nothing is known does not move.
   damped.diagonal().array() += 1e-12 * damped.diagonal().maxCoeff() + 1e-300;
   const Vector5d step = -SolveSymmetric<5>(damped, equations.gradient);
   if (!step.allFinite()) return Vector5d::Zero();
@@ -193,7 +193,7 @@ RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, R
   constexpr int kSubsets = 10;
   constexpr std::size_t kSubsetSize = 40;
   constexpr PoseRefinementOptions kRough{.max_iterations = 4, .loss_scale = 6, .covariance = false};
-  // What the subsets begin with need not be the minimum, but near it.
+  // The subsets need only begin near the minimum.
   const Rigid3 first =
       RefinePose(matches, start, {.tolerance = 1e-3, .covariance = false}).b_from_a;
   std::vector<RayMatch> near;

@@ -25,34 +25,36 @@ SampsonResidual EvaluateSampson(const Rigid3& b_from_a,
 
 struct PoseRefinementOptions {
   int max_iterations = 15;
-  double tolerance = 1e-9;    // the end is where the cost falls by less than this part of it
+  // The iteration ends where the cost falls by less than this part of it.
+  double tolerance = 1e-9;
   double loss_scale = 4.685;  // scale of Tukey's biweight: 95 % efficient on normal residuals
-  bool covariance = true;     // false: left at zero
+  bool covariance = true;     // false: the covariance is left at zero
 };
 
 struct RefinedPose {
   Rigid3 b_from_a;  // |translation| = 1
-  // Covariance of (w, d) as above, from the inliers (chi2 at 95 %). Infinite on the diagonal where
-  // the matches do not determine the pose.
+  // Covariance of (w, d) as in SampsonResidual, from the inliers (chi2 at 95 %). Infinite on the
+  // diagonal where the matches do not determine the pose.
   Eigen::Matrix<double, 5, 5> covariance = Eigen::Matrix<double, 5, 5>::Zero();
-  double cost = 0;  // sum of the loss
+  double cost = 0;  // sum of the loss over all matches
   int iterations = 0;
 };
 
-// The relative pose nearest to `start` that fits the matches best: Levenberg-Marquardt on the
+// Returns the relative pose near `start` that fits the matches best: Levenberg-Marquardt on the
 // Sampson distances under Tukey's loss. To first order in the noise this is the maximum of the
-// likelihood with the points eliminated, so that it reaches the Cramér-Rao bound.
+// likelihood with the points eliminated, which reaches the Cramér-Rao bound.
 //
 //   start    |translation| = 1
-//   returns  its cheirality is that of the start; it is not looked at here
+//   returns  a pose with the cheirality of the start, which is not tested here
 //   cost     about 20 us per iteration and 300 matches
 RefinedPose RefinePose(std::span<const RayMatch> matches,
                        const Rigid3& start,
                        const PoseRefinementOptions& options = {});
 
 // Refines from a start that may lie in the basin of another minimum: where matches are wrong, a
-// loss that forgets them has several. From subsets of the inliers (they jump between the basins, as
-// the inner samples of LO-RANSAC do) to the one of least truncated cost. About 300 us.
+// loss that ignores them has several minima. It starts from subsets of the inliers (they jump
+// between the basins, as the inner samples of LO-RANSAC do) and takes the pose of least truncated
+// cost. About 300 us.
 RefinedPose PolishPose(std::span<const RayMatch> matches, const Rigid3& start, Rng& rng);
 
 }  // namespace plumbline

@@ -22,7 +22,7 @@ struct RansacBudget {
   int max_iterations = 500;
 };
 
-// Samples needed to draw, with the given confidence, one in which all are inliers.
+// Returns the number of samples to draw for one of inliers alone, with the given confidence.
 inline int SamplesNeeded(double inlier_ratio, int sample_size, const RansacBudget& budget) {
   const double good = math::Pow(std::clamp(inlier_ratio, 0.0, 1.0), sample_size);
   if (good >= 1) return 1;
@@ -32,7 +32,7 @@ inline int SamplesNeeded(double inlier_ratio, int sample_size, const RansacBudge
       std::clamp(std::ceil(needed), 1.0, static_cast<double>(budget.max_iterations)));
 }
 
-// `count` different indices below `size`, which must be at least that.
+// Returns `count` different indices below `size`, which must be at least as large.
 template <std::size_t kCount>
 std::array<std::size_t, kCount> DrawSample(std::size_t size, Rng& rng) {
   std::array<std::size_t, kCount> sample;
@@ -51,8 +51,9 @@ struct ScoredModel {
 };
 
 // LO-RANSAC (Chum, Matas and Kittler 2003) with the truncated cost of MSAC (Torr and Zisserman
-// 2000): models of random samples; every new best one is improved from all data, and their number
-// adapts to its inliers. The cost of a model is given up as soon as it exceeds what matters.
+// 2000). It tries models of random samples. Every new best model is improved from all data, and the
+// number of samples adapts to its inliers. The computation of a cost stops as soon as it exceeds
+// what matters.
 //
 // `Problem` gives
 //   using Model = ...;
@@ -63,8 +64,9 @@ struct ScoredModel {
 //   double InlierRatio(const Model&) const;
 //   Model Improve(const Model&) const;              // from all data, near the model
 //   bool Same(const Model&, const Model&) const;    // for `keep`
-// and the result is the best model, then those whose cost is within `keep` times its cost and that
-// are not the same as a better one. `guesses` are tried before anything is drawn.
+//
+// The result is the best model, then those models whose cost is within `keep` times its cost and
+// that differ from every better one. `guesses` are tried before anything is drawn.
 template <class Problem>
 class Ransac {
  public:
@@ -100,7 +102,7 @@ class Ransac {
     return kept_.empty() ? std::numeric_limits<double>::infinity() : keep_ * kept_.front().cost;
   }
 
-  // True when the model is the new best.
+  // Tries a model. Returns whether it is the new best.
   bool Consider(const Model& model) {
     const double cost = problem_.Cost(model, Limit());
     if (!(cost < Limit())) return false;
@@ -115,7 +117,7 @@ class Ransac {
     return true;
   }
 
-  // Sorted by cost; of models that are the same, the best.
+  // Keeps a model in the order of cost; of models that are the same only the best stays.
   void Keep(Scored scored) {
     for (const Scored& other : kept_) {
       if (other.cost <= scored.cost && problem_.Same(other.model, scored.model)) return;

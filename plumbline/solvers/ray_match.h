@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// One point seen by two cameras: ideal image coordinates (x/z, y/z) and the standard deviation of
-// each of them (pixels over the focal length).
+// A point seen by two cameras: its ideal image coordinates (x/z, y/z) in both, and the standard
+// deviation of each coordinate (pixels over the focal length).
 struct RayMatch {
   Eigen::Vector2d a = Eigen::Vector2d::Zero();
   Eigen::Vector2d b = Eigen::Vector2d::Zero();

@@ -21,12 +21,14 @@ namespace {
 
 constexpr double kSameRotation = 0.3 * kDegree;
 constexpr double kSameDirection = 3 * kDegree;
-// A hypothesis with fewer inliers, or points in front, than this part of the best one's is none.
+// A hypothesis with fewer inliers, or fewer points in front, than this part of the best one's is
+// dropped.
 constexpr double kRivalPart = 0.7;
-// Models of up to this many times the least cost are handed on by RANSAC beside its best one. The
+// RANSAC hands on models of up to this many times the least cost beside its best one, since
 // refinement brings rivals together.
 constexpr double kRivalCost = 1.25;
-// A plane with fewer than half of the inliers is not what decides: samples for half of them.
+// A plane with fewer than half of the inliers does not decide, so that samples for half of them are
+// enough.
 constexpr int kMaxHomographies = 110;
 constexpr double kPlanePart = 0.45;
 
@@ -56,10 +58,10 @@ RelativePoseHypothesis Judge(std::span<const RayMatch> matches, const RefinedPos
   return h;
 }
 
-// The pose that has the same rotation and the opposite translation, judged.
+// Returns the judged pose with the same rotation and the opposite translation.
 RelativePoseHypothesis Opposite(std::span<const RayMatch> matches, RelativePoseHypothesis h) {
-  // BasisAcross(-t) is that of t with the first column negated, so that the same change of pose
-  // has the second coordinate negated.
+  // BasisAcross(-t) is BasisAcross(t) with the first column negated, so that the same change of
+  // pose has the second coordinate negated.
   h.b_from_a.translation = -h.b_from_a.translation;
   h.covariance.row(4) *= -1;
   h.covariance.col(4) *= -1;
@@ -120,7 +122,7 @@ class HypothesisList {
   std::vector<RelativePoseHypothesis> list_;
 };
 
-// The two rotations of an essential matrix, each with one of its translations.
+// Returns the two rotations of an essential matrix, each with one of its translations.
 std::array<Rigid3, 2> RotationsOf(const Eigen::Matrix3d& essential) {
   const std::array<Rigid3, 4> poses = PosesFromEssential(essential);
   return {poses[0], poses[2]};
@@ -137,8 +139,8 @@ void AddEssentials(std::span<const RayMatch> matches,
   const RansacBudget budget{options.confidence, options.max_iterations};
   const Problem problem(matches);
   for (const auto& scored : Ransac<Problem>(problem, budget, kRivalCost).Run(models, rng)) {
-    // Refining keeps the rotation of the pair, and the epipolar distance knows nothing of it: only
-    // that with points in front is worth it.
+    // Refinement keeps the rotation, and the epipolar distance is the same for both rotations. Only
+    // the one with points in front is worth refining.
     const auto poses = RotationsOf(scored.model);
     const auto most_in_front = [&](const Rigid3& pose) {
       const std::vector<bool> all(matches.size(), true);
@@ -153,7 +155,7 @@ void AddEssentials(std::span<const RayMatch> matches,
   }
 }
 
-// Both motions of the plane that holds most matches, if it holds enough of them.
+// Adds both motions of the plane that holds most matches, if it holds enough of them.
 void AddHomographies(std::span<const RayMatch> matches,
                      const RelativePoseOptions& options,
                      Rng& rng,
@@ -176,7 +178,7 @@ void AddHomographies(std::span<const RayMatch> matches,
 bool IsInFront(const Rigid3& b_from_a, const RayMatch& match) {
   const Eigen::Vector3d q = b_from_a.rotation * match.a.homogeneous();
   const Eigen::Vector3d b = match.b.homogeneous();
-  // depth_b b = depth_a q + t: crossed with b and with q.
+  // Crossing depth_b b = depth_a q + t with b and with q gives the signs of the depths.
   const Eigen::Vector3d normal = b.cross(q);
   return b.cross(b_from_a.translation).dot(normal) < 0 &&
          q.cross(b_from_a.translation).dot(normal) < 0;

@@ -19,11 +19,12 @@ namespace plumbline {
 
 enum class RelativePoseModel { kEssential, kHomography };
 
-// A pose that explains the matches, with all that was decided on the way.
+// A pose that explains the matches, with all that was found out about it.
 struct RelativePoseHypothesis {
-  RelativePoseModel model = RelativePoseModel::kEssential;  // what it was found by
+  RelativePoseModel model = RelativePoseModel::kEssential;  // the model by which it was found
   Rigid3 b_from_a;                                          // |translation| = 1
-  std::vector<bool> is_inlier;  // by match: Sampson distance within chi2 95 % (1 degree of freedom)
+  // For each match, whether its Sampson distance is within chi2 95 % (1 degree of freedom).
+  std::vector<bool> is_inlier;
   int inliers = 0;
   int in_front = 0;  // inliers that triangulate in front of both cameras
   double cost = 0;   // sum over matches of min(chi2, gate)
@@ -40,26 +41,26 @@ constexpr auto EnumNames(std::type_identity<RelativePoseMethod>) {
 }
 
 struct RelativePoseOptions {
-  // Eight points as the paper has it; fails on planes.
+  // The method; eight points, as in the paper, fail on planes.
   RelativePoseMethod method = RelativePoseMethod::kFivePoint;
-  double confidence = 0.999;  // of drawing a sample without outliers
-  int max_iterations = 500;   // samples drawn at most
+  double confidence = 0.999;  // probability of drawing a sample without outliers
+  int max_iterations = 500;   // most samples that are drawn
 };
 
-// All relative poses that explain the matches, the best first.
+// Returns all relative poses that explain the matches, the best first.
 //
-// LO-RANSAC with the five-point solver and, beside it, with homographies, whose two decompositions
-// are both kept (of a plane, two views cannot tell which is right); method eight_point: with the
-// eight-point solver alone, as in the first paper. Each is refined on the Sampson distance
-// (RefinePose), with the translation's sign, and the rotation of the pair that an essential matrix
-// has, by the count of points in front. A hypothesis is kept when its inliers are at least 0.7
-// times those of the best, and when it is more than 0.3 degrees in rotation or 3 degrees in
-// direction from each better one.
+// LO-RANSAC runs with the five-point solver and also with homographies, whose two decompositions
+// are both kept (two views of a plane cannot tell which is right). With method eight_point it runs
+// with the eight-point solver alone, as in the first paper. Each pose is refined on the Sampson
+// distance (RefinePose). The count of points in front decides about the sign of the translation,
+// and about the rotation of the pair that an essential matrix has. A hypothesis is kept when its
+// inliers are at least 0.7 times those of the best, and when it is more than 0.3 degrees in
+// rotation or 3 degrees in direction from each better one.
 //
 //   guesses  poses to begin with (|translation| > 0), as from constant velocity
 //   returns  sorted by cost; empty with fewer matches than a sample has, or when no sample gave a
-//            pose. Nothing is said about the sense of a translation: where there is no parallax,
-//            the direction is that of the noise, and the covariance says so.
+//            pose. Where there is no parallax, the direction of the translation is that of the
+//            noise, and the covariance says so.
 //   cost     1 to 2 ms for 300 matches of which a fifth are wrong
 std::vector<RelativePoseHypothesis> EstimateRelativePoses(std::span<const RayMatch> matches,
                                                           const RelativePoseOptions& options,

@@ -12,13 +12,14 @@
 namespace plumbline {
 namespace {
 
-// Essential matrices of norm 1 that differ by less lead to the same pose when refined.
+// Essential matrices of norm 1 that differ by less than this lead to the same pose when refined.
 constexpr double kSameEssential = 0.05;
-// The model of a sample is off by many times the noise, and its best inliers are not all inliers.
+// The model of a sample is off by many times the noise, and not all of its best inliers are
+// inliers.
 constexpr PoseRefinementOptions kFirstImprovement{
     .max_iterations = 3, .loss_scale = 15, .covariance = false};
 constexpr PoseRefinementOptions kSecondImprovement{.max_iterations = 2, .covariance = false};
-constexpr std::size_t kEnoughForFirst = 100;  // matches
+constexpr std::size_t kEnoughForFirst = 100;  // matches that are enough for the first improvement
 
 template <std::size_t kSize>
 std::array<RayMatch, kSize> Pick(std::span<const RayMatch> matches,
@@ -45,7 +46,7 @@ double EssentialProblem::InlierRatio(const Model& E) const {
 }
 
 EssentialProblem::Model EssentialProblem::Improve(const Model& E) const {
-  // The cost is the same for all four poses.
+  // All four poses have the same cost.
   const Rigid3 pose = PosesFromEssential(E).front();
   const Rigid3 near = RefinePose(thinned_, pose, kFirstImprovement).b_from_a;
   return EssentialMatrix(RefinePose(matches_, near, kSecondImprovement).b_from_a).normalized();

@@ -18,8 +18,8 @@
 
 namespace plumbline {
 
-// What RANSAC (ransac.h) asks of a problem, for the solvers of two views. All keep a view of the
-// matches.
+// The problems of two views as RANSAC (ransac.h) needs them. They refer to the matches, which must
+// outlive them.
 
 // Essential matrices, Frobenius norm 1, from samples of five.
 class EssentialProblem {
@@ -33,9 +33,9 @@ class EssentialProblem {
     return cost_.Truncated(E, kChi2OneDof95, limit);
   }
   double InlierRatio(const Model& E) const;
-  // A few steps of RefinePose under a wide loss.
+  // Improves E by a few steps of RefinePose under a wide loss.
   Model Improve(const Model& E) const;
-  // Up to their sign.
+  // Whether both are the same up to their sign.
   bool Same(const Model& E, const Model& F) const;
 
  protected:
@@ -43,7 +43,7 @@ class EssentialProblem {
 
  private:
   EpipolarCost cost_;
-  std::vector<RayMatch> thinned_;  // enough of them to come near
+  std::vector<RayMatch> thinned_;  // enough of the matches to come near the solution
 };
 
 class FivePointProblem : public EssentialProblem {
@@ -71,11 +71,11 @@ class HomographyProblem {
   std::vector<Model> Solve(const std::array<std::size_t, kSampleSize>& sample) const;
   double Cost(const Model& H, double limit) const;
   double InlierRatio(const Model& H) const;
-  // Least squares on the inliers.
+  // Improves H by least squares on the inliers.
   Model Improve(const Model& H) const;
-  bool Same(const Model&, const Model&) const { return true; }  // the best alone
+  bool Same(const Model&, const Model&) const { return true; }  // only the best model is kept
 
-  Eigen::Vector3d MeanRay() const { return mean_ray_; }  // of camera a
+  Eigen::Vector3d MeanRay() const { return mean_ray_; }  // mean ray of camera a
 
  private:
   std::span<const RayMatch> matches_;
