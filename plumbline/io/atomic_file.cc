@@ -23,7 +23,7 @@ namespace {
 
 std::error_code LastError() { return {errno, std::generic_category()}; }
 
-// Whether all of a file or folder is on the disk.
+// Whether the contents of a file or folder are on the disk.
 bool Synchronized(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -58,7 +58,8 @@ AtomicFile::~AtomicFile() {
   if (!committed_) std::filesystem::remove(temporary_, ignored);
 }
 
-// The name is on the disk when the folder is; not all file systems can say when.
+// Gives the file its name. The name is on the disk when the folder is; not all file systems can say
+// when.
 void AtomicFile::Commit(Durability durability) {
   const bool durable = durability == Durability::kPower;
   if (durable && !Synchronized(temporary_)) FailWrite(path_, LastError());
@@ -79,13 +80,13 @@ AtomicFileWriter::AtomicFileWriter(const std::filesystem::path& path) : file_(pa
 }
 
 void AtomicFileWriter::Write(std::string_view bytes) {
-  if (bytes.empty()) return;  // it may point nowhere, which fwrite does not allow
+  if (bytes.empty()) return;  // the view may have no pointer, which fwrite does not allow
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size()) {
     FailWrite(file_.path(), LastError());
   }
 }
 
-// The last write errors of a full disk may come as late as on closing.
+// A full disk may report the error of the last write only on closing.
 void AtomicFileWriter::Commit(Durability durability) {
   if (std::fflush(stream_.get()) != 0) FailWrite(file_.path(), LastError());
   if (std::fclose(stream_.release()) != 0) FailWrite(file_.path(), LastError());
@@ -99,7 +100,7 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
 }
 
 AtomicFolder::AtomicFolder(const std::filesystem::path& path) : path_(path.lexically_normal()) {
-  if (!path_.has_filename()) path_ = path_.parent_path();  // "out/" is "out"
+  if (!path_.has_filename()) path_ = path_.parent_path();  // "out/" becomes "out"
   std::error_code error;
   if (std::filesystem::exists(path_, error)) {
     const bool folder = std::filesystem::is_directory(path_, error);

@@ -14,7 +14,7 @@
 
 namespace plumbline {
 
-// A file that cannot be written: "cannot write <path>: <reason>".
+// The error of a file that cannot be written: "cannot write <path>: <reason>".
 class WriteError : public InputError {
  public:
   WriteError(std::filesystem::path path, std::string why)
@@ -31,8 +31,8 @@ class WriteError : public InputError {
   std::string why_;
 };
 
-// Throws WriteError where no file is to take the place of what is at `path`: a folder, a device, a
-// pipe. Touches nothing.
+// Throws WriteError where no file may take the place of what is at `path`: a folder, a device, a
+// pipe. Changes nothing.
 void CheckReplaceable(const std::filesystem::path& path);
 
 // Writes a whole file or nothing: the contents go to a temporary file in the same folder, which
@@ -41,21 +41,22 @@ void CheckReplaceable(const std::filesystem::path& path);
 // then.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents);
 
-// Whether a file is to be on the disk, not just with the operating system, before it takes its
-// name: then also a power failure leaves the old one or the new one. Costs some milliseconds.
+// Whether a file must be on the disk, and not only with the operating system, before it takes its
+// name. With kPower even a power failure leaves the old file or the new one. Costs some
+// milliseconds.
 enum class Durability { kProcess, kPower };
 
-// An atomic write of files that other code writes by name: construct, let it write
+// An atomic write of files that other code writes by name: construct, let that code write
 // temporary_path(), then Commit(). Without Commit the temporary file is removed.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);  // throws as CheckReplaceable
+  explicit AtomicFile(std::filesystem::path path);  // throws as CheckReplaceable does
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
 
   const std::filesystem::path& path() const { return path_; }
-  // In the folder of the final file, with the same extension.
+  // The temporary file, in the folder of the final file and with the same extension.
   const std::filesystem::path& temporary_path() const { return temporary_; }
   void Commit(Durability durability = Durability::kProcess);  // throws WriteError
 
@@ -66,12 +67,12 @@ class AtomicFile {
 };
 
 // A folder that appears whole or not at all: construct, let files be written below
-// temporary_path(), which is beside the final place, then Commit(). Without Commit all of it is
+// temporary_path(), which is beside the final place, then Commit(). Without Commit everything is
 // removed.
 class AtomicFolder {
  public:
-  // Makes the folders above it. Throws InputError where something is at `path` already, an empty
-  // folder excepted, or the temporary folder cannot be made.
+  // Makes the folders above it. Throws InputError where something other than an empty folder is at
+  // `path` already, or the temporary folder cannot be made.
   explicit AtomicFolder(const std::filesystem::path& path);
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
@@ -87,7 +88,7 @@ class AtomicFolder {
 };
 
 // A file that is written piece by piece, in any number of calls of Write, and takes its name whole
-// with Commit(). Both throw WriteError.
+// with Commit(). Both functions throw WriteError.
 class AtomicFileWriter {
  public:
   explicit AtomicFileWriter(const std::filesystem::path& path);
@@ -102,7 +103,7 @@ class AtomicFileWriter {
   std::unique_ptr<std::FILE, CloseFile> stream_;
 };
 
-// Makes a folder and those above it; InputError when that is impossible.
+// Makes a folder and those above it; throws InputError when that is impossible.
 void MakeFolder(const std::filesystem::path& path);
 
 }  // namespace plumbline

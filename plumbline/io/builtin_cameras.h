@@ -9,11 +9,11 @@ namespace plumbline {
 
 // A file of configs/cameras, compiled into the program so that it needs no installed files.
 struct BuiltInCamera {
-  std::string name;  // without .yaml
+  std::string name;  // name of the file without .yaml
   std::string yaml;
 };
 
-// In the order of the names.
+// Returns the files in the order of their names.
 const std::vector<BuiltInCamera>& BuiltInCameraFiles();
 
 }  // namespace plumbline

@@ -134,7 +134,7 @@ Calibration ReadEuroc(const YamlSection& root) {
             "folder, as it has no image size");
 }
 
-// A format of camera files: a file with one of the keys is of this format.
+// A format of camera files. A file that has one of the keys is of this format.
 struct CameraFormat {
   std::string_view name;
   std::vector<std::string> keys;
@@ -142,7 +142,7 @@ struct CameraFormat {
   CalibrationKeys numbers;
 };
 
-// The first that fits; ours has no keys here and is the last.
+// Returns the first format that fits. Our own format has no keys here and comes last.
 const CameraFormat& FormatOf(const YamlSection& root) {
   static const std::vector<CameraFormat> formats = {
       {"Kalibr camchain",

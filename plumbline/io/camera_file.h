@@ -36,24 +36,24 @@ namespace plumbline {
 // only where `use_pair`.
 Calibration ParseCamera(const std::string& yaml, const std::string& source, bool use_pair = true);
 
-// A calibration and what it was read from, for people: "rig/camchain.yaml (Kalibr camchain)".
+// A calibration and a description of its origin, for people: "rig/camchain.yaml (Kalibr camchain)".
 struct CameraFile {
   Calibration calibration;
   std::string source;
 };
-// Reads the file at a path; see CameraFile for errors.
+// Reads the file at a path; see ParseCamera for errors.
 CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair = true);
 
 // Reads the file at a path or, where there is none, the built-in camera of that name.
 CameraFile FindCamera(const std::string& path_or_name, bool use_pair = true);
 
-// The camera file that lies in a folder of images: camera.yaml or camchain.yaml, of any format.
+// Returns the camera file in a folder of images: camera.yaml or camchain.yaml, of any format.
 std::optional<std::filesystem::path> CameraFileIn(const std::filesystem::path& folder);
 
-// Names of the camera files of configs/cameras, which are part of the program.
+// Returns the names of the camera files of configs/cameras, which are part of the program.
 std::vector<std::string> BuiltInCameras();
 
-// A calibration as a camera file; ParseCamera of it gives the same numbers.
+// Returns a calibration as a camera file; ParseCamera of it gives the same numbers.
 std::string FormatCamera(const Calibration& calibration);
 
 }  // namespace plumbline

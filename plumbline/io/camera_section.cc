@@ -29,7 +29,7 @@ bool HasPath(const YamlSection& section, const std::string& path) {
   FailAtPath(section.Child(path.substr(0, slash)), path.substr(slash + 1), message);
 }
 
-// Fails at the first of the keys that the file has, where there is a fault.
+// Where there is a fault, fails at the first of the keys that the file has.
 void FailOn(const std::optional<std::string>& fault,
             const YamlSection& root,
             const std::vector<std::string>& keys) {

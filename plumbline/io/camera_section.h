@@ -11,22 +11,23 @@
 
 namespace plumbline {
 
-// What the formats of camera files have in common.
+// Functions that the formats of camera files have in common.
 
-// Keys of a camera whose numbers stand in lists: [width, height], [fx, fy, cx, cy], [k1, ...].
+// The keys of a camera whose numbers stand in lists: [width, height], [fx, fy, cx, cy], [k1, ...].
 struct CameraListKeys {
   std::string size;
   std::string intrinsics;
   std::string coefficients;
 };
 
-// Such a camera; the coefficients are read only where the model has any. InputError naming the key.
+// Reads a camera by such keys; the coefficients are read only where the model has any. InputError
+// names the key.
 Camera ReadListedCamera(const YamlSection& section,
                         const CameraListKeys& keys,
                         DistortionModel model);
 
-// The camera of a section with `camera_model` (pinhole) and `distortion_model` (`radtan_name`,
-// equidistant or none), as EuRoC and Kalibr write it. InputError naming the key.
+// Reads the camera of a section with `camera_model` (pinhole) and `distortion_model`
+// (`radtan_name`, equidistant or none), as EuRoC and Kalibr write it. InputError names the key.
 Camera ReadModelCamera(const YamlSection& section,
                        const CameraListKeys& keys,
                        const std::string& radtan_name);
@@ -34,37 +35,39 @@ Camera ReadModelCamera(const YamlSection& section,
 // Fails unless the text of `key` is pinhole.
 void CheckPinhole(const YamlSection& section, const std::string& key);
 
-// Keys of a camera whose intrinsics stand at keys of their own, or at the same one.
+// The keys of a camera whose intrinsics stand at keys of their own, or all at the same one.
 struct CameraKeys {
   std::string size;
-  std::array<std::string, 4> intrinsics;  // of fx, fy, cx, cy
+  std::array<std::string, 4> intrinsics;  // keys of fx, fy, cx, cy
   std::string coefficients;
 };
 
-// Camera(intrinsics) where the numbers can be those of a camera (plausible_calibration.h);
-// InputError at the key of its size, of the first number at fault or of its coefficients otherwise.
+// Returns Camera(intrinsics) where the numbers can be those of a camera (plausible_calibration.h).
+// Throws InputError at the key of the size, of the first intrinsic at fault, or otherwise of the
+// coefficients.
 Camera CheckedCamera(const YamlSection& section,
                      const CameraKeys& keys,
                      const CameraIntrinsics& intrinsics);
 
-// A width or height as `key` gives it: InputError unless it is a whole number of pixels.
+// Returns a width or height that `key` gives; throws InputError unless it is a whole number of
+// pixels.
 int CheckedLength(const YamlSection& section, const std::string& key, double length);
 
-// Where a file of some format has the numbers of a calibration: of each the keys it may stand at,
-// of which the file has one; "cam1/T_cn_cnm1" is a key of a group.
+// Where a file of some format has the numbers of a calibration: for each the keys at which it may
+// stand, of which the file has one. "cam1/T_cn_cnm1" is a key of a group.
 struct CalibrationKeys {
   std::vector<std::string> pair, rate, depth_factor, lever;
 };
 
 // Fails at the key of the first number that no real sensor has (plausible_calibration.h). The pair
-// is checked only where it is to be used: a rig that is no pair of ours has a left camera all the
-// same.
+// is checked only where it is to be used: even a rig that is not a pair of our kind has a usable
+// left camera.
 void CheckCalibration(const YamlSection& root,
                       const CalibrationKeys& keys,
                       const Calibration& calibration,
                       bool use_pair);
 
-// Fails at `key` unless `right_from_left` is that of a rectified pair: a motion along -x.
+// Fails at `key` unless `right_from_left` is the motion of a rectified pair: along -x.
 void CheckRectifiedPair(const YamlSection& section,
                         const std::string& key,
                         const Rigid3& right_from_left);

@@ -19,11 +19,13 @@ namespace plumbline {
 namespace {
 
 constexpr std::string_view kMagic = kCheckpointMagic;
-// Grows with every change of what System::Save writes, too, and with that of map files.
+// Has to be increased with every change of what System::Save writes, and with the version of map
+// files.
 constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kPreambleBytes = 12;  // magic and version
 
-// After the sections of the maps: the input; the state, in as many sections as it needs; the end.
+// The sections after those of the maps: the input; the state, in as many sections as it needs; the
+// end.
 enum SectionKind : std::uint32_t { kInput = kAfterMaps, kState = kAfterMaps + 1, kEnd };
 
 constexpr std::size_t kSectionBytes = std::size_t{1} << 21;

@@ -9,17 +9,17 @@
 
 namespace plumbline {
 
-// What such files begin with; line ends show a transfer as text.
+// The first bytes of checkpoint files. Their line ends reveal a transfer as text.
 inline constexpr std::string_view kCheckpointMagic = "PLBRUN\r\n";
 
-// Writes a run in the middle (System::Save) to a file, which is replaced whole once all of it is on
-// the disk: whatever happens meanwhile, the last complete one is there. Nothing is rounded, and the
-// same run gives the same bytes. Throws InputError "cannot write <path>: <reason>".
+// Writes a run in the middle (System::Save) to a file. The file is replaced whole once everything
+// is on the disk, so that there is always a complete one. Nothing is rounded, and the same run
+// gives the same bytes. Throws InputError "cannot write <path>: <reason>".
 void SaveCheckpoint(const std::filesystem::path& path, const SavedRun& run);
 
-// Reads such a file. Throws InputError naming the file when it is missing, no checkpoint, of
-// another version, cut short, damaged (checksums), or its maps contradict themselves; what is
-// wrong with the rest, System::Resume finds.
+// Reads a checkpoint file. Throws InputError naming the file when it is missing, no checkpoint, of
+// another version, cut short, damaged (checksums), or its maps contradict themselves.
+// System::Resume finds what is wrong with the rest.
 SavedRun LoadCheckpoint(const std::filesystem::path& path);
 
 }  // namespace plumbline

@@ -27,7 +27,7 @@ ColmapModel::Image ImageOf(const KeyFrame& keyframe, const std::string& name) {
   return image;
 }
 
-// The point with its views; nullopt where there are fewer than COLMAP can do with.
+// Returns the point with its views; nullopt where there are fewer than COLMAP can use.
 std::optional<ColmapModel::Point> PointOf(const SavedMap& saved, const MapPoint& point) {
   constexpr std::size_t kMinViews = 2;
   ColmapModel::Point result;
@@ -43,7 +43,7 @@ std::optional<ColmapModel::Point> PointOf(const SavedMap& saved, const MapPoint&
   return result;
 }
 
-// The shortest text that gives the number back exactly.
+// Appends the shortest text that gives each number back exactly.
 template <class... Numbers>
 void Append(std::string& text, const Numbers&... numbers) {
   std::size_t place = 0;
@@ -154,7 +154,7 @@ ColmapModel MakeColmapModel(const SavedMap& saved,
   const RectifiedCamera& c = saved.camera;
   ColmapModel model;
   model.camera = {c.width, c.height, c.fx, c.fy, c.cx + kHalfPixel, c.cy + kHalfPixel};
-  std::map<std::uint32_t, std::size_t> image_of;  // by id
+  std::map<std::uint32_t, std::size_t> image_of;  // index of the image of each id
   for (const auto& [id, keyframe] : saved.map.keyframes()) {
     image_of[ColmapImageId(id)] = model.images.size();
     model.images.push_back(ImageOf(keyframe, names.at(id)));

@@ -15,7 +15,7 @@
 
 namespace plumbline {
 
-// A sparse model in the terms of COLMAP: pixel centres at (0.5, 0.5), one camera (id 1, model
+// A sparse model as COLMAP defines it: pixel centres at (0.5, 0.5), one camera (id 1, model
 // PINHOLE), poses cam_from_world, camera frame x right, y down, z forward.
 struct ColmapModel {
   static constexpr std::uint32_t kCameraId = 1;
@@ -37,8 +37,8 @@ struct ColmapModel {
     std::vector<Keypoint> keypoints;
   };
   struct View {
-    std::uint32_t image = 0;     // id
-    std::uint32_t keypoint = 0;  // index
+    std::uint32_t image = 0;     // id of the image
+    std::uint32_t keypoint = 0;  // index of the keypoint in the image
     friend bool operator==(const View&, const View&) = default;
   };
   struct Point {
@@ -50,24 +50,24 @@ struct ColmapModel {
   };
 
   Camera camera;
-  std::vector<Image> images;  // by id
-  std::vector<Point> points;  // by id
+  std::vector<Image> images;  // ordered by id
+  std::vector<Point> points;  // ordered by id
 };
 
 using PointGreys = std::map<PointId, std::uint8_t>;
 
-// A map as such a model: the rectified left camera, an image for each keyframe with all of its
-// point features, and the points that two keyframes or more show: COLMAP refuses to adjust a model
-// with others. Ids are those of the map plus 1. An observation of a point that is not before the
-// camera does not count.
+// Returns a map as a COLMAP model: the rectified left camera, an image for each keyframe with all
+// of its point features, and the points that at least two keyframes show. COLMAP refuses to adjust
+// a model with other points. Ids are those of the map plus 1. An observation of a point that is not
+// in front of the camera does not count.
 //
-//   names  of the images of all keyframes
-//   greys  of points, where known; others get 128
+//   names  names of the images of all keyframes
+//   greys  grey levels of points, where known; other points get 128
 ColmapModel MakeColmapModel(const SavedMap& saved,
                             const std::map<KeyFrameId, std::string>& names,
                             const PointGreys& greys = {});
 
-// The id of the image of a keyframe.
+// Returns the id of the image of a keyframe.
 inline std::uint32_t ColmapImageId(KeyFrameId id) {
   return static_cast<std::uint32_t>(id.value + 1);
 }

@@ -29,8 +29,7 @@ constexpr auto EnumNames(std::type_identity<SensorKind>) {
                     std::pair{SensorKind::kRgbd, "rgbd"}};
 }
 
-// How a sequence is stored. kStream is what a live source has in its place, and no format that
-// anybody can ask for.
+// How a sequence is stored. kStream is the format of a live source; nobody can ask for it.
 enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo, kBag, kMcap, kStream };
 constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
   return std::array{std::pair{DatasetFormat::kEuroc, "euroc"},
@@ -49,25 +48,27 @@ struct GroundTruth {
 
   Trajectory poses;  // world_from_camera holds world_from_body where frame is kBody
   Frame frame = Frame::kCamera;
-  std::filesystem::path path;  // the file they were read from
+  std::filesystem::path path;  // the file from which the poses were read
 
-  // The poses of the left camera, world_from_body * body_from_left.
+  // Returns the poses of the left camera, world_from_body * body_from_left.
   Trajectory OfCamera(const Calibration& calibration) const;
 };
 
-// What is known of a recorded sequence before any image is read.
+// What is known about a recorded sequence before any image is read.
 struct DatasetInfo {
   std::string name;  // last part of the path
   std::filesystem::path path;
   DatasetFormat format = DatasetFormat::kImages;
-  SensorKind sensor = SensorKind::kMono;    // as opened
-  std::vector<SensorKind> available;        // what the data offers, richest first
-  std::vector<std::int64_t> stamps_ns;      // one per frame, strictly increasing
-  Calibration calibration;                  // `right` and `depth_factor` only where used
-  std::string calibration_source;           // what it was read from, for people
+  SensorKind sensor = SensorKind::kMono;  // what it was opened as
+  std::vector<SensorKind> available;      // what the data offers, richest first
+  std::vector<std::int64_t> stamps_ns;    // one per frame, strictly increasing
+  // Has `right` and `depth_factor` only where they are used.
+  Calibration calibration;
+  std::string calibration_source;           // where it was read from, for people
   bool has_calibration = true;              // false only with DatasetOptions::allow_missing_camera
   std::optional<GroundTruth> ground_truth;  // nullopt: none is delivered
-  std::vector<std::string> notes;           // what is missing or left out, one sentence each
+  // One sentence for each thing that is missing or left out.
+  std::vector<std::string> notes;
   // Set where the frames are played backwards (reversed_dataset.h): what was recorded at t has the
   // stamp time_mirror_ns - t here.
   std::optional<std::int64_t> time_mirror_ns;
@@ -76,7 +77,7 @@ struct DatasetInfo {
 // A recorded sequence: frames in time order, read on demand.
 class Dataset {
  public:
-  // Readers of formats derive from this class and say what they found out.
+  // Readers of formats derive from this class and pass what they found out.
   explicit Dataset(DatasetInfo info) : info_(std::move(info)) {}
   Dataset(const Dataset&) = delete;
   Dataset& operator=(const Dataset&) = delete;
@@ -101,18 +102,18 @@ class Dataset {
   DatasetInfo info_;
 };
 
-// What to open a data set as, where it does not say so itself.
+// How to open a data set, where it does not say so itself.
 struct DatasetOptions {
   std::optional<SensorKind> sensor = std::nullopt;     // nullopt: the richest the data offers
   std::optional<DatasetFormat> format = std::nullopt;  // nullopt: found out from the folder
-  // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1"; takes the
+  // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1". It takes the
   // place of a camera file in the folder (CameraFileIn) and of the calibration of the data.
   std::optional<std::string> camera = std::nullopt;
-  // Bags and MCAP files: the topics of the images, the left camera before the right one. Empty:
-  // found out from what there is.
+  // Bags and MCAP files: the topics of the images, the left camera before the right one. Empty: the
+  // topics are chosen from those in the file.
   std::vector<std::string> topics = {};
-  // Open the data even where there is no calibration, to look at it. `calibration` is a placeholder
-  // then. Off: InputError.
+  // Whether to open the data even where there is no calibration, in order to look at it.
+  // `calibration` is a placeholder then. If false, a missing calibration is an InputError.
   bool allow_missing_camera = false;
 };
 

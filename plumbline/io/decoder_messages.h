@@ -8,11 +8,11 @@ namespace plumbline {
 // ...", "Corrupt JPEG data", "moov atom not found"), without the name of the file and beside the
 // message of the program, which says what matters.
 //
-// For programs, before there are threads: what C code writes to `stderr` while a DecoderCall of its
-// thread lives is dropped from now on, and the logs of OpenCV and FFmpeg are off unless the
-// environment asks for them (OPENCV_LOG_LEVEL, OPENCV_FFMPEG_LOGLEVEL). What else is written to
-// `stderr`, such as a failed assertion, goes where it went. A library has no such say in a process:
-// without this call nothing is dropped.
+// For programs, to be called before there are threads. From then on, what C code writes to `stderr`
+// while a DecoderCall of its thread lives is dropped, and the logs of OpenCV and FFmpeg are off
+// unless the environment asks for them (OPENCV_LOG_LEVEL, OPENCV_FFMPEG_LOGLEVEL). Everything else
+// that is written to `stderr`, such as a failed assertion, goes where it went before. A library
+// must not decide this for a process, so that without this call nothing is dropped.
 void DropDecoderMessages();
 
 // While it lives, this thread is inside a decoder.

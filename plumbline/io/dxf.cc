@@ -12,14 +12,14 @@
 namespace plumbline {
 namespace {
 
-// Fixed decimals, without a minus sign before zero.
+// Returns a number with fixed decimals, without a minus sign before zero.
 std::string Number(double value) {
   std::string text = fmt::format("{:.6f}", value);
   if (text == "-0.000000") text.erase(0, 1);
   return text;
 }
 
-// A point as three groups: x, y, z have the codes `first`, first + 10 and first + 20.
+// Returns a point as three groups: x, y, z have the codes `first`, first + 10 and first + 20.
 std::string Point(int first, const Eigen::Vector3d& p) {
   return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n",
                      first,

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// camN/data.csv: `nanoseconds,file name`.
+// Reads camN/data.csv: `nanoseconds,file name`.
 std::vector<ListedImage> ReadList(const fs::path& camera_folder) {
   const fs::path csv = camera_folder / "data.csv";
   std::vector<ListedImage> images;
@@ -50,7 +50,7 @@ std::vector<ListedImage> ReadList(const fs::path& camera_folder) {
   return images;
 }
 
-// Pairs of equal stamps; both lists are in time order.
+// Returns pairs of equal stamps; both lists must be in order of time.
 std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
                                const std::vector<ListedImage>& right,
                                DatasetInfo& info) {
@@ -75,7 +75,7 @@ std::vector<FrameFiles> PairUp(const std::vector<ListedImage>& left,
   return files;
 }
 
-// Fails at the resolution that is wrong; the images of the left camera tell which.
+// Fails at the resolution that is wrong, which the images of the left camera tell.
 [[noreturn]] void FailResolution(const fs::path& mav,
                                  const YamlSection& left_root,
                                  const YamlSection& right_root,

@@ -27,7 +27,8 @@ bool IsFileAt(int file, const std::filesystem::path& path) {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, const std::string& held)
     : path_(folder / ".plumbline-lock") {
-  // Whoever held the lock may remove the file after it was opened here: then once more.
+  // The former holder of the lock may remove the file after it was opened here; then it is opened
+  // again.
   while (true) {
     file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (file_ < 0) throw WriteError(path_, {errno, std::generic_category()});

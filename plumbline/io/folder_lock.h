@@ -7,19 +7,20 @@
 
 namespace plumbline {
 
-// While it lives, nobody else holds the lock of the folder: an flock() on the file .plumbline-lock
-// in it, which is there only meanwhile. A program that is killed leaves the file, and no lock.
+// While it lives, nobody else holds the lock of the folder. The lock is an flock() on the file
+// .plumbline-lock in the folder, which exists only meanwhile. A program that is killed leaves the
+// file, but no lock.
 class FolderLock {
  public:
-  // Does not wait. Throws InputError "<folder>: <held>" when somebody holds the lock, "cannot write
-  // <file>: <reason>" when the file cannot be made. Where the file system knows no locks,
-  // there is none, and nothing is thrown.
+  // Takes the lock without waiting. Throws InputError "<folder>: <held>" when somebody holds it,
+  // and "cannot write <file>: <reason>" when the file cannot be made. On file systems without locks
+  // nothing is locked, and nothing is thrown.
   FolderLock(const std::filesystem::path& folder, const std::string& held);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
   ~FolderLock();
 
-  // Whether the folder still has the file that is locked: not when somebody removed the folder.
+  // Whether the folder still has the locked file; it has not when somebody removed the folder.
   bool IsInPlace() const;
 
  private:

@@ -63,8 +63,8 @@ std::string_view DigitRun(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
-// Below 0 where a comes first, above 0 where b does; 0 for names that differ in zeros before
-// numbers at most, such as 1 and 01.
+// Returns less than 0 where a comes first, and more than 0 where b does; 0 for names that differ at
+// most in zeros before numbers, such as 1 and 01.
 int NaturalOrder(std::string_view a, std::string_view b) {
   while (!a.empty() && !b.empty()) {
     std::string_view run_a = DigitRun(a);
@@ -90,7 +90,8 @@ bool NaturalLess(const std::string& a, const std::string& b) {
   return order != 0 ? order < 0 : a < b;
 }
 
-// Nobody can tell which of 3.png, 000003.png and 3.jpg is the image of that number.
+// Refuses names with the same number: nobody can tell which of 3.png, 000003.png and 3.jpg is the
+// image of that number.
 void CheckNumbersComeOnce(const fs::path& folder, const std::vector<std::string>& names) {
   const auto stem = [](const std::string& name) { return fs::path(name).stem().string(); };
   for (std::size_t i = 1; i < names.size(); ++i) {

@@ -20,11 +20,11 @@ struct ListedImage {
   std::filesystem::path path;
 };
 
-// Whether there is such a file or folder. InputError where that cannot be found out.
+// Whether there is such a file or folder. Throws InputError where that cannot be found out.
 bool PathExists(const std::filesystem::path& path);
 
-// Throws InputError where there is no list of the images of a second sensor ("right", "depth"), of
-// which something else is there: it is not to be left out unasked.
+// Throws InputError where a second sensor ("right", "depth") has other files but no list of its
+// images, so that it is not left out silently.
 void CheckSecondList(const std::filesystem::path& list, const char* images);
 
 // The image files of one frame.
@@ -34,51 +34,52 @@ struct FrameFiles {
   std::optional<std::filesystem::path> depth;
 };
 
-// A data set whose frames are image files. files[i] belongs to info.stamps_ns[i]. Images listed but
-// missing become a note; InputError when there are no frames, or no left, no right or no depth
-// image exists or can be read at all. An image of another size than the calibration's is an
-// InputError when it is read; the first frame that can be read is read right away.
+// Makes a data set whose frames are image files. files[i] belongs to info.stamps_ns[i]. Images that
+// are listed but missing become a note. Throws InputError when there are no frames, or when no
+// left, no right or no depth image exists or can be read at all. An image of another size than the
+// calibration's is an InputError when it is read; the first readable frame is read at once.
 std::unique_ptr<Dataset> MakeImageDataset(DatasetInfo info, std::vector<FrameFiles> files);
 
-// The failure of one image, unless it is of another size than the calibration's, `wanted`, which no
-// image of a sequence may be: InputError then.
+// Returns the failure of one image. Throws InputError if the image is of another size than the
+// calibration's, `wanted`, which no image of a sequence may be.
 ImageFailure FailureOf(const ImageFailure& failure, ImageSize wanted);
 
 // Reads frames until one can be read, so that a calibration of another size shows before the run.
-// InputError when none can.
+// Throws InputError when none can be read.
 void CheckFirstFrame(const Dataset& dataset);
 
-// Grey levels of 16 bits lose the lower 8, and a camera of 12 bits whose levels are not shifted up
-// is almost black then: adds a note where the first image has 16 bits, whose brightest level is
-// `brightest` (BrightestOf16Bits).
+// Adds a note where the first image has 16 bits; its brightest level is `brightest`
+// (BrightestOf16Bits). Such grey levels lose their lower 8 bits, so that images of a camera with 12
+// bits that are not shifted up are almost black.
 void NoteBits(std::optional<int> brightest, DatasetInfo& info);
 
-// Fills name, path, format, available and sensor: the sensor asked for, or the richest. InputError
-// when the data does not offer it.
+// Fills in name, path, format, available and sensor: the sensor asked for, or the richest one.
+// Throws InputError when the data does not offer it.
 DatasetInfo DescribeDataset(const std::filesystem::path& path,
                             DatasetFormat format,
                             std::vector<SensorKind> available,
                             const DatasetOptions& options);
 
-// The camera file that the user names or that was put into the data set's folder (CameraFileIn);
-// nullopt where there is neither. InputError when `sensor` is stereo and it has one camera only.
+// Returns the camera file that the user names or that is in the data set's folder (CameraFileIn);
+// nullopt where there is neither. Throws InputError when `sensor` is stereo and the file has only
+// one camera.
 std::optional<CameraFile> GivenCamera(const std::filesystem::path& folder,
                                       const DatasetOptions& options,
                                       std::optional<SensorKind> sensor = std::nullopt);
 
-// Takes the calibration for info.sensor: without the second camera or the depth factor where they
-// are not used.
+// Takes over the calibration for info.sensor, without the second camera or the depth factor where
+// they are not used.
 void UseCamera(CameraFile camera, DatasetInfo& info);
 
-// Name shown to users.
+// Returns the name that is shown to users.
 std::string SensorName(SensorKind sensor);
 
-// The names of the image files in a folder, by natural order: runs of digits count as numbers, so
-// that 2.png comes before 10.png. InputError when there is no such folder, and when two names have
-// the same number (3.png, 000003.png).
+// Returns the names of the image files in a folder, in natural order: runs of digits count as
+// numbers, so that 2.png comes before 10.png. Throws InputError when there is no such folder, and
+// when two names have the same number (3.png, 000003.png).
 std::vector<std::string> ListImages(const std::filesystem::path& folder);
 
-// The message of a data set without calibration, telling what to do.
+// Returns the message for a data set without calibration, which tells what to do.
 std::string NoCalibration(const std::filesystem::path& path);
 
 }  // namespace plumbline

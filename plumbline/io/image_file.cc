@@ -52,7 +52,7 @@ bool IsPng(Bytes bytes) { return HasText(bytes, 0, "\x89PNG\r\n\x1a\n"); }
 bool IsJpeg(Bytes bytes) { return HasText(bytes, 0, "\xFF\xD8\xFF"); }
 bool IsWebp(Bytes bytes) { return HasText(bytes, 0, "RIFF") && HasText(bytes, 8, "WEBP"); }
 
-// Chunks of length, type, data, CRC up to IEND.
+// Returns what is wrong with a PNG file, which has chunks of length, type, data and CRC up to IEND.
 std::optional<std::string> PngDamage(Bytes bytes) {
   std::size_t at = 8;
   while (at + 12 <= bytes.size()) {
@@ -67,7 +67,8 @@ std::optional<std::string> PngDamage(Bytes bytes) {
   return std::string(kEndsEarly);
 }
 
-// Marker segments with lengths up to the start of the scan, coded data, end-of-image marker.
+// Returns what is wrong with a JPEG file, which has marker segments with lengths up to the start of
+// the scan, then coded data, then an end-of-image marker.
 std::optional<std::string> JpegDamage(Bytes bytes) {
   std::size_t at = 2;
   while (at + 4 <= bytes.size()) {
@@ -95,7 +96,8 @@ std::optional<std::string> WebpDamage(Bytes bytes) {
   return std::nullopt;
 }
 
-// Empty when the decoder refuses. flags: of cv::imdecode, for files that are not decoded here.
+// Decodes an image; the result is empty when the decoder refuses. `flags` are those of
+// cv::imdecode, for files that are not decoded here.
 cv::Mat Decode(Bytes bytes, int flags) {
   const DecoderCall call;
   cv::Mat image;
@@ -105,7 +107,7 @@ cv::Mat Decode(Bytes bytes, int flags) {
   return image.empty() ? LoadOpenCvModules().DecodeImage(bytes, flags) : image;
 }
 
-// The bytes of a file.
+// Reads the bytes of a file.
 Expected<std::vector<std::uint8_t>, ImageFailure> ReadBytes(const std::filesystem::path& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -120,7 +122,7 @@ Expected<std::vector<std::uint8_t>, ImageFailure> ReadBytes(const std::filesyste
   return bytes;
 }
 
-// The size of an image that is whole, by the structure of its file.
+// Returns the size of an image whose file is complete, judged by its structure.
 Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path, Bytes bytes) {
   if (bytes.empty()) return ImageFailure{path, "the file is empty"};
   if (bytes.size() > kLargestFile) return ImageFailure{path, kTooLarge};
@@ -145,7 +147,7 @@ bool IsGreyPngOf16Bits(Bytes bytes) {
          bytes[kColorType] == 0;
 }
 
-// Grey levels of 16 bits in 8.
+// Returns the upper 8 bits of grey levels of 16 bits.
 GrayImage UpperBytes(const cv::Mat& mat) {
   GrayImage gray(mat.cols, mat.rows);
   for (int y = 0; y < mat.rows; ++y) {
@@ -190,7 +192,7 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
                                                   std::optional<ImageSize> wanted) {
-  // Decoders that turn colour to grey themselves round differently: take the colours.
+  // Decoders that turn colour into grey themselves round differently, so that colours are decoded.
   const Expected<cv::Mat, ImageFailure> mat =
       DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
   if (!mat) return mat.error();

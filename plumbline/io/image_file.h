@@ -18,24 +18,24 @@ namespace plumbline {
 struct ImageFailure {
   std::filesystem::path path;
   std::string why;  // e.g. "the file ends early", without the path
-  // Set where the file is of another size than wanted, which is all that is wrong.
+  // Set where the file is of another size than wanted, and nothing else is wrong with it.
   std::optional<ImageSize> other_size = std::nullopt;
 };
 
-// The size that the header of an image file tells. Failures as of ReadGrayImage.
+// Returns the size that the header of an image file tells. Fails as ReadGrayImage does.
 Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& path);
 
-// Decodes an 8-bit grey image; colour is converted by 0.299 R + 0.587 G + 0.114 B, in the same way
-// whatever the file type (those of image_header.h). Of 16 bits the upper 8 are taken. An EXIF
-// orientation is ignored: the calibration is of the raw pixels. An image whose header tells another
-// size than `wanted`, or more than kMostPixels, is not decoded.
+// Decodes an 8-bit grey image. Colour is converted by 0.299 R + 0.587 G + 0.114 B, in the same way
+// for all file types (those of image_header.h). Images of 16 bits keep the upper 8. An EXIF
+// orientation is ignored, since the calibration is of the raw pixels. An image whose header tells
+// another size than `wanted`, or more than kMostPixels, is not decoded.
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
                                                 std::optional<ImageSize> wanted = std::nullopt);
 
-// The brightest level of a PNG file with one channel of 16 bits; nullopt for any other file, and
-// where none can be decoded.
+// Returns the brightest level of a PNG file with one channel of 16 bits; nullopt for any other
+// file, and where it cannot be decoded.
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
-// The brightest level of such a file whose bytes are given, as a recording holds them.
+// Returns the brightest level of such a PNG file that is given as bytes, as a recording holds it.
 std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes);
 
 // Decodes a 16-bit depth image to metres, value / factor; 0 stays 0 (no measurement).
@@ -53,9 +53,9 @@ Expected<DepthImage, ImageFailure> DecodeDepthImage(const std::filesystem::path&
                                                     double factor,
                                                     std::optional<ImageSize> wanted = std::nullopt);
 
-// Why the bytes of a PNG, JPEG or WebP file cannot be whole, found from the structure of the file
-// without decoding; nullopt where nothing is wrong or the type is another one. Decoders return
-// half-filled images for such files.
+// Returns why the bytes of a PNG, JPEG or WebP file cannot be complete, found from the structure of
+// the file without decoding; nullopt where nothing is wrong or the type is another one. Decoders
+// return half-filled images for such files.
 std::optional<std::string> FindDamage(std::span<const std::uint8_t> bytes);
 
 }  // namespace plumbline

@@ -9,14 +9,14 @@
 namespace plumbline {
 namespace {
 
-// The bytes of a file; those beyond its end count as 0.
+// The bytes of a file; bytes beyond its end count as 0.
 class Header {
  public:
   explicit Header(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   std::size_t size() const { return bytes_.size(); }
   std::uint32_t Byte(std::size_t at) const { return at < bytes_.size() ? bytes_[at] : 0; }
-  // Numbers of so many bytes, the highest first or last.
+  // Return numbers of so many bytes, with the highest byte first or last.
   std::uint32_t Big(std::size_t at, std::size_t count) const {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < count; ++i) value = (value << 8) | Byte(at + i);
@@ -50,7 +50,8 @@ std::optional<ImageSize> SizeOfPng(const Header& file) {
   return Size(file.Big(16, 4), file.Big(20, 4));
 }
 
-// The size stands in the start-of-frame segment, before the first scan.
+// Returns the size of a JPEG file, which stands in the start-of-frame segment before the first
+// scan.
 std::optional<ImageSize> SizeOfJpeg(const Header& file) {
   std::size_t at = 2;
   while (at + 9 <= file.size() && file.Byte(at) == 0xFF) {
@@ -81,7 +82,8 @@ std::optional<ImageSize> SizeOfWebp(const Header& file) {
   return std::nullopt;
 }
 
-// "P5", then width and height, with blanks and comments (from # to the end of the line) between.
+// Returns the size of a PNM file: "P5", then width and height, with blanks and comments (from # to
+// the end of the line) between.
 std::optional<ImageSize> SizeOfPnm(const Header& file) {
   constexpr std::uint64_t kFar = std::uint64_t{1} << 40;
   std::size_t at = 2;
@@ -107,11 +109,11 @@ std::optional<ImageSize> SizeOfPnm(const Header& file) {
 std::optional<ImageSize> SizeOfBmp(const Header& file) {
   constexpr std::uint32_t kOldHeader = 12, kSign = 0x80000000U;
   if (file.Little(14, 4) == kOldHeader) return Size(file.Little(18, 2), file.Little(20, 2));
-  const std::uint32_t height = file.Little(22, 4);  // below 0 where the first row is the top one
+  const std::uint32_t height = file.Little(22, 4);  // negative where the first row is the top one
   return Size(file.Little(18, 4), (height & kSign) != 0 ? 0U - height : height);
 }
 
-// Tags 256 and 257 of the first directory.
+// Returns the size of a TIFF file, which is in tags 256 and 257 of the first directory.
 std::optional<ImageSize> SizeOfTiff(const Header& file) {
   const bool big = file.Byte(0) == 'M';
   const auto number = [&](std::size_t at, std::size_t count) {

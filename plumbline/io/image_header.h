@@ -14,9 +14,9 @@ struct ImageSize {
   friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 
-// The size that a PNG, JPEG, WebP, PGM, PPM, PBM, BMP or TIFF file says its image has, found
-// without decoding it: a file of a megabyte may hold an image of gigabytes. nullopt for files of
-// another kind, and where the header is broken or the size is none.
+// Returns the size of the image in a PNG, JPEG, WebP, PGM, PPM, PBM, BMP or TIFF file as its header
+// tells it, without decoding: a file of a megabyte may hold an image of gigabytes. Returns nullopt
+// for files of another kind, and where the header is broken or the size is zero.
 std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes);
 
 }  // namespace plumbline

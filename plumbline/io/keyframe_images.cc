@@ -17,7 +17,7 @@
 namespace plumbline {
 namespace {
 
-// Index of the frame of this very time.
+// Returns the index of the frame of exactly this time.
 std::optional<std::size_t> FrameAt(const Dataset& dataset, std::int64_t stamp_ns) {
   const std::vector<std::int64_t>& stamps = dataset.info().stamps_ns;
   const auto found = std::lower_bound(stamps.begin(), stamps.end(), stamp_ns);
@@ -25,8 +25,8 @@ std::optional<std::size_t> FrameAt(const Dataset& dataset, std::int64_t stamp_ns
   return static_cast<std::size_t>(found - stamps.begin());
 }
 
-// What tells the left camera of the data, rectified, from the camera of the map. The baseline does
-// not matter: for RGB-D it is an option of the run.
+// Returns the differences between the rectified left camera of the data and the camera of the map.
+// The baseline does not matter.
 std::optional<std::string> LeftCameraDifference(const Rectifier& rectifier, const SavedMap& saved) {
   RectifiedCamera camera = rectifier.camera();
   camera.baseline = saved.camera.baseline;
@@ -53,7 +53,7 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
   dataset_ = OpenDataset(path, options);
   std::vector<SensorKind> sensors = dataset_->info().available;
   if (options.sensor) sensors = {*options.sensor};
-  std::optional<std::string> difference;  // of the first sensor
+  std::optional<std::string> difference;  // difference for the first sensor
   for (const SensorKind sensor : sensors) {
     DatasetOptions as_sensor = options;
     as_sensor.sensor = sensor;

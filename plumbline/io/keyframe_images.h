@@ -13,22 +13,23 @@
 
 namespace plumbline {
 
-// How the images of keyframes are called when a map is exported: the time stamp in nanoseconds,
-// "1403636580863555584.png". Further keyframes of one time, in the order of their ids, get
-// "<stamp>_2.png", "<stamp>_3.png" and so on.
+// Returns the names of the images of keyframes when a map is exported: the time stamp in
+// nanoseconds, "1403636580863555584.png". Further keyframes of one time, in the order of their ids,
+// get "<stamp>_2.png", "<stamp>_3.png" and so on.
 std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 
-// The images of a map's keyframes, found by their time stamps in the data that the map was made
-// from, as the camera of the map sees them: without distortion, rectified for stereo.
+// The images of a map's keyframes as the camera of the map sees them: without distortion, rectified
+// for stereo. They are found by their time stamps in the data from which the map was made.
 class KeyFrameImages {
  public:
-  // `options` without a sensor: the one whose images fit the map. Throws InputError where the
-  // data's camera is not that of the map, or the data has no frame at the time of a keyframe.
+  // Opens the data. `options` without a sensor: the sensor is the one whose images fit the map.
+  // Throws InputError where the data's camera is not that of the map, or the data has no frame at
+  // the time of a keyframe.
   KeyFrameImages(const std::filesystem::path& path,
                  const DatasetOptions& options,
                  const SavedMap& saved);
 
-  // The left image. Throws InputError when it cannot be read.
+  // Reads the left image. Throws InputError when it cannot be read.
   GrayImage Read(const KeyFrame& keyframe) const;
 
  private:

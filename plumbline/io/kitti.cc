@@ -32,7 +32,7 @@ struct Projection {
   int line = 0;
 };
 
-// The one row of this name; InputError where there is none, or another one that differs.
+// Returns the one row of this name; throws InputError where there is none, or where two differ.
 TextRow OnlyRow(const fs::path& file, const std::string& name) {
   std::optional<TextRow> found;
   for (const TextRow& row : ReadRows(file, ' ')) {
@@ -49,7 +49,7 @@ TextRow OnlyRow(const fs::path& file, const std::string& name) {
   throw InputError(fmt::format("{}: expected a row '{}', found none", file.string(), name));
 }
 
-// One row `P0: 12 numbers` of calib.txt, an ideal pinhole; InputError otherwise.
+// Reads a row `P0: 12 numbers` of calib.txt as an ideal pinhole; throws InputError otherwise.
 Projection ReadProjection(const fs::path& file, const std::string& name) {
   const TextRow row = OnlyRow(file, name + ":");
   if (row.fields.size() != 13) {
@@ -86,13 +86,14 @@ Camera ToCamera(const Projection& projection, const fs::path& file, int width, i
   return Camera(k);
 }
 
-// calib.txt has no image size: it is that of most images, by a few that are spread over the
-// sequence. One that is wrong is then the one to blame, also where it is the first.
+// Returns the size of most images, judged by a few that are spread over the sequence, since
+// calib.txt has none. An image of another size is then the one at fault, even where it is the
+// first.
 ImageSize SizeOfMost(const fs::path& path, const std::vector<FrameFiles>& files) {
   constexpr std::size_t kAsked = 9;
   const std::size_t step = std::max<std::size_t>(1, files.size() / kAsked);
   std::vector<std::pair<ImageSize, int>> votes;
-  // The others are asked only where none of the few can be read.
+  // The other images are read only where none of the few can be read.
   for (std::size_t first = 0; first < step && votes.empty(); ++first) {
     for (std::size_t i = first; i < files.size(); i += step) {
       const Expected<ImageSize, ImageFailure> size = ReadImageSize(files[i].left);
@@ -155,7 +156,7 @@ CameraFile ReadCalibration(const fs::path& path,
   return camera;
 }
 
-// Number of the frame, from the file name, to the file.
+// Returns the file of each frame, with the number of the frame from the file name.
 std::map<std::size_t, fs::path> NumberedImages(const fs::path& folder) {
   std::map<std::size_t, fs::path> images;
   for (const std::string& name : ListImages(folder)) {
@@ -168,7 +169,7 @@ std::map<std::size_t, fs::path> NumberedImages(const fs::path& folder) {
   return images;
 }
 
-// The file of frame i, or where it would be beside the others.
+// Returns the file of frame i, or where it would be beside the others.
 fs::path ImageAt(const std::map<std::size_t, fs::path>& images,
                  const fs::path& folder,
                  std::size_t i) {

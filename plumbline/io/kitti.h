@@ -10,7 +10,7 @@
 namespace plumbline {
 
 // Opens a KITTI odometry sequence (image_0/, image_1/, calib.txt, times.txt; ground truth in
-// poses.txt or, as distributed, in ../../poses/<sequence>.txt). Errors as OpenDataset.
+// poses.txt or, as distributed, in ../../poses/<sequence>.txt). Throws the errors of OpenDataset.
 std::unique_ptr<Dataset> OpenKitti(const std::filesystem::path& path,
                                    const DatasetOptions& options);
 

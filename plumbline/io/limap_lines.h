@@ -10,9 +10,9 @@
 
 namespace plumbline {
 
-// Writes the lines of a map with what shows them in the text form of LIMAP into a folder that
-// exists. Ids of images are those of the COLMAP model (ColmapImageId), pixels too are its (centres
-// at 0.5, 0.5), so that the files stand beside the model:
+// Writes the lines of a map with the segments that show them in the text form of LIMAP into an
+// existing folder. Ids of images and pixels (centres at 0.5, 0.5) are those of the COLMAP model
+// (ColmapImageId), so that the files fit the model:
 //
 //   image_list.txt  number of images; for each its id and name
 //   detections.txt  number of images; for each its id and number of segments, then x1 y1 x2 y2

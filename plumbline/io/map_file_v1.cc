@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::uint64_t kLargestMap = std::uint64_t{1} << 36;  // bytes
 
-constexpr std::size_t kBodyBegin = 24;  // after magic, version, CRC-32, size of the body
+constexpr std::size_t kBodyBegin = 24;  // bytes before it: magic, version, CRC-32, size of the body
 
 struct StoredKeyFrame {
   KeyFrameId id;
@@ -46,7 +46,7 @@ struct StoredMap {
   std::vector<MapLine> lines;
 };
 
-// One Read for each type; members of a class, so that each sees all others.
+// Has a Read for each type. They are members of a class, so that each sees all others.
 struct Format {
   template <class T>
   requires(std::is_integral_v<T> || std::is_same_v<T, double>) static void Read(ByteReader& r,
@@ -71,8 +71,8 @@ struct Format {
     for (T& item : items) Read(r, item);
   }
 
-  // Every item takes a byte or more. Items are made one by one as they are read: a damaged count
-  // cannot ask for more memory than what the file holds.
+  // Reads the number of items. Every item takes a byte or more and is made when it is read, so that
+  // a damaged count cannot ask for more memory than what the file holds.
   static std::size_t ReadCount(ByteReader& r) {
     std::uint32_t count = 0;
     r(count);
@@ -166,7 +166,8 @@ StoredMap ReadStored(const std::filesystem::path& path) {
   return stored;
 }
 
-// What version 1 does not keep is what a map has that took in these keyframes and no others.
+// Returns a record of what version 1 does not keep, for a map that took in these keyframes and no
+// others.
 MapRecord RecordOf(const StoredMap& stored) {
   MapRecord record;
   record.id = stored.id;
@@ -182,8 +183,8 @@ MapRecord RecordOf(const StoredMap& stored) {
   return record;
 }
 
-// The keyframe, and nothing in `stored` any more. One whose parent is not there hangs on the one
-// before.
+// Moves a keyframe out of `stored`. If its parent is missing, the keyframe before it takes its
+// place.
 KeyFrame Take(StoredKeyFrame& stored, const RectifiedCamera& camera, const Map& before) {
   KeyFrame keyframe;
   keyframe.id = stored.id;

@@ -11,9 +11,9 @@ namespace plumbline {
 
 // Reads a map file of version 1, which holds one map: its keyframes, landmarks and the camera. What
 // it does not hold is unknown in the result, or as in a map that took in these keyframes and no
-// others; its disparities, which had the run's stereo correction, count as measured. Features are
+// others. Its disparities, which had the run's stereo correction, count as measured. Features are
 // rounded to single precision. `check` is called with the context before the map is made. Throws
-// InputError as LoadAtlas.
+// the InputErrors of LoadAtlas.
 SavedAtlas LoadMapFileV1(const std::filesystem::path& path,
                          const std::function<void(const AtlasContext&)>& check);
 

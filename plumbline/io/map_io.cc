@@ -27,8 +27,8 @@ constexpr std::string_view kMagic = kMapMagic;
 constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kPreambleBytes = 12;  // magic and version
 
-// In this order: the context; for each map its record, keyframes, points and lines, each kind in as
-// many sections as it needs; the end.
+// Sections come in this order: the context; for each map its record, keyframes, points and lines,
+// each kind in as many sections as it needs; the end.
 enum SectionKind : std::uint32_t {
   kContext = 1,
   kMapRecord = 2,
@@ -38,7 +38,7 @@ enum SectionKind : std::uint32_t {
   kEnd = 6
 };
 
-// A section is closed when it has so much, so that memory stays small.
+// A section is closed when it has this much, so that little memory is needed.
 constexpr std::size_t kSectionBytes = std::size_t{1} << 21;
 constexpr std::size_t kSectionLandmarks = 8192;
 constexpr std::size_t kSectionObservations = 65536;
@@ -137,7 +137,7 @@ std::vector<const Map*> MapsOf(const Atlas& atlas) {
   return maps;
 }
 
-// The context comes first: maps are read with the camera known.
+// Writes the sections. The context comes first, since the camera must be known to read maps.
 void WriteSections(const std::vector<const Map*>& maps,
                    const AtlasContext& context,
                    MapId active,
@@ -184,7 +184,8 @@ void CheckEnd(const ByteReader& reader) {
 
 void CheckContext(const AtlasContext& context, const std::string& source) {
   const RectifiedCamera& c = context.camera;
-  constexpr std::int64_t kMaxPixels = 100'000'000;  // the grid of each keyframe takes 1 MB then
+  // At this size the grid of each keyframe takes 1 MB.
+  constexpr std::int64_t kMaxPixels = 100'000'000;
   if (!(c.fx > 0) || !(c.fy > 0) || c.width <= 0 || c.height <= 0 ||
       std::int64_t{c.width} * c.height > kMaxPixels) {
     FailMap(source, "no valid camera");
@@ -229,7 +230,7 @@ void ReadKeyFrames(SectionReader& file,
 
 template <class Landmark>
 void ReadLandmarks(SectionReader& file, SectionKind kind, std::int64_t count, MapBuilder& builder) {
-  constexpr std::size_t kLeastBytes = 60;  // of a landmark
+  constexpr std::size_t kLeastBytes = 60;  // least bytes of a landmark
   for (std::int64_t done = 0; done < count;) {
     const std::string contents = NextSectionOfKind(file, kind);
     ByteReader reader = ReaderOf(contents, file.source());
@@ -258,7 +259,7 @@ Map ReadMap(SectionReader& file, const AtlasContext& context) {
   return builder.Finish();
 }
 
-// Marks the ids of one kind as taken; false where one was.
+// Marks ids of one kind as taken; returns false where one was taken before.
 class TakenIds {
  public:
   bool Take(std::int64_t id) {
@@ -271,7 +272,7 @@ class TakenIds {
   std::vector<char> taken_;
 };
 
-// No id is in two maps, and young landmarks tell their age.
+// Checks that no id is in two maps, and that the age of young landmarks is known.
 void CheckAtlas(const SavedAtlas& saved, const std::string& source) {
   TakenIds keyframes, points, lines;
   const auto take = [&](TakenIds& taken, const auto& entries) {

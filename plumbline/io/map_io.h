@@ -14,44 +14,44 @@
 
 namespace plumbline {
 
-// What map files begin with; line ends show a transfer as text.
+// The first bytes of map files. Their line ends reveal a transfer as text.
 inline constexpr std::string_view kMapMagic = "PLBMAP\r\n";
 
 // Writes an atlas with all that a run needs to go on with it as if it had never stopped, and with
-// what tells what it was made of (docs/adr/0009-map-file-format.md). Nothing is rounded, and the
+// the description of its origin (docs/adr/0009-map-file-format.md). Nothing is rounded, and the
 // same atlas gives the same bytes. `active` is the map to go on with, by default the active one.
 //
-// The file is replaced whole, once all of it is on the disk: whatever happens meanwhile, the last
-// complete one is there. Throws InputError "cannot write <path>: <reason>" (no folder, no room).
-// Memory: some megabytes. Time: a millisecond a keyframe.
+// The file is replaced whole, once everything is on the disk, so that there is always a complete
+// one. Throws InputError "cannot write <path>: <reason>" (no folder, no room). Memory: some
+// megabytes. Time: a millisecond a keyframe.
 void SaveAtlas(const std::filesystem::path& path,
                const Atlas& atlas,
                const AtlasContext& context,
                MapId active = MapId{});
 
-// Reads such a file. Saved again, it has the same bytes. Throws InputError naming the file when it
-// is missing, not a map, of a later version, cut short, damaged (checksums) or contradicts itself:
-// whatever the bytes, what comes back serves all functions of Map. Time: half a millisecond a
-// keyframe.
+// Reads a file that SaveAtlas wrote; saved again, the atlas gives the same bytes. Throws InputError
+// naming the file when it is missing, not a map, of a later version, cut short, damaged (checksums)
+// or contradicts itself: whatever the bytes, the result serves all functions of Map. Time: half a
+// millisecond a keyframe.
 //
-// A file of version 1 comes as an atlas of one map; it does not say everything (map_file_v1.h).
+// A file of version 1 gives an atlas of one map, for which some things are unknown (map_file_v1.h).
 SavedAtlas LoadAtlas(const std::filesystem::path& path);
 
-// A map with the camera that its features were measured with.
+// A map with the camera with which its features were measured.
 struct SavedMap {
   RectifiedCamera camera;
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
   Map map;
-  std::uint32_t version = 0;  // of the file's format
+  std::uint32_t version = 0;  // version of the file's format
 };
 
-// SaveAtlas with one map, of which nothing else is known.
+// Saves one map as SaveAtlas does, where nothing else is known of it.
 void SaveMap(const std::filesystem::path& path,
              const RectifiedCamera& camera,
              const Eigen::Quaterniond& rectified_from_left,
              const Map& map);
 
-// LoadAtlas for one map, the active one; an empty one where the file has none.
+// Loads the active map of a file as LoadAtlas does; an empty map where the file has none.
 SavedMap LoadMap(const std::filesystem::path& path);
 
 }  // namespace plumbline

@@ -16,8 +16,8 @@ namespace plumbline {
 // of the map.
 //
 //   images    folder of the images, relative to the file
-//   names     of the images of all keyframes
-//   ply_file  of the points, relative to the file; from it splats start
+//   names     names of the images of all keyframes
+//   ply_file  file of the points, relative to the file; splats start from it
 void WriteNerfstudioTransforms(const std::filesystem::path& path,
                                const SavedMap& saved,
                                const std::string& images,

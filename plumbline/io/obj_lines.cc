@@ -28,14 +28,14 @@ constexpr auto kOthers = std::to_array<std::string_view>(
      "trace_obj", "ctech",  "stech",  "call",   "csh"});
 
 Eigen::Vector3d VertexOf(const path& file, const TextRow& row) {
-  // x y z, then a weight, a colour, or both.
+  // A vertex has x y z, then a weight, a colour, or both.
   if (row.fields.size() < 4 || row.fields.size() > 8) {
     FailAt(file, row.line, "a vertex (v x y z)", fmt::format("{} numbers", row.fields.size() - 1));
   }
   return PlaceFields(file, row, 1);
 }
 
-// The vertex that a word of an `l` record names, such as 7, -1 or 7/2.
+// Returns the vertex that a word of an `l` record names, such as 7, -1 or 7/2.
 const Eigen::Vector3d& VertexNamed(const path& file,
                                    int line,
                                    const std::string& word,

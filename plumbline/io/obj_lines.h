@@ -9,11 +9,11 @@
 
 namespace plumbline {
 
-// The line segments of a Wavefront OBJ file (ours is written by WriteObjLines, io/ply.h), in the
-// unit of the file: every pair of neighbours of an `l` record. Vertices are counted from 1, or from
-// the end where negative, and stand above the record; what follows a '/' is left out, as are all
-// other records of OBJ. A segment may have no length. Throws InputError "path:line: expected ...,
-// found ..." for malformed `v` and `l` records and for what is no record of OBJ.
+// Returns the line segments of a Wavefront OBJ file (WriteObjLines of io/ply.h writes such files),
+// in the unit of the file: every pair of neighbours of an `l` record. Vertices are counted from 1,
+// or from the end where negative, and must stand above the record. What follows a '/' and all other
+// records of OBJ are left out. A segment may have no length. Throws InputError "path:line: expected
+// ..., found ..." for malformed `v` and `l` records and for what is no record of OBJ.
 std::vector<Segment3> ReadObjLines(const std::filesystem::path& path);
 
 }  // namespace plumbline

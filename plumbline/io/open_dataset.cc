@@ -32,7 +32,7 @@ DatasetFormat DetectFormat(const fs::path& path) {
                    "sequence (image_0/, calib.txt) or a folder of images, found none of them");
 }
 
-// What a file is by its first bytes, and by its name where they are damaged.
+// Returns the format of a file by its first bytes, or by its name where these are damaged.
 DatasetFormat FormatOfFile(const fs::path& path) {
   std::array<std::uint8_t, 16> begin{};
   std::ifstream file(path, std::ios::binary);

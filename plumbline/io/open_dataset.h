@@ -10,8 +10,9 @@
 
 namespace plumbline {
 
-// How a recorded sequence is stored: a file tells by its first bytes, else by the end of its name,
-// and is a video otherwise, a folder by the names in it; nullopt where there is none.
+// Returns how a recorded sequence is stored; nullopt where there is none. A file is known by its
+// first bytes, else by the end of its name, and is otherwise a video; a folder is known by the
+// names in it.
 std::optional<DatasetFormat> FindFormat(const std::filesystem::path& path);
 
 // Opens a EuRoC folder (with mav0/), a TUM or ICL folder (rgb.txt), a KITTI sequence (image_0/ and

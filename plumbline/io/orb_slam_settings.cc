@@ -30,7 +30,7 @@ Projection ReadProjection(const YamlSection& root) {
             "expected PinHole, KannalaBrandt8 or Rectified, found " + InQuotes(name));
 }
 
-// One of two keys of a size: the first that is there.
+// Reads a size by the first of two keys that is there.
 int ReadLength(const YamlSection& root, const std::string& key, const std::string& other) {
   const std::string& found = root.Has(other) && !root.Has(key) ? other : key;
   if (!root.Has(found)) {
@@ -39,7 +39,7 @@ int ReadLength(const YamlSection& root, const std::string& key, const std::strin
   return CheckedLength(root, found, root.Number(found));
 }
 
-// Coefficients prefix + "k1", ...; all zero is no distortion.
+// Reads the coefficients prefix + "k1", ...; if all are zero there is no distortion.
 void ReadDistortion(const YamlSection& root,
                     const std::string& prefix,
                     Projection projection,
@@ -65,7 +65,7 @@ std::array<std::string, 4> IntrinsicsKeys(const std::string& prefix) {
   return {prefix + "fx", prefix + "fy", prefix + "cx", prefix + "cy"};
 }
 
-// Whether the file has any of these: a key that is missing is one of its own then.
+// Whether the file has any of these keys. If so, a key that is missing belongs to them.
 bool HasCamera(const YamlSection& root, const std::string& prefix) {
   const auto keys = IntrinsicsKeys(prefix);
   return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return root.Has(key); });
@@ -88,7 +88,7 @@ Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection
 struct RectifiedBy {
   Camera camera;
   Eigen::Quaterniond rotation;  // rectified from raw
-  double shift = 0;             // of the rectified camera, metres along x
+  double shift = 0;             // of the rectified camera along x, metres
 };
 
 RectifiedBy ReadRectification(const YamlSection& root, const std::string& side) {
@@ -129,7 +129,7 @@ void ReadRectifiedPair(const YamlSection& root, Calibration& calibration) {
                                  raw_right_from_rectified * Eigen::Vector3d(along_x, 0, 0)};
 }
 
-// The pair of one camera and a baseline.
+// Makes the pair of one camera and a baseline.
 void MakeRectifiedPair(const YamlSection& root, const std::string& key, Calibration& calibration) {
   if (!calibration.left.IsIdeal()) {
     root.Fail(key, "expected a rectified camera with it (no distortion), or a second camera");
@@ -141,7 +141,7 @@ void MakeRectifiedPair(const YamlSection& root, const std::string& key, Calibrat
   calibration.right_from_left.translation.x() = -baseline;
 }
 
-// The first of `keys` that the file has.
+// Returns the first of `keys` that the file has.
 std::optional<std::string> FirstOf(const YamlSection& root, const std::vector<std::string>& keys) {
   const auto found =
       std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return root.Has(key); });

@@ -9,7 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Absolute, links followed as far as there are files, without a separator at the end.
+// Returns an absolute path, with links followed as far as there are files, and without a separator
+// at the end.
 fs::path Resolved(const fs::path& path) {
   std::error_code error;
   fs::path resolved = fs::weakly_canonical(fs::absolute(path, error), error);

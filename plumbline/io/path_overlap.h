@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// Whether two paths name the same file or folder, whatever links, `..` and spelling of them. What
-// does not exist yet is the same as what would be made at the same place.
+// Whether two paths name the same file or folder, whatever their links, `..` and spelling. Paths
+// that do not exist yet are the same if files made there would be the same.
 bool IsSamePath(const std::filesystem::path& a, const std::filesystem::path& b);
 
 // Whether a path is a folder or lies in it, at any depth; links are followed.

@@ -16,7 +16,7 @@ namespace {
 constexpr int kPointGrey = 128;
 constexpr std::string_view kLineColor = "255 140 0";
 
-// Fixed decimals, without a minus sign before zero.
+// Returns a number with fixed decimals, without a minus sign before zero.
 std::string Number(double value) {
   std::string text = fmt::format("{:.6f}", value);
   if (text == "-0.000000") text.erase(0, 1);

@@ -21,7 +21,8 @@ void WritePly(const std::filesystem::path& path,
               std::span<const Segment3> segments,
               std::span<const std::uint8_t> greys = {});
 
-// Writes line segments as a Wavefront OBJ file of `l` elements. Otherwise as WritePly.
+// Writes line segments as a Wavefront OBJ file of `l` elements. Coordinates and failures are as of
+// WritePly.
 void WriteObjLines(const std::filesystem::path& path, std::span<const Segment3> segments);
 
 }  // namespace plumbline

@@ -34,10 +34,11 @@ struct Overlay {
   std::vector<OverlaySegment> segments;
 };
 
-// The image with the overlay, as the bytes of a PNG file (segments below points, antialiased).
+// Returns the image with the overlay as the bytes of a PNG file (segments below points,
+// antialiased).
 std::string EncodeOverlayPng(const GrayImage& image, const Overlay& overlay);
 
-// Writes a grey image, or one with an overlay, as PNG. Throws InputError when it cannot be written.
+// Writes a grey image as PNG. All functions below throw InputError when the file cannot be written.
 void WriteGrayPng(const std::filesystem::path& path, const GrayImage& image);
 // Writes depth as 16-bit PNG, rounded depth * factor; 0 where it does not fit.
 void WriteDepthPng(const std::filesystem::path& path, const DepthImage& depth, double factor);

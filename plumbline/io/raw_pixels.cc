@@ -24,7 +24,7 @@ struct Encoding {
   std::string_view name;
   ImageContents contents;
   int bytes;
-  int to_gray;  // conversion of OpenCV
+  int to_gray;  // code of OpenCV's conversion to grey
 };
 
 constexpr std::array<Encoding, 11> kEncodings = {
@@ -47,7 +47,7 @@ const Encoding* Find(std::string_view name) {
   return nullptr;
 }
 
-// Why the pixels cannot be taken as what is wanted.
+// Returns why the pixels cannot be used as what is wanted.
 std::optional<ImageFailure> Fault(const std::filesystem::path& name,
                                   const RawPixels& pixels,
                                   ImageContents contents,

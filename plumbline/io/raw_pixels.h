@@ -14,19 +14,19 @@
 
 namespace plumbline {
 
-// What an image shows.
+// What the pixels of an image mean.
 enum class ImageContents { kGray, kDepth };
 
-// Pixels as ROS, Foxglove and the stream of standard input name and order them: mono8, rgb8, bgr8,
-// rgba8, bgra8 (8UC1, 8UC3, 8UC4 as mono8, bgr8, bgra8); depth as mono16, 16UC1 or 32FC1 (metres).
-// nullopt for all other encodings.
+// Returns what the pixels of an encoding mean. Encodings are named and ordered as by ROS, Foxglove
+// and the stream of standard input: mono8, rgb8, bgr8, rgba8, bgra8 (8UC1, 8UC3, 8UC4 as mono8,
+// bgr8, bgra8); depth as mono16, 16UC1 or 32FC1 (metres). Returns nullopt for all other encodings.
 std::optional<ImageContents> ContentsOfEncoding(std::string_view encoding);
-// Bytes of a pixel, of an encoding that ContentsOfEncoding knows.
+// Returns the bytes of a pixel, for an encoding that ContentsOfEncoding knows.
 int PixelBytes(std::string_view encoding);
-// The encodings, for messages.
+// Returns the list of encodings, for messages.
 std::string KnownEncodings();
 
-// Rows of pixels, top to bottom, each `step` bytes behind the one before.
+// Rows of pixels from top to bottom, each beginning `step` bytes behind the one before.
 struct RawPixels {
   std::string encoding;
   std::uint32_t width = 0, height = 0, step = 0;
@@ -34,13 +34,13 @@ struct RawPixels {
   std::span<const std::uint8_t> data;
 };
 
-// Copies pixels of an encoding for what they are to be; colour becomes grey as in ReadGrayImage.
-// Failures, by `name`: another encoding, sizes that do not go together, another size than `wanted`.
+// Converts pixels of an encoding to grey; colour becomes grey as in ReadGrayImage. Failures, named
+// by `name`: another encoding, sizes that do not fit together, another size than `wanted`.
 Expected<GrayImage, ImageFailure> GrayOfPixels(const std::filesystem::path& name,
                                                const RawPixels& pixels,
                                                std::optional<ImageSize> wanted);
-// 16 bits: value / factor; 32FC1: metres, where what is not finite or not positive is no
-// measurement (0).
+// Converts pixels to depth. 16 bits: value / factor; 32FC1: metres, where values that are not
+// finite or not positive mean no measurement (0).
 Expected<DepthImage, ImageFailure> DepthOfPixels(const std::filesystem::path& name,
                                                  const RawPixels& pixels,
                                                  double factor,

@@ -17,7 +17,7 @@ namespace {
 
 using RowMatrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-// R is written with few digits: it may be off a rotation by so much.
+// Largest difference of R from a rotation: R is written with few digits.
 constexpr double kRotationSlack = 1e-3;
 
 [[noreturn]] void Fail(const RecordedCamera& camera, const std::string& why) {
@@ -79,7 +79,7 @@ Camera CameraOf(const RecordedCamera& camera) {
   return Camera(intrinsics);
 }
 
-// From the camera as it is to the rectified pair.
+// Returns the rotation from the camera as it is to the rectified pair.
 Eigen::Quaterniond RectifiedFromCamera(const RecordedCamera& camera) {
   const RowMatrix3 r = Eigen::Map<const RowMatrix3>(camera.message.r.data());
   const bool finite = r.allFinite();
@@ -90,7 +90,7 @@ Eigen::Quaterniond RectifiedFromCamera(const RecordedCamera& camera) {
   return Eigen::Quaterniond(Eigen::Matrix3d(r)).normalized();
 }
 
-// Where the camera stands on the common x axis of the rectified pair, metres.
+// Returns the place of the camera on the common x axis of the rectified pair, in metres.
 double PlaceOnBaseline(const RecordedCamera& camera) {
   const double fx = camera.message.p[0], shift = camera.message.p[3];
   if (!std::isfinite(shift) || !(fx > 0)) {

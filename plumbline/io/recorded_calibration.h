@@ -10,22 +10,22 @@
 
 namespace plumbline {
 
-// The camera info of one camera, and what it is called.
+// The camera info of one camera, with its name.
 struct RecordedCamera {
   CalibrationMessage message;
   std::string source;      // "drive.bag: /cam0/camera_info"
-  bool rectified = false;  // its images are: their camera is P, not K and D
+  bool rectified = false;  // its images are rectified: their camera is P, not K and D
 };
 
-// Whether somebody calibrated the camera: drivers send zeros otherwise.
+// Whether the camera was calibrated. Drivers send zeros if not.
 bool IsCalibrated(const CalibrationMessage& message);
 
-// The calibration that sensor_msgs/CameraInfo (or foxglove.CameraCalibration) describes:
-// plumb_bob (k1 k2 p1 p2 k3), equidistant (k1 k2 k3 k4) or no distortion. Of a pair, R turns each
+// Returns the calibration that sensor_msgs/CameraInfo (or foxglove.CameraCalibration) describes:
+// plumb_bob (k1 k2 p1 p2 k3), equidistant (k1 k2 k3 k4) or no distortion. In a pair, R turns each
 // camera into the rectified pair and P of the right one has the baseline: -P[3] / P[0], metres.
 //
-// InputError "source: ..." for other models, binned or cut images, a pair of which only one camera
-// has rectified images or P has no baseline, and numbers that no camera has.
+// Throws InputError "source: ..." for other models, binned or cut images, a pair in which only one
+// camera has rectified images or P has no baseline, and numbers that no camera has.
 Calibration CalibrationOf(const RecordedCamera& left, const std::optional<RecordedCamera>& right);
 
 }  // namespace plumbline

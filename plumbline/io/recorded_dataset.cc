@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kMaxPairDelayNs = 5'000'000;
 constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
-constexpr double kMillimetres = 1000;  // of depth in 16 bits, as ROS has it (REP 118)
+// Units per metre of depth in 16 bits, as ROS has it (REP 118).
+constexpr double kMillimetres = 1000;
 constexpr std::size_t kCompressedDepthHeader = 12;
 
 // The messages of a frame.
@@ -75,7 +76,7 @@ class RecordedDataset : public Dataset {
     return info().has_calibration ? std::optional(size) : std::nullopt;
   }
 
-  // Hands the message's image to `decode`.
+  // Calls `decode` with the message's image.
   template <class Pixel, class Decode>
   Expected<Image<Pixel>, ImageFailure> ReadImage(const StoredMessage& place,
                                                  const Decode& decode) const {
@@ -125,7 +126,7 @@ std::vector<std::int64_t> StampsOf(const RecordedTopic& topic) {
   return stamps;
 }
 
-// The images of the left topic with those of another one.
+// Joins the images of the left topic with those of another one.
 std::vector<FrameMessages> Join(const RecordedTopic& left,
                                 const RecordedTopic& other,
                                 DatasetInfo& info) {
@@ -159,7 +160,7 @@ std::vector<FrameMessages> Join(const RecordedTopic& left,
   return frames;
 }
 
-// The topics that are read, and which of their images are not.
+// Notes which topics are read, and which of their images are not.
 void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& info) {
   std::vector<std::string> names;
   for (const RecordedTopic* topic : topics) {
@@ -182,7 +183,7 @@ void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& in
   info.notes.push_back(fmt::format("topics: {}", fmt::join(names, ", ")));
 }
 
-// NoteBits of an image.
+// Calls NoteBits for the image of a message.
 void NoteBitsOf(const Recording& file, const StoredMessage& place, DatasetInfo& info) {
   const auto bytes = file.Message(place);
   if (!bytes) return;
@@ -235,7 +236,7 @@ std::vector<SensorKind> Available(const ChosenTopics& chosen) {
   return available;
 }
 
-// Depth in metres needs no factor, whatever the camera file says.
+// Sets the depth factor. Depth in metres needs none, whatever the camera file says.
 void SetDepthFactor(const RecordedTopic& depth, DatasetInfo& info) {
   std::optional<double>& factor = info.calibration.depth_factor;
   if (depth.encoding.starts_with("32FC1")) {

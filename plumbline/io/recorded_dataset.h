@@ -9,14 +9,15 @@
 
 namespace plumbline {
 
-// Opens a ROS 1 bag or an MCAP file. Which of its topics are the cameras: recorded_topics.h. Times
-// are those of the sensor (header.stamp), or those of recording where it set none. Images of a pair
-// belong together when their stamps are nearest to each other and within 5 ms; depth, likewise,
-// within 20 ms. Depth of 16 bits is in millimetres unless the camera file has a depth_factor.
+// Opens a ROS 1 bag or an MCAP file. recorded_topics.h says which of its topics are the cameras.
+// Times are those of the sensor (header.stamp), or those of recording where it set none. Images of
+// a pair belong together when their stamps are nearest to each other and within 5 ms; an image and
+// its depth within 20 ms. Depth of 16 bits is in millimetres unless the camera file has a
+// depth_factor.
 //
 // The calibration is the camera file that the options name, a camera.yaml beside the file, or what
-// the file says (recorded_calibration.h). Ground truth is none. Errors as OpenDataset. Cost: the
-// whole file is read and unpacked once, some hundred megabytes a second.
+// the file says (recorded_calibration.h). There is no ground truth. Throws the errors of
+// OpenDataset. Cost: the whole file is read and unpacked once, some hundred megabytes a second.
 std::unique_ptr<Dataset> OpenRecording(const std::filesystem::path& path,
                                        DatasetFormat format,
                                        const DatasetOptions& options);

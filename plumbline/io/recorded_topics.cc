@@ -22,7 +22,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kPairNames = {
     {{"cam0", "cam1"}, {"left", "right"}, {"infra1", "infra2"}}};
 
-// "16UC1" of "16UC1; compressedDepth png": what the image was before it was packed.
+// Returns what the image was before it was compressed: "16UC1" for "16UC1; compressedDepth png".
 std::string_view UnpackedEncoding(std::string_view format) {
   return format.substr(0, format.find(';'));
 }
@@ -33,7 +33,7 @@ std::optional<ImageContents> ContentsOf(const ImageMessage& image) {
   return contents == ImageContents::kDepth ? contents : ImageContents::kGray;
 }
 
-// Collects what passes.
+// Collects the messages that pass.
 class TopicCollector {
  public:
   explicit TopicCollector(std::string path) : path_(std::move(path)) {}
@@ -67,7 +67,7 @@ class TopicCollector {
     topic.images.push_back({stamp_ns, place});
   }
 
-  // By time; of images of one stamp the first.
+  // Orders the images by time; of several images of one stamp the first is kept.
   void MoveTo(RecordedTopics& topics) {
     topics.calibrations = std::move(calibrations_);
     for (auto& [name, topic] : images_) {
@@ -96,7 +96,7 @@ class TopicCollector {
   std::map<std::string, CalibrationMessage> calibrations_;
 };
 
-// The name without what image_transport adds.
+// Returns the name without the ending that image_transport adds.
 std::string_view BaseName(std::string_view topic) {
   for (const std::string_view transport : {"/compressed", "/compressedDepth"}) {
     if (topic.ends_with(transport)) return topic.substr(0, topic.size() - transport.size());
@@ -120,7 +120,7 @@ bool ArePair(std::string_view left, std::string_view right) {
   return false;
 }
 
-// "/cam0/image_raw (mono8, 250 images), ...".
+// Returns "/cam0/image_raw (mono8, 250 images), ...".
 std::string ListOf(const std::vector<RecordedTopic>& topics) {
   constexpr std::size_t kMost = 20;
   std::vector<std::string> words;
@@ -137,7 +137,8 @@ std::string ListOf(const std::vector<RecordedTopic>& topics) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// The topics that are images of their own: of one that was sent in several forms, the first.
+// Returns the topics with different images. Of images that were sent in several forms, one form is
+// kept.
 std::vector<const RecordedTopic*> WithoutCopies(const std::vector<RecordedTopic>& topics) {
   std::vector<const RecordedTopic*> found;
   for (const RecordedTopic& topic : topics) {

@@ -26,38 +26,41 @@ struct RecordedImage {
 // The images that were sent under one name.
 struct RecordedTopic {
   std::string name;
-  std::string encoding;                   // of the first image: "mono8", "jpeg"
+  std::string encoding;                   // encoding of the first image: "mono8", "jpeg"
   std::optional<ImageContents> contents;  // nullopt where the encoding is not known
-  std::vector<RecordedImage> images;      // by time, stamps strictly increasing
-  std::size_t without_stamp = 0;          // have the time when they were recorded
-  std::size_t again = 0;                  // of the stamp of another one, left out
+  std::vector<RecordedImage> images;      // in order of time, stamps strictly increasing
+  // Images that have the time when they were recorded.
+  std::size_t without_stamp = 0;
+  // Images that were left out because another one has the same stamp.
+  std::size_t again = 0;
 };
 
-// What a recording has for this program.
+// What a recording has that this program can use.
 struct RecordedTopics {
   std::unique_ptr<Recording> file;
-  std::vector<RecordedTopic> images;                       // by name
-  std::map<std::string, CalibrationMessage> calibrations;  // the first of each topic
+  std::vector<RecordedTopic> images;                       // ordered by name
+  std::map<std::string, CalibrationMessage> calibrations;  // the first calibration of each topic
 };
 
-// Goes through a bag or an MCAP file once. Errors as of ReadBag and ReadMcap; also InputError for
-// a message that is not what its type says.
+// Goes through a bag or an MCAP file once. Throws the errors of ReadBag and ReadMcap, and
+// InputError for a message that does not agree with its type.
 RecordedTopics ReadTopics(const std::filesystem::path& path, DatasetFormat format);
 
-// The topics that are the cameras of a run; of `topics`.
+// The topics among `topics` that are the cameras of a run.
 struct ChosenTopics {
   const RecordedTopic* left = nullptr;
-  const RecordedTopic* right = nullptr;  // null: there is none
-  const RecordedTopic* depth = nullptr;  // null: there is none
+  const RecordedTopic* right = nullptr;  // null where there is none
+  const RecordedTopic* depth = nullptr;  // null where there is none
 };
 
-// Those named, or what there is: one camera, or a pair by its names (cam0 and cam1, left and right,
-// infra1 and infra2), and one topic of depth. Of an image that was sent in several forms the one
-// that is not packed. InputError that lists the topics where that is not clear or there is none.
+// Chooses the named topics, or from what there is: one camera, or a pair by its names (cam0 and
+// cam1, left and right, infra1 and infra2), and one topic of depth. Of an image that was sent in
+// several forms the uncompressed one is taken. Throws InputError with a list of the topics where
+// the choice is not clear or there is none.
 ChosenTopics ChooseTopics(const RecordedTopics& topics, const std::vector<std::string>& named);
 
-// The calibration that belongs to a topic: the one beside it (/cam0/image_raw, /cam0/camera_info),
-// or the only one of a recording with one camera. nullptr where there is none.
+// Returns the calibration that belongs to a topic: the one beside it (/cam0/image_raw,
+// /cam0/camera_info), or the only one of a recording with one camera; nullptr where there is none.
 const std::pair<const std::string, CalibrationMessage>* CalibrationFor(const RecordedTopics& topics,
                                                                        const RecordedTopic& image);
 

@@ -42,7 +42,7 @@ class ReversedDataset : public Dataset {
 
  private:
   std::unique_ptr<Dataset> recorded_;
-  std::vector<std::size_t> frames_;  // in recorded_, ascending
+  std::vector<std::size_t> frames_;  // indices in recorded_, ascending
 };
 
 }  // namespace

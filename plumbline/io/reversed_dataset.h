@@ -10,18 +10,17 @@
 
 namespace plumbline {
 
-// Frames of a recorded sequence as a data set of their own that plays them from the last to the
-// first.
+// Returns frames of a recorded sequence as a data set that plays them from the last to the first.
 //
 // Time still runs forward: a frame recorded at t is played at t_first + t_last - t, with t_first
-// and t_last of the chosen frames, so that the same span is played with the same intervals in the
-// opposite order. Poses of the ground truth, those outside the span too, are stamped in the same
-// way and stay with their images. DatasetInfo::time_mirror_ns is t_first + t_last; the same
-// reflection leads back to the stamps of the recording.
+// and t_last of the chosen frames. The same span is thus played with the same intervals in the
+// opposite order. All poses of the ground truth, even outside the span, are stamped in the same way
+// and stay with their images. DatasetInfo::time_mirror_ns is t_first + t_last; the same reflection
+// leads back to the stamps of the recording.
 //
 //   frames    indices in the data set, ascending, at least one
-//   fails     InputError for a video, which can be read in its order only; else as the data set
-//   does
+//   fails     InputError for a video, which can only be read in its order; other errors are those
+//             of the data set
 //
 // Cost: that of reading the frames.
 std::unique_ptr<Dataset> PlayedBackwards(std::unique_ptr<Dataset> recorded,

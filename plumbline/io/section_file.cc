@@ -18,10 +18,10 @@ namespace plumbline {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 32;
-constexpr int kLevel = 3;  // higher ones take several times as long for some hundredths less
-// No section of ours shrinks by more; it bounds what a forged file can ask for.
+constexpr int kLevel = 3;  // higher levels take several times as long and save some hundredths
+// No section of ours is compressed by more than this, which bounds what a forged file can ask for.
 constexpr std::uint64_t kMaxRatio = 200;
-constexpr std::uint64_t kSmallBytes = 65536;  // allowed whatever the ratio
+constexpr std::uint64_t kSmallBytes = 65536;  // allowed with any ratio
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 31;
 
 enum Method : std::uint32_t { kAsItIs = 0, kZstd = 1 };
@@ -34,7 +34,7 @@ bool IsAllowed(std::uint64_t size, std::uint64_t stored) {
   return size <= kMaxBytes && (size <= kSmallBytes || size / kMaxRatio <= stored);
 }
 
-// Empty where compression does not help.
+// Returns the compressed contents; an empty string where compression does not help.
 std::string Compressed(std::string_view contents) {
   std::string packed(ZSTD_compressBound(contents.size()), '\0');
   const std::size_t size =

@@ -27,12 +27,12 @@ namespace plumbline {
 
 class SectionWriter {
  public:
-  // Throws InputError "cannot write <path>: <reason>", as all functions here.
+  // Begins a file. Throws InputError "cannot write <path>: <reason>", as do all functions here.
   SectionWriter(const std::filesystem::path& path, std::string_view preamble);
 
   void Write(std::uint32_t kind, std::string_view contents);
 
-  // Gives the file its name, once all of it is on the disk. Without this nothing is left.
+  // Gives the file its name, once everything is on the disk. Without this call nothing is left.
   void Commit();
 
  private:
@@ -46,7 +46,7 @@ class SectionReader {
   SectionReader(const std::filesystem::path& path, std::size_t preamble_bytes);
 
   const std::string& preamble() const { return preamble_; }
-  // Bytes that come after the sections read so far.
+  // Returns the bytes that follow the sections read so far.
   std::uint64_t remaining() const { return remaining_; }
   const std::string& source() const { return source_; }
 
@@ -54,8 +54,8 @@ class SectionReader {
     std::uint32_t kind = 0;
     std::string contents;
   };
-  // Throws InputError naming the file when it ends early or a checksum is wrong. Takes at most some
-  // hundred times as much memory as the section takes in the file.
+  // Returns the next section. Throws InputError naming the file when it ends early or a checksum is
+  // wrong. Takes at most some hundred times as much memory as the section takes in the file.
   Section Next();
 
  private:

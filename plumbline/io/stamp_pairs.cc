@@ -8,7 +8,8 @@
 namespace plumbline {
 namespace {
 
-// Index of the nearest time, the earlier of two equally near. `stamps` is not empty.
+// Returns the index of the nearest time, the earlier of two equally near ones. `stamps` must not be
+// empty.
 std::size_t Nearest(const std::vector<std::int64_t>& stamps, std::int64_t stamp_ns) {
   const auto after = std::lower_bound(stamps.begin(), stamps.end(), stamp_ns);
   const auto index = static_cast<std::size_t>(after - stamps.begin());

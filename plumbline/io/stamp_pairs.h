@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// Pairs of times from two ascending lists, by index, in order: each is the nearest to the other
-// (the earlier of two equally near) and no more than `most_ns` from it. O(n log n).
+// Returns pairs of times from two ascending lists, by index, in order. Each time is the nearest to
+// the other (the earlier of two equally near ones) and at most `most_ns` from it. O(n log n).
 std::vector<std::pair<std::size_t, std::size_t>> PairByStamp(
     const std::vector<std::int64_t>& first,
     const std::vector<std::int64_t>& second,

@@ -115,7 +115,7 @@ Eigen::Vector3d PlaceFields(const std::filesystem::path& path,
 
 std::optional<std::int64_t> ParseSeconds(std::string_view text) {
   std::string digits;
-  std::ptrdiff_t point = -1;  // how many digits stand before the decimal point
+  std::ptrdiff_t point = -1;  // number of digits before the decimal point
   std::size_t i = 0;
   if (text.starts_with('+')) ++i;
   for (; i < text.size() && (IsDigit(text[i]) || (text[i] == '.' && point < 0)); ++i) {

@@ -19,8 +19,9 @@ struct TextRow {
   std::vector<std::string> fields;
 };
 
-// The rows of a text file without empty lines and comments (from '#' at the start of a line).
-// Fields end at `separator`, or at any run of blanks where that is ' '. Line ends may be CR LF.
+// Returns the rows of a text file without empty lines and comments (from '#' at the start of a
+// line). Fields end at `separator`, or at any run of blanks where that is ' '. Line ends may be CR
+// LF.
 std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator);
 
 // Throws InputError "path:line: expected ..., found ...".
@@ -29,18 +30,19 @@ std::vector<TextRow> ReadRows(const std::filesystem::path& path, char separator)
                          std::string_view expected,
                          std::string_view found);
 
-// FailAt unless stamp_ns is above `previous`, where there is a previous row.
+// Fails (FailAt) unless stamp_ns is above `previous`, where there is a previous row.
 void CheckStampOrder(const std::filesystem::path& path,
                      int line,
                      std::optional<std::int64_t> previous,
                      std::int64_t stamp_ns);
 
-// A finite number, the whole text.
+// Returns the number that the whole text is, if it is finite.
 std::optional<double> ParseNumber(std::string_view text);
-// FailAt unless the field of the row is a finite number. `what` names it: "the x position".
+// Returns a field of the row as a finite number; otherwise fails (FailAt). `what` names it: "the x
+// position".
 double NumberField(const std::filesystem::path& path, const TextRow& row, std::size_t field);
-// FailAt unless the fields from `first` on are the coordinates of a place: finite and within
-// kFarthest of the origin. Squares of larger ones would overflow.
+// Returns the fields from `first` on as the coordinates of a place, which must be finite and within
+// kFarthest of the origin (FailAt otherwise). Squares of larger ones would overflow.
 constexpr double kFarthest = 1e9;  // metres
 Eigen::Vector3d PlaceFields(const std::filesystem::path& path,
                             const TextRow& row,
@@ -49,16 +51,16 @@ Eigen::Vector3d PlaceFields(const std::filesystem::path& path,
 
 // The latest time stamp that is read, in the year 2096. The sum of two fits into 64 bits.
 constexpr std::int64_t kLatestStampNs = 4'000'000'000'000'000'000;
-// Whether a trajectory that has this stamp is read again: its times may be before 0.
+// Whether ReadTrajectory accepts a trajectory with this stamp: its times may be before 0.
 constexpr bool IsReadableStamp(std::int64_t stamp_ns) {
   return stamp_ns >= -kLatestStampNs && stamp_ns <= kLatestStampNs;
 }
 
-// A time not before 0 and not after kLatestStampNs as nanoseconds, read from the decimal text
-// without loss (rounded to the nearest nanosecond where there are more than nine decimals):
-// "1305031102.175304", "1.037e-01".
+// Returns a time as nanoseconds, read from the decimal text without loss (rounded to the nearest
+// nanosecond where there are more than nine decimals): "1305031102.175304", "1.037e-01". It must
+// not be before 0 or after kLatestStampNs.
 std::optional<std::int64_t> ParseSeconds(std::string_view text);
-// A whole number of nanoseconds, not negative and at most kLatestStampNs.
+// Returns a whole number of nanoseconds, which must not be negative and at most kLatestStampNs.
 std::optional<std::int64_t> ParseNanoseconds(std::string_view text);
 
 }  // namespace plumbline

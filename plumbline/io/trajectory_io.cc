@@ -22,7 +22,7 @@ using std::filesystem::path;
 
 std::string Count(std::size_t count) { return std::to_string(count) + " columns"; }
 
-// The quaternion whose parts stand in the given columns.
+// Returns the quaternion whose components are in the given columns.
 Eigen::Quaterniond QuaternionAt(const path& file,
                                 const TextRow& row,
                                 std::size_t w,
@@ -38,7 +38,7 @@ Eigen::Quaterniond QuaternionAt(const path& file,
 std::int64_t Stamp(const path& file, const TextRow& row, TrajectoryFormat format) {
   const bool seconds = format == TrajectoryFormat::kTum;
   const std::string& text = row.fields[0];
-  // A trajectory may have times before zero, as none of a sensor are.
+  // A trajectory may have times before zero, which no sensor has.
   const bool negative = text.starts_with('-');
   const std::string_view digits = std::string_view(text).substr(negative ? 1 : 0);
   const std::optional<std::int64_t> stamp =
@@ -116,7 +116,7 @@ TrajectoryFormat FormatOf(const path& file) {
          Count(row.fields.size()));
 }
 
-// What ReadTrajectory would refuse of the pose at place i; nullopt where it reads it.
+// Returns what ReadTrajectory would refuse about the pose at place i; nullopt where it accepts it.
 std::optional<std::string> FaultOf(const Trajectory& trajectory, std::size_t i) {
   const std::int64_t stamp_ns = trajectory[i].stamp_ns;
   if (!IsReadableStamp(stamp_ns)) {
@@ -129,13 +129,13 @@ std::optional<std::string> FaultOf(const Trajectory& trajectory, std::size_t i) 
                        trajectory[i - 1].stamp_ns);
   }
   for (const double x : trajectory[i].world_from_camera.translation) {
-    if (std::abs(x) <= kFarthest) continue;  // not so for NaN
+    if (std::abs(x) <= kFarthest) continue;  // false for NaN
     return fmt::format("expected coordinates within {:g} of 0, found {:g}", kFarthest, x);
   }
   return std::nullopt;
 }
 
-// Fixed decimals, without a minus sign before zero.
+// Returns a number with fixed decimals, without a minus sign before zero.
 std::string Fixed(double value) {
   std::string text = fmt::format("{:.9f}", value);
   if (text == "-0.000000000") text.erase(0, 1);

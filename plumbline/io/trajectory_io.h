@@ -18,34 +18,39 @@ enum class TrajectoryFormat {
   kKitti,  // 12 numbers a row, a 3x4 matrix; times in a separate file
 };
 
-// A trajectory and how it was written.
+// A trajectory and the format of its file.
 struct LoadedTrajectory {
   TrajectoryFormat format = TrajectoryFormat::kTum;
-  Trajectory poses;  // of whatever frame the file is about, in time order
+  // Poses of the frame that the file is about, in order of time.
+  Trajectory poses;
 };
 
-// Reads a trajectory, finding out the format from the first row. KITTI rows take their times from
+// Reads a trajectory and finds out its format from the first row. KITTI rows take their times from
 // times.txt beside the file or, as distributed (poses/06.txt), ../sequences/06/times.txt.
-// Quaternions are normalized; one of a norm off 1 by more than 0.01, a matrix that is not a
-// rotation (to 1e-3), times that do not increase, and a file without rows are errors, as is any
-// malformed row: InputError "path:line: expected ..., found ...".
+// Quaternions are normalized. Throws InputError "path:line: expected ..., found ..." for a
+// quaternion whose norm differs from 1 by more than 0.01, a matrix that is not a rotation (to
+// 1e-3), times that do not increase, a file without rows, and any malformed row.
 LoadedTrajectory ReadTrajectory(const std::filesystem::path& path);
 
-// The rows of a KITTI poses file with one time stamp for each.
+// Reads the rows of a KITTI poses file, with one time stamp for each.
 Trajectory ReadKittiPoses(const std::filesystem::path& path,
                           const std::vector<std::int64_t>& stamps_ns);
 
-// The times of a KITTI times.txt, seconds, one a row. Errors as of ReadTrajectory.
+// Reads the times of a KITTI times.txt, in seconds, one in each row. Throws the errors of
+// ReadTrajectory.
 std::vector<std::int64_t> ReadKittiTimes(const std::filesystem::path& path);
 
-// A trajectory in TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. No header.
+// Returns a trajectory in TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. It has no
+// header.
 std::string FormatTum(const Trajectory& trajectory);
 // Writes FormatTum(trajectory) to a file, whole or not at all. Throws InputError "cannot write
-// <path>: ...", also where ReadTrajectory would refuse the file: for stamps that do not increase or
-// are beyond the year 2096, and for places that are not finite or more than 10^9 m away.
+// <path>: ...", and also where ReadTrajectory would refuse the file: for stamps that do not
+// increase or are beyond the year 2096, and for places that are not finite or more than 10^9 m
+// away.
 void WriteTum(const std::filesystem::path& path, const Trajectory& trajectory);
 
-// Time stamp as seconds with 9 decimals, exact: 1305031102175304000 -> "1305031102.175304000".
+// Returns a time stamp as seconds with 9 decimals, exact: 1305031102175304000 ->
+// "1305031102.175304000".
 std::string FormatStamp(std::int64_t stamp_ns);
 
 }  // namespace plumbline

@@ -42,7 +42,7 @@ std::optional<int> ParseFrame(std::string_view text) {
   return frame;
 }
 
-// "7" or "0-17".
+// Reads a range such as "7" or "0-17".
 std::optional<FrameRange> ParseRange(std::string_view text) {
   const std::size_t dash = text.find('-');
   const std::optional<int> first = ParseFrame(text.substr(0, dash));
@@ -74,7 +74,7 @@ std::vector<FrameRange> RangesAt(const path& file, const TextRow& row) {
   return ranges;
 }
 
-// The shortest text that reads back as the same number; no minus sign before zero.
+// Returns the shortest text that reads back as the same number, without a minus sign before zero.
 std::string Number(double value) { return fmt::format("{}", value + 0.0); }
 
 void AppendVector(const Eigen::Vector3d& v, std::string& text) {

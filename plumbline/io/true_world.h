@@ -27,9 +27,10 @@ std::vector<TrueLine> ReadTrueLines(const std::filesystem::path& path);
 // InputError when the file cannot be written.
 void WriteTrueLines(const std::filesystem::path& path, std::span<const TrueLine> lines);
 
-// Rows ox,oy,oz,ux,uy,uz,vx,vy,vz. Throws as above, also where the sides span no area.
+// Reads rows ox,oy,oz,ux,uy,uz,vx,vy,vz. Throws InputError "path:line: ..." as ReadTrueLines does,
+// and where the sides span no area.
 std::vector<Parallelogram> ReadSurfaces(const std::filesystem::path& path);
-// Numbers and failures as for lines.
+// Writes surfaces, with the precision and the failures of WriteTrueLines.
 void WriteSurfaces(const std::filesystem::path& path, std::span<const Parallelogram> surfaces);
 
 }  // namespace plumbline

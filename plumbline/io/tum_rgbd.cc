@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
 
-// rgb.txt, depth.txt: `seconds file`.
+// Reads rgb.txt or depth.txt: `seconds file`.
 std::vector<ListedImage> ReadList(const fs::path& list) {
   std::vector<ListedImage> images;
   for (const TextRow& row : ReadRows(list, ' ')) {
@@ -72,7 +72,7 @@ std::vector<FrameFiles> JoinDepth(const std::vector<ListedImage>& color,
   return files;
 }
 
-// rgbd_dataset_freiburg2_desk -> tum_fr2.
+// Returns the camera of a data set's name: rgbd_dataset_freiburg2_desk gives tum_fr2.
 std::optional<std::string> CameraOfName(const std::string& name) {
   constexpr std::string_view kStart = "rgbd_dataset_freiburg";
   if (!name.starts_with(kStart) || name.size() <= kStart.size()) return std::nullopt;

@@ -38,7 +38,7 @@ std::unique_ptr<VideoCapture> OpenCapture(const fs::path& path) {
   std::unique_ptr<VideoCapture> capture = LoadOpenCvModules().NewVideoCapture();
   bool is_open = false;
   try {
-    is_open = capture->Open(path.string(), cv::CAP_FFMPEG);  // others talk to the terminal
+    is_open = capture->Open(path.string(), cv::CAP_FFMPEG);  // other backends write to the terminal
   } catch (const cv::Exception&) {
     is_open = false;
   }
@@ -56,8 +56,8 @@ std::unique_ptr<VideoCapture> OpenCapture(const fs::path& path) {
 // What is known after going through a video once.
 struct VideoContent {
   int width = 0, height = 0;
-  double announced_frames = 0;  // by the container
-  double rate_hz = 0;           // 0: not told
+  double announced_frames = 0;  // as the container says
+  double rate_hz = 0;           // 0: the container tells none
   std::vector<std::int64_t> stamps_ns;
 };
 
@@ -76,7 +76,7 @@ VideoContent Scan(const fs::path& path) {
   if (!RateFault(rate)) content.rate_hz = rate;
   while (capture->Grab()) {
     const double milliseconds = capture->Get(cv::CAP_PROP_POS_MSEC);
-    // Times that cannot be do not increase, so that the rate takes their place.
+    // Times that cannot be right do not increase, so that the rate takes their place.
     const bool plausible = std::abs(1e6 * milliseconds) <= static_cast<double>(kLatestStampNs);
     content.stamps_ns.push_back(plausible ? std::llround(1e6 * milliseconds) : 0);
   }
@@ -128,7 +128,7 @@ class VideoDataset : public Dataset {
 
   mutable std::mutex mutex_;
   mutable std::unique_ptr<VideoCapture> capture_;
-  mutable std::size_t next_ = 0;  // frame that the capture gives next
+  mutable std::size_t next_ = 0;  // the frame that the capture gives next
 };
 
 void CheckSize(const DatasetInfo& info, const VideoContent& content) {
@@ -146,7 +146,7 @@ void CheckSize(const DatasetInfo& info, const VideoContent& content) {
 }  // namespace
 
 std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& options) {
-  OpenCapture(path);  // what is no video is said before what is missing for one
+  OpenCapture(path);  // a file that is no video is reported before what is missing for one
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kVideo, {SensorKind::kMono}, options);
   std::optional<CameraFile> camera = GivenCamera(path.parent_path(), options);
   if (!camera && !options.allow_missing_camera) throw InputError(NoCalibration(path));

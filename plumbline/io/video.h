@@ -14,10 +14,10 @@ namespace plumbline {
 // they do not increase, frames are the container's frame rate apart. A rotation that the container
 // asks for is ignored: the calibration is of the raw pixels.
 //
-// Frames are best read in order: going back means decoding from the start. Besides the errors of
-// OpenDataset, InputError for a file that is no video, has no frames, or is of another size than
-// the calibration's. Cost: the whole video is decoded once, since containers are often wrong about
-// the number and times of their frames.
+// Frames are best read in order: going back means decoding from the start. Throws the errors of
+// OpenDataset, and InputError for a file that is no video, has no frames, or is of another size
+// than the calibration's. Cost: the whole video is decoded once, since containers are often wrong
+// about the number and times of their frames.
 std::unique_ptr<Dataset> OpenVideo(const std::filesystem::path& path,
                                    const DatasetOptions& options);
 

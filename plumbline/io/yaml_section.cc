@@ -22,8 +22,9 @@
 namespace plumbline {
 namespace {
 
-// Text of a file written for OpenCV's FileStorage as YAML, line for line: its first line is no
-// valid directive, and it may leave out the blank after a colon (`data:[1, 2]`).
+// Turns the text of a file written for OpenCV's FileStorage into YAML, line for line. The first
+// line of such a file is no valid directive, and the blank after a colon may be missing
+// (`data:[1, 2]`).
 std::string FromOpenCvDialect(std::string_view text) {
   const auto in_key = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; };
   std::string yaml;
@@ -56,7 +57,7 @@ bool IsOpenCvDialect(std::string_view text) {
   return text.starts_with("%YAML:") || text.find("\n%YAML:") != std::string_view::npos;
 }
 
-// How far a matrix is from a rotation; above 1 for a reflection.
+// Returns how far a matrix is from a rotation; more than 1 for a reflection.
 double OffRotation(const Eigen::Matrix3d& m) {
   const double off = (m * m.transpose() - Eigen::Matrix3d::Identity()).norm();
   return m.determinant() < 0 ? off + 1 : off;

@@ -25,11 +25,11 @@ namespace plumbline {
 namespace {
 
 constexpr int kTimeoutMs = 10'000;
-// A device that is gone is opened again for so long, so often.
+// A device that is gone is opened again, every kReopenEvery, for kReopenFor.
 constexpr std::chrono::seconds kReopenFor(10);
 constexpr std::chrono::milliseconds kReopenEvery(500);
-constexpr std::int64_t kAfterLossNs = 1'000'000;  // from the last frame to the one that is missing
-constexpr int kHighestNumber = 999;               // of a device
+constexpr std::int64_t kAfterLossNs = 1'000'000;  // time from the last frame to the missing one
+constexpr int kHighestNumber = 999;               // highest number of a device
 
 std::optional<int> DeviceNumber(const std::string& device) {
   int number = 0;
@@ -73,10 +73,11 @@ std::vector<std::string> PartsOf(const std::string& name, LiveKind kind) {
   return {name};
 }
 
-// Times of frames; see OpenCapture.
+// The times of frames; see OpenCapture.
 class FrameClock {
  public:
-  // device_ms: the time of the frame by the driver's clock; 0 and less: it has none.
+  // Returns the stamp of a frame. device_ms: its time by the driver's clock; 0 or less if that has
+  // none.
   std::int64_t StampOf(double device_ms) {
     const auto now = std::chrono::steady_clock::now();
     if (!start_) {
@@ -97,10 +98,10 @@ class FrameClock {
   double first_device_ms_ = 0;
 };
 
-// The images of an instant as they come out of the devices.
+// The images of one instant as the devices deliver them.
 struct Taken {
   std::int64_t stamp_ns = 0;
-  std::vector<cv::Mat> images;  // one that could not be had is empty
+  std::vector<cv::Mat> images;  // an image that could not be read is empty
 };
 
 class CaptureDevices {
@@ -115,7 +116,8 @@ class CaptureDevices {
                                                                 : "a stream"));
   }
 
-  // Also again; false where one of them cannot be opened.
+  // Opens all devices, for the first time or again; returns false where one of them cannot be
+  // opened.
   bool Open() {
     captures_.clear();
     for (const std::string& part : parts_) {
@@ -125,10 +127,10 @@ class CaptureDevices {
     return true;
   }
 
-  // A camera or a stream may come back, a pipeline has ended.
+  // A camera or a stream may come back; a pipeline that has ended does not.
   bool MayComeBack() const { return kind_ != LiveKind::kGstreamer; }
 
-  // nullopt: there are no more.
+  // Returns nullopt when there are no more images.
   std::optional<Taken> Take() {
     const DecoderCall call;
     Taken taken;
@@ -151,12 +153,12 @@ class CaptureDevices {
 
  private:
   LiveKind kind_;
-  std::vector<std::string> parts_;  // what is opened
+  std::vector<std::string> parts_;  // names of what is opened
   std::vector<std::unique_ptr<VideoCapture>> captures_;
   FrameClock clock_;
 };
 
-// The image of a camera; where one has those of both, a half of it.
+// Returns the image of a camera, which is a half of it where one image has those of both.
 cv::Mat ImageOf(const Taken& taken, int camera, bool side_by_side) {
   if (!side_by_side) return taken.images[static_cast<std::size_t>(camera)];
   const cv::Mat& both = taken.images[0];
@@ -164,16 +166,16 @@ cv::Mat ImageOf(const Taken& taken, int camera, bool side_by_side) {
   return both.empty() ? both : both(cv::Rect(camera * width, 0, width, both.rows));
 }
 
-// What is there when a source is open.
+// What is known when a source is open.
 struct Opened {
   CaptureDevices devices;
   std::optional<Taken> first;
 };
 
-// GStreamer waits for ever for a pipeline that cannot start: it is left to a thread that may stay
-// behind.
+// Opens a source within a time limit. GStreamer waits for ever for a pipeline that cannot start, so
+// that a thread opens it, which may be left behind.
 Opened OpenPatiently(const std::string& name, LiveKind kind, std::chrono::milliseconds patience) {
-  LoadOpenCvModules();  // here, since the program may end while that thread goes on
+  LoadOpenCvModules();  // loaded here, since the program may end while that thread goes on
   std::packaged_task<Opened()> open([name, kind] {
     CaptureDevices devices(name, kind);
     std::optional<Taken> first = devices.Take();
@@ -242,7 +244,8 @@ class CaptureSource : public LiveSource {
  private:
   static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
 
-  // The first frame of a device that came back; nullopt where it does not in time.
+  // Returns the first frame of a device that came back; nullopt where it does not come back in
+  // time.
   std::optional<Taken> TakeAgain() {
     const auto end = std::chrono::steady_clock::now() + kReopenFor;
     do {

@@ -11,14 +11,15 @@
 
 namespace plumbline {
 
-// What is known of a source called `name` that offers data for these sensors, the richest first,
-// with the camera file of the options. InputError where that is not named, is of one camera where
-// two are needed, or the sensor asked for is not offered.
+// Returns what is known about a source called `name` that offers data for these sensors, the
+// richest first, with the camera file of the options. Throws InputError where that file is not
+// named, where it has one camera but two are needed, or where the source does not offer the sensor
+// asked for.
 DatasetInfo DescribeLive(const std::string& name,
                          std::vector<SensorKind> available,
                          const LiveOptions& options);
 
-// InputError unless the images have the size of the camera.
+// Throws InputError unless the images have the size of the camera.
 void CheckLiveSize(const std::string& name, ImageSize size, const Camera& camera);
 
 }  // namespace plumbline

@@ -16,22 +16,23 @@
 
 namespace plumbline {
 
-// A frame that could not be had; what comes after it may be fine.
+// A frame that could not be read; later frames may be fine.
 struct MissingFrame {
   std::int64_t stamp_ns = 0;
   std::string reason;  // a word for tables: "image_unreadable", "image_size"
   std::string why;     // for people
 };
 
-// There will be no more frames.
+// The end of a source: there will be no more frames.
 struct SourceEnd {
-  std::string why;  // for people; empty where the source said itself that this is all
+  // For people; empty where the source itself said that this is all.
+  std::string why;
 };
 
 using LiveEvent = std::variant<SensorFrame, MissingFrame, SourceEnd>;
 
-// Frames that come when they come: of a camera, a network stream, another program. What Dataset is
-// for recordings.
+// A source of frames that arrive at their own time: a camera, a network stream, another program. It
+// is for running sources what Dataset is for recordings.
 class LiveSource {
  public:
   explicit LiveSource(DatasetInfo info) : info_(std::move(info)) {}
@@ -39,12 +40,12 @@ class LiveSource {
   LiveSource& operator=(const LiveSource&) = delete;
   virtual ~LiveSource() = default;
 
-  // Without stamps, which nobody knows yet.
+  // What is known of the source. It has no stamps, since nobody knows them yet.
   const DatasetInfo& info() const { return info_; }
 
   // Waits for the next frame, however long that takes. Stamps are the source's own and may jump,
-  // also back (stamp_continuity.h). After a SourceEnd it is not to be called again. InputError for
-  // what contradicts the form of the stream.
+  // even backwards (stamp_continuity.h). May not be called again after a SourceEnd. Throws
+  // InputError for data that contradict the form of the stream.
   virtual LiveEvent Next() = 0;
 
  private:
@@ -59,14 +60,15 @@ struct LiveOptions {
   std::chrono::milliseconds patience = std::chrono::seconds(20);
 };
 
-// What kind of source a name on the command line stands for; nullopt for a path.
+// Returns which kind of source a name on the command line stands for; nullopt for a path.
 enum class LiveKind { kStandardInput, kCamera, kNetwork, kGstreamer };
 std::optional<LiveKind> LiveKindOf(std::string_view name);
 
-// The name without the password that a URL may have: rtsp://user:***@host/.
+// Returns the name without the password that a URL may have: rtsp://user:***@host/.
 std::string WithoutPassword(const std::string& name);
 
-// The frames of a source when they have passed, for reports: what is known of them, and no images.
+// The frames of a source after they have passed, for reports: what is known of them, without
+// images.
 class PassedFrames : public Dataset {
  public:
   using Dataset::Dataset;

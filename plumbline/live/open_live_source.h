@@ -9,15 +9,14 @@
 
 namespace plumbline {
 
-// Opens
+// Opens a source and waits for its first frame or header:
 //   -                standard input (raw_stream.h)
 //   camera:0         a camera by number, "camera:0,1" two of them as a stereo pair, or by its
-//   device:
-//                    "camera:/dev/video2" (capture_source.h)
+//                    device: "camera:/dev/video2" (capture_source.h)
 //   rtsp://...       a network stream, also rtsps://
-//   gst:PIPELINE     what a GStreamer pipeline makes
-// and waits for its first frame or header. InputError where there is no such source, no camera
-// file is named, or images are of another size than it says.
+//   gst:PIPELINE     the output of a GStreamer pipeline
+// Throws InputError where there is no such source, no camera file is named, or images have another
+// size than it says.
 std::unique_ptr<LiveSource> OpenLiveSource(const std::string& name, const LiveOptions& options);
 
 }  // namespace plumbline

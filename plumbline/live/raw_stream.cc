@@ -28,13 +28,13 @@ constexpr std::size_t kLongestLine = 256;
 constexpr std::size_t kBufferBytes = 1 << 16;
 constexpr double kMillimetres = 1000;
 
-// Bytes from a pipe, as they come.
+// Reads bytes from a pipe as they come.
 class PipeReader {
  public:
   explicit PipeReader(int descriptor) : descriptor_(descriptor), buffer_(kBufferBytes) {}
 
-  // The next line without its end. nullopt where the stream ends before it does, or the line is too
-  // long; `line` has what there was then.
+  // Reads the next line without its end. Returns false where the stream ends before the line does,
+  // or the line is too long; `line` then has what was read.
   bool Line(std::string& line) {
     line.clear();
     while (line.size() < kLongestLine) {
@@ -46,7 +46,7 @@ class PipeReader {
     return false;
   }
 
-  // False where the stream ends first.
+  // Returns false where the stream ends first.
   bool Bytes(std::vector<std::uint8_t>& bytes) {
     std::size_t filled = 0;
     while (filled < bytes.size()) {
@@ -81,11 +81,11 @@ class PipeReader {
   std::size_t begin_ = 0, end_ = 0;
 };
 
-// An image of each frame, as the header describes it.
+// One of the images of each frame, as the header describes it.
 struct Plane {
   std::string encoding;
   std::uint32_t width = 0, height = 0;
-  double factor = 0;  // of depth: value per metre; 0: not told
+  double factor = 0;  // for depth: value per metre; 0: not told
 
   std::uint32_t step() const { return width * static_cast<std::uint32_t>(PixelBytes(encoding)); }
   std::size_t bytes() const { return std::size_t{step()} * height; }
@@ -127,7 +127,7 @@ std::optional<Number> Parse(const std::string& word) {
   return number;
 }
 
-// "left mono8 752 480", "depth 16UC1 752 480 1000".
+// Parses lines such as "left mono8 752 480" or "depth 16UC1 752 480 1000".
 Plane ParsePlane(const std::vector<std::string>& words, int line, const std::string& text) {
   const bool depth = words[0] == "depth";
   const auto contents = words.size() > 1 ? ContentsOfEncoding(words[1]) : std::nullopt;
@@ -238,7 +238,7 @@ class RawStream : public LiveSource {
   PipeReader pipe_;
   Header header_;
   std::vector<std::uint8_t> bytes_;
-  std::size_t frames_ = 0;  // that began
+  std::size_t frames_ = 0;  // number of frames that have begun
 };
 
 std::vector<SensorKind> Available(const Header& header) {

@@ -26,8 +26,8 @@ namespace plumbline {
 // Images come in the order of the header. The end of the stream is the end of the run; one in the
 // middle of a frame loses that frame only.
 //
-// Reads the header from the file descriptor, which stays open. InputError "standard input: ..." for
-// what is not in this form, in the header at once, later from Next.
+// Reads the header from the file descriptor, which stays open. Throws InputError "standard input:
+// ..." for data that are not in this form: for the header at once, for frames from Next.
 std::unique_ptr<LiveSource> OpenRawStream(int descriptor, const LiveOptions& options);
 
 }  // namespace plumbline

@@ -19,15 +19,15 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kFirstBytes = 65536;
 
-// What a step of unpacking did.
+// The result of one step of unpacking.
 struct Step {
-  std::size_t taken = 0;  // of the packed bytes
+  std::size_t taken = 0;  // number of packed bytes that were used
   std::size_t given = 0;
-  bool end = false;  // of the packed data
+  bool end = false;  // the packed data has ended
   bool failed = false;
 };
 
-// Unpacks from `in` to `out` as far as both reach.
+// Unpacks from `in` to `out` until one of them ends.
 class Unpacker {
  public:
   Unpacker() = default;
@@ -48,7 +48,7 @@ class Bzip2Unpacker : public Unpacker {
     constexpr std::size_t kMost = std::numeric_limits<unsigned>::max() / 2;
     const auto in_size = static_cast<unsigned>(std::min(in.size(), kMost));
     const auto out_size = static_cast<unsigned>(std::min(out.size(), kMost));
-    // The library does not write to what it reads.
+    // The library does not write to its input.
     stream_.next_in = const_cast<char*>(reinterpret_cast<const char*>(in.data()));
     stream_.avail_in = in_size;
     stream_.next_out = reinterpret_cast<char*>(out.data());
@@ -128,7 +128,7 @@ Expected<Bytes, std::string> Decompress(Compression compression,
     return Bytes(packed.begin(), packed.end());
   }
   const std::unique_ptr<Unpacker> unpacker = MakeUnpacker(compression);
-  // One byte more than there should be: so that too many show.
+  // One byte more than expected, so that too many bytes show.
   const std::uint64_t most = size + 1;
   Bytes bytes;
   std::size_t filled = 0;

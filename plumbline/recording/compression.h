@@ -11,11 +11,12 @@
 
 namespace plumbline {
 
-// How the parts of a recording are packed. LZ4 and Zstandard are in their frame formats.
+// How the parts of a recording are compressed. LZ4 and Zstandard are in their frame formats.
 enum class Compression { kNone, kBzip2, kLz4, kZstd };
 
-// The `size` bytes that were packed, or why they cannot be had: damaged, more or fewer bytes than
-// `size`. Takes no more memory than what has been unpacked so far, twice, whatever `size` says.
+// Returns the `size` bytes that were packed, or why that fails: damaged data, or more or fewer
+// bytes than `size`. Takes at most twice the memory of what has been unpacked so far, whatever
+// `size` says.
 Expected<std::vector<std::uint8_t>, std::string> Decompress(Compression compression,
                                                             std::span<const std::uint8_t> packed,
                                                             std::uint64_t size);

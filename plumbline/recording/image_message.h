@@ -13,24 +13,25 @@ namespace plumbline {
 enum class MessageKind { kImage, kCompressedImage, kCalibration };
 enum class MessageEncoding { kRos1, kCdr, kProtobuf };
 
-// What of the messages of a channel this program understands.
+// The form of a channel's messages, as far as this program understands it.
 struct MessageForm {
   MessageKind kind = MessageKind::kImage;
   MessageEncoding encoding = MessageEncoding::kRos1;
 };
 
-// An image as it was sent. Nothing of it is checked against the rest.
+// An image as it was sent. Its fields are not checked against one another.
 struct ImageMessage {
-  std::int64_t stamp_ns = 0;  // of the sensor; 0 where it was not set
+  std::int64_t stamp_ns = 0;  // stamp of the sensor; 0 where it was not set
   bool compressed = false;    // `data` is an image file
-  std::string encoding;       // "mono8", "bgr8"; of a compressed one its format: "jpeg"
-  // Size of images that are not compressed, in pixels, and bytes from row to row.
+  // "mono8", "bgr8"; for a compressed image its format: "jpeg".
+  std::string encoding;
+  // The size in pixels of images that are not compressed, and the bytes from row to row.
   std::uint32_t width = 0, height = 0, step = 0;
   bool big_endian = false;
-  std::span<const std::uint8_t> data;  // of the message that was parsed
+  std::span<const std::uint8_t> data;  // points into the message that was parsed
 };
 
-// Numbers of a camera as sensor_msgs/CameraInfo has them.
+// The numbers of a camera as sensor_msgs/CameraInfo has them.
 struct CalibrationMessage {
   std::uint32_t width = 0, height = 0;
   std::string distortion_model;

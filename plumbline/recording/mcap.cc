@@ -18,9 +18,10 @@ namespace {
 
 constexpr std::string_view kMagic = kMcapMagic;
 constexpr std::uint64_t kRecordHeader = 9;  // op, length
-constexpr std::uint64_t kChunkHeader = 32;  // in front of the records, without the compression
+// Bytes in front of the records, without the name of the compression.
+constexpr std::uint64_t kChunkHeader = 32;
 constexpr std::uint64_t kMessageHeader = 22;
-constexpr std::uint64_t kLongestName = 1024;  // of a compression
+constexpr std::uint64_t kLongestName = 1024;  // longest name of a compression
 
 enum Op : std::uint8_t {
   kHeader = 1,
@@ -114,7 +115,7 @@ class McapReader {
       case kFooter:
         ended_ = true;
         return;
-      default:  // indices and attachments, and what later versions add
+      default:  // indices, attachments, and records of later versions
         if (record.op == 0) file_->FailAt(record.at, "expected a record, found damage");
     }
   }
@@ -124,7 +125,7 @@ class McapReader {
     return file_->Bytes(record.data, record.size);
   }
 
-  // The checksum of all bytes before the end of the data, where there is one.
+  // Compares the checksum of all bytes before the end of the data, where there is one.
   void CheckData(const Record& record) const {
     const std::uint32_t wanted = ByteCursor(Contents(record)).U32();
     if (wanted == 0) return;
@@ -178,7 +179,7 @@ class McapReader {
     }
   }
 
-  // A message that is in no chunk is a part of the file of its own.
+  // Takes a message that is in no chunk; it becomes a part of the file by itself.
   void TakeLooseMessage(const Record& record) {
     const std::uint32_t index =
         file_->AddChunk(record.data, record.size, Compression::kNone, record.size);
@@ -187,13 +188,13 @@ class McapReader {
     TakeMessage(**bytes, {0, index, 0, 0, 0}, record.at);
   }
 
-  // place.offset: where the record begins in its part of the file.
+  // Takes a message. place.offset is where the record begins in its part of the file.
   void TakeMessage(ByteSpan record, StoredMessage place, std::uint64_t at) {
     ByteCursor cursor(record);
     const std::uint16_t id = cursor.U16();
-    cursor.U32();  // counts the messages of a channel
+    cursor.U32();  // number of the message in its channel
     const std::uint64_t logged = cursor.U64();
-    cursor.U64();  // when it was sent
+    cursor.U64();  // time when it was sent
     if (!cursor.ok()) file_->FailAt(at, "expected a message, found damage");
     if (data_ended_) file_->FailAt(at, "expected no message behind the end of the data");
     const auto channel = channels_.find(id);
@@ -211,7 +212,7 @@ class McapReader {
     const std::uint64_t head = std::min(record.size, kChunkHeader + kLongestName + 8);
     const std::vector<std::uint8_t> bytes = file_->Bytes(record.data, head);
     ByteCursor cursor(bytes);
-    cursor.U64();  // times of the first and the last message
+    cursor.U64();  // the times of the first and of the last message
     cursor.U64();
     const std::uint64_t size = cursor.U64();
     const std::uint32_t crc = cursor.U32();
@@ -237,7 +238,7 @@ class McapReader {
     file_->FailAt(at, "expected a chunk packed by lz4, zstd or not, found " + InQuotes(name));
   }
 
-  // The records in a chunk: schemas, channels and messages.
+  // Takes the records in a chunk: schemas, channels and messages.
   void TakeRecordsOf(ByteSpan bytes, std::uint32_t chunk, std::uint64_t at) {
     ByteCursor cursor(bytes);
     while (cursor.remaining() > 0) {
@@ -257,8 +258,8 @@ class McapReader {
 
   std::unique_ptr<Recording> file_;
   const MessageSink& sink_;
-  std::map<std::uint16_t, std::string> schemas_;     // name by id
-  std::map<std::uint16_t, std::uint32_t> channels_;  // index by id
+  std::map<std::uint16_t, std::string> schemas_;     // name of each id
+  std::map<std::uint16_t, std::uint32_t> channels_;  // index of each id
   bool data_ended_ = false, ended_ = false;
 };
 

@@ -12,19 +12,19 @@
 
 namespace plumbline {
 
-// What MCAP files begin and end with.
+// The bytes with which MCAP files begin and end.
 inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
 // Whether a file begins as an MCAP file does.
 bool BeginsAsMcap(std::span<const std::uint8_t> bytes);
 
-// Reads an MCAP file (mcap.dev/spec, version 0) from its first record to its last, messages in
-// chunks (not packed, by LZ4 or by Zstandard) and outside of them, and hands every message to
-// `sink` in the order of the file. Checksums are compared where the file has them; its summary is
-// not used.
+// Reads an MCAP file (mcap.dev/spec, version 0) from its first record to its last, and hands every
+// message to `sink` in the order of the file. Messages may be in chunks (not packed, by LZ4 or by
+// Zstandard) or outside of them. Checksums are compared where the file has them; its summary is not
+// used.
 //
-// InputError, naming the byte, for what is no such file, is damaged or ends early (`mcap recover`
-// completes it). Cost: reading and unpacking the file once.
+// Throws InputError, which names the byte, for what is no such file, is damaged or ends early
+// (`mcap recover` completes it). Cost: reading and unpacking the file once.
 std::unique_ptr<Recording> ReadMcap(const std::filesystem::path& path, const MessageSink& sink);
 
 }  // namespace plumbline

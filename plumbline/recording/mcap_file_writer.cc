@@ -85,7 +85,7 @@ std::uint64_t TimeOf(std::int64_t time_ns) {
   return time_ns > 0 ? static_cast<std::uint64_t>(time_ns) : 0;
 }
 
-// What the operating system said last; it says nothing where a stream failed on its own.
+// Returns the last message of the operating system; it has none where a stream failed by itself.
 std::string LastReason() {
   return errno == 0 ? std::string("unknown reason") : std::generic_category().message(errno);
 }
@@ -108,7 +108,7 @@ McapFileWriter::~McapFileWriter() {
   try {
     Close();
   } catch (const std::exception&) {
-    // What there is stays under the name of the part.
+    // What was written stays under the name of the part.
   }
 }
 
@@ -199,7 +199,7 @@ void McapFileWriter::EndChunk() {
   chunk_index_.clear();
 }
 
-// Schemas and channels once more, where the chunks are, and how many messages there are of each
+// Appends schemas and channels again, the places of the chunks, and the number of messages in each
 // channel.
 void McapFileWriter::AppendSummary() {
   for (const std::string& description : descriptions_) Append(description);
@@ -227,8 +227,8 @@ void McapFileWriter::AppendSummary() {
                     .Number(std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}))
                     .Number(static_cast<std::uint16_t>(counts_.size()))
                     .Number(static_cast<std::uint32_t>(counts_.size()))
-                    .Number(std::uint32_t{0})  // attachments
-                    .Number(std::uint32_t{0})  // metadata
+                    .Number(std::uint32_t{0})  // number of attachments
+                    .Number(std::uint32_t{0})  // number of metadata records
                     .Number(static_cast<std::uint32_t>(chunks_.size()))
                     .Number(first_ns_)
                     .Number(last_ns_)
@@ -242,7 +242,7 @@ void McapFileWriter::Close() {
   const std::uint64_t summary = size_;
   crc_ = 0;
   AppendSummary();
-  // The checksum is of the summary and of the footer before it.
+  // The checksum covers the summary and the footer before it.
   const std::string footer_head = Fields()
                                       .Number(static_cast<std::uint8_t>(kFooter))
                                       .Number(std::uint64_t{20})

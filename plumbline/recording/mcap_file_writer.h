@@ -13,50 +13,51 @@
 
 namespace plumbline {
 
-// What the messages of a channel are.
+// The type of the messages of a channel.
 struct McapChannel {
   std::string topic;
   std::string encoding;         // "protobuf"
   std::string type;             // "foxglove.CompressedImage"
   std::string schema_encoding;  // "protobuf"
-  std::string schema;           // of this type
+  std::string schema;           // the schema of this type
 };
 
 // Writes an MCAP file (mcap.dev/spec, version 0): messages in chunks packed by Zstandard, each with
-// an index of its messages, and a summary at the end; all with checksums. The file grows under the
-// name FILE.part, from which `mcap recover` makes a whole one when the program dies, and gets its
+// an index of its messages, and a summary at the end, all with checksums. The file grows under the
+// name FILE.part, from which `mcap recover` makes a complete one when the program dies. It gets its
 // own name when it is complete.
 class McapFileWriter {
  public:
   static constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
-  // What every file begins with: the format's magic, and a header that names this library.
+  // Returns the beginning of every file: the format's magic, and a header that names this library.
   static std::string Beginning();
 
-  // InputError where it cannot be written; so throw all functions.
+  // Begins a file. Throws InputError where it cannot be written, as do all functions.
   explicit McapFileWriter(std::filesystem::path path);
-  // Completes the file, and says nothing where that fails.
+  // Completes the file; a failure is not reported.
   ~McapFileWriter();
   McapFileWriter(const McapFileWriter&) = delete;
   McapFileWriter& operator=(const McapFileWriter&) = delete;
 
-  // Returns the number of the channel.
+  // Adds a channel and returns its number.
   std::uint16_t AddChannel(const McapChannel& channel);
   void Write(std::uint16_t channel, std::int64_t time_ns, std::string_view message);
-  // Completes the file; nothing may be written after.
+  // Completes the file. Nothing may be written afterwards.
   void Close();
 
  private:
   struct ChunkPlace {
     std::uint64_t first_ns = 0, last_ns = 0;
-    std::uint64_t offset = 0, size = 0;              // of its record
+    std::uint64_t offset = 0, size = 0;              // place and size of its record
     std::uint64_t packed = 0, unpacked = 0;          // bytes of its messages
-    std::uint64_t index_size = 0;                    // of the records of indices behind it
-    std::map<std::uint16_t, std::uint64_t> indices;  // offsets, by channel
+    std::uint64_t index_size = 0;                    // bytes of the index records behind it
+    std::map<std::uint16_t, std::uint64_t> indices;  // offset of the index of each channel
   };
-  using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  // time, offset in the chunk
+  // Times, and offsets in the chunk.
+  using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
-  [[noreturn]] void Fail() const;  // with what the operating system said last
+  [[noreturn]] void Fail() const;  // throws with the last message of the operating system
   void Append(const std::string& bytes);
   void EndChunk();
   void AppendSummary();
@@ -64,13 +65,13 @@ class McapFileWriter {
   std::filesystem::path path_, part_;
   std::ofstream file_;
   std::uint64_t size_ = 0;
-  std::uint32_t crc_ = 0;                  // of all bytes so far, or of the summary
+  std::uint32_t crc_ = 0;                  // checksum of all bytes so far, or of the summary
   std::vector<std::string> descriptions_;  // records of schemas and channels
   std::string chunk_;
   ChunkPlace chunk_place_;
   std::map<std::uint16_t, Index> chunk_index_;
   std::vector<ChunkPlace> chunks_;
-  std::vector<std::uint64_t> counts_;  // messages by channel
+  std::vector<std::uint64_t> counts_;  // number of messages in each channel
   std::uint64_t first_ns_ = 0, last_ns_ = 0;
   bool closed_ = false;
 };

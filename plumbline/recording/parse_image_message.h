@@ -11,11 +11,13 @@
 
 namespace plumbline {
 
-// sensor_msgs/Image, CompressedImage and CameraInfo of ROS 1 and (with /msg/, as CDR) ROS 2,
-// foxglove.RawImage, CompressedImage and CameraCalibration as protobuf; nullopt for all others.
+// Returns the form of a channel's messages: sensor_msgs/Image, CompressedImage and CameraInfo of
+// ROS 1 and (with /msg/, as CDR) ROS 2, foxglove.RawImage, CompressedImage and CameraCalibration as
+// protobuf; nullopt for all others.
 std::optional<MessageForm> FormOf(const Channel& channel);
 
-// nullopt where the bytes are no such message. `form` is of an image, or of a calibration.
+// Return nullopt where the bytes are no such message. `form` must be that of an image, or of a
+// calibration.
 std::optional<ImageMessage> ParseImage(MessageForm form, std::span<const std::uint8_t> bytes);
 std::optional<CalibrationMessage> ParseCalibration(MessageForm form,
                                                    std::span<const std::uint8_t> bytes);

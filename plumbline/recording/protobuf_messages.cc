@@ -19,7 +19,7 @@ constexpr std::size_t kMostCoefficients = 64;
 
 enum WireType : std::uint8_t { kVarint = 0, kFixed64 = 1, kBytes = 2, kFixed32 = 5 };
 
-// One field: `number` holds a value of up to 64 bits, `bytes` a text, bytes or a message.
+// A field: `number` holds a value of up to 64 bits, `bytes` a text, bytes or a message.
 struct Field {
   std::uint32_t id = 0;
   std::uint32_t type = kVarint;
@@ -69,7 +69,8 @@ std::optional<Field> ReadField(ByteCursor& cursor) {
   return cursor.ok() ? std::optional(field) : std::nullopt;
 }
 
-// Calls `take` with every field; false where the bytes are no message or `take` says so.
+// Calls `take` with every field. Returns false where the bytes are no message or `take` returns
+// false.
 template <class Take>
 bool ForEachField(ByteSpan bytes, const Take& take) {
   ByteCursor cursor(bytes);
@@ -80,7 +81,7 @@ bool ForEachField(ByteSpan bytes, const Take& take) {
   return true;
 }
 
-// google.protobuf.Timestamp, or foxglove.Time with the same fields.
+// Reads google.protobuf.Timestamp, or foxglove.Time, which has the same fields.
 bool ReadStamp(ByteSpan bytes, std::int64_t& stamp_ns) {
   constexpr std::uint64_t kMostSeconds = 9'000'000'000;
   std::uint64_t seconds = 0, nanoseconds = 0;
@@ -95,7 +96,7 @@ bool ReadStamp(ByteSpan bytes, std::int64_t& stamp_ns) {
   return true;
 }
 
-// A repeated double: packed into one field, or one field each.
+// Reads a repeated double, which is packed into one field, or has one field for each number.
 bool ReadDoubles(const Field& field, std::vector<double>& numbers) {
   if (field.type == kFixed64) {
     numbers.push_back(std::bit_cast<double>(field.number));
@@ -109,7 +110,7 @@ bool ReadDoubles(const Field& field, std::vector<double>& numbers) {
   return numbers.size() <= kMostCoefficients;
 }
 
-// A matrix that is not there is zero.
+// Copies a matrix; one that is missing is zero.
 template <std::size_t kSize>
 bool CopyMatrix(const std::vector<double>& numbers, std::array<double, kSize>& matrix) {
   if (!numbers.empty() && numbers.size() != kSize) return false;

@@ -10,10 +10,9 @@
 
 namespace plumbline {
 
-// Messages of Foxglove's schemas (foxglove.RawImage, CompressedImage, CameraCalibration) in the
-// wire format of Protocol Buffers (protobuf.dev/programming-guides/encoding). Fields that are not
-// known are skipped; those that are missing have their default. nullopt where the bytes are no such
-// message.
+// Parse messages of Foxglove's schemas (foxglove.RawImage, CompressedImage, CameraCalibration) in
+// the wire format of Protocol Buffers (protobuf.dev/programming-guides/encoding). Unknown fields
+// are skipped; missing ones have their default. Return nullopt where the bytes are no such message.
 std::optional<ImageMessage> ParseProtobufImage(bool compressed,
                                                std::span<const std::uint8_t> bytes);
 std::optional<CalibrationMessage> ParseProtobufCalibration(std::span<const std::uint8_t> bytes);

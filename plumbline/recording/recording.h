@@ -20,54 +20,56 @@
 
 namespace plumbline {
 
-// Chunks and messages beyond this are refused, bytes.
+// Largest chunks and messages in bytes; larger ones are refused.
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;
 
-// Who sends what: messages of one type under one name. A topic may have several.
+// Messages of one type under one name. A topic may have several channels.
 struct Channel {
   std::string topic;
   std::string type;      // "sensor_msgs/Image", "sensor_msgs/msg/Image", "foxglove.RawImage"
   std::string encoding;  // "ros1", "cdr", "protobuf", or another one
 };
 
-// Where a message is.
+// The place of a message.
 struct StoredMessage {
   std::uint32_t channel = 0;   // index of its channel
   std::uint32_t chunk = 0;     // index of the part of the file that is unpacked for it
-  std::uint32_t offset = 0;    // in the unpacked part, bytes
+  std::uint32_t offset = 0;    // offset in the unpacked part, bytes
   std::uint32_t size = 0;      // bytes
-  std::int64_t logged_ns = 0;  // when it was recorded
+  std::int64_t logged_ns = 0;  // time when it was recorded
 };
 
-// The bytes of a message and the message without its header; valid during the call.
+// Takes a message with its place and its bytes, without its header. The bytes are valid during the
+// call.
 using MessageSink =
     std::function<void(const Channel&, const StoredMessage&, std::span<const std::uint8_t>)>;
 
-// The bytes of unpacked parts, shared by those that read from them.
+// The bytes of unpacked parts, shared by all that read from them.
 using ChunkBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 
-// A file of messages in parts that are packed on their own; how the parts are found is up to the
-// formats (ros_bag.h, mcap.h). Messages of parts that were read shortly before are found quickly.
+// A file of messages in parts that are each packed by themselves. The formats know how the parts
+// are found (ros_bag.h, mcap.h). Messages of parts that were read recently are found quickly.
 class Recording {
  public:
-  // InputError where there is no such file.
+  // Opens a file. Throws InputError where there is no such file.
   explicit Recording(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
   std::uint64_t size() const { return size_; }
   const std::vector<Channel>& channels() const { return channels_; }
 
-  // Returns the index.
+  // Adds a channel and returns its index.
   std::uint32_t AddChannel(Channel channel);
-  // A part of the file: `stored` bytes at `offset`, which hold `size` bytes. Returns the index.
+  // Adds a part of the file and returns its index: `stored` bytes at `offset`, which hold `size`
+  // bytes.
   std::uint32_t AddChunk(std::uint64_t offset,
                          std::uint64_t stored,
                          Compression compression,
                          std::uint64_t size);
 
-  // So many bytes of the file as they are. InputError where it has fewer.
+  // Returns bytes of the file as they are. Throws InputError where it has fewer.
   std::vector<std::uint8_t> Bytes(std::uint64_t offset, std::uint64_t count) const;
-  // The unpacked part, or what is wrong with it. Thread-safe, as Message.
+  // Returns the unpacked part, or what is wrong with it. Thread-safe, as Message is.
   Expected<ChunkBytes, std::string> Chunk(std::uint32_t index) const;
   Expected<std::vector<std::uint8_t>, std::string> Message(const StoredMessage& message) const;
 
@@ -79,7 +81,7 @@ class Recording {
     std::uint64_t offset = 0, stored = 0, size = 0;
     Compression compression = Compression::kNone;
   };
-  // The parts that were asked for last, newest first: messages of two cameras lie close together.
+  // The parts that were used last, newest first: messages of two cameras lie close together.
   using RecentChunks = std::array<std::pair<std::uint32_t, ChunkBytes>, 4>;
 
   std::filesystem::path path_;

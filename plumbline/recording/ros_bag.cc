@@ -31,10 +31,10 @@ enum Op : std::uint8_t {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
-// The header of a record, and of a connection: name=value, each after its length.
+// The header of a record or of a connection: name=value, each behind its length.
 class Fields {
  public:
-  // False where the bytes are no such list.
+  // Returns false where the bytes are no such list.
   bool Parse(ByteSpan bytes) {
     fields_.clear();
     ByteCursor cursor(bytes);
@@ -54,7 +54,7 @@ class Fields {
     return std::nullopt;
   }
 
-  // A number of `size` bytes.
+  // Returns a number of `size` bytes.
   std::optional<std::uint64_t> Number(std::string_view name, std::size_t size) const {
     const auto text = Text(name);
     if (!text || text->size() != size) return std::nullopt;
@@ -94,7 +94,7 @@ class BagReader {
   struct Record {
     std::uint64_t at = 0;
     std::vector<std::uint8_t> header;
-    Fields fields;  // of the header
+    Fields fields;  // fields of the header
     std::uint64_t op = 0;
     std::uint64_t data = 0, data_size = 0;
   };
@@ -214,7 +214,7 @@ class BagReader {
     TakeRecordsOf(**chunk, index, record.at);
   }
 
-  // The records in a chunk: connections and messages.
+  // Takes the records in a chunk: connections and messages.
   void TakeRecordsOf(ByteSpan bytes, std::uint32_t chunk, std::uint64_t at) {
     ByteCursor cursor(bytes);
     Fields fields;
@@ -285,9 +285,10 @@ class BagReader {
 
   std::unique_ptr<Recording> bag_;
   const MessageSink& sink_;
-  std::map<std::uint64_t, std::uint32_t> channels_;  // by the id of the connection
-  std::uint64_t index_at_ = 0, connection_count_ = 0, chunk_count_ = 0;  // as the header says
-  std::uint64_t chunks_ = 0, chunk_infos_ = 0, described_ = 0;           // as found
+  std::map<std::uint64_t, std::uint32_t> channels_;  // index of each connection's channel
+  // Numbers that the header tells.
+  std::uint64_t index_at_ = 0, connection_count_ = 0, chunk_count_ = 0;
+  std::uint64_t chunks_ = 0, chunk_infos_ = 0, described_ = 0;  // numbers that were found
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ bool IsLittleEndianCdr(ByteSpan bytes) {
   return bytes.size() >= kCdrHeader && bytes[0] == 0 && bytes[1] == 1;
 }
 
-// The fields of a message in order.
+// Reads the fields of a message in their order.
 class FieldReader {
  public:
   FieldReader(bool cdr, ByteSpan bytes) : cdr_(cdr), cursor_(cdr ? bytes.subspan(4) : bytes) {}
@@ -42,12 +42,12 @@ class FieldReader {
   }
   ByteSpan Bytes() { return cursor_.Take(U32()); }
 
-  // std_msgs/Header; returns its stamp.
+  // Reads std_msgs/Header and returns its stamp.
   std::int64_t Header() {
-    if (!cdr_) U32();  // ROS 1 counts messages
+    if (!cdr_) U32();  // ROS 1 has the number of the message here
     const std::int64_t seconds = U32();
     const std::int64_t nanoseconds = U32();
-    Text();  // coordinate frame
+    Text();  // name of the coordinate frame
     return seconds * kNsPerSecond + nanoseconds;
   }
 

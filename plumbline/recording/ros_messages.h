@@ -10,10 +10,10 @@
 
 namespace plumbline {
 
-// Messages of ROS, field after field: of ROS 1 without gaps (wiki.ros.org/msg), of ROS 2 as
-// little-endian CDR (OMG, DDS-XTypes 1.3, 7.4.3: numbers at multiples of their size, texts with a
-// zero at their end, behind four bytes that say so). nullopt where the bytes end early or, of
-// ROS 2, say that they are encoded in another way.
+// Parse messages of ROS, field after field. Those of ROS 1 have no gaps (wiki.ros.org/msg). Those
+// of ROS 2 are little-endian CDR (OMG, DDS-XTypes 1.3, 7.4.3): numbers at multiples of their size,
+// texts with a zero at their end, all behind four bytes that name the encoding. Return nullopt
+// where the bytes end early, or where these four bytes name another encoding.
 std::optional<ImageMessage> ParseRosImage(bool cdr,
                                           bool compressed,
                                           std::span<const std::uint8_t> bytes);
