@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint32_t kBytesPerPoint = 12;
 
-// Of foxglove.PointsAnnotation, LinePrimitive, PackedElementField and SceneEntityDeletion.
+// Constants of foxglove.PointsAnnotation, LinePrimitive, PackedElementField and
+// SceneEntityDeletion.
 constexpr std::uint64_t kPointsType = 1, kLineListType = 4;
 constexpr std::uint64_t kLineListPrimitive = 2;
 constexpr std::uint64_t kFloat32 = 7;
@@ -26,7 +27,7 @@ ProtobufWriter ColorMessage(const Rgba& color) {
       .Double(4, color.a);
 }
 
-// foxglove.Vector3 and Point3.
+// Returns a foxglove.Vector3 or Point3, which have the same fields.
 ProtobufWriter VectorMessage(const Eigen::Vector3d& v) {
   return ProtobufWriter().Double(1, v.x()).Double(2, v.y()).Double(3, v.z());
 }
@@ -156,7 +157,7 @@ std::string PointCloudMessage(std::int64_t stamp_ns, std::span<const float> xyz)
     message.Message(5, ProtobufWriter().Bytes(1, name).Fixed32(2, offset).Varint(3, kFloat32));
     offset += 4;
   }
-  message.Packed<float>(6, xyz);  // bytes, of the same form on the wire
+  message.Packed<float>(6, xyz);  // bytes, which have the same form on the wire
   return message.Take();
 }
 

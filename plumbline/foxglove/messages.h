@@ -17,9 +17,9 @@
 
 namespace plumbline {
 
-// Messages of Foxglove's schemas in protobuf. Frames of coordinates are "map", the world of the
+// Messages of Foxglove's schemas in protobuf. The frames of coordinates are "map", the world of the
 // active map, and "camera", the rectified left camera (x right, y down, z forward). Stamps are
-// those of the sensor, ns.
+// those of the sensor in nanoseconds.
 
 inline constexpr std::string_view kMapFrame = "map";
 inline constexpr std::string_view kCameraFrame = "camera";
@@ -28,12 +28,12 @@ struct Rgba {
   double r = 0, g = 0, b = 0, a = 1;
 };
 
-// google.protobuf.Timestamp.
+// Returns a google.protobuf.Timestamp.
 ProtobufWriter StampMessage(std::int64_t stamp_ns);
-// foxglove.Pose of a frame in its parent.
+// Returns a foxglove.Pose of a frame in its parent.
 ProtobufWriter PoseMessage(const Rigid3& parent_from_frame);
 
-// `data`: an image file of this format ("jpeg").
+// `data` is an image file in the given format ("jpeg").
 std::string CompressedImageMessage(std::int64_t stamp_ns,
                                    std::string_view format,
                                    std::string_view data);
@@ -41,22 +41,23 @@ std::string CalibrationMessageOf(std::int64_t stamp_ns, const RectifiedCamera& c
 std::string PoseInFrameMessage(std::int64_t stamp_ns, const Rigid3& world_from_camera);
 std::string TransformMessage(std::int64_t stamp_ns, const Rigid3& world_from_camera);
 
-// Points and segments of one colour in the image, pixels.
+// Points and segments of one colour in the image, in pixels.
 struct ImageMarks {
   std::vector<Eigen::Vector2d> points;
   std::vector<Segment2> segments;
   Rgba color;
-  double thickness = 1;  // pixels
+  double thickness = 1;  // in pixels
 };
 std::string AnnotationsMessage(std::int64_t stamp_ns, std::span<const ImageMarks> marks);
 
-// x, y, z of every point, one after the other.
+// `xyz` has x, y, z of every point, one after the other.
 std::string PointCloudMessage(std::int64_t stamp_ns, std::span<const float> xyz);
 
 // Lines that are shown and replaced together.
 struct LineEntity {
   std::string id;
-  std::vector<float> ends;  // six numbers a line; none: the entity is gone
+  // Six numbers for each line; empty where the entity is gone.
+  std::vector<float> ends;
 };
 std::string SceneUpdateMessage(std::int64_t stamp_ns,
                                std::span<const LineEntity> entities,

@@ -14,10 +14,10 @@
 namespace plumbline {
 
 // Writes the fields of one message in the wire format of protobuf, in the order of the calls. A
-// field that is not written has its default value for whoever reads it: zero, empty, false.
+// field that is not written has its default value when it is read: zero, empty, false.
 class ProtobufWriter {
  public:
-  // int32, int64, uint32, uint64, bool and enumerations; negative numbers take ten bytes.
+  // Writes int32, int64, uint32, uint64, bool and enumerations; negative numbers take ten bytes.
   ProtobufWriter& Varint(std::uint32_t field, std::uint64_t value) {
     Tag(field, 0);
     PutVarint(value);
@@ -33,7 +33,7 @@ class ProtobufWriter {
     PutFixed(value, 4);
     return *this;
   }
-  // A text, bytes or a message.
+  // Writes a text, bytes or a message.
   ProtobufWriter& Bytes(std::uint32_t field, std::string_view bytes) {
     Tag(field, 2);
     PutVarint(bytes.size());
@@ -43,7 +43,8 @@ class ProtobufWriter {
   ProtobufWriter& Message(std::uint32_t field, const ProtobufWriter& message) {
     return Bytes(field, message.bytes_);
   }
-  // A repeated field of float, double, fixed32 or sfixed32 in one piece; nothing where it is empty.
+  // Writes a repeated field of float, double, fixed32 or sfixed32 in one piece; writes nothing
+  // where it is empty.
   template <class T>
   requires std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, std::uint32_t> ||
       std::same_as<T, std::int32_t>

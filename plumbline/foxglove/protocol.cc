@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostSubscriptions = 64;  // in one message
+constexpr std::size_t kMostSubscriptions = 64;  // most subscriptions in one message
 constexpr char kMessageData = 1, kServiceResponse = 3;
 constexpr char kClientMessageData = 1, kServiceRequest = 2;
 
@@ -40,7 +40,7 @@ std::optional<std::uint32_t> IdOf(const json& value) {
   return static_cast<std::uint32_t>(number);
 }
 
-// The member, or null where there is none.
+// Returns the member, or null where there is none.
 const json& Member(const json& object, const char* name) {
   static const json null;
   const auto it = object.find(name);
@@ -147,7 +147,7 @@ std::string ServiceFailureText(std::uint32_t service,
 }
 
 std::optional<ClientMessage> ParseClientText(std::string_view text) {
-  // Without exceptions: whatever is no JSON becomes a discarded value, which is no object.
+  // No exceptions are used: what is no JSON becomes a discarded value, which is no object.
   const json message = json::parse(text, nullptr, false);
   if (!message.is_object() || !Member(message, "op").is_string()) return std::nullopt;
   const std::string op = message["op"];
@@ -157,7 +157,7 @@ std::optional<ClientMessage> ParseClientText(std::string_view text) {
 }
 
 std::optional<ClientMessage> ParseClientBinary(std::string_view bytes) {
-  constexpr std::size_t kHead = 13;  // opcode, service, call, length of the encoding's name
+  constexpr std::size_t kHead = 13;  // opcode, service, call, and length of the encoding's name
   if (!bytes.empty() && bytes[0] == kClientMessageData) return NotOffered{"publishing"};
   if (bytes.size() < kHead || bytes[0] != kServiceRequest) return std::nullopt;
   const std::uint32_t length = NumberAt(bytes, 9);

@@ -15,30 +15,30 @@
 
 namespace plumbline {
 
-// The messages of Foxglove's WebSocket protocol (github.com/foxglove/ws-protocol)
-// that a server of channels and services sends and gets. Nothing is published by clients.
+// The messages of Foxglove's WebSocket protocol (github.com/foxglove/ws-protocol) that a server of
+// channels and services sends and receives. Clients cannot publish.
 
-// Subprotocols that are understood, the best first; they agree in all that is used here.
+// The subprotocols that are understood, the best first. They agree in everything that is used here.
 inline constexpr std::array<std::string_view, 2> kFoxgloveSubprotocols = {"foxglove.sdk.v1",
                                                                           "foxglove.websocket.v1"};
 
-// A function of the server that a client calls, with JSON both ways.
+// A function of the server that clients call, with JSON in both directions.
 struct FoxgloveService {
   std::string_view name;  // "/plumbline/pause"
-  std::string_view type;  // a name for what goes in and comes out
+  std::string_view type;  // a name for its arguments and results
 };
 
 // --- from the server ---
 
-// session: another text for every run of the server.
+// session: a text that differs for every run of the server.
 std::string ServerInfoText(std::string_view name, std::string_view session);
-// Ids of channels and services are their places in the lists, from 1 on.
+// The ids of channels and services are their places in the lists, from 1 on.
 std::string AdvertiseText(std::span<const FoxgloveChannel> channels, std::string_view schemas);
 std::string AdvertiseServicesText(std::span<const FoxgloveService> services);
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 std::string StatusText(StatusLevel level, std::string_view message);
-// What stands before the message itself in binary message data; received: when the server got it,
-// ns.
+// Returns the head that precedes the message in binary message data. received_ns: time at which the
+// server got the message.
 std::string MessageDataHead(std::uint32_t subscription, std::int64_t received_ns);
 std::string ServiceAnswer(std::uint32_t service, std::uint32_t call, std::string_view json);
 std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::string_view message);
@@ -47,7 +47,7 @@ std::string ServiceFailureText(std::uint32_t service, std::uint32_t call, std::s
 
 struct Subscribe {
   struct Entry {
-    std::uint32_t id = 0;  // the client's name for it
+    std::uint32_t id = 0;  // the client's name for the subscription
     std::uint32_t channel = 0;
   };
   std::vector<Entry> subscriptions;
@@ -60,13 +60,13 @@ struct ServiceCall {
   std::uint32_t call = 0;
   std::string json;
 };
-// Something that the protocol has and this server does not offer.
+// A part of the protocol that this server does not offer.
 struct NotOffered {
   std::string what;
 };
 using ClientMessage = std::variant<Subscribe, Unsubscribe, ServiceCall, NotOffered>;
 
-// nullopt where it is no message of the protocol.
+// Return nullopt where the message is none of the protocol.
 std::optional<ClientMessage> ParseClientText(std::string_view text);
 std::optional<ClientMessage> ParseClientBinary(std::string_view bytes);
 

@@ -11,7 +11,7 @@
 namespace plumbline {
 namespace {
 
-// Types of fields by their numbers in google.protobuf.FieldDescriptorProto.
+// Types of fields, by their numbers in google.protobuf.FieldDescriptorProto.
 enum FieldType : std::uint8_t {
   kDouble = 1,
   kFloat = 2,
@@ -33,12 +33,13 @@ struct FieldRow {
   std::string_view name;
   std::uint32_t number;
   FieldType type;
-  std::string_view type_name = {};  // of a message or an enumeration, ".foxglove.Pose"
+  // Type name of a message or an enumeration: ".foxglove.Pose".
+  std::string_view type_name = {};
   Label label = kOne;
 };
 struct EnumRow {
   std::string_view name;
-  std::vector<std::string_view> values;  // from 0 on
+  std::vector<std::string_view> values;  // names of the values from 0 on
 };
 struct MessageRow {
   std::string_view name;
@@ -159,7 +160,8 @@ std::vector<MessageRow> WorldMessages() {
   };
 }
 
-// What the page needs beside the image; docs/viewer.md explains every field.
+// Returns the messages about the run, which the page needs beside the image; docs/viewer.md
+// explains every field.
 std::vector<MessageRow> RunMessages() {
   return {
       {"Stage", {{"name", 1, kString}, {"milliseconds", 2, kDouble}}},
@@ -208,7 +210,7 @@ std::vector<MessageRow> RunMessages() {
   };
 }
 
-// The rest of it: what changed in the map, and the message that all of them come in.
+// Returns the messages about changes of the map, and the message that carries all of them.
 std::vector<MessageRow> MapMessages() {
   return {
       {"MapDelta",

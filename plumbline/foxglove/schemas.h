@@ -8,7 +8,7 @@
 
 namespace plumbline {
 
-// A stream of messages of one type, as clients and recordings are told of it.
+// A stream of messages of one type, as clients and recordings know it.
 struct FoxgloveChannel {
   std::string_view topic;
   std::string_view type;  // "foxglove.CompressedImage"
@@ -29,10 +29,10 @@ inline constexpr unsigned kStreams = 8;
 
 std::span<const FoxgloveChannel> FoxgloveChannels();
 
-// The types of all channels, and the types of their fields, as a google.protobuf.FileDescriptorSet:
-// what the protocol and MCAP files have as the schema of a channel. Types of the package foxglove
-// have the names and numbers of Foxglove's published schemas, and of their fields those that are
-// written here.
+// Returns the types of all channels and of their fields as a google.protobuf.FileDescriptorSet,
+// which is the schema of a channel in the protocol and in MCAP files. Types of the package foxglove
+// have the names and numbers of Foxglove's published schemas, with the fields that are written
+// here.
 const std::string& FoxgloveSchemas();
 
 }  // namespace plumbline

@@ -16,7 +16,7 @@
 namespace plumbline {
 namespace {
 
-// Puts `value` in the place of a mark that the page holds once.
+// Puts `value` in the place of a mark, which the page has once.
 void Fill(std::string& page, std::string_view mark, std::string_view value) {
   const std::size_t place = page.find(mark);
   PLUMBLINE_CHECK(place != std::string::npos, "a mark is missing in the page");
@@ -26,7 +26,7 @@ void Fill(std::string& page, std::string_view mark, std::string_view value) {
 }  // namespace
 
 std::string EscapeScriptJson(std::string_view json) {
-  // In JSON "<" stands within strings only, where the escape means the same.
+  // In JSON "<" occurs only within strings, where the escape means the same.
   std::string escaped;
   escaped.reserve(json.size());
   for (const char c : json) {
@@ -43,7 +43,8 @@ std::string FormatHtmlReport(const System& system,
                              const Dataset& dataset,
                              const ReportContext& context) {
   std::string page(ReportPage());
-  // In this order, for either text may hold a mark: that of the title stands before the data.
+  // The order matters, since either text may hold a mark: the mark of the title stands before the
+  // data.
   Fill(page, "{{DATA}}", EscapeScriptJson(FormatReportData(system, dataset, context)));
   Fill(page, "{{TITLE}}", EscapeHtml(dataset.info().name));
   return page;

@@ -10,10 +10,11 @@
 
 namespace plumbline {
 
-// JSON as it may stand in a <script> element: no "<" is left, which could end the element.
+// Returns JSON in a form that may stand in a <script> element: no "<" is left, which could end the
+// element.
 std::string EscapeScriptJson(std::string_view json);
 
-// report.html: one page that needs no other file and no network. It holds the data of
+// Returns report.html: one page that needs no other file and no network. It holds the data of
 // FormatReportData and the scripts that draw it.
 std::string FormatHtmlReport(const System& system,
                              const Dataset& dataset,

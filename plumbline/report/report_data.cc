@@ -27,14 +27,14 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// Few digits keep the page small.
+// Rounds a number, since few digits keep the page small.
 Json Rounded(double value, int decimals) {
   if (!std::isfinite(value)) return nullptr;
   const double scale = math::Pow(10.0, decimals);
   return std::round(value * scale) / scale;
 }
 
-// Numbers as little-endian float32 in base64.
+// Collects numbers as little-endian float32 in base64.
 class Floats {
  public:
   void Add(double value) {
@@ -223,7 +223,7 @@ Json MapData(const MapScene& map, const Vector3d& origin, SensorKind sensor) {
   }
   for (const Rigid3& pose : map.keyframe_poses) {
     keyframes.Add(pose.translation - origin);
-    keyframes.Add(pose.rotation.coeffs());  // x y z w
+    keyframes.Add(pose.rotation.coeffs());  // in the order x y z w
   }
   return {{"id", map.id.value},
           {"keyframe_count", map.keyframe_count},
@@ -295,7 +295,7 @@ Json Scene(const System& system, const Dataset& dataset) {
           {"main", scene.main ? Json(*scene.main) : Json(nullptr)},
           {"maps", std::move(maps)},
           {"events", Events(scene)},
-          // Where the image plane at unit depth ends: left, top, right, bottom.
+          // The borders of the image plane at unit depth: left, top, right, bottom.
           {"frustum",
            {-camera.cx / camera.fx,
             -camera.cy / camera.fy,

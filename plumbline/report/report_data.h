@@ -12,7 +12,7 @@
 
 namespace plumbline {
 
-// What the page tells beside what System and Dataset know.
+// What the page tells in addition to what System and Dataset know.
 struct ReportContext {
   RunDescription description;
   ResourceUse resources;
@@ -20,8 +20,8 @@ struct ReportContext {
   std::vector<SampleImage> samples;
 };
 
-// All that report.html shows, as one JSON object. Its keys are those that report_page.js reads; in
-// short: "run" (what was run, with which options), "counts", "frames" (columns, one entry a frame),
+// Returns all that report.html shows, as one JSON object. Its keys are those that report_page.js
+// reads: "run" (what was run, with which options), "counts", "frames" (columns, one entry a frame),
 // "stages" (times), "scene" (maps, trajectories, errors, loops and the like; arrays of float32 in
 // base64, metres, relative to "origin"), "samples" (images as data: URIs, with their features).
 //

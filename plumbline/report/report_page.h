@@ -6,8 +6,8 @@
 
 namespace plumbline {
 
-// The page report_page.html with its style and scripts in it, made part of the library by CMake.
-// {{TITLE}} and {{DATA}} are still to be filled in.
+// Returns the page report_page.html with its style and scripts in it, which CMake makes part of the
+// library. {{TITLE}} and {{DATA}} are still to be replaced.
 std::string_view ReportPage();
 
 }  // namespace plumbline

@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// Who is told what came of each frame, in the order of the frames, in the thread that tracks.
+// Takes the record of each frame, in the order of the frames, in the thread that tracks.
 using FrameObserver = std::function<void(const FrameRecord& record)>;
 
 // Tracks the camera through a whole recorded sequence and maps what it sees: the one call that a
@@ -28,9 +28,9 @@ using FrameObserver = std::function<void(const FrameRecord& record)>;
 //   returns   the finished system: FinalTrajectory, CausalTrajectory, LineMap and maps() of it are
 //             complete. It does not refer to the data set.
 //
-// A frame whose image cannot be read is skipped, which its record tells (image_unreadable). Throws
+// A frame whose image cannot be read is skipped, and its record says so (image_unreadable). Throws
 // InputError for a calibration that cannot be used and for an image of another size than the
-// calibration says. The result has the same bytes as that of the program's `run`, but for live
+// calibration says. The result has the same bytes as that of the program's `run`, except in live
 // mode. Cost: the time of the run; images are read in the calling thread.
 std::unique_ptr<System> RunDataset(const Dataset& dataset,
                                    const SlamOptions& options = {},

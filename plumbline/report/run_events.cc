@@ -7,7 +7,7 @@
 namespace plumbline {
 namespace {
 
-// Finds keyframes, also removed ones, in the world shown.
+// Finds keyframes, removed ones included, in the world that is shown.
 struct Whereabouts {
   const std::map<MapId, Map>& maps;
   const std::map<MapId, Similarity3>& world_from_map;

@@ -25,22 +25,24 @@ constexpr auto EnumNames(std::type_identity<RunEventKind>) {
                     std::pair{RunEventKind::kRelocalization, "relocalization"}};
 }
 
-// A place that was seen again, for display.
+// An event of a run, for display.
 struct RunEvent {
   RunEventKind kind = RunEventKind::kLoop;
-  // What was recognized. Of a relocalization the frame, the keyframe that showed the way as
-  // `older`, points and lines alone.
+  // What was recognized. For a relocalization it has only the frame, points, lines, and as `older`
+  // the keyframe from which the place was found.
   Recognition place;
   std::optional<MapJoin> join;
-  std::optional<MapId> map;  // that has the older keyframe in the end; nullopt: none has it
-  // Where both keyframes are in the end, in the world shown. `at` is not said of a relocalization:
-  // it is where the frame is.
+  // Map that has the older keyframe in the end; nullopt where none has it.
+  std::optional<MapId> map;
+  // Where both keyframes are in the end, in the world that is shown. A relocalization has no `at`,
+  // which is where its frame is.
   std::optional<Eigen::Vector3d> at, older_at;
 };
 
-// The events of a run in the order of their frames, with their places in the world that is shown.
+// Returns the events of a run in the order of their frames, with their places in the world that is
+// shown.
 //
-//   world_from_map  by map: how it is shown
+//   world_from_map  how each map is shown
 std::vector<RunEvent> PlaceEvents(const MapEvents& events,
                                   const std::map<MapId, Map>& maps,
                                   const std::map<MapId, Similarity3>& world_from_map);

@@ -68,7 +68,7 @@ std::vector<RunFile> TrajectoryFiles(const System& system, TimeMirror mirror_ns)
     if (id == *main) continue;
     AddTrajectories(system, id, TrajectoryNames(id), mirror_ns, files);
   }
-  // What was reported in a map that has become part of another one is in the world of then.
+  // Poses that were reported in a map that another one took in later are in the world of that map.
   for (const auto& [id, joined] : system.atlas().joined()) {
     files.push_back(TumFile(TrajectoryNames(id).causal, mirror_ns, [&system, gone = id] {
       return system.CausalTrajectory(gone);
@@ -147,7 +147,7 @@ std::vector<RunFile> PoseFiles(const System& system, std::optional<std::int64_t>
 
 RunFile MapFile(const System& system) {
   return {"map.plb", [&system](const std::filesystem::path& path) {
-            // Maps that are only read stay as they were, the one to go on with, too.
+            // Maps that are only read stay as they were, and so does the choice of the active map.
             const MapId active = system.atlas().active_id();
             SaveAtlas(path,
                       system.atlas(),

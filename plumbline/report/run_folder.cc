@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPart = ".part";
-// Room on the disk for the manifests, given back when they are written.
+// Room on the disk for the manifests, which is given back when they are written.
 constexpr const char* kReserve = ".reserve";
 constexpr std::size_t kReserveBytes = 32 << 10;
 constexpr const char* kHeld = "another run is writing into this folder; choose another --out";
@@ -43,8 +43,8 @@ void RemoveFile(const fs::path& path) {
   if (error) throw InputError("cannot remove " + path.string() + ": " + error.message());
 }
 
-// Whether there is something of this name. A link counts as itself, also where it leads nowhere (so
-// that this is not PathExists): what somebody else put there is not to be replaced.
+// Whether there is something of this name. A link counts by itself, even where it leads nowhere
+// (unlike with PathExists), since what others put there must not be replaced.
 bool Exists(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));
@@ -55,7 +55,7 @@ bool IsFolder(const fs::path& path) {
   return fs::is_directory(fs::symlink_status(path, error));
 }
 
-// A file that a run which was killed left while it wrote (AtomicFile).
+// Whether a file was left by a run that was killed while it wrote (AtomicFile).
 bool IsTemporary(const std::string& name) {
   static const std::regex temporary(R"(\.(.+)\.[0-9]+\.tmp(\.[a-z]+)?)");
   std::smatch parts;
@@ -64,7 +64,7 @@ bool IsTemporary(const std::string& name) {
   return written == RunManifest::kFile || IsRunFile(written);
 }
 
-// Only what a run makes; whatever else is there, and then the folder, stays.
+// Removes only what a run makes. Everything else stays, and then the folder does, too.
 void RemovePart(const fs::path& part) {
   std::error_code error;
   std::vector<fs::path> ours;
@@ -77,12 +77,12 @@ void RemovePart(const fs::path& part) {
   fs::remove(part, error);
 }
 
-// A file that may be replaced since a run wrote it.
+// Whether a file may be replaced because a run wrote it.
 bool IsOurs(const RunManifest& manifest, const fs::path& folder, const std::string& name) {
   return manifest.Lists(name) && !IsFolder(folder / name);
 }
 
-// The first name of `names` that stands in the folder and is none of ours.
+// Returns the first of `names` that stands in the folder and was not written by a run.
 std::optional<std::string> Foreign(const fs::path& folder,
                                    const RunManifest& manifest,
                                    const std::vector<std::string>& names) {
@@ -92,8 +92,9 @@ std::optional<std::string> Foreign(const fs::path& folder,
   return found == names.end() ? std::nullopt : std::optional(*found);
 }
 
-// Begins or goes on where it was left: every step may be the last one of a killed program. The
-// files of a complete part replace those of the folder, then what else was there goes.
+// Begins the exchange, or continues it where it was left: the program may be killed after any step.
+// The files of a complete part replace those of the folder; then the other files of the earlier run
+// are removed.
 void MoveIntoPlace(const fs::path& part, const fs::path& folder) {
   const RunManifest next = ReadRunManifest(part).value_or(RunManifest{});
   const RunManifest earlier = ReadRunManifest(folder).value_or(RunManifest{});
@@ -229,12 +230,12 @@ void RunFolder::StartPart() {
   WriteRunManifest(part_, {});
   try {
     WriteFileAtomically(part_ / kReserve, std::string(kReserveBytes, ' '));
-  } catch (const InputError&) {  // on a disk as full as that the run may end without its manifest
+  } catch (const InputError&) {  // on such a full disk the run may end without its manifest
     return;
   }
 }
 
-// With the folders that are empty then.
+// Removes the folders that this made, as far as they are empty.
 void RunFolder::RemoveFolders() {
   std::error_code error;
   if (part_made_) RemovePart(part_);

@@ -16,30 +16,31 @@
 
 namespace plumbline {
 
-// A file of a run's results: its name, and what writes it to a path.
+// A file of a run's results: its name, and the function that writes it to a path.
 struct RunFile {
   std::string name;
   std::function<void(const std::filesystem::path&)> write;
 };
 
-// Something that a run reads.
+// A file or folder that a run reads.
 struct RunInput {
   std::filesystem::path path;
-  bool may_lie_in_out = false;  // it is read whole before anything is replaced
+  // True if it is read whole before anything is replaced.
+  bool may_lie_in_out = false;
 };
 
 // Throws InputError, which says what to do, when a folder for results is, holds or lies in
-// something that is read. Touches nothing.
+// something that is read. Changes nothing.
 void CheckApart(const std::filesystem::path& out, std::span<const RunInput> inputs);
 
 // Throws InputError, which names the option, when a file that a run is to write is or lies in
-// something that is read: it would take the place of data. Touches nothing.
+// something that is read, so that it would replace data. Changes nothing.
 void CheckFileApart(std::string_view option,
                     const std::filesystem::path& file,
                     std::span<const RunInput> inputs);
 
 // Throws InputError, which names the option, when a file that a run is to write beside its results
-// has the place of one of them in the folder `out`, or lies in the folder's part. Touches nothing.
+// has the place of one of these in the folder `out`, or lies in the folder's part. Changes nothing.
 void CheckNoResult(std::string_view option,
                    const std::filesystem::path& file,
                    const std::filesystem::path& out);
@@ -55,41 +56,42 @@ void CheckNoResult(std::string_view option,
 class RunFolder {
  public:
   // Makes DIR where it is missing, and DIR/.part. Throws InputError, which says what to do, when
-  // another run writes there, when DIR has files with names of ours that no run wrote, or when it
-  // cannot be written to; then DIR is as it was.
+  // another run writes there, when DIR has files with names of results that no run wrote, or when
+  // it cannot be written to; DIR then is as it was.
   explicit RunFolder(std::filesystem::path folder);
-  // Takes away what it made in DIR unless Keep() was called.
+  // Removes what it made in DIR, unless Keep() was called.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
-  // Where the files are until Commit().
+  // The folder that has the files until Commit().
   const std::filesystem::path& part() const { return part_; }
-  // What was found of runs that were killed, one sentence each.
+  // Notes about runs that were killed, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  // From now on the part holds something of worth.
+  // Tells that the part holds something of worth from now on.
   void Keep() { keep_ = true; }
 
   // Makes the folders again where somebody removed them. Throws InputError when that fails.
   void Restore();
 
-  // Writes a file into the part. What goes wrong is kept as a failure, so that the files after it
-  // are written all the same. Returns whether it was written.
+  // Writes a file into the part, and returns whether that succeeded. A failure is kept for
+  // Failures(), so that later files are written all the same.
   bool Write(const RunFile& file);
-  // "cannot write DIR/map.plb, report.html: <reason>" in one line; nullopt: all could be written.
+  // Returns "cannot write DIR/map.plb, report.html: <reason>" in one line; nullopt if all could be
+  // written.
   std::optional<std::string> Failures() const;
 
   // Removes from the part the files of a run that are not among `names`.
   void KeepOnly(const std::vector<std::string>& names) const;
 
-  // Whether Commit() would replace whole results by some of which files are missing.
+  // Whether Commit() would replace complete results by some that lack files.
   bool WouldLose() const;
 
-  // Puts the files of the part into DIR, removes those of the earlier run, then the part. Throws
+  // Moves the files of the part into DIR, removes those of the earlier run, then the part. Throws
   // InputError when that is impossible, for instance because DIR has got a file of such a name
-  // meanwhile; the files are in the part then, or some already in DIR.
+  // meanwhile; the files are then in the part, or some of them already in DIR.
   void Commit();
 
  private:

@@ -18,7 +18,7 @@ namespace {
 constexpr std::chrono::seconds kOftenest(1);
 constexpr std::chrono::seconds kRarest(8);
 
-// Rows in the order of their stamps: those of frames played backwards go before.
+// Adds rows in the order of their stamps: those of frames played backwards go in front.
 void AddRows(const Trajectory& played, std::optional<std::int64_t> mirror_ns, std::string& text) {
   if (mirror_ns) {
     text.insert(0, FormatTum(TimeReversed(played, *mirror_ns)));
@@ -71,7 +71,7 @@ void RunJournal::WriteFiles(RunFolder& folder) {
   for (auto map = maps_.begin(); map != maps_.end(); ++map) {
     if (map != main) write(TrajectoryNames(map->first).keyframes, map->second.keyframes);
   }
-  // The file of a map that has become the main one since is not wanted any more.
+  // The file of a map that has become the main one is not needed any more.
   std::error_code ignored;
   for (const std::string& name : written_) {
     if (!names.contains(name)) std::filesystem::remove(folder.part() / name, ignored);

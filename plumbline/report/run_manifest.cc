@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kKey = "plumbline_run";
 constexpr int kVersion = 1;
 
-// Versions without manifests wrote the text of options.yaml into summary.json, too.
+// Versions without manifests also wrote the text of options.yaml into summary.json.
 bool IsOfOlderVersion(const fs::path& folder) {
   const auto options = ReadFileIfThere(folder / "options.yaml");
   const auto summary = ReadFileIfThere(folder / "summary.json");

@@ -9,8 +9,8 @@
 
 namespace plumbline {
 
-// What a run says of the files that it wrote into a folder: the file .plumbline-run beside them, in
-// JSON. Only files that are listed there belong to us and may be replaced or removed.
+// The list of the files that a run wrote into a folder: the file .plumbline-run beside them, in
+// JSON. Only files that are listed there may be replaced or removed by later runs.
 struct RunManifest {
   static constexpr const char* kFile = ".plumbline-run";
 
@@ -24,14 +24,14 @@ struct RunManifest {
 // overlay_000010.png and so on.
 bool IsRunFile(const std::string& name);
 
-// The names in a folder for which IsRunFile holds, ascending. Throws InputError when the folder
-// cannot be listed.
+// Returns the names in a folder for which IsRunFile holds, ascending. Throws InputError when the
+// folder cannot be listed.
 std::vector<std::string> RunFilesIn(const std::filesystem::path& folder);
 
-// The manifest of a folder. nullopt where there is none. A folder that a version without manifests
-// wrote has one, too: it holds all files of such names, when its summary.json repeats its
-// options.yaml. Names that are none of a run are left out, whatever the file says. Throws
-// InputError "<file>: expected ..., found ..." when it is no manifest.
+// Returns the manifest of a folder; nullopt where there is none. A folder that a version without
+// manifests wrote counts as having one, with all files of such names, when its summary.json repeats
+// its options.yaml. Names that no run uses are left out, whatever the file says. Throws InputError
+// "<file>: expected ..., found ..." when it is no manifest.
 std::optional<RunManifest> ReadRunManifest(const std::filesystem::path& folder);
 
 // Replaces the manifest of a folder. Throws WriteError.

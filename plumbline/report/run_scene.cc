@@ -13,13 +13,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Every how many of `count` things are shown when at most `limit` may be.
+// Returns n where every n-th of `count` things is shown, so that there are at most `limit`.
 std::size_t StepFor(std::size_t count, std::size_t limit) {
   return std::max<std::size_t>(1, (count + limit - 1) / std::max<std::size_t>(limit, 1));
 }
 
 std::size_t FrameAt(const FrameLog& frames, std::int64_t stamp_ns) {
-  std::size_t first = 0, count = frames.size();  // of those among which the first one later is
+  // The range of frames in which the first later one is.
+  std::size_t first = 0, count = frames.size();
   while (count > 0) {
     const std::size_t half = count / 2;
     const bool earlier = frames.StampOf(first + half) < stamp_ns;
@@ -40,7 +41,8 @@ void TakePoses(const System& system,
   }
 }
 
-// A map that cannot be compared with ground truth is shown in its own world.
+// Returns how a map is shown. One that cannot be compared with ground truth is shown in its own
+// world.
 Similarity3 WorldFromMap(const MapScene& scene) {
   return scene.error ? scene.error->reference_from_estimate : Similarity3();
 }
@@ -88,7 +90,7 @@ void Thin(const RunSceneLimits& limits, RunScene& scene) {
   KeepEvery(StepFor(scene.reference.size(), limits.reference), scene.reference);
 }
 
-// The ground truth from the first to the last frame of the run.
+// Returns the ground truth from the first to the last frame of the run.
 Trajectory ReferenceDuring(const FrameLog& frames, const Dataset& dataset) {
   Trajectory during;
   if (!dataset.info().ground_truth || frames.empty()) return during;

@@ -15,8 +15,8 @@ namespace plumbline {
 // The rectified left image of one frame and the features found in it, kept for report.html.
 struct SampleImage {
   FrameId frame;
-  std::string file;           // name of the overlay image that shows the same
-  int width = 0, height = 0;  // of the image; positions are in its pixels
+  std::string file;           // name of the overlay image that shows the same frame
+  int width = 0, height = 0;  // size of the image; positions are in its pixels
   std::string jpeg;           // the image, grey, made smaller where it is very wide
   std::vector<Eigen::Vector2d> matched_points, other_points;
   std::vector<Segment2> matched_lines, other_lines;

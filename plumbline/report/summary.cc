@@ -67,8 +67,8 @@ Json Timing(const FrameLog& frames) {
   return json;
 }
 
-// The most memory of this program. Not ru_maxrss: that also counts what the process had before it
-// became this program, which is the memory of whoever started it.
+// Returns the largest memory that this program had. ru_maxrss also counts what the process had
+// before it became this program, which is the memory of the program that started it.
 double PeakMemoryMb() {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -97,7 +97,8 @@ std::optional<double> SecondsSinceProcessStart() {
   std::ifstream stat("/proc/self/stat");
   std::string text;
   if (!std::getline(stat, text)) return std::nullopt;
-  // The name, field 2, is in brackets and may hold spaces; the start, in ticks since boot, is 22.
+  // The name, field 2, is in brackets and may hold spaces. The start, in ticks since boot, is field
+  // 22.
   const auto bracket = text.rfind(')');
   if (bracket == std::string::npos) return std::nullopt;
   std::istringstream rest(text.substr(bracket + 1));
@@ -184,7 +185,7 @@ Json Described(const Recognition& place) {
           {"scale", place.scale}};
 }
 
-// Lists of what was recognized, found again and joined.
+// Adds lists of the loops, joins and relocalizations.
 void AddEvents(const MapEvents& events, Json& json) {
   json["loops"] = Json::array();
   for (const Recognition& loop : events.loops) json["loops"].push_back(Described(loop));
@@ -251,7 +252,7 @@ std::string FormatSummary(const RunDescription& description,
   const LineMemory memory = MeasureLineMemory(system);
   json["line_bytes"] = {{"map", OrNull(memory.map)}, {"adjustment", OrNull(memory.adjustment)}};
   json["options"] = description.options_yaml;
-  // A path need not be UTF-8; what is not becomes a replacement character.
+  // A path need not be UTF-8; bytes that are not become a replacement character.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

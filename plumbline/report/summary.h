@@ -13,7 +13,7 @@
 
 namespace plumbline {
 
-// What a run used of the machine, from its start.
+// What a run used of the machine since its start.
 struct ResourceUse {
   double wall_seconds = 0;
   std::optional<double> first_pose_seconds;  // from the start of the process; nullopt: no pose
@@ -21,37 +21,39 @@ struct ResourceUse {
   double peak_memory_mb = 0;
 };
 
-// CPU time and peak memory of this process; the other times are for the caller to fill in.
+// Returns CPU time and peak memory of this process; the caller sets the other times.
 ResourceUse MeasureResources();
 
-// Time since this process was started, its loading included, to 10 ms; nullopt where the system
-// does not tell.
+// Returns the time since this process was started, its loading included, to 10 ms; nullopt where
+// the system does not tell it.
 std::optional<double> SecondsSinceProcessStart();
 
 struct RunCounts {
   int frames = 0, tracked = 0, lost = 0, skipped = 0, initializing = 0;
-  int in_trajectory = 0;  // of the tracked ones, those in the main map: poses of trajectory.txt
-  int dropped = 0;        // of the skipped ones, those that a live run had no time for
-  // Frames of a live run by what it left undone last, in the order of Shed.
+  // Tracked frames in the main map: the poses of trajectory.txt.
+  int in_trajectory = 0;
+  // Skipped frames for which a live run had no time.
+  int dropped = 0;
+  // Frames of a live run, by the last thing it left undone, in the order of Shed.
   int shed_mapping = 0, shed_lines = 0, shed_points = 0;
   int demoted = 0;  // keyframes that mapping had no time for
   int keyframes = 0, points = 0, lines = 0, maps = 0;
 };
 RunCounts CountRun(const System& system);
 
-// Memory of a line landmark in bytes, mean; nullopt where there is none.
+// Mean memory of a line landmark in bytes; nullopt where there are no lines.
 struct LineMemory {
-  // Bytes of a line in the main map: place, information, looks and its list of observations.
+  // Bytes of a line in the main map: place, information, appearance and its list of observations.
   std::optional<double> map;
-  // In local bundle adjustment, over all windows of the run: parameters, observations and
-  // equations.
+  // Bytes of a line in local bundle adjustment, over all windows of the run: parameters,
+  // observations and equations.
   std::optional<double> adjustment;
 };
 LineMemory MeasureLineMemory(const System& system);
 
-// The final trajectory of a map, or of the main one, against the data set's ground truth: SE(3)
-// alignment, Sim(3) for mono, windows of 3 s. nullopt without ground truth, trajectory, or common
-// time.
+// Compares the final trajectory of a map, or of the main map, with the data set's ground truth:
+// SE(3) alignment, Sim(3) for mono, windows of 3 s. Returns nullopt without ground truth,
+// trajectory, or common time.
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
                                                       const Dataset& dataset,
                                                       MapId map);
@@ -62,13 +64,13 @@ struct RunDescription {
   std::string data_path;
   std::string options_yaml;
   int seed = 0;
-  std::vector<std::string> arguments = {};  // of the command
-  std::size_t frames_chosen = 0;            // those that the run was to process
-  // The signal that ended the run early, "SIGINT"; nullopt: none did.
+  std::vector<std::string> arguments = {};  // arguments of the command
+  std::size_t frames_chosen = 0;            // frames that the run was to process
+  // Name of the signal that ended the run early, "SIGINT"; nullopt if none did.
   std::optional<std::string> interrupted = std::nullopt;
 };
 
-// summary.json.
+// Returns the text of summary.json.
 std::string FormatSummary(const RunDescription& description,
                           const System& system,
                           const Dataset& dataset,

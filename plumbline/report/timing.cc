@@ -16,7 +16,7 @@
 namespace plumbline {
 namespace {
 
-// Stages in the order of first appearance, "total" last.
+// Returns the stages in the order of first appearance, with "total" last.
 std::vector<std::string> StageNames(const FrameLog& frames) {
   std::vector<std::string> names;
   for (const FrameRecord& frame : frames) {
@@ -31,7 +31,7 @@ std::vector<std::string> StageNames(const FrameLog& frames) {
   return names;
 }
 
-// Nearest-rank percentile of sorted values.
+// Returns the nearest-rank percentile of sorted values.
 double Percentile(const std::vector<double>& sorted, double share) {
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
   return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];

@@ -19,15 +19,16 @@ struct StageStatistics {
   double median = 0, p95 = 0, p99 = 0, max = 0, mean = 0;
 };
 
-// One entry for each stage, in the order of first appearance; "total" is from a frame's arrival to
-// its pose.
+// Returns one entry for each stage, in the order of first appearance. "total" is the time from a
+// frame's arrival to its pose.
 std::vector<StageStatistics> TimingStatistics(const FrameLog& frames);
 
-// Milliseconds of one stage in every frame; nullopt where it did not run.
+// Returns the milliseconds of one stage in every frame; nullopt where it did not run.
 std::vector<std::optional<double>> StageMilliseconds(const FrameLog& frames,
                                                      const std::string& stage);
 
-// A row for each frame, a column for each stage; empty where the stage did not run.
+// Return a table with a row for each frame and a column for each stage; empty where the stage did
+// not run.
 std::string FormatTimingCsv(const FrameLog& frames);
 std::string FormatTimingJson(const FrameLog& frames);
 

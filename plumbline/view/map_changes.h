@@ -11,39 +11,41 @@
 
 namespace plumbline {
 
-// Names of keyframes, points and lines where they are shown: the values of their ids.
+// Ids of keyframes, points and lines where they are shown: the values of the map's ids.
 using ShownId = std::uint32_t;
 
-using ShownPoint = std::array<float, 3>;  // world
-using ShownLine = std::array<float, 6>;   // both ends, world
+using ShownPoint = std::array<float, 3>;  // place in the world
+using ShownLine = std::array<float, 6>;   // both ends in the world
 
-// A keyframe where it is shown.
+// A keyframe as it is shown.
 struct ShownKeyFrame {
   static constexpr std::uint32_t kOfAnotherRun = 0xFFFFFFFF;
-  std::uint32_t frame = 0;  // its number in this run
-  // World from rectified camera: position, then the quaternion x y z w.
+  std::uint32_t frame = 0;  // number of its frame in this run
+  // World from rectified camera: position, then the quaternion as x y z w.
   std::array<float, 7> pose{};
 
   friend bool operator==(const ShownKeyFrame&, const ShownKeyFrame&) = default;
 };
 
-// What became of one kind of things since the last time.
+// The changes of one kind of things since the last look.
 template <class T>
 struct ShownChanges {
-  std::vector<std::pair<ShownId, T>> set;  // new, or with another place
+  std::vector<std::pair<ShownId, T>> set;  // things that are new or have another place
   std::vector<ShownId> gone;
 
   bool empty() const { return set.empty() && gone.empty(); }
 };
 
-// What became of the active map since it was last looked at.
+// The changes of the active map since the last look.
 struct MapChanges {
   MapId map;
-  bool everything = false;  // another map than before: what was shown is to be forgotten
+  // The map is another one than before: what was shown is to be forgotten.
+  bool everything = false;
   ShownChanges<ShownPoint> points;
   ShownChanges<ShownLine> lines;
   ShownChanges<ShownKeyFrame> keyframes;
-  std::vector<std::pair<ShownId, ShownId>> edges;  // keyframes that see the same, newer one first
+  // Keyframes that see the same, the newer one first.
+  std::vector<std::pair<ShownId, ShownId>> edges;
 
   bool empty() const {
     return !everything && points.empty() && lines.empty() && keyframes.empty() && edges.empty();

@@ -10,7 +10,7 @@
 namespace plumbline {
 namespace {
 
-constexpr float kSmallestMove = 1.0F / 2000;  // of the distance from the newest keyframe
+constexpr float kSmallestMove = 1.0F / 2000;  // relative to the distance from the newest keyframe
 
 ShownPoint PointOf(const Eigen::Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
@@ -36,7 +36,7 @@ ShownKeyFrame ShownOf(const KeyFrame& keyframe, const ShownSession& session) {
       {p[0], p[1], p[2], q[0], q[1], q[2], q[3]}};
 }
 
-// Whether somebody who looks from near the eye would see the difference.
+// Whether somebody who looks from near `eye` would see the difference.
 template <std::size_t kSize>
 bool HasMoved(const std::array<float, kSize>& before,
               const std::array<float, kSize>& now,
@@ -58,8 +58,8 @@ bool HasMoved(const ShownKeyFrame& before, const ShownKeyFrame& now, const Shown
   return before != now;
 }
 
-// Compares a page of a table with what was shown of it, `shown`, and makes `shown` what is to be
-// shown now. Both are in the order of ids.
+// Compares a page of a table with what was shown of it, `shown`, and updates `shown`. Both are in
+// the order of ids.
 template <class Table, class T>
 void ComparePage(const Table& table,
                  std::size_t page,

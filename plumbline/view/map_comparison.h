@@ -12,32 +12,32 @@
 
 namespace plumbline {
 
-// Tells from look to look what has changed in the active map of an atlas. Landmarks that moved by
-// less than a 2000th of their distance from the keyframe that is newest when they move, half a
-// pixel of most cameras, stay where they were shown until such moves add up. Remembers what it
-// told: 16 bytes a point, 28 a line.
+// Finds what has changed in the active map of an atlas since the last look. Landmarks that moved by
+// less than a 2000th of their distance from the newest keyframe, half a pixel of most cameras, stay
+// where they were shown until such moves add up. It remembers what it told: 16 bytes a point, 28 a
+// line.
 class MapComparison {
  public:
-  // Keyframes whose neighbours are looked for in one look; those of others come with the next ones.
+  // Most keyframes whose neighbours are found in one look; others come with the next looks.
   static constexpr std::size_t kNeighboursAtOnce = 16;
-  // Neighbours told of a keyframe: those that show most of what it shows and are older.
+  // Most neighbours of a keyframe that are told: older ones that show most of what it shows.
   static constexpr int kNeighbours = 4;
 
-  // session: of the run that is shown; keyframes of others are kOfAnotherRun. nullopt: a saved map,
-  // where each keyframe has the number that it had in its run.
+  // session: the one of the run that is shown; keyframes of others are kOfAnotherRun. nullopt: the
+  // map was saved, and each keyframe has the number that it had in its run.
   explicit MapComparison(std::optional<SessionId> session) : session_(session) {}
 
-  // Looks at what changed since the last look, by pages of the map's tables: some 30 ns for each
+  // Finds what changed since the last look, by pages of the map's tables. Cost: some 30 ns for each
   // landmark of a page in which one changed.
   MapChanges Compare(const Atlas& atlas);
-  // Whether there are keyframes left whose neighbours were not looked for.
+  // Whether there are keyframes left whose neighbours were not searched yet.
   bool HasMore() const { return !without_neighbours_.empty(); }
 
  private:
-  // What was told of one table, by its pages, and how many changes the table had had.
+  // What was told of one table, by its pages, and the table's number of changes at that time.
   template <class T>
   struct Shown {
-    std::vector<std::vector<std::pair<ShownId, T>>> pages;  // each by id
+    std::vector<std::vector<std::pair<ShownId, T>>> pages;  // each page is ordered by id
     std::uint64_t changes = 0;
   };
 
@@ -50,7 +50,7 @@ class MapComparison {
   Shown<ShownPoint> points_;
   Shown<ShownLine> lines_;
   Shown<ShownKeyFrame> keyframes_;
-  KeyFrameId newest_;                           // of those that were told
+  KeyFrameId newest_;                           // the newest keyframe that was told
   std::vector<KeyFrameId> without_neighbours_;  // ascending
 };
 

@@ -11,18 +11,18 @@
 
 namespace plumbline {
 
-// Which keyframes see a landmark of the active map.
+// The question which keyframes see a landmark of the active map.
 struct MapQuestion {
   bool is_line = false;
   std::int64_t id = 0;
 };
 
-// The question in {"point": 12} or {"line": 3}; nullopt where it is none.
+// Parses {"point": 12} or {"line": 3}; returns nullopt for anything else.
 std::optional<MapQuestion> ParseMapQuestion(std::string_view json);
 
-// {"point": 12, "seen_by": [{"keyframe": 3, "frame": 17, "px": [x, y]}, ...]}, oldest first, "px"
-// of a line [x1, y1, x2, y2] (rectified left image); "seen_by" is empty where there is no such
-// landmark any more. O(keyframes that see it).
+// Returns {"point": 12, "seen_by": [{"keyframe": 3, "frame": 17, "px": [x, y]}, ...]}, the oldest
+// keyframe first. For a line "px" is [x1, y1, x2, y2] (rectified left image). "seen_by" is empty
+// where there is no such landmark any more. O(keyframes that see it).
 std::string AnswerMapQuestion(const Atlas& atlas, const MapQuestion& question);
 
 }  // namespace plumbline

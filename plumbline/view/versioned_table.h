@@ -14,13 +14,14 @@
 
 namespace plumbline {
 
-// Things by id with the version at which each last changed, so that what changed since a version is
-// found without looking at the rest. Things that are gone are remembered until there are more of
-// them than of the others; whoever has a version from before `forgotten()` needs everything.
+// A table of things by id, with the version at which each last changed, so that what changed since
+// a version is found without looking at the rest. Things that are gone are remembered until there
+// are more of them than of the others. A receiver with a version from before `forgotten()` needs
+// everything.
 template <class T>
 class VersionedTable {
  public:
-  // Versions ascend from call to call.
+  // Sets a value. Versions must ascend from call to call.
   void Set(ShownId id, const T& value, std::uint64_t version) {
     Entry& entry = entries_[id];
     if (!entry.value && entry.version > 0) --gone_;
@@ -38,7 +39,7 @@ class VersionedTable {
     if (gone_ > std::max(live_, kAlwaysRemembered)) ForgetGone(version);
   }
 
-  // nullptr where there is none.
+  // Returns nullptr where there is no such thing.
   const T* Find(ShownId id) const {
     const auto it = entries_.find(id);
     return it == entries_.end() || !it->second.value ? nullptr : &*it->second.value;
@@ -46,21 +47,22 @@ class VersionedTable {
   std::size_t size() const { return live_; }
   std::uint64_t forgotten() const { return forgotten_; }
 
-  // Calls take(id, value) for all there is, by id.
+  // Calls take(id, value) for all things, in the order of their ids.
   template <class Take>
   void ForEach(const Take& take) const {
     for (const auto& [id, entry] : entries_) {
       if (entry.value) take(id, *entry.value);
     }
   }
-  // Calls take(id, value or nullptr) for what changed after `version`, last change last.
+  // Calls take(id, value or nullptr) for what changed after `version`, in the order of the last
+  // changes.
   template <class Take>
   void ForEachSince(std::uint64_t version, const Take& take) const {
     const auto first = std::partition_point(
         log_.begin(), log_.end(), [&](const auto& change) { return change.first <= version; });
     for (auto it = first; it != log_.end(); ++it) {
       const auto entry = entries_.find(it->second);
-      // Of several changes the last one counts.
+      // Only the last of several changes counts.
       if (entry == entries_.end() || entry->second.version != it->first) continue;
       take(it->second, entry->second.value ? &*entry->second.value : nullptr);
     }
@@ -70,7 +72,7 @@ class VersionedTable {
   static constexpr std::size_t kAlwaysRemembered = 1000;
 
   struct Entry {
-    std::optional<T> value;  // nullopt: gone
+    std::optional<T> value;  // nullopt: the thing is gone
     std::uint64_t version = 0;
   };
 

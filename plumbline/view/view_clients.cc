@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// By id, from 1 on.
+// Services are numbered from 1 on.
 constexpr std::uint32_t kLandmarkService = 1, kPauseService = 2, kStepService = 3;
 constexpr std::array<FoxgloveService, 3> kServices = {
     {{"/plumbline/landmark", "plumbline/Landmark"},
@@ -24,7 +24,7 @@ std::int64_t SteadyNs() {
       .count();
 }
 
-// {"paused": true}.
+// Parses {"paused": true}.
 std::optional<bool> ParsePause(std::string_view text) {
   const nlohmann::json request = nlohmann::json::parse(text, nullptr, false);
   if (!request.is_object()) return std::nullopt;
@@ -88,7 +88,7 @@ void ViewClients::Do(WebClient& client, const Unsubscribe& message) {
     const auto& ids = message.ids;
     if (std::find(ids.begin(), ids.end(), *subscription) == ids.end()) continue;
     subscription.reset();
-    // Whoever subscribes again has nothing.
+    // A client that subscribes again has nothing.
     viewer.cursor.frame[i] = 0;
     if (i == static_cast<std::size_t>(Stream::kPoints)) viewer.cursor.points = 0;
     if (i == static_cast<std::size_t>(Stream::kLines)) viewer.cursor.lines = 0;
@@ -147,7 +147,7 @@ void ViewClients::Serve(WebClient& client) {
     if (message == nullptr) continue;
     viewer.next = now + kBetweenMessages;
     client.SendBinary(MessageDataHead(*viewer.subscriptions[i], state_.stamp_ns()), message);
-    if (!clients_.contains(&client)) return;  // closed by it
+    if (!clients_.contains(&client)) return;  // sending closed the client
   }
 }
 

@@ -18,24 +18,24 @@
 
 namespace plumbline {
 
-// Who asks, to be named in the answer.
+// Names a client that asks, for the answer.
 struct CallId {
   std::uint64_t client = 0;
   std::uint32_t service = 0, call = 0;
 };
 
-// What clients may ask for besides what they see.
+// What clients may ask for in addition to the streams.
 struct ViewActions {
   std::function<void(bool paused)> pause;
-  std::function<void()> step;  // one frame while paused
+  std::function<void()> step;  // shows one frame while the run is paused
   std::function<void(CallId, const MapQuestion&)> ask;
-  // ServeAll is to be called then.
+  // Asks that ServeAll be called at a time.
   std::function<void(std::chrono::steady_clock::time_point)> wake_at;
 };
 
-// The viewers that are connected, in Foxglove's protocol. Each is sent the next messages when it
-// has taken those before, at most 30 times a second: a slow one gets fewer frames, and never has
-// more than one of each stream on its way. For the thread of the server.
+// The connected viewers, in Foxglove's protocol. Each gets the next messages when it has taken
+// those before, at most 30 times a second. A slow viewer thus gets fewer frames, and never has more
+// than one message of each stream on its way. For the thread of the server.
 class ViewClients {
  public:
   static constexpr auto kBetweenMessages = std::chrono::milliseconds(33);
@@ -47,21 +47,22 @@ class ViewClients {
   void Closed(WebClient& client) { clients_.erase(&client); }
   void Serve(WebClient& client);
   void ServeAll();
-  // To a client that may be gone meanwhile.
+  // Sends an answer to a client, which may be gone meanwhile.
   void Answer(const CallId& id, const std::string& json);
 
-  // Whether anybody wants frames, or the map.
+  // Whether any client wants frames, or the map.
   bool frames_wanted() const;
   bool map_wanted() const;
-  // Whether everybody has been sent everything.
+  // Whether all clients have been sent everything.
   bool all_served() const;
 
  private:
   struct Viewer {
     std::uint64_t number = 0;
-    std::array<std::optional<std::uint32_t>, kStreams> subscriptions;  // by stream
+    // Subscription of each stream.
+    std::array<std::optional<std::uint32_t>, kStreams> subscriptions;
     ViewCursor cursor;
-    std::chrono::steady_clock::time_point next;  // not before
+    std::chrono::steady_clock::time_point next;  // earliest time of the next messages
   };
 
   void Do(WebClient& client, const Subscribe& message);
@@ -73,7 +74,7 @@ class ViewClients {
   ViewState& state_;
   bool can_pause_;
   ViewActions actions_;
-  std::string hello_, channels_, services_;  // what everybody gets first
+  std::string hello_, channels_, services_;  // what every client gets first
   std::map<WebClient*, Viewer> clients_;
   std::uint64_t next_number_ = 1;
 };

@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-// The page that shows a run, one file with its style and scripts in it: view_page.html, view_*.css,
-// view_*.js and what it shares with report.html, made part of the library by CMake.
+// Returns the page that shows a run, one file with its style and scripts in it. CMake makes it part
+// of the library, from view_page.html, view_*.css, view_*.js and what these share with report.html.
 std::shared_ptr<const std::string> ViewPage();
 
 }  // namespace plumbline

@@ -9,14 +9,14 @@
 
 namespace plumbline {
 
-// Writes what viewers are sent into an MCAP file: the same channels, of every frame, with the
+// Writes what viewers are sent into an MCAP file: the same channels, for every frame, with the
 // stamps of the sensor.
 class ViewRecorder {
  public:
-  // InputError where the file cannot be written; so throw all functions.
+  // Begins a file. Throws InputError where it cannot be written, as do all functions.
   explicit ViewRecorder(const std::filesystem::path& path);
 
-  // What is new since the last time. After each frame.
+  // Writes what is new since the last call. To be called after each frame.
   void Record(ViewState& state);
   void Close() { file_.Close(); }
 

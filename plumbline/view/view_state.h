@@ -18,53 +18,55 @@
 
 namespace plumbline {
 
-// What is shown of a run besides its frames.
+// What is shown of a run in addition to its frames.
 struct ViewedRun {
-  std::string name;                            // of the data
-  RectifiedCamera camera;                      // of the left images that are shown
-  std::optional<std::size_t> frames_expected;  // nullopt: nobody knows
+  std::string name;                            // name of the data
+  RectifiedCamera camera;                      // camera of the left images that are shown
+  std::optional<std::size_t> frames_expected;  // nullopt: unknown
   bool can_pause = false;
 };
 
-// How the run goes.
+// The progress of the run.
 struct ViewedCounts {
   std::size_t frames = 0, dropped = 0, lost = 0;
-  double per_second = 0;  // frames, lately
+  double per_second = 0;  // recent number of frames per second
 
   friend bool operator==(const ViewedCounts&, const ViewedCounts&) = default;
 };
 
-// Something that changed the map at large.
+// An event that changed the map at large.
 struct ViewedEvent {
   enum class Kind { kLoop, kJoin, kRelocalization };
   Kind kind = Kind::kLoop;
   FrameId frame;
-  KeyFrameId keyframe, older;  // of a relocalization: keyframe, the one that showed the way
+  // For a relocalization `keyframe` is the one from which the place was found.
+  KeyFrameId keyframe, older;
   int points = 0, lines = 0;
   double moved = 0;
 };
 
-// How much of what there is one receiver has got.
+// How much one receiver has got of what there is.
 struct ViewCursor {
-  std::array<std::uint64_t, kStreams> frame{};   // by stream: serial number
+  std::array<std::uint64_t, kStreams> frame{};   // serial number of the last frame in each stream
   std::uint64_t map = 0, points = 0, lines = 0;  // versions
-  std::int64_t points_at_ns = 0;                 // when it got the points
+  std::int64_t points_at_ns = 0;                 // time at which it got the points
   std::size_t events = 0;
-  std::uint64_t run = 0;  // serial number of what is said of the run
+  std::uint64_t run = 0;  // serial number of what is said about the run
 };
 
 using SharedBytes = std::shared_ptr<const std::string>;
 
-// What there is to be seen of a run now, and the messages that tell it: each is made when somebody
-// asks for it first, and shared by all who ask for the same. For one thread.
+// What can be seen of a run at present, and the messages that tell it. A message is made when it is
+// first asked for, and shared by all who ask for the same. For one thread.
 class ViewState {
  public:
-  static constexpr std::size_t kKeptBytes = std::size_t{64} << 20U;  // of pictures of keyframes
+  // Room for pictures of keyframes.
+  static constexpr std::size_t kKeptBytes = std::size_t{64} << 20U;
   static constexpr std::int64_t kBetweenCloudsNs = 1'000'000'000;
 
   explicit ViewState(ViewedRun run) : run_(std::move(run)) {}
 
-  // Of a frame that has features.
+  // Takes a frame, which must have features.
   void Take(ViewedFrame frame);
   void Take(const ViewedCounts& counts);
   void Take(const MapChanges& changes) { map_.Take(changes); }
@@ -72,18 +74,19 @@ class ViewState {
   void SetPaused(bool paused);
   void SetFinished();
 
-  // The message of the stream that the receiver lacks, which it has from now on; null where there
-  // is nothing new, or not yet. `now_ns`: of any clock that the receiver keeps to.
+  // Returns the message of the stream that the receiver lacks, and counts it as received; null
+  // where there is nothing new, or not yet. `now_ns` may be of any clock that the receiver keeps
+  // to.
   SharedBytes Next(Stream stream, ViewCursor& cursor, std::int64_t now_ns);
 
-  // plumbline.Frame of a keyframe of the map with its image, null where it is not kept: the newest
-  // kKeptBytes of this run are.
+  // Returns plumbline.Frame of a keyframe of the map with its image; null where that is not kept.
+  // The newest kKeptBytes of this run are kept.
   SharedBytes KeyFramePicture(ShownId keyframe) const;
 
   std::int64_t stamp_ns() const { return shown_.stamp_ns(); }
 
  private:
-  // Frame, map, events and run.
+  // Versions of frame, map, events and run.
   using UpdateState = std::tuple<std::uint64_t, std::uint64_t, std::size_t, std::uint64_t>;
 
   SharedBytes NextOfFrame(Stream stream, ViewCursor& cursor);
@@ -98,17 +101,17 @@ class ViewState {
   ViewedRun run_;
   ViewedCounts counts_;
   ViewedFrame shown_;                // the last frame
-  std::optional<std::string> jpeg_;  // of the frame shown
-  std::uint64_t serial_ = 0;         // of the frame shown; 0: none
+  std::optional<std::string> jpeg_;  // JPEG file of the frame shown
+  std::uint64_t serial_ = 0;         // serial number of the frame shown; 0: none
   std::uint64_t run_serial_ = 1;
   bool paused_ = false, finished_ = false;
   ViewedMap map_;
   std::vector<ViewedEvent> events_;
-  std::map<std::uint32_t, SharedBytes> pictures_;  // by number of the frame
+  std::map<std::uint32_t, SharedBytes> pictures_;  // pictures by number of the frame
   std::size_t picture_bytes_ = 0;
-  std::array<SharedBytes, kStreams> made_;  // last, by stream
-  std::uint64_t points_made_ = 0;           // version that they are of
-  // What the receiver had, and had afterwards.
+  std::array<SharedBytes, kStreams> made_;  // last message of each stream
+  std::uint64_t points_made_ = 0;           // version of the points in that message
+  // What the receiver had before and after the message.
   std::pair<std::uint64_t, std::uint64_t> lines_made_;
   std::pair<UpdateState, UpdateState> update_made_;
 };

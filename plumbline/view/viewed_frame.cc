@@ -13,8 +13,10 @@ namespace plumbline {
 namespace {
 
 constexpr int kJpegQuality = 85;
-constexpr std::int32_t kNothing = -1;      // a feature that shows no landmark
-constexpr std::int32_t kNotYetInMap = -2;  // one that mapping has not come to
+// The number for a feature that shows no landmark.
+constexpr std::int32_t kNothing = -1;
+// The number for a landmark that mapping has not made yet.
+constexpr std::int32_t kNotYetInMap = -2;
 
 template <class Tag>
 std::int32_t NumberOf(Id<Tag> id) {

@@ -11,12 +11,12 @@
 
 namespace plumbline {
 
-// A frame as viewers are shown it.
+// A frame as it is shown to viewers.
 struct ViewedFrame {
   FrameRecord record;
   GrayImage image;  // rectified left; may be missing
   std::shared_ptr<const IndexedFeatures> indexed;
-  std::vector<PointId> points;  // what each feature shows, invalid ids for nothing
+  std::vector<PointId> points;  // landmark of each feature, an invalid id for none
   std::vector<LineId> lines;
   Rigid3 world_from_camera;  // rectified left camera, where it was tracked
 
@@ -26,16 +26,17 @@ struct ViewedFrame {
 
 // Copies what is to be shown, mostly the image: 0.1 ms.
 ViewedFrame ViewedFrameOf(const FrameRecord& record, const FrameView& view);
-// A keyframe of a saved map, which has no image.
+// Returns a keyframe of a saved map, which has no image.
 ViewedFrame ViewedFrameOf(const KeyFrame& keyframe);
 
-// The image as a JPEG file, some 2 ms for 752 x 480; empty where there is none.
+// Returns the image as a JPEG file, some 2 ms for 752 x 480; empty where there is no image.
 std::string JpegOf(const GrayImage& image);
 
-// Matched points, other points, matched lines and other lines, in the colours of the report.
+// Returns matched points, other points, matched lines and other lines, in the colours of the
+// report.
 std::array<ImageMarks, 4> MarksOf(const ViewedFrame& frame);
 
-// plumbline.Frame; `jpeg` goes into its field `image` where it is not empty.
+// Returns plumbline.Frame. `jpeg` goes into its field `image` unless it is empty.
 ProtobufWriter FrameMessage(const ViewedFrame& frame, std::string_view jpeg = {});
 
 }  // namespace plumbline

@@ -16,7 +16,7 @@ void Apply(const ShownChanges<T>& changes, std::uint64_t version, VersionedTable
   for (const ShownId id : changes.gone) table.Remove(id, version);
 }
 
-// Ids and numbers of one kind, for packed fields.
+// Ids and numbers of one kind of things, for packed fields.
 struct Columns {
   std::vector<ShownId> ids, gone;
   std::vector<float> numbers;
@@ -132,7 +132,7 @@ ViewedMap::Tiles ViewedMap::TilesSince(std::uint64_t from) const {
 }
 
 ViewedMap::TileKey ViewedMap::KeyOf(const ShownLine& line) const {
-  constexpr float kFarthest = 1e6F;  // tiles; also where a coordinate is no number
+  constexpr float kFarthest = 1e6F;  // in tiles; also used where a coordinate is no number
   TileKey key{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float middle = 0.5F * (line[axis] + line[axis + 3]) / tile_size_;
@@ -162,7 +162,7 @@ void ViewedMap::TakeFromTile(ShownId id) {
   tile_of_.erase(place);
 }
 
-// Cubes of twice the size.
+// Divides space again, into cubes of twice the size.
 void ViewedMap::DivideAnew() {
   tile_size_ *= 2;
   tiles_begin_ = version_;

@@ -16,34 +16,35 @@
 
 namespace plumbline {
 
-// The map as viewers are shown it, in versions: what each of them lacks is what changed after the
+// The map as viewers are shown it, in versions. What a viewer lacks is what changed after the
 // version that it has. For one thread.
 class ViewedMap {
  public:
   void Take(const MapChanges& changes);
 
-  // Grows with every change; 0: there is nothing yet.
+  // Returns a number that grows with every change; 0 before the first.
   std::uint64_t version() const { return version_; }
   MapId id() const { return id_; }
-  // nullptr where there is none.
+  // Returns nullptr where there is no such keyframe.
   const ShownKeyFrame* FindKeyFrame(ShownId id) const { return keyframes_.Find(id); }
 
-  // The field `map` of plumbline.Update for somebody who has version `from`; 0 asks for everything.
-  // from is 0 in the message, too, where what they have is to be forgotten.
+  // Returns the field `map` of plumbline.Update for a receiver that has version `from`; 0 asks for
+  // everything. In the message `from` is 0, too, where the receiver has to forget what it has.
   ProtobufWriter DeltaSince(std::uint64_t from) const;
 
-  // x, y, z of all points.
+  // Returns x, y, z of all points.
   std::vector<float> PointCloud() const;
-  // When the points last changed.
+  // Returns the version of the last change of points.
   std::uint64_t points_version() const { return points_version_; }
 
-  // Lines in cubes of space; the cubes that changed after `from`.
+  // The lines in cubes of space, for the cubes that changed after a version.
   struct Tiles {
-    bool all = false;  // and there are no others
+    // True where these are all cubes, so that others are gone.
+    bool all = false;
     std::vector<LineEntity> entities;
   };
   Tiles TilesSince(std::uint64_t from) const;
-  // When the lines last changed.
+  // Returns the version of the last change of lines.
   std::uint64_t lines_version() const { return lines_version_; }
 
  private:
@@ -63,14 +64,15 @@ class ViewedMap {
 
   MapId id_;
   std::uint64_t version_ = 0;
-  std::uint64_t begins_ = 0;  // with this version: earlier ones were of another map
+  // Version with which this map began; earlier ones were of another map.
+  std::uint64_t begins_ = 0;
   std::uint64_t points_version_ = 0, lines_version_ = 0;
   VersionedTable<ShownPoint> points_;
   VersionedTable<ShownLine> lines_;
   VersionedTable<ShownKeyFrame> keyframes_;
-  std::map<std::pair<ShownId, ShownId>, std::uint64_t> edges_;  // with their versions
+  std::map<std::pair<ShownId, ShownId>, std::uint64_t> edges_;  // version of each edge
   float tile_size_ = 1;
-  std::uint64_t tiles_begin_ = 0;  // with this version
+  std::uint64_t tiles_begin_ = 0;  // version with which the present tiles began
   std::map<TileKey, Tile> tiles_;
   std::map<ShownId, TileKey> tile_of_;
 };

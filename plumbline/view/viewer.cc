@@ -20,7 +20,7 @@ constexpr std::size_t kMostQuestions = 64;
 constexpr auto kLastWait = std::chrono::seconds(1);
 constexpr auto kAskAgain = std::chrono::milliseconds(10);
 
-// Of the calling thread, so that the run goes first where the machine is busy.
+// Lowers the priority of the calling thread, so that the run goes first where the machine is busy.
 void LowerPriority() {
   constexpr int kLow = 10;
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLow);
@@ -34,7 +34,7 @@ ViewedEvent EventOf(const Relocalization& r) {
   return {ViewedEvent::Kind::kRelocalization, r.frame, r.keyframe, {}, r.points, r.lines, 0};
 }
 
-// The number in "/keyframe/12".
+// Returns the number in "/keyframe/12".
 std::optional<ShownId> KeyFrameOf(std::string_view path) {
   constexpr std::string_view kPrefix = "/keyframe/";
   if (!path.starts_with(kPrefix)) return std::nullopt;
@@ -133,7 +133,8 @@ std::optional<WebFile> Viewer::Get(std::string_view path) const {
   return WebFile{"application/x-protobuf", std::move(picture)};
 }
 
-// A run is held back by those who look alone.
+// Notes whether viewers or the recording want frames and the map. A pause ends when no viewer is
+// left, since only viewers can hold a run back.
 void Viewer::NoteWishes() {
   frames_wanted_ = recorder_ != nullptr || clients_.frames_wanted();
   map_wanted_ = recorder_ != nullptr || clients_.map_wanted();
@@ -187,7 +188,8 @@ void Viewer::FailRecording(const std::string& why) {
 }
 
 void Viewer::Count(const FrameRecord& record) {
-  constexpr std::size_t kArrivals = 30;  // frames a second are counted over
+  // Number of frames over which frames per second are counted.
+  constexpr std::size_t kArrivals = 30;
   ++counts_.frames;
   counts_.dropped += record.shed == Shed::kFrame;
   counts_.lost += record.status == FrameStatus::kLost;
@@ -279,7 +281,7 @@ void Viewer::Finish(const Atlas& atlas, const MapEvents& events) {
       LookAtMaps(atlas, events);
     } while (comparison_.HasMore());
   }
-  // A recording is completed however long that takes.
+  // A recording is completed, however long that takes.
   const auto until = Clock::now() + kLastWait;
   const auto served = std::make_shared<std::atomic<bool>>(false);
   server_.Post([this] {

@@ -29,66 +29,70 @@
 namespace plumbline {
 
 struct ViewerOptions {
-  std::optional<WebAccess> access;              // where to listen; nullopt: nowhere
-  std::optional<std::filesystem::path> record;  // MCAP file that the same channels go into
-  bool record_all = false;  // the run waits until a frame can be recorded; else it is left out
+  std::optional<WebAccess> access;  // where to listen; nullopt: nowhere
+  // MCAP file that records the same channels.
+  std::optional<std::filesystem::path> record;
+  // Whether the run waits until a frame can be recorded; otherwise the frame is left out.
+  bool record_all = false;
 };
 
 // Shows a run, or a saved map, in browsers and in programs that know Foxglove's protocol, while it
-// goes on, and records what they would be sent. Everything is encoded and sent in one thread of low
-// priority; the threads of the run hand over copies: of a frame while somebody looks or where it is
-// a keyframe, of what changed in the map while somebody looks. Results do not depend on it.
+// goes on, and records what they would be sent. One thread of low priority encodes and sends
+// everything. The threads of the run hand over copies: of a frame while somebody looks or where it
+// is a keyframe, and of what changed in the map while somebody looks. Results do not depend on it.
 class Viewer {
  public:
-  static constexpr std::size_t kMostFramesWaiting = 8;  // then the oldest goes
-  // The map is looked at so rarely that this takes at most a 20th of the time.
+  static constexpr std::size_t kMostFramesWaiting = 8;  // when more wait, the oldest is left out
+  // The map is looked at so seldom that this takes at most a 20th of the time.
   static constexpr int kRestAfterLook = 20;
 
-  // Listens from now on; InputError where that is not possible, or the file cannot be written.
-  // session: as of MapComparison.
-  // `picture`: plumbline.Frame of keyframes that no frame was shown of, may be empty.
+  // Begins to listen. Throws InputError where that is not possible, or the file cannot be written.
+  // `session` is that of MapComparison. `picture` returns plumbline.Frame of keyframes of which no
+  // frame was shown; it may be empty.
   Viewer(const ViewerOptions& options,
          const ViewedRun& run,
          std::optional<SessionId> session,
          std::function<SharedBytes(ShownId keyframe)> picture = {});
-  // Ends all connections, completes the recording.
+  // Ends all connections and completes the recording.
   ~Viewer();
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  // The address for a browser.
+  // Returns the address for a browser.
   std::string url() const { return server_.url(); }
 
   // --- in the thread that tracks ---
 
-  // After each frame. relocalizations: all so far.
+  // Takes a frame; to be called after each frame. relocalizations: all so far.
   void Show(const FrameRecord& record,
             const FrameView& view,
             std::span<const Relocalization> relocalizations);
-  // Whether LookAtMaps is to be called soon, in the thread that maps; says so once for each call.
-  // new_keyframe: the map has changed, or will.
+  // Returns whether LookAtMaps is to be called soon, in the thread that maps; true only once for
+  // each call of that. new_keyframe: the map has changed, or will.
   bool WantsMaps(bool new_keyframe);
-  // What changed in the map, and answers to questions about it.
+  // Takes over what changed in the map, and answers questions about it.
   void LookAtMaps(const Atlas& atlas, const MapEvents& events);
 
   // --- in the thread that feeds ---
 
-  // Whether the next frame is to wait: somebody paused the run, and asked for no step.
+  // Returns whether the next frame is to wait: somebody paused the run and has not asked for a
+  // step.
   bool HoldsBack();
 
-  // When the run is complete: shows the maps as they are and waits, at most a second, until all who
-  // look have got it. No other function may be called at the same time.
+  // To be called when the run is complete. Shows the maps as they are and waits, at most a second,
+  // until all viewers have got them. No other function may be called at the same time.
   void Finish(const Atlas& atlas, const MapEvents& events);
 
-  // What went wrong in the thread of the viewer, which serves or records nobody any more; once.
+  // Returns what went wrong in the thread of the viewer, which then no longer serves or records;
+  // only once.
   std::optional<std::string> TakeFailure();
-  // Why there is no whole recording; nullopt where there is one, or none was asked for.
+  // Returns why there is no complete recording; nullopt where there is one, or none was asked for.
   std::optional<std::string> RecordingFailure();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  // From the run to the viewer's thread.
+  // What the run hands to the viewer's thread.
   struct Mail {
     ViewedCounts counts;
     std::deque<ViewedFrame> frames;
@@ -102,7 +106,7 @@ class Viewer {
   ViewActions Actions();
   std::optional<WebFile> Get(std::string_view path) const;
   void RunServer();
-  void Wake();  // with the mutex held
+  void Wake();  // to be called with the mutex held
   void Deliver();
   void NoteWishes();
   void Record();
@@ -116,7 +120,7 @@ class Viewer {
   std::function<SharedBytes(ShownId)> picture_;
   ViewClients clients_;
   WebServer server_;
-  std::optional<Clock::time_point> wake_at_;  // that was asked for
+  std::optional<Clock::time_point> wake_at_;  // time at which waking was asked for
   std::atomic<bool> frames_wanted_ = false, map_wanted_ = false, paused_ = false;
   std::atomic<int> steps_ = 0;
 
@@ -128,16 +132,16 @@ class Viewer {
   std::vector<std::pair<CallId, MapQuestion>> questions_;
   std::optional<std::string> failure_, recording_failure_;
   bool broken_ = false;            // the thread has ended
-  std::size_t not_recorded_ = 0;   // frames
+  std::size_t not_recorded_ = 0;   // frames that were not recorded
   bool looking_ = false;           // LookAtMaps is to be called
-  bool map_is_to_be_seen_ = true;  // something of it has not been looked at
+  bool map_is_to_be_seen_ = true;  // a part of the map has not been looked at
   Clock::time_point next_look_;
-  std::size_t loops_ = 0, joins_ = 0, relocalizations_ = 0;  // told
+  std::size_t loops_ = 0, joins_ = 0, relocalizations_ = 0;  // numbers that were told
   ViewedCounts counts_;
-  std::deque<Clock::time_point> arrivals_;  // of the last frames
+  std::deque<Clock::time_point> arrivals_;  // arrival times of the last frames
 
-  MapComparison comparison_;  // of the thread that maps
-  std::jthread thread_;       // last, so that it ends first
+  MapComparison comparison_;  // used by the thread that maps
+  std::jthread thread_;       // declared last, so that it ends before what it uses
 };
 
 }  // namespace plumbline

@@ -27,7 +27,7 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
-// "::1" of "[::1]:8080", "localhost" of "localhost:8080".
+// Returns "::1" for "[::1]:8080", "localhost" for "localhost:8080".
 std::string_view WithoutPort(std::string_view host) {
   if (host.starts_with('[')) {
     const std::size_t end = host.find(']');
@@ -36,7 +36,7 @@ std::string_view WithoutPort(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
-// Four numbers, or what has colons: names have none.
+// Whether the host is an address: four numbers, or a text with colons, which names do not have.
 bool IsAddress(std::string_view host) {
   if (host.find(':') != std::string_view::npos) {
     return std::all_of(host.begin(), host.end(), [](char c) {

@@ -33,7 +33,7 @@ using boost::system::error_code;
 
 constexpr std::size_t kLargestRequest = 8 * 1024;
 constexpr std::size_t kLargestMessage = 64 * 1024;
-// What the system takes of a client that does not read; more would only be late.
+// Bytes that the system takes for a client that does not read; more would only be late.
 constexpr int kSendBuffer = 512 * 1024;
 constexpr auto kRequestTime = std::chrono::seconds(10);
 constexpr auto kSilence = std::chrono::seconds(60);
@@ -44,7 +44,7 @@ using Request = http::request<http::empty_body>;
 
 std::string_view View(boost::string_view text) { return {text.data(), text.size()}; }
 
-// The first of our subprotocols that the client offers; empty: none of them.
+// Returns the first of our subprotocols that the client offers; an empty text where it offers none.
 std::string_view ChooseSubprotocol(std::string_view offered) {
   for (const std::string_view known : kFoxgloveSubprotocols) {
     std::string_view rest = offered;
@@ -82,7 +82,7 @@ struct WebServerCore {
 
   WebAccess access;
   WebEvents events;
-  std::string machine;  // name of this one
+  std::string machine;  // name of this machine
   asio::io_context& io;
   Tcp::acceptor acceptor;
   asio::steady_timer retry;
@@ -93,7 +93,7 @@ struct WebServerCore {
 
 namespace {
 
-// Counts a connection as long as there is one.
+// Counts a connection as long as it exists.
 class Place {
  public:
   explicit Place(std::shared_ptr<WebServerCore> core) : core_(std::move(core)) {
@@ -115,7 +115,7 @@ class Place {
 
 }  // namespace
 
-// Lives as long as a read or a write of it is on its way.
+// A session lives as long as one of its reads or writes is under way.
 class WebSocketSession : public WebClient, public std::enable_shared_from_this<WebSocketSession> {
  public:
   WebSocketSession(Place core, beast::tcp_stream stream)
@@ -218,7 +218,7 @@ class WebSocketSession : public WebClient, public std::enable_shared_from_this<W
   Place core_;
   websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer incoming_;
-  std::deque<Outgoing> queue_;  // the first one is being written
+  std::deque<Outgoing> queue_;  // the first message is being written
   bool open_ = false;
 };
 
@@ -299,7 +299,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 void AcceptNext(const std::shared_ptr<WebServerCore>& core);
 
 void TakeIn(const std::shared_ptr<WebServerCore>& core, Tcp::socket socket) {
-  if (core->connections >= WebServer::kMostConnections) return;  // closes it
+  if (core->connections >= WebServer::kMostConnections) return;  // returning closes the socket
   error_code ignored;
   socket.set_option(Tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
@@ -313,7 +313,7 @@ void AcceptNext(const std::shared_ptr<WebServerCore>& core) {
       TakeIn(core, std::move(socket));
       return AcceptNext(core);
     }
-    // The system is short of something; the next one may be luckier.
+    // The system lacks some resource; the next attempt may succeed.
     core->retry.expires_after(kRetryAccept);
     core->retry.async_wait([core](error_code) {
       if (!core->stopping) AcceptNext(core);
@@ -350,7 +350,7 @@ WebServer::WebServer(const std::optional<WebAccess>& access, WebEvents events)
   }
 }
 
-// What is still open goes with the loop, and nobody is told.
+// Connections that are still open end with the loop, without a call of `closed`.
 WebServer::~WebServer() {
   core_->stopping = true;
   core_->events.closed = [](WebClient&) {};

@@ -20,7 +20,7 @@ struct WebFile {
   std::shared_ptr<const std::string> bytes;
 };
 
-// One WebSocket, while it is open.
+// A WebSocket while it is open.
 class WebClient {
  public:
   WebClient() = default;
@@ -29,37 +29,38 @@ class WebClient {
   virtual ~WebClient() = default;
 
   virtual void SendText(std::string text) = 0;
-  // `body` comes behind `head` in one message, and is not copied.
+  // Sends `head` and `body` in one message; `body` is not copied.
   virtual void SendBinary(std::string head, std::shared_ptr<const std::string> body) = 0;
-  // Messages that are not in the system's hands yet. A client that lets kMostWaiting of them pile
-  // up is closed.
+  // Returns the number of messages that the system has not taken yet. A client that lets
+  // kMostWaiting of them pile up is closed.
   virtual std::size_t waiting() const = 0;
   static constexpr std::size_t kMostWaiting = 64;
 };
 
-// What becomes of what comes in; all calls in the thread of Run().
+// Functions that handle what comes in; all are called in the thread of Run().
 struct WebEvents {
-  // The file at a path ("/"); nullopt: there is none.
+  // Returns the file at a path ("/"); nullopt where there is none.
   std::function<std::optional<WebFile>(std::string_view path)> get;
   std::function<void(WebClient&)> opened;
   std::function<void(WebClient&, std::string_view message, bool binary)> received;
-  std::function<void(WebClient&)> drained;  // nothing is waiting any more
-  std::function<void(WebClient&)> closed;   // the last one of it
+  std::function<void(WebClient&)> drained;  // no message is waiting any more
+  std::function<void(WebClient&)> closed;   // last call for this client
 };
 
 struct WebServerLoop;
 struct WebServerCore;
 
-// A web server for a page, its files and WebSockets of Foxglove's protocol, in one thread. Only GET
-// and HEAD; nobody writes anything. At most kMostConnections at once: more are closed as they come.
-// Whoever is silent for ten seconds before a request, for a minute behind the pings of a WebSocket,
-// or sends what is no request, is closed. Requests are limited to 8 kB, messages to 64 kB.
+// A web server for a page, its files and WebSockets of Foxglove's protocol, in one thread. It
+// answers only GET and HEAD, so that nobody can write anything. At most kMostConnections are open
+// at once; more are closed as they come. Clients are closed that are silent for ten seconds before
+// a request, or for a minute after the pings of a WebSocket, or that send what is no request.
+// Requests are limited to 8 kB, messages to 64 kB.
 class WebServer {
  public:
   static constexpr std::size_t kMostConnections = 64;
 
-  // Listens from now on; without `access` nowhere, and only does what is posted. InputError where
-  // that is not possible: "127.0.0.1:80: ...".
+  // Begins to listen; without `access` it listens nowhere and only does what is posted. Throws
+  // InputError where listening is not possible: "127.0.0.1:80: ...".
   WebServer(const std::optional<WebAccess>& access, WebEvents events);
   ~WebServer();
   WebServer(const WebServer&) = delete;
@@ -68,17 +69,18 @@ class WebServer {
   // Of a server that listens. "http://127.0.0.1:8080/", with the token.
   std::string url() const;
 
-  // Serves until Stop.
+  // Serves until Stop() is called.
   void Run();
-  // From any thread: calls `work` in the thread of Run, soon or at a time.
+  // Calls `work` in the thread of Run, soon or at a time. May be called in any thread.
   void Post(std::function<void()> work);
   void PostAt(std::chrono::steady_clock::time_point time, std::function<void()> work);
-  // From any thread: tells the clients that there will be no more, and ends Run, within a second.
+  // Tells the clients that there will be no more, and ends Run within a second. May be called in
+  // any thread.
   void Stop();
 
  private:
   std::unique_ptr<WebServerLoop> loop_;
-  std::shared_ptr<WebServerCore> core_;  // what is open has a part in it; goes before the loop
+  std::shared_ptr<WebServerCore> core_;  // shared with what is open; released before the loop
 };
 
 }  // namespace plumbline
