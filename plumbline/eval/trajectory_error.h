@@ -92,7 +92,7 @@ struct TrajectoryError {
   std::vector<EvaluatedPose> poses;            // the associated poses, in order of time
   std::vector<RelativeError> relative;         // pairs that span the window, in order of time
   ErrorStatistics ate;                         // distances of positions after alignment, metres
-  std::optional<double> scale_drift;           // with kSim3: see ScaleDrift
+  std::optional<double> scale_drift;           // only for kSim3; see ScaleDrift
   std::optional<ErrorStatistics> rpe;  // metres per second; nullopt: no pair spans the window
   std::optional<ErrorStatistics> roe;  // radians per second
 };

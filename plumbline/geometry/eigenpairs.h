@@ -12,7 +12,7 @@ namespace plumbline {
 template <int N>
 struct Eigenpairs {
   Eigen::Matrix<double, N, 1> values;   // ascending
-  Eigen::Matrix<double, N, N> vectors;  // of unit length, one a column
+  Eigen::Matrix<double, N, N> vectors;  // one in each column, of unit length
 };
 
 // N: 2, 3, 4, 6, 9. A matrix that is not finite has eigenvalues that are not finite.

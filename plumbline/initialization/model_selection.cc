@@ -23,8 +23,8 @@ namespace {
 // Fewest matches of points and lines between the newest frame and the reference, and of points.
 constexpr int kMinMatches = 24;
 constexpr std::size_t kMinPoints = 12;
-constexpr double kMinParallaxDeg = 1.2;   // of the median point of the newest frame
-constexpr double kMinInlierShare = 0.85;  // of the matches of all views
+constexpr double kMinParallaxDeg = 1.2;   // at the median point of the newest frame
+constexpr double kMinInlierShare = 0.85;  // share of the matches of all views
 // A model is chosen only where the chi2 of the next best model is larger by at least this part of
 // the chi2 of the best one.
 constexpr double kMinMargin = 0.5;
@@ -42,7 +42,7 @@ constexpr double kMinNoise = 0.25;
 constexpr double kLeastNoise = 0.4;
 // A model whose cost is this many times that of the best one before adjustment is not adjusted.
 constexpr double kHopeless = 2;
-// With at least so many points lines take no part.
+// Where there are at least this many points, lines take no part.
 constexpr std::size_t kManyPoints = 200;
 // The work for each of several models is done by two threads, since a plane gives two models.
 constexpr int kThreads = 2;

@@ -88,7 +88,7 @@ Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection
 struct RectifiedBy {
   Camera camera;
   Eigen::Quaterniond rotation;  // rectified from raw
-  double shift = 0;             // of the rectified camera along x, metres
+  double shift = 0;             // shift of the rectified camera along x, metres
 };
 
 RectifiedBy ReadRectification(const YamlSection& root, const std::string& side) {

@@ -15,7 +15,7 @@ namespace plumbline {
 struct PoseOnlyOptions {
   // Rounds of solving, each followed by classifying all matches anew.
   int rounds = 4;
-  // So many rounds at the beginning use the Huber loss, the others plain squares.
+  // The first rounds, this many, use the Huber loss, the others plain squares.
   int robust_rounds = 2;
   int max_iterations = 10;  // iterations in a round
   // a round ends when a step would lower the cost by less than this

@@ -501,7 +501,7 @@ void MappingStage::TakeCorrection(std::int64_t frame) {
 std::shared_ptr<const MapSnapshot> MappingStage::TakeSnapshotAround(const Map& map,
                                                                     KeyFrameId centre) {
   constexpr std::size_t kRemembered = 16;
-  // Those of this map: a lost camera may have been found in another one.
+  // The earlier centres of this map; others exist where a lost camera was found in another map.
   std::vector<KeyFrameId> earlier;
   std::copy_if(centres_.begin(), centres_.end(), std::back_inserter(earlier), [&](KeyFrameId id) {
     return map.Knows(id);

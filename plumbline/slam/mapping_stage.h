@@ -297,8 +297,8 @@ class MappingStage {
   MapEvents events_;              // what EventsSoFar() returns
   std::exception_ptr failure_;
   bool stop_ = false;
-  // Not running in inline mode and step by step. Declared last, so that it ends before what it
-  // uses.
+  // The thread does not run in inline mode and step by step. It is declared last, so that it ends
+  // before what it uses.
   std::jthread worker_;
 };
 

@@ -96,8 +96,8 @@ class Pipeline {
   bool busy_ = false;
   bool stop_ = false;
   std::exception_ptr failure_;
-  // Not running in inline mode and step by step. Declared last, so that it ends before what it
-  // uses.
+  // The thread does not run in inline mode and step by step. It is declared last, so that it ends
+  // before what it uses.
   std::jthread worker_;
 };
 

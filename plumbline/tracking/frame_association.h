@@ -45,7 +45,7 @@ struct FrameMatches {
 struct FrameAssociation {
   std::vector<CandidatePoint> points;
   std::vector<CandidateLine> lines;
-  FrameMatches matches;  // with these points and lines
+  FrameMatches matches;  // their indices refer to these points and lines
 
   FrameAssociation() = default;
   // An association without candidates and matches.

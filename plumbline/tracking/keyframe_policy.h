@@ -39,7 +39,7 @@ enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints
 // the last keyframe.
 struct KeyFrameSituation {
   int frames_since_keyframe = 0;
-  // Of `reference_landmarks`, those that the frame shows as well.
+  // Number of the `reference_landmarks` that the frame shows as well.
   int shared_landmarks = 0;
   // Well observed points and lines that the last keyframe shows.
   int reference_landmarks = 0;

@@ -16,7 +16,8 @@ struct PoseEstimate {
   // Information of the inliers and the prior about the left perturbation [rotation, translation].
   Matrix6d information = Matrix6d::Zero();
   double scene_depth = 0;  // median depth of the inliers
-  PoseSigma sigma;  // of inliers and prior together; infinite where these do not fix the pose
+  // Deviation of the pose by inliers and prior together; infinite where these do not fix the pose.
+  PoseSigma sigma;
   int inlier_points = 0;
   int inlier_lines = 0;
   bool converged = false;

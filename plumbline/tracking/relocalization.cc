@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kTried = 6;  // most candidates that are tried
 // Most of the tried candidates that may be close neighbours of each other.
 constexpr int kOfOnePlace = 2;
-// So many keyframes that share most landmarks with another one count as its close neighbours.
+// Number of close neighbours of a keyframe: those that share most landmarks with it.
 constexpr int kCloseNeighbours = 10;
 // Where another place has at least this share of the inliers, neither place is believed.
 constexpr double kRival = 0.7;

@@ -58,7 +58,7 @@ TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int n
 struct NewKeyFrame {
   KeyFrame keyframe;
   TrackingScores scores;
-  RelativePose from_parent = {};  // of use only where there is a parent
+  RelativePose from_parent = {};  // used only where there is a parent
   // The rectified left image, where mapping is to align points in it (PointAligner); else null.
   std::shared_ptr<const GrayImage> image = nullptr;
 };

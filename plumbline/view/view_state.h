@@ -111,7 +111,7 @@ class ViewState {
   std::size_t picture_bytes_ = 0;
   std::array<SharedBytes, kStreams> made_;  // last message of each stream
   std::uint64_t points_made_ = 0;           // version of the points in that message
-  // What the receiver had before and after the message.
+  // What the receiver has before and after the last message of lines, and the last update.
   std::pair<std::uint64_t, std::uint64_t> lines_made_;
   std::pair<UpdateState, UpdateState> update_made_;
 };

@@ -66,7 +66,7 @@ class WebServer {
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
-  // Of a server that listens. "http://127.0.0.1:8080/", with the token.
+  // Returns the address of a server that listens, "http://127.0.0.1:8080/", with the token.
   std::string url() const;
 
   // Serves until Stop() is called.
