@@ -29,8 +29,7 @@ class ByteWriter {
     if constexpr (std::is_same_v<T, double>) {
       bits = std::bit_cast<std::uint64_t>(value);
     } else {
-      // NOLINT(bugprone-signed-char-misuse): only the bytes count
-      bits = static_cast<std::uint64_t>(value);
+      bits = static_cast<std::uint64_t>(value);  // NOLINT(bugprone-signed-char-misuse): bytes alone
     }
     for (std::size_t i = 0; i < sizeof(T); ++i)
       bytes_ += static_cast<char>((bits >> (8 * i)) & 255U);
