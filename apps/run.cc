@@ -301,11 +301,14 @@ void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
 void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
   if (setup.view.record) {
     CheckFileApart("--record", *setup.view.record, inputs);
+    CheckFileApart("--record", McapFileWriter::PartOf(*setup.view.record), inputs);
+    McapFileWriter::CheckPart(*setup.view.record);
     CheckNoResult("--record", *setup.view.record, setup.folder);
     CheckReplaceable(*setup.view.record);
     const std::string beginning = McapFileWriter::Beginning();
     CheckReplacesItsKind("--record", *setup.view.record, {"a recording by plumbline", beginning});
     inputs.push_back({*setup.view.record});
+    inputs.push_back({McapFileWriter::PartOf(*setup.view.record)});
   }
   if (!setup.checkpoint) return;
   CheckNoResult("--checkpoint", *setup.checkpoint, setup.folder);
@@ -316,9 +319,17 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
   CheckReplacesItsKind("--checkpoint", *setup.checkpoint, {"a checkpoint", kCheckpointMagic});
 }
 
+// What a run is told about beside its results, in one line.
+void Say(const std::string& note) {
+  std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
+}
+
 // Before anything is done: that there is somewhere to listen, and to record to.
 void OpenViewer(const CommandLine& line, const RunSetup& setup, System& system, RunFrames& input) {
   if (!setup.view.access && !setup.view.record) return;
+  if (setup.view.record) {
+    if (const auto note = McapFileWriter::SetPartAside(*setup.view.record)) Say(*note);
+  }
   ViewedRun run;
   run.name = input.dataset->info().name.empty() ? WithoutPassword(line.Positional(0))
                                                 : input.dataset->info().name;
@@ -345,13 +356,10 @@ void SayBefore(const Dataset& dataset,
                const RunFolder& folder,
                const std::vector<std::string>& map_notes,
                bool quiet) {
-  const auto say = [](const std::string& note) {
-    std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
-  };
-  for (const std::string& note : folder.notes()) say(note);
-  for (const std::string& note : map_notes) say(note);
+  for (const std::string& note : folder.notes()) Say(note);
+  for (const std::string& note : map_notes) Say(note);
   if (quiet) return;
-  for (const std::string& note : dataset.info().notes) say(note);
+  for (const std::string& note : dataset.info().notes) Say(note);
 }
 
 // What came of a live source, when it is known.

@@ -5,6 +5,7 @@
 #include "plumbline/base/byte_stream.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/base/error.h"
+#include "plumbline/base/input_file.h"
 #include "plumbline/recording/mcap.h"
 
 #include <algorithm>
@@ -15,7 +16,10 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
+#include <unistd.h>
 #include <zstd.h>
 
 namespace plumbline {
@@ -90,16 +94,82 @@ std::string LastReason() {
   return errno == 0 ? std::string("unknown reason") : std::generic_category().message(errno);
 }
 
+// Whether something is at the path, a link that leads nowhere too.
+bool IsTaken(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(std::filesystem::symlink_status(path, error));
+}
+
+// Whether a program that runs has locked the file.
+bool IsBeingWritten(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  (void)::close(descriptor);
+  return held;
+}
+
+// A new file, locked as long as it is open; null and errno where it cannot be made. What came to
+// its place meanwhile is neither followed nor emptied. File systems without locks do without.
+std::FILE* MakeLockedFile(const std::filesystem::path& path) {
+  const int descriptor =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) return nullptr;
+  (void)::flock(descriptor, LOCK_EX | LOCK_NB);
+  std::FILE* file = ::fdopen(descriptor, "wb");
+  if (file == nullptr) (void)::close(descriptor);
+  return file;
+}
+
 }  // namespace
 
 std::string McapFileWriter::Beginning() {
   return std::string(kMagic) + Record(kHeader, Fields().Text("").Text("plumbline"));
 }
 
+std::filesystem::path McapFileWriter::PartOf(const std::filesystem::path& path) {
+  return path.string() + ".part";
+}
+
+void McapFileWriter::CheckPart(const std::filesystem::path& path) {
+  const std::filesystem::path part = PartOf(path);
+  if (!IsTaken(part)) return;
+  std::error_code error;
+  const auto refuse = [&](const std::string& found) {
+    throw InputError(
+        fmt::format("{}: expected nothing, or a recording that was not completed, found {}; move "
+                    "it away or record to another file",
+                    part.string(),
+                    found));
+  };
+  if (std::filesystem::is_symlink(part, error)) refuse("a link");
+  if (!std::filesystem::is_regular_file(part, error)) refuse(KindOf(part));
+  // What was not written on yet when the program died is empty.
+  const bool empty = std::filesystem::file_size(part, error) == 0;
+  if (!empty && !FileBeginsWith(part, Beginning())) refuse("another file");
+  if (IsBeingWritten(part)) throw InputError(part.string() + ": another run is writing this file");
+}
+
+std::optional<std::string> McapFileWriter::SetPartAside(const std::filesystem::path& path) {
+  CheckPart(path);
+  const std::filesystem::path part = PartOf(path);
+  if (!IsTaken(part)) return std::nullopt;
+  int k = 1;
+  const auto kept = [&] { return fmt::format("{}-{}", part.string(), k); };
+  while (IsTaken(kept())) ++k;
+  std::error_code error;
+  std::filesystem::rename(part, kept(), error);
+  if (error) throw InputError("cannot write " + kept() + ": " + error.message());
+  return fmt::format("{}: an earlier run did not complete it; what it had recorded is in {}",
+                     path.string(),
+                     kept());
+}
+
 McapFileWriter::McapFileWriter(std::filesystem::path path)
-    : path_(std::move(path)), part_(path_.string() + ".part") {
+    : path_(std::move(path)), part_(PartOf(path_)) {
+  (void)SetPartAside(path_);
   errno = 0;
-  file_.open(part_, std::ios::binary);
+  file_.reset(MakeLockedFile(part_));
   if (!file_) throw InputError("cannot write " + part_.string() + ": " + LastReason());
   Append(Beginning());
 }
@@ -119,8 +189,9 @@ void McapFileWriter::Fail() const {
 
 void McapFileWriter::Append(const std::string& bytes) {
   errno = 0;
-  file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file_) Fail();
+  // Nothing is written behind what could not be: the file would look whole.
+  const bool broken = std::ferror(file_.get()) != 0;
+  if (broken || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) Fail();
   size_ += bytes.size();
   crc_ = CrcOf(bytes, crc_);
 }
@@ -253,8 +324,8 @@ void McapFileWriter::Close() {
   Append(Fields().Number(crc_).bytes());
   Append(std::string(kMagic));
   errno = 0;
-  file_.close();
-  if (!file_) Fail();
+  if (std::fflush(file_.get()) != 0) Fail();
+  if (std::fclose(file_.release()) != 0) Fail();
   std::error_code error;
   std::filesystem::rename(part_, path_, error);
   errno = error.value();

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,7 +27,7 @@ struct McapChannel {
 // Writes an MCAP file (mcap.dev/spec, version 0): messages in chunks packed by Zstandard, each with
 // an index of its messages, and a summary at the end, all with checksums. The file grows under the
 // name FILE.part, from which `mcap recover` makes a complete one when the program dies. It gets its
-// own name when it is complete.
+// own name when it is complete. One program at a time writes a file: the part is locked.
 class McapFileWriter {
  public:
   static constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
@@ -33,7 +35,20 @@ class McapFileWriter {
   // Returns the beginning of every file: the format's magic, and a header that names this library.
   static std::string Beginning();
 
-  // Begins a file. Throws InputError where it cannot be written, as do all functions.
+  // Where a file grows that is to be at `path`.
+  static std::filesystem::path PartOf(const std::filesystem::path& path);
+
+  // Throws InputError, which says what to do, where something is at the place of the part that no
+  // program left there that died while it wrote such a file: a link, a file of another kind, what
+  // another program is writing. Touches nothing.
+  static void CheckPart(const std::filesystem::path& path);
+
+  // Moves what is at the place of the part to the first of FILE.part-1, FILE.part-2 ... that is
+  // free, and returns a sentence that says so; nullopt: nothing is there. Throws as CheckPart.
+  static std::optional<std::string> SetPartAside(const std::filesystem::path& path);
+
+  // Begins a file, and sets aside a part that is there. Throws InputError where the file cannot be
+  // written, as do all functions.
   explicit McapFileWriter(std::filesystem::path path);
   // Completes the file; a failure is not reported.
   ~McapFileWriter();
@@ -54,6 +69,9 @@ class McapFileWriter {
     std::uint64_t index_size = 0;                    // bytes of the index records behind it
     std::map<std::uint16_t, std::uint64_t> indices;  // offset of the index of each channel
   };
+  struct CloseFile {
+    void operator()(std::FILE* file) const { (void)std::fclose(file); }
+  };
   // Times, and offsets in the chunk.
   using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
@@ -63,7 +81,7 @@ class McapFileWriter {
   void AppendSummary();
 
   std::filesystem::path path_, part_;
-  std::ofstream file_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
   std::uint64_t size_ = 0;
   std::uint32_t crc_ = 0;                  // checksum of all bytes so far, or of the summary
   std::vector<std::string> descriptions_;  // records of schemas and channels

@@ -137,6 +137,33 @@ TEST(View, ARecordingIsInputForTheNextRun) {
   EXPECT_THAT(third.err, HasSubstr("expected another file than one that is read"));
 }
 
+// What a run that was killed had recorded is kept, by the same command too.
+TEST(View, ThePartOfARecordingReplacesNothing) {
+  const ScratchFolder folder;
+  const std::filesystem::path record = folder / "run.mcap", part = folder / "run.mcap.part";
+  const std::string to = " --to 3 --record " + Quoted(record) + " --out " + Quoted(folder / "out");
+  const std::string poster = "run " + Quoted(Posters().sequence) + to;
+  ASSERT_EQ(RunProgram(folder, poster).code, 0);
+  std::filesystem::rename(record, part);
+  const std::string recorded = Contents(part);
+  Outcome outcome = RunProgram(folder, "run " + Quoted(part) + " --format mcap --sensor mono" + to);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("expected another file than one that is read"));
+  EXPECT_TRUE(Contents(part) == recorded);
+  outcome = RunProgram(folder, poster + " --quiet");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err,
+            "plumbline: " + record.string() +
+                ": an earlier run did not complete it; what it had recorded is in " +
+                part.string() + "-1\n");
+  EXPECT_TRUE(Contents(part.string() + "-1") == recorded);
+  folder.Write("run.mcap.part", "mine");
+  outcome = RunProgram(folder, poster);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr(part.string() + ": expected nothing, or a recording"));
+  EXPECT_EQ(Contents(part), "mine");
+}
+
 TEST(View, ASavedMapIsShown) {
   const std::uint16_t port = FreePort();
   const pid_t child =

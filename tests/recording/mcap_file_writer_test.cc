@@ -69,5 +69,61 @@ TEST(McapFileWriter, AFolderThatIsNotThereIsBadInput) {
   EXPECT_THROW(McapFileWriter("/no/such/folder/a.mcap"), InputError);
 }
 
+TEST(McapFileWriter, SetsAsideWhatWasNotCompleted) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "a.mcap";
+  EXPECT_FALSE(McapFileWriter::SetPartAside(path));
+  const std::string left = McapFileWriter::Beginning() + "messages";
+  folder.Write("a.mcap.part", left);
+  folder.Write("a.mcap.part-1", "mine");
+  { const McapFileWriter file(path); }
+  EXPECT_EQ(plumbline::Contents(folder / "a.mcap.part-1"), "mine");
+  EXPECT_EQ(plumbline::Contents(folder / "a.mcap.part-2"), left);
+  EXPECT_TRUE(RowsOf(path).empty());
+  folder.Write("a.mcap.part", "");  // of a program that died at once
+  EXPECT_THAT(McapFileWriter::SetPartAside(path).value_or(""),
+              testing::StartsWith(path.string() + ": an earlier run did not complete it; "));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.mcap.part-3"));
+}
+
+TEST(McapFileWriter, RefusesWhatIsNotItsOwnInThePlaceOfThePart) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "a.mcap", part = folder / "a.mcap.part";
+  const auto refused = [&](const std::string& found) {
+    for (const auto& call : {McapFileWriter::CheckPart,
+                             +[](const std::filesystem::path& at) { McapFileWriter file(at); }}) {
+      EXPECT_THAT(MessageOf([&] { call(path); }),
+                  testing::StartsWith(part.string() +
+                                      ": expected nothing, or a recording that was "
+                                      "not completed, found " +
+                                      found + "; move it"));
+    }
+  };
+  folder.Write("a.mcap.part", "mine");
+  refused("another file");
+  EXPECT_EQ(plumbline::Contents(part), "mine");
+  std::filesystem::remove(part);
+  const auto other = folder.Write("other.mcap", McapFileWriter::Beginning());
+  std::filesystem::create_symlink(other, part);
+  refused("a link");
+  EXPECT_EQ(plumbline::Contents(other), McapFileWriter::Beginning());
+  std::filesystem::remove(part);
+  std::filesystem::create_symlink(folder / "nothing", part);
+  refused("a link");
+  EXPECT_FALSE(std::filesystem::exists(folder / "nothing"));
+  std::filesystem::remove(part);
+  std::filesystem::create_directory(part);
+  refused("a folder");
+}
+
+TEST(McapFileWriter, IsForOneProgramAtATime) {
+  const ScratchFolder folder;
+  McapFileWriter file(folder / "a.mcap");
+  EXPECT_THAT(MessageOf([&] { McapFileWriter::CheckPart(folder / "a.mcap"); }),
+              testing::HasSubstr("another run is writing this file"));
+  file.Close();
+  EXPECT_EQ(MessageOf([&] { McapFileWriter::CheckPart(folder / "a.mcap"); }), "no error");
+}
+
 }  // namespace
 }  // namespace plumbline
