@@ -9,8 +9,9 @@ namespace plumbline {
 
 // Makes the stamps of a source increase. After a clock that is set back, a device that starts anew
 // or a recording that begins again, stamps go on one interval behind the last frame. Later stamps
-// are shifted alike, so that times between them stay as they were. Stamps that increase are not
-// changed.
+// are shifted alike, so that times between them stay as they were, until the source's stamp is later
+// than the last one given: a single stamp that was not set (0) changes no others. Stamps that
+// increase are not changed. No stamp is later than what files may hold (kLatestStampNs).
 class StampContinuity {
  public:
   struct Stamp {
@@ -23,6 +24,11 @@ class StampContinuity {
   Stamp Next(std::int64_t source_ns);
 
  private:
+  // A step ahead may be a clock that was set, which is no interval to go on by.
+  static constexpr std::int64_t kLongestInterval = 1'000'000'000;
+
+  std::int64_t Behind() const;  // the next stamp after the last one
+
   std::optional<std::int64_t> last_source_ns_;
   std::int64_t last_ns_ = 0;
   std::int64_t offset_ns_ = 0;  // what is added to stamps at present

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/live/stamp_continuity.h"
 
+#include <cstdint>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -36,6 +39,37 @@ TEST(StampContinuity, KnowsNoIntervalAfterTheFirstFrame) {
   StampContinuity continuity;
   continuity.Next(1'000'000'000);
   EXPECT_EQ(continuity.Next(5).stamp_ns, 1'033'333'333);
+}
+
+TEST(StampContinuity, ComesBackFromStampsThatWereNotSet) {
+  StampContinuity continuity;
+  constexpr std::int64_t kStart = 1'764'000'000'000'000'000, kStep = 100'000'000;
+  std::vector<std::int64_t> given;
+  for (int i = 0; i < 6; ++i) {
+    const bool set = i < 2 || i % 2 == 1;
+    given.push_back(continuity.Next(set ? kStart + i * kStep : 0).stamp_ns);
+  }
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(given[static_cast<std::size_t>(i)], kStart + i * kStep);
+}
+
+TEST(StampContinuity, GoesOnByASecondAtMost) {
+  StampContinuity continuity;
+  continuity.Next(0);
+  continuity.Next(3'600'000'000'000);
+  EXPECT_EQ(continuity.Next(0).stamp_ns, 3'601'000'000'000);
+}
+
+TEST(StampContinuity, GivesNoStampThatCannotBeWritten) {
+  for (const std::int64_t far : {1'764'000'000'000'000'000, 4'000'000'000'000'000'000}) {
+    StampContinuity continuity;
+    std::int64_t last = -1;
+    for (int i = 0; i < 20; ++i) {
+      const std::int64_t next = continuity.Next(i % 2 == 0 ? 0 : far).stamp_ns;
+      EXPECT_GT(next, last);
+      EXPECT_LE(next, 4'000'000'000'000'000'000 + i);
+      last = next;
+    }
+  }
 }
 
 }  // namespace
