@@ -11,6 +11,7 @@
 #include "plumbline/report/run_manifest.h"
 
 #include "apps/command_line.h"
+#include "apps/command_outputs.h"
 #include "apps/commands.h"
 #include "apps/evaluate_report.h"
 #include "apps/figure_file.h"
@@ -193,8 +194,15 @@ void CheckApartFromEachOther(const CommandLine& line, std::span<const char* cons
   }
 }
 
+// What an output may take the place of.
+FileKind KindOfOutput(std::string_view option, const std::filesystem::path& file) {
+  if (option == "--json") return {"JSON of evaluate", "{\n  \"alignment\": "};
+  if (file.extension() == ".png") return {"a PNG file", "\x89PNG\r\n\x1a\n"};
+  return {"a drawing by plumbline", "<svg "};
+}
+
 // Figures and pictures must not take the place of what they are about, nor of a data set's files or
-// of those of the run.
+// of those of the run, nor of files of another kind.
 void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::path>& read) {
   constexpr std::array kOptions = {"--json", "--plot", "--plot-lines"};
   std::error_code error;
@@ -215,6 +223,7 @@ void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::pa
                        ": expected a file to write, found one that is compared");
     }
     if (run) CheckNoResult(option, *path, *run);
+    CheckReplacesItsKind(option, *path, KindOfOutput(option, *path));
   }
   CheckApartFromEachOther(line, kOptions);
 }

@@ -228,6 +228,28 @@ TEST(Evaluate, WritesOverNothingOfTheRun) {
   testing::internal::GetCapturedStdout();
 }
 
+TEST(Evaluate, ReplacesFilesOfTheirKindOnly) {
+  const ScratchFolder folder;
+  const auto reference = folder.Write("truth.txt", kTum).string();
+  const std::vector<std::pair<std::string, std::string>> outputs = {{"--json", "a.json"},
+                                                                    {"--json", "b.txt"},
+                                                                    {"--plot", "c.svg"},
+                                                                    {"--plot", "d.png"},
+                                                                    {"--plot-lines", "e.svg"}};
+  for (const auto& [option, name] : outputs) {
+    const std::string file = folder.Write(name, "{\"mine\": \"<svg PNG\"}").string();
+    EXPECT_THAT(EvaluateMessage({reference, reference, option, file}),
+                StartsWith(option + " " + file + ": expected "));
+    EXPECT_EQ(Contents(file), "{\"mine\": \"<svg PNG\"}") << file;
+    std::filesystem::remove(file);
+    if (option == "--plot-lines") continue;  // there are no lines
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(EvaluateMessage({reference, reference, option, file}), "no error");
+    EXPECT_EQ(EvaluateMessage({reference, reference, option, file}), "no error");
+    testing::internal::GetCapturedStdout();
+  }
+}
+
 TEST(Evaluate, WritesEachResultIntoAFileOfItsOwn) {
   const ScratchFolder folder;
   const auto reference = folder.Write("truth.txt", kTum).string();
