@@ -76,7 +76,7 @@ class FrameFeed {
     progress_.End();
     NameShortage();
     if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
-    folder_.Keep();
+    if (!system_.frames().empty()) folder_.Keep();
     Report(journal_.Write(folder_));
     SayStopped();
     Keeping([&] { pipeline_.Finish(StepStop()); });

@@ -5,6 +5,7 @@
 #include "tests/io/scratch_folder.h"
 #include "tests/report/poster_run.h"
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <new>
@@ -89,6 +90,21 @@ TEST(ProcessFrames, ThrowsWhenNothingWasDone) {
                     0, [] { throw std::bad_alloc(); }, RunMode::kInline);
               }),
               HasSubstr("out of memory after 0 of 8 frames"));
+}
+
+// As where somebody asks to stop before the first frame.
+TEST(ProcessFrames, LeavesNothingOfARunWithoutFrames) {
+  const ScratchFolder scratch;
+  {
+    RunFolder folder(scratch / "out");
+    System system(MovingPoster::MakeCalibration(), SlamOptions{});
+    RunFrames input;
+    input.dataset = std::make_shared<PosterDataset>(8);
+    KeptViews views(input);
+    const Processed processed = ProcessFrames(input, true, system, folder, views);
+    EXPECT_FALSE(processed.failure);
+  }
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
 }  // namespace run_frames_test
