@@ -213,6 +213,8 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 }
 
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe never ends
   std::array<std::uint8_t, kPngStart> start{};
   std::ifstream file(path, std::ios::binary);
   if (!file.read(reinterpret_cast<char*>(start.data()), start.size())) return std::nullopt;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sys/stat.h>
 
 namespace plumbline {
 namespace {
@@ -150,6 +151,14 @@ TEST(BrightestOf16Bits, IsKnownOfSuchFilesOnly) {
   for (const std::size_t length : {std::size_t{0}, std::size_t{20}, bytes.size() - 20}) {
     EXPECT_EQ(BrightestOf16Bits(folder.Write("cut.png", bytes.substr(0, length))), std::nullopt);
   }
+}
+
+// Opening a pipe waits for somebody who writes.
+TEST(BrightestOf16Bits, DoesNotWaitForAPipe) {
+  const ScratchFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "a.png").c_str(), 0600), 0);
+  EXPECT_EQ(BrightestOf16Bits(folder / "a.png"), std::nullopt);
+  EXPECT_FALSE(ReadGrayImage(folder / "a.png"));
 }
 
 TEST(ReadDepthImage, DividesByTheFactorAndKeepsHoles) {
