@@ -139,14 +139,6 @@ Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
   return *size;
 }
 
-// Whether these are the first bytes of a PNG file with one channel of 16 bits. Its header says both
-// within the first kPngStart bytes; fewer bytes are no such file.
-constexpr std::size_t kBitDepth = 24, kColorType = 25, kPngStart = 26;
-bool IsGreyPngOf16Bits(Bytes bytes) {
-  return bytes.size() >= kPngStart && IsPng(bytes) && bytes[kBitDepth] == 16 &&
-         bytes[kColorType] == 0;
-}
-
 // Returns the upper 8 bits of grey levels of 16 bits.
 GrayImage UpperBytes(const cv::Mat& mat) {
   GrayImage gray(mat.cols, mat.rows);
@@ -215,16 +207,19 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe never ends
-  std::array<std::uint8_t, kPngStart> start{};
+  constexpr std::size_t kHeader = 4096;  // with comments of a PGM file, as a rule
+  std::array<std::uint8_t, kHeader> start{};
   std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(start.data()), start.size())) return std::nullopt;
-  if (!IsGreyPngOf16Bits(start)) return std::nullopt;
+  file.read(reinterpret_cast<char*>(start.data()), start.size());
+  if (!IsGreyOf16Bits(Bytes(start).first(static_cast<std::size_t>(file.gcount())))) {
+    return std::nullopt;
+  }
   const auto bytes = ReadBytes(path);
   return bytes ? BrightestOf16Bits(Bytes(*bytes)) : std::nullopt;
 }
 
 std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes) {
-  if (!IsGreyPngOf16Bits(bytes)) return std::nullopt;
+  if (!IsGreyOf16Bits(bytes)) return std::nullopt;
   const auto mat = DecodeMat({}, bytes, cv::IMREAD_UNCHANGED, std::nullopt);
   if (!mat || mat->type() != CV_16UC1) return std::nullopt;
   int brightest = 0;

@@ -32,8 +32,8 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
                                                 std::optional<ImageSize> wanted = std::nullopt);
 
-// Returns the brightest level of a PNG file with one channel of 16 bits; nullopt for any other
-// file, and where it cannot be decoded.
+// Returns the brightest level of a PNG or PGM file with one channel of 16 bits; nullopt for any
+// other file, and where it cannot be decoded.
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
 // Returns the brightest level of such a PNG file that is given as bytes, as a recording holds it.
 std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes);

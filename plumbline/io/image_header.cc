@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/image_header.h"
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string_view>
@@ -82,14 +83,16 @@ std::optional<ImageSize> SizeOfWebp(const Header& file) {
   return std::nullopt;
 }
 
-// Returns the size of a PNM file: "P5", then width and height, with blanks and comments (from # to
-// the end of the line) between.
-std::optional<ImageSize> SizeOfPnm(const Header& file) {
+// Reads the first `count` numbers of a PNM file: after "P5" come width, height and the greatest
+// level, with blanks and comments (from # to the end of the line) between. Numbers that are not read
+// are 0.
+using PnmNumbers = std::array<std::uint64_t, 3>;
+std::optional<PnmNumbers> NumbersOfPnm(const Header& file, std::size_t count) {
   constexpr std::uint64_t kFar = std::uint64_t{1} << 40;
   std::size_t at = 2;
   const auto is_digit = [&] { return file.Byte(at) >= '0' && file.Byte(at) <= '9'; };
-  std::uint64_t numbers[2] = {};
-  for (std::uint64_t& number : numbers) {
+  PnmNumbers numbers = {};
+  for (std::uint64_t& number : std::span(numbers).first(count)) {
     while (at < file.size() && !is_digit()) {
       if (file.Byte(at) == '#') {
         while (at < file.size() && file.Byte(at) != '\n') ++at;
@@ -103,7 +106,12 @@ std::optional<ImageSize> SizeOfPnm(const Header& file) {
       number = 10 * number + (file.Byte(at) - '0');
     }
   }
-  return Size(numbers[0], numbers[1]);
+  return numbers;
+}
+
+std::optional<ImageSize> SizeOfPnm(const Header& file) {
+  const std::optional<PnmNumbers> numbers = NumbersOfPnm(file, 2);
+  return numbers ? Size((*numbers)[0], (*numbers)[1]) : std::nullopt;
 }
 
 std::optional<ImageSize> SizeOfBmp(const Header& file) {
@@ -147,6 +155,17 @@ std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes) {
   }
   if (file.Byte(0) == 'P' && file.Byte(1) >= '1' && file.Byte(1) <= '6') return SizeOfPnm(file);
   return std::nullopt;
+}
+
+bool IsGreyOf16Bits(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kBitDepth = 24, kColorType = 25;
+  constexpr std::uint64_t kMostOf8Bits = 255, kMost = 65535;
+  const Header file(bytes);
+  if (file.Has(0, "\x89PNG\r\n\x1a\n"))
+    return file.Byte(kBitDepth) == 16 && file.Byte(kColorType) == 0;
+  if (!file.Has(0, "P2") && !file.Has(0, "P5")) return false;
+  const std::optional<PnmNumbers> numbers = NumbersOfPnm(file, 3);
+  return numbers && (*numbers)[2] > kMostOf8Bits && (*numbers)[2] <= kMost;
 }
 
 }  // namespace plumbline

@@ -19,4 +19,8 @@ struct ImageSize {
 // for files of another kind, and where the header is broken or the size is zero.
 std::optional<ImageSize> SizeInHeader(std::span<const std::uint8_t> bytes);
 
+// Whether a PNG file says that its image has one channel of 16 bits, or a PGM file that it has
+// levels beyond 255, which are stored in 16 bits. The first bytes of the file are enough.
+bool IsGreyOf16Bits(std::span<const std::uint8_t> bytes);
+
 }  // namespace plumbline

@@ -153,6 +153,22 @@ TEST(BrightestOf16Bits, IsKnownOfSuchFilesOnly) {
   }
 }
 
+// Levels of a PGM file are not spread over the 16 bits that they are stored in.
+TEST(BrightestOf16Bits, IsThatOfPgmFilesToo) {
+  const ScratchFolder folder;
+  const std::string pixels = std::string("\x0F\xFF\x01\x00\x00\x07\x00\x00", 8);
+  const auto binary = folder.Write("a.pgm", "P5\n# 12 bits\n2 2\n4095\n" + pixels);
+  const auto text = folder.Write("b.pgm", "P2\n2 2\n4095\n4095 256 7 0\n");
+  for (const auto& file : {binary, text}) {
+    EXPECT_EQ(BrightestOf16Bits(file), 4095) << file;
+    const auto gray = ReadGrayImage(file);
+    ASSERT_TRUE(gray) << file;
+    EXPECT_EQ(gray->at(0, 0), 15) << file;
+    EXPECT_EQ(gray->at(1, 0), 1) << file;
+  }
+  EXPECT_EQ(BrightestOf16Bits(folder.Write("c.pgm", "P5 2 2 255\nabcd")), std::nullopt);
+}
+
 // Opening a pipe waits for somebody who writes.
 TEST(BrightestOf16Bits, DoesNotWaitForAPipe) {
   const ScratchFolder folder;

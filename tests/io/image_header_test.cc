@@ -65,6 +65,23 @@ TEST(SizeInHeader, IsNoneWhereThereIsNoHeader) {
   EXPECT_EQ(SizeInHeader(Text("GIF89a")), std::nullopt);
 }
 
+TEST(IsGreyOf16Bits, IsSaidByTheHeader) {
+  Bytes deep, color;
+  ASSERT_TRUE(cv::imencode(".png", cv::Mat(2, 2, CV_16UC1, cv::Scalar(9)), deep));
+  ASSERT_TRUE(cv::imencode(".png", cv::Mat(2, 2, CV_16UC3, cv::Scalar::all(9)), color));
+  EXPECT_TRUE(IsGreyOf16Bits(deep));
+  EXPECT_FALSE(IsGreyOf16Bits(color));
+  EXPECT_FALSE(IsGreyOf16Bits(Encoded(".png", 2, 2)));
+  for (const char* header :
+       {"P5 8 6 256\n", "P2\n# 12 bits\n8 6\n4095\n", "P5\n8 6 # x\n65535\n"}) {
+    EXPECT_TRUE(IsGreyOf16Bits(Text(header))) << header;
+  }
+  for (const char* header :
+       {"P5 8 6 255\n", "P6 8 6 4095\n", "P5 8 6 65536\n", "P5 8 6", "P5", ""}) {
+    EXPECT_FALSE(IsGreyOf16Bits(Text(header))) << header;
+  }
+}
+
 // Whatever is cut off, nothing is read beyond the end, and no other size is made up.
 TEST(SizeInHeader, TakesHeadersThatEndEarly) {
   for (const char* extension : {".png", ".jpg", ".webp", ".bmp", ".tiff"}) {
