@@ -12,6 +12,10 @@
 #include "plumbline/recording/parse_image_message.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +32,32 @@ constexpr std::int64_t kMaxDepthDelayNs = 20'000'000;
 // Units per metre of depth in 16 bits, as ROS has it (REP 118).
 constexpr double kMillimetres = 1000;
 constexpr std::size_t kCompressedDepthHeader = 12;
+
+bool IsInMetres(std::string_view encoding) { return encoding.starts_with("32FC1"); }
+
+// Depth in metres that image_transport's compressedDepth packed: before the image stand, behind 4
+// bytes, the numbers a and b by which a level v is a / (v - b) metres. 0 is no measurement.
+Expected<DepthImage, ImageFailure> DecodeInverseDepth(const fs::path& name,
+                                                      std::span<const std::uint8_t> bytes,
+                                                      std::optional<ImageSize> wanted) {
+  if (bytes.size() < kCompressedDepthHeader) return ImageFailure{name, "the message ends early"};
+  const auto number = [&](std::size_t at) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 4; i-- > 0;) bits = (bits << 8U) | bytes[at + i];
+    return std::bit_cast<float>(bits);
+  };
+  const float a = number(4), b = number(8);
+  auto depth = DecodeDepthImage(name, bytes.subspan(kCompressedDepthHeader), 1, wanted);
+  if (!depth) return depth;
+  for (int y = 0; y < depth->height(); ++y) {
+    float* row = depth->row(y);
+    for (int x = 0; x < depth->width(); ++x) {
+      const float metres = row[x] == 0 ? 0 : a / (row[x] - b);
+      row[x] = std::isfinite(metres) && metres > 0 ? metres : 0;
+    }
+  }
+  return depth;
+}
 
 // The messages of a frame.
 struct FrameMessages {
@@ -110,6 +140,9 @@ class RecordedDataset : public Dataset {
           }
           std::span<const std::uint8_t> bytes = image.data;
           if (image.encoding.find("compressedDepth") != std::string::npos) {
+            if (IsInMetres(image.encoding)) {
+              return DecodeInverseDepth(info().path, bytes, Wanted(size));
+            }
             bytes = bytes.subspan(std::min(bytes.size(), kCompressedDepthHeader));
           }
           return DecodeDepthImage(info().path, bytes, factor, Wanted(size));
@@ -239,7 +272,7 @@ std::vector<SensorKind> Available(const ChosenTopics& chosen) {
 // Sets the depth factor. Depth in metres needs none, whatever the camera file says.
 void SetDepthFactor(const RecordedTopic& depth, DatasetInfo& info) {
   std::optional<double>& factor = info.calibration.depth_factor;
-  if (depth.encoding.starts_with("32FC1")) {
+  if (IsInMetres(depth.encoding)) {
     factor = 1;
   } else if (!factor) {
     factor = kMillimetres;

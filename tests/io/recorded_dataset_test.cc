@@ -203,6 +203,35 @@ TEST(Recordings, FindDepthByItsEncoding) {
   }
 }
 
+// 3000 / (v + 10) metres.
+TEST(Recordings, UnpackDepthInMetres) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/camera/rgb/camera_info", {});
+  cv::Mat levels(6, 8, CV_16UC1, cv::Scalar(1990));
+  levels.at<std::uint16_t>(0, 0) = 0;
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", levels, png);
+  const std::string header = std::string(4, '\0') +
+                             LittleEndian(std::bit_cast<std::uint32_t>(3000.0F), 4) +
+                             LittleEndian(std::bit_cast<std::uint32_t>(-10.0F), 4);
+  for (const int i : {1, 2}) {
+    AddImage(bag, "/camera/rgb/image_color", Gray(i * kSecond, 'a'));
+    TestImage depth{i * kSecond, "32FC1; compressedDepth png", 0, 0, 0, header.substr(0, 11)};
+    if (i == 1) depth.data = header + std::string(png.begin(), png.end());
+    AddPacked(bag, "/camera/depth/image/compressedDepth", depth);
+  }
+  const auto dataset = OpenDataset(Write(folder, bag));
+  ASSERT_EQ(dataset->sensor(), SensorKind::kRgbd);
+  const auto frame = dataset->Read(0);
+  ASSERT_TRUE(frame) << frame.error().why;
+  EXPECT_EQ(frame->depth->at(7, 5), 1.5F);
+  EXPECT_EQ(frame->depth->at(0, 0), 0.0F);
+  const auto cut = dataset->Read(1);
+  ASSERT_FALSE(cut);
+  EXPECT_THAT(cut.error().why, HasSubstr("the message ends early"));
+}
+
 TEST(Recordings, TakeThePictureThatIsNotPacked) {
   const ScratchFolder folder;
   BagWriter bag;
