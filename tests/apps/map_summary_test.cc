@@ -111,6 +111,13 @@ TEST(MapInfo, CountsTheMaps) {
   EXPECT_EQ(maps[1]["id"], 1);
 }
 
+TEST(MapInfo, TakesNamesThatAreNotUtf8) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("m\xFF.plb", "x");
+  const auto json = nlohmann::json::parse(MapInfoJson(file, AtlasOf({Map()})));
+  EXPECT_THAT(json["file"].get<std::string>(), EndsWith("/m\xEF\xBF\xBD.plb"));
+}
+
 TEST(MapInfo, OfAnEmptyMapHasNoTimesAndNoBounds) {
   const ScratchFolder folder;
   const auto file = folder.Write("m.plb", "x");
