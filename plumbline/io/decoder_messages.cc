@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
+#include <streambuf>
 
 #include <opencv2/core/utils/logger.hpp>
 #include <unistd.h>
@@ -20,6 +22,26 @@ ssize_t WriteUnlessDecoding(void*, const char* text, std::size_t size) {
 }
 #endif
 
+// What std::cerr writes through from then on. It holds nothing itself: threads may write at once.
+class CerrUnlessDecoding : public std::streambuf {
+ public:
+  explicit CerrUnlessDecoding(std::streambuf* to) : to_(to) {}
+
+ protected:
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    return open_calls > 0 ? size : to_->sputn(text, size);
+  }
+  int_type overflow(int_type character) override {
+    const bool end = traits_type::eq_int_type(character, traits_type::eof());
+    if (end || open_calls > 0) return traits_type::not_eof(character);
+    return to_->sputc(traits_type::to_char_type(character));
+  }
+  int sync() override { return to_->pubsync(); }
+
+ private:
+  std::streambuf* to_;
+};
+
 }  // namespace
 
 void DropDecoderMessages() {
@@ -30,6 +52,9 @@ void DropDecoderMessages() {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   }
   // NOLINTEND(concurrency-mt-unsafe)
+  // It stays for ever: std::cerr is flushed when the program has ended.
+  static CerrUnlessDecoding* const cerr_buffer = new CerrUnlessDecoding(std::cerr.rdbuf());
+  std::cerr.rdbuf(cerr_buffer);
 #ifdef __GLIBC__
   // `stderr` is a variable in the GNU C library; std::cerr keeps the stream it has.
   std::FILE* const stream =

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/decoder_messages.h"
 
+#include "plumbline/io/image_file.h"
+
+#include "tests/io/scratch_folder.h"
 #include <cstdio>
 #include <iostream>
 #include <thread>
@@ -23,11 +26,24 @@ TEST(DropDecoderMessages, DropsWhatIsSaidWithinADecoderAlone) {
       std::fprintf(stderr, "%s ", "deeper");
     }
     std::fputs("within ", stderr);
-    std::cerr << "ours ";
-    std::thread([] { std::fputs("beside ", stderr); }).join();
+    std::cerr << "within " << 'c' << 1 << std::endl;
+    std::thread([] {
+      std::fputs("beside ", stderr);
+      std::cerr << "it " << 'c' << 1 << ' ';
+    }).join();
   }
   std::fputs("after", stderr);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "before ours beside after");
+  std::cerr << " it";
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "before beside it c1 after it");
+}
+
+// OpenCV says on std::cerr that an image ends early.
+TEST(DropDecoderMessages, DropsWhatOpenCvSaysOfAnImage) {
+  const ScratchFolder folder;
+  DropDecoderMessages();
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(ReadGrayImage(folder.Write("a.pgm", "P5\n64 48\n255\nfew")));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace
