@@ -46,6 +46,14 @@ std::size_t IndexOf(const Dataset& dataset, py::ssize_t i) {
   return static_cast<std::size_t>(i < 0 ? i + size : i);
 }
 
+// nullopt where an image is missing or damaged; of another size it is bad input to the whole run.
+std::optional<PyFrame> ReadIfWhole(const Dataset& dataset, py::ssize_t i) {
+  const std::size_t index = IndexOf(dataset, i);
+  const py::gil_scoped_release release;
+  auto frame = dataset.Read(index);
+  return frame ? std::optional(PyFrame{*frame}) : std::nullopt;
+}
+
 PyFrame Read(const Dataset& dataset, py::ssize_t i) {
   const std::size_t index = IndexOf(dataset, i);
   const py::gil_scoped_release release;
@@ -104,6 +112,10 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
            &Read,
            py::arg("index"),
            "The frame; InputError where an image is missing or damaged, IndexError.")
+      .def("_read",
+           &ReadIfWhole,
+           py::arg("index"),
+           "The frame; None where an image is missing or damaged, IndexError.")
       .def_property_readonly(
           "stamps_ns",
           [](const Dataset& dataset) { return ToArray(dataset.info().stamps_ns); },

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from . import _plumbline
-from ._plumbline import Atlas, Dataset, Frame, FrameResult, InputError, Map, System, Trajectory
+from ._plumbline import Atlas, Dataset, FrameResult, InputError, Map, System, Trajectory
 
 if TYPE_CHECKING:
     from ._plumbline import _TrajectoryErrors  # known to the types alone
@@ -119,11 +119,7 @@ def _feed(system: System, dataset: Dataset, frames: list[int], teller: _Teller) 
     stamps = dataset.stamps_ns
     begin = time.monotonic()
     for index in frames:
-        frame: Frame | None = None
-        try:
-            frame = dataset[index]
-        except InputError:
-            pass  # the record of the frame says that it was skipped
+        frame = dataset._read(index)
         if live:
             _wait_until(begin + 1e-9 * int(stamps[index] - stamps[frames[0]]))
         if frame is None:
