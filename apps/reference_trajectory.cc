@@ -6,6 +6,7 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/euroc_sensor.h"
+#include "plumbline/io/kitti.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/report/run_manifest.h"
 
@@ -29,13 +30,14 @@ fs::path GroundTruthFile(const fs::path& path) {
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
   if (!fs::is_directory(path, error)) return path;
   const fs::path euroc = fs::path("state_groundtruth_estimate0") / "data.csv";
-  for (const fs::path& name :
-       {"mav0" / euroc, euroc, fs::path("groundtruth.txt"), fs::path("poses.txt")}) {
+  for (const fs::path& name : {"mav0" / euroc, euroc, fs::path("groundtruth.txt")}) {
     if (IsFile(path / name)) return path / name;
   }
+  const std::optional<fs::path> kitti = KittiPosesFile(path);
+  if (kitti && IsFile(*kitti)) return *kitti;
   throw InputError(path.string() +
                    ": expected ground truth (mav0/state_groundtruth_estimate0/data.csv, "
-                   "groundtruth.txt or poses.txt), found none");
+                   "groundtruth.txt, poses.txt or KITTI's ../../poses/NUMBER.txt), found none");
 }
 
 std::optional<std::size_t> RowsWithNumbers(const fs::path& path, char separator) {

@@ -182,17 +182,21 @@ fs::path ImageAt(const std::map<std::size_t, fs::path>& images,
 
 std::optional<GroundTruth> ReadGroundTruth(const fs::path& path,
                                            const std::vector<std::int64_t>& stamps_ns) {
-  const std::string sequence = fs::absolute(path / ".").lexically_normal().parent_path().filename();
-  for (const fs::path& file :
-       {path / "poses.txt", path / ".." / ".." / "poses" / (sequence + ".txt")}) {
-    if (PathExists(file)) {
-      return GroundTruth{ReadKittiPoses(file, stamps_ns), GroundTruth::Frame::kCamera, file};
-    }
-  }
-  return std::nullopt;
+  const std::optional<fs::path> file = KittiPosesFile(path);
+  if (!file) return std::nullopt;
+  return GroundTruth{ReadKittiPoses(*file, stamps_ns), GroundTruth::Frame::kCamera, *file};
 }
 
 }  // namespace
+
+std::optional<fs::path> KittiPosesFile(const fs::path& sequence) {
+  const std::string name = fs::absolute(sequence / ".").lexically_normal().parent_path().filename();
+  for (const fs::path& file :
+       {sequence / "poses.txt", sequence / ".." / ".." / "poses" / (name + ".txt")}) {
+    if (PathExists(file)) return file;
+  }
+  return std::nullopt;
+}
 
 std::unique_ptr<Dataset> OpenKitti(const fs::path& path, const DatasetOptions& options) {
   std::vector<SensorKind> available = {SensorKind::kMono};

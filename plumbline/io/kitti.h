@@ -6,11 +6,16 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace plumbline {
 
-// Opens a KITTI odometry sequence (image_0/, image_1/, calib.txt, times.txt; ground truth in
-// poses.txt or, as distributed, in ../../poses/<sequence>.txt). Throws the errors of OpenDataset.
+// Returns the file of the true poses of a sequence: poses.txt in its folder or, as distributed,
+// ../../poses/<sequence>.txt; nullopt where there is neither.
+std::optional<std::filesystem::path> KittiPosesFile(const std::filesystem::path& sequence);
+
+// Opens a KITTI odometry sequence (image_0/, image_1/, calib.txt, times.txt; ground truth as of
+// KittiPosesFile). Throws the errors of OpenDataset.
 std::unique_ptr<Dataset> OpenKitti(const std::filesystem::path& path,
                                    const DatasetOptions& options);
 

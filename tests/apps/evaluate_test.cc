@@ -79,6 +79,24 @@ TEST(Reference, EurocBodyBecomesTheCamera) {
   EXPECT_NEAR(as_is.poses[1].world_from_camera.translation.x(), 1.0, 1e-12);
 }
 
+TEST(Reference, IsFoundWhereKittiIsDistributed) {
+  const ScratchFolder folder;
+  folder.Write("sequences/06/times.txt", "0\n0.1\n0.2\n");
+  const std::string row = "1 0 0 0 0 1 0 0 0 0 1 ";
+  folder.Write("poses/06.txt", row + "0\n" + row + "1\n" + row + "2\n");
+  for (const char* sequence : {"sequences/06", "sequences/06/"}) {
+    const ReferenceTrajectory reference = LoadReference(folder / sequence, std::nullopt);
+    EXPECT_EQ(reference.format, TrajectoryFormat::kKitti);
+    ASSERT_EQ(reference.poses.size(), 3U);
+    EXPECT_EQ(reference.poses[1].stamp_ns, 100'000'000);
+    EXPECT_TRUE(std::filesystem::equivalent(reference.path, folder / "poses/06.txt"));
+  }
+  // Poses in the folder go before.
+  folder.Write("sequences/06/poses.txt", row + "5\n" + row + "6\n" + row + "7\n");
+  const ReferenceTrajectory own = LoadReference(folder / "sequences/06", std::nullopt);
+  EXPECT_EQ(own.poses[0].world_from_camera.translation.z(), 5);
+}
+
 TEST(Reference, SaysWhatIsMissing) {
   const ScratchFolder folder;
   const auto truth = folder.Write("a/b/data.csv", kEurocTruth);

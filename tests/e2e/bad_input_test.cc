@@ -388,7 +388,7 @@ TEST(BadInput, MoreThanOneCommandKnows) {
                 "another time");
   ExpectRefused(RunProgram(folder, "evaluate " + Quoted(folder / "nothing") + " " + Quoted(late)),
                 "nothing: expected ground truth (mav0/state_groundtruth_estimate0/data.csv, "
-                "groundtruth.txt or poses.txt), found none",
+                "groundtruth.txt, poses.txt or KITTI's ../../poses/NUMBER.txt), found none",
                 "no ground truth");
   ExpectRefused(RunProgram(folder, "evaluate " + Quoted(sequence)), "expected ESTIMATE", "one");
   ExpectRefused(RunProgram(folder, "info " + Quoted(folder / "nothing")),
