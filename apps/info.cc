@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/dataset.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -116,14 +118,25 @@ void PrintGroundTruth(const DatasetInfo& info) {
                   truth.path.string()));
 }
 
+// Why a frame cannot be used; nullopt: it can. An image of another size, which ends a run, is one
+// of those here.
+std::optional<std::string> FaultOf(const Dataset& dataset, std::size_t i) {
+  try {
+    const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
+    if (frame) return std::nullopt;
+    return frame.error().path.string() + ": " + frame.error().why;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 void CheckImages(const Dataset& dataset) {
   std::size_t bad = 0;
   for (std::size_t i = 0; i < dataset.size(); ++i) {
-    const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
-    if (frame) continue;
+    const std::optional<std::string> fault = FaultOf(dataset, i);
+    if (!fault) continue;
     ++bad;
-    Row("bad image",
-        fmt::format("frame {}: {}: {}", i, frame.error().path.string(), frame.error().why));
+    Row("bad image", fmt::format("frame {}: {}", i, *fault));
   }
   Row("checked", fmt::format("{} of {} frames can be used", dataset.size() - bad, dataset.size()));
 }

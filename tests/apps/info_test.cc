@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/commands.h"
+#include "tests/io/scratch_folder.h"
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace info_test {
+
+using testing::HasSubstr;
+
+// What `info` prints, which is not to fail.
+std::string Info(const std::vector<std::string>& arguments) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(MessageOf([&] { EXPECT_EQ(InfoCommand(arguments), 0); }), "no error");
+  return testing::internal::GetCapturedStdout();
+}
+
+TEST(Info, ChecksAllImages) {
+  const ScratchFolder folder;
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+  const std::string good = "P5\n8 6\n255\n" + std::string(48, 'a');
+  folder.Write("0.pgm", good);
+  folder.Write("1.pgm", "P5\n4 3\n255\n" + std::string(12, 'a'));
+  folder.Write("2.pgm", "not an image");
+  folder.Write("3.pgm", good);
+  const std::string out = Info({folder.path().string(), "--check"});
+  EXPECT_THAT(out,
+              HasSubstr("bad image     frame 1: " + (folder / "1.pgm").string() +
+                        ": expected an image of 8x6 pixels as in the calibration, found 4x3\n"));
+  EXPECT_THAT(out, HasSubstr("bad image     frame 2: " + (folder / "2.pgm").string()));
+  EXPECT_THAT(out, HasSubstr("checked       2 of 4 frames can be used\n"));
+}
+
+}  // namespace info_test
+}  // namespace plumbline
