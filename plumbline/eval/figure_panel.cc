@@ -32,9 +32,10 @@ void DrawPanel(const FigurePanel& panel, Figure& figure) {
   for (int axis = 0; axis < 2; ++axis) {
     const double low = panel.range.min()(axis), high = panel.range.max()(axis);
     const double step = GridStep(high - low, axis == 0 ? 8 : 5);
-    const auto first = static_cast<int>(std::ceil(low / step - 1e-9));
-    const auto last = static_cast<int>(std::floor(high / step + 1e-9));
-    for (int i = first; i <= last; ++i) {
+    // Few lines, of numbers that are large where a small range is far from 0.
+    const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+    for (int k = 0; k <= last - first; ++k) {
+      const double i = first + k;
       Vector2d from = panel.range.min(), to = panel.range.max();
       from(axis) = to(axis) = i * step;
       const Vector2d a = panel.ToPixel(from), b = panel.ToPixel(to);
