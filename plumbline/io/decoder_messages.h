@@ -9,10 +9,10 @@ namespace plumbline {
 // message of the program, which says what matters.
 //
 // For programs, to be called before there are threads. From then on, what is written to `stderr`
-// and std::cerr while a DecoderCall of its thread lives is dropped, and the logs of OpenCV and FFmpeg are off
-// unless the environment asks for them (OPENCV_LOG_LEVEL, OPENCV_FFMPEG_LOGLEVEL). Everything else
-// that is written there, such as a failed assertion, goes where it went before. A library
-// must not decide this for a process, so that without this call nothing is dropped.
+// and std::cerr while a DecoderCall of its thread lives is dropped, and the logs of OpenCV and
+// FFmpeg are off unless the environment asks for them (OPENCV_LOG_LEVEL, OPENCV_FFMPEG_LOGLEVEL).
+// Everything else that is written there, such as a failed assertion, goes where it went before. A
+// library must not decide this for a process, so that without this call nothing is dropped.
 void DropDecoderMessages();
 
 // While it lives, this thread is inside a decoder.

@@ -84,8 +84,8 @@ std::optional<ImageSize> SizeOfWebp(const Header& file) {
 }
 
 // Reads the first `count` numbers of a PNM file: after "P5" come width, height and the greatest
-// level, with blanks and comments (from # to the end of the line) between. Numbers that are not read
-// are 0.
+// level, with blanks and comments (from # to the end of the line) between. Numbers that are not
+// read are 0.
 using PnmNumbers = std::array<std::uint64_t, 3>;
 std::optional<PnmNumbers> NumbersOfPnm(const Header& file, std::size_t count) {
   constexpr std::uint64_t kFar = std::uint64_t{1} << 40;

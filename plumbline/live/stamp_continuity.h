@@ -9,8 +9,8 @@ namespace plumbline {
 
 // Makes the stamps of a source increase. After a clock that is set back, a device that starts anew
 // or a recording that begins again, stamps go on one interval behind the last frame. Later stamps
-// are shifted alike, so that times between them stay as they were, until the source's stamp is later
-// than the last one given: a single stamp that was not set (0) changes no others. Stamps that
+// are shifted alike, so that times between them stay as they were, until the source's stamp is
+// later than the last one given: a single stamp that was not set (0) changes no others. Stamps that
 // increase are not changed. No stamp is later than what files may hold (kLatestStampNs).
 class StampContinuity {
  public:
