@@ -31,6 +31,21 @@ void CheckOptions(const SlamOptions& options) {
         "features.points, features.lines: expected at least one of them, found both off (or a "
         "count of 0)");
   }
+  if (f.depth.min_depth_m >= f.depth.max_depth_m) {
+    throw InputError(
+        fmt::format("features.depth.min_depth_m: expected less than features.depth.max_depth_m, "
+                    "{:g}, found {:g}",
+                    f.depth.max_depth_m,
+                    f.depth.min_depth_m));
+  }
+  const KeyFramePolicyOptions& keyframes = options.tracking.keyframes;
+  if (keyframes.min_frames > keyframes.max_frames) {
+    throw InputError(fmt::format(
+        "tracking.keyframes.min_frames: expected at most tracking.keyframes.max_frames, "
+        "{}, found {}",
+        keyframes.max_frames,
+        keyframes.min_frames));
+  }
   const LineOptions& lines = options.lines;
   CheckLineMethod("parametrization", lines.parametrization, lines.method.parametrization);
   CheckLineMethod("residual", lines.residual, lines.method.residual);

@@ -59,6 +59,30 @@ TEST(CheckOptions, HoldsNumbersToTheirBounds) {
   EXPECT_TRUE(IsRefused(options));
 }
 
+TEST(CheckOptions, WantsTheLeastBelowTheGreatest) {
+  const auto message = [](const SlamOptions& options) -> std::string {
+    try {
+      CheckOptions(options);
+      return "no error";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  SlamOptions options;
+  options.features.depth.min_depth_m = options.features.depth.max_depth_m = 4;
+  EXPECT_EQ(
+      message(options),
+      "features.depth.min_depth_m: expected less than features.depth.max_depth_m, 4, found 4");
+  options.features.depth.max_depth_m = 4.5;
+  EXPECT_EQ(message(options), "no error");
+  options.tracking.keyframes.min_frames = 21;
+  EXPECT_EQ(message(options),
+            "tracking.keyframes.min_frames: expected at most tracking.keyframes.max_frames, 20, "
+            "found 21");
+  options.tracking.keyframes.max_frames = 21;
+  EXPECT_EQ(message(options), "no error");
+}
+
 // Kinds of lines to compare with are options in every build, so that files which name them can be
 // read, but a run that is to use one needs the build that has it.
 TEST(CheckOptions, NamesTheBuildThatHasAKindOfLine) {
