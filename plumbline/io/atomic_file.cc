@@ -4,11 +4,13 @@
 
 #include "plumbline/base/input_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -108,10 +110,11 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path) : path_(path.lexic
       throw InputError(path.string() + ": expected a new or empty folder, found " +
                        (folder ? "files in it" : "a file of this name"));
     }
+    is_there_ = true;
   }
-  if (path_.has_parent_path()) MakeFolder(path_.parent_path());
-  temporary_ =
-      path_.parent_path() / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
+  if (!is_there_ && path_.has_parent_path()) MakeFolder(path_.parent_path());
+  const std::filesystem::path above = is_there_ ? path_ : path_.parent_path();
+  temporary_ = above / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
   MakeFolder(temporary_);
 }
 
@@ -122,9 +125,31 @@ AtomicFolder::~AtomicFolder() {
 
 void AtomicFolder::Commit() {
   std::error_code error;
-  std::filesystem::rename(temporary_, path_, error);
+  if (is_there_) {
+    MoveUp();
+    std::filesystem::remove(temporary_, error);
+  } else {
+    std::filesystem::rename(temporary_, path_, error);
+  }
   if (error) FailWrite(path_, error);
   committed_ = true;
+}
+
+void AtomicFolder::MoveUp() const {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(path_, error)) {
+    if (entry.path().filename() == temporary_.filename()) continue;
+    FailWrite(path_, std::make_error_code(std::errc::directory_not_empty));
+  }
+  std::vector<std::filesystem::path> names;
+  for (const auto& entry : std::filesystem::directory_iterator(temporary_, error)) {
+    names.push_back(entry.path().filename());
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::filesystem::path& name : names) {
+    if (!error) std::filesystem::rename(temporary_ / name, path_ / name, error);
+  }
+  if (error) FailWrite(path_, error);
 }
 
 void MakeFolder(const std::filesystem::path& path) {

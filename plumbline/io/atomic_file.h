@@ -69,6 +69,8 @@ class AtomicFile {
 // A folder that appears whole or not at all: construct, let files be written below
 // temporary_path(), which is beside the final place, then Commit(). Without Commit everything is
 // removed.
+// A folder that is there stays the same one, since a shell may be in it or a disk be mounted
+// there: temporary_path() is in it then, and Commit() moves the files up one after the other.
 class AtomicFolder {
  public:
   // Makes the folders above it. Throws InputError where something other than an empty folder is at
@@ -79,11 +81,15 @@ class AtomicFolder {
   ~AtomicFolder();
 
   const std::filesystem::path& temporary_path() const { return temporary_; }
-  void Commit();  // throws InputError where the folder cannot take its name
+  // Throws InputError where the folder cannot take its name, or got other files meanwhile.
+  void Commit();
 
  private:
+  void MoveUp() const;
+
   std::filesystem::path path_;
   std::filesystem::path temporary_;
+  bool is_there_ = false;  // empty
   bool committed_ = false;
 };
 

@@ -100,6 +100,33 @@ TEST(AtomicFolder, TakesThePlaceOfAnEmptyFolderOnly) {
   EXPECT_EQ(FileCount(folder.path()), 1);
 }
 
+// Another folder of this name would leave whoever is in it in one that is gone.
+TEST(AtomicFolder, FillsAFolderThatIsThere) {
+  const ScratchFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  for (const bool commit : {false, true}) {
+    AtomicFolder made(".");
+    MakeFolder(made.temporary_path() / "images");
+    WriteFileAtomically(made.temporary_path() / "images/x.txt", "x");
+    WriteFileAtomically(made.temporary_path() / "y.txt", "y");
+    if (commit) made.Commit();
+    EXPECT_EQ(std::filesystem::exists("y.txt"), commit);
+  }
+  std::filesystem::current_path(before);
+  EXPECT_EQ(Contents(folder / "images/x.txt"), "x");
+  EXPECT_EQ(FileCount(folder.path()), 2);
+}
+
+TEST(AtomicFolder, ReplacesNothingThatCameMeanwhile) {
+  const ScratchFolder folder;
+  AtomicFolder made(folder.path());
+  WriteFileAtomically(made.temporary_path() / "x.txt", "x");
+  folder.Write("x.txt", "mine");
+  EXPECT_THAT(MessageOf([&] { made.Commit(); }), HasSubstr("Directory not empty"));
+  EXPECT_EQ(Contents(folder / "x.txt"), "mine");
+}
+
 TEST(MakeFolder, MakesThoseAboveAndRefusesFiles) {
   const ScratchFolder folder;
   MakeFolder(folder / "a/b/c");
