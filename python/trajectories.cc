@@ -136,9 +136,11 @@ py::dict Compare(const PoseList& reference,
   TrajectoryErrorOptions options;
   options.alignment = ParseChoice<TrajectoryAlignment>("alignment", alignment);
   options.association = ParseChoice<TrajectoryAssociation>("association", association);
+  constexpr double kShortest = 1e-6, kLongest = 1e6;  // as of `evaluate --delta`
   for (const auto& [name, seconds] : {std::pair{"window_s", window_s}, {"max_gap_s", max_gap_s}}) {
-    if (seconds > 0 && seconds < 1e6) continue;
-    throw InputError(fmt::format("{}: expected seconds greater than 0, found {}", name, seconds));
+    if (seconds >= kShortest && seconds <= kLongest) continue;
+    throw InputError(fmt::format(
+        "{}: expected seconds from {:g} to {:g}, found {:g}", name, kShortest, kLongest, seconds));
   }
   options.window.duration_ns = static_cast<std::int64_t>(std::llround(1e9 * window_s));
   options.max_gap_ns = static_cast<std::int64_t>(std::llround(1e9 * max_gap_s));

@@ -226,6 +226,10 @@ CASES = {
                           "alignment: expected none, se3 or sim3, found affine"),
     "window of no length": (lambda: plumbline.compare_trajectories(TRAJECTORY, TRAJECTORY,
                                                                    window_s=0), "window_s"),
+    "window below a nanosecond": (lambda: plumbline.compare_trajectories(
+        TRAJECTORY, TRAJECTORY, window_s=1e-10), "window_s: expected seconds from 1e-06 to"),
+    "gap below a nanosecond": (lambda: plumbline.compare_trajectories(
+        TRAJECTORY, TRAJECTORY, max_gap_s=1e-10), "max_gap_s: expected seconds from 1e-06"),
     "trajectories of other times": (lambda: plumbline.compare_trajectories(
         TRAJECTORY, trajectory(stamps=[10**15, 2 * 10**15])), "within the time of the reference"),
     "points on a line": (lambda: plumbline.align_points(np.outer(range(4), [1, 0, 0]),
