@@ -10,7 +10,8 @@ namespace plumbline {
 // Reads a camchain.yaml as the calibration tool Kalibr writes it: cam0 becomes the left camera,
 // cam1, where there is one, the right camera with right_from_left = T_cn_cnm1. Further cameras, the
 // place of an inertial sensor (T_cam_imu), time shifts and topics do not matter here. Models:
-// pinhole with radtan, equidistant or no distortion. Throws InputError naming the key for others.
+// pinhole with radtan, equidistant or no distortion. rate_hz and depth_factor, which Kalibr does
+// not write, may be added at the top or to cam0. Throws InputError naming the key for others.
 Calibration ReadKalibr(const YamlSection& root);
 
 }  // namespace plumbline

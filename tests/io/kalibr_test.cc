@@ -52,6 +52,29 @@ TEST(ReadKalibr, TheSecondCameraStandsWhereItsMotionSays) {
   EXPECT_LT((in_right - Eigen::Vector3d(0.9, -2.98, 2.03)).norm(), 1e-12);
 }
 
+// Folders of images have no times, and depth images no unit.
+TEST(ReadKalibr, RateAndDepthFactorMayBeAdded) {
+  const std::string added = "  rate_hz: 20\n  depth_factor: 5000\n";
+  for (const std::string& text :
+       {CameraText("cam0", added), CameraText("cam0", "") + "rate_hz: 20\ndepth_factor: 5000\n"}) {
+    const Calibration c = ParseCamera(text, "camchain.yaml");
+    EXPECT_EQ(c.rate_hz, 20);
+    EXPECT_EQ(c.depth_factor, 5000);
+  }
+  const auto message = [](const std::string& text) {
+    return MessageOf([&] { ParseCamera(text, "camchain.yaml"); });
+  };
+  EXPECT_EQ(message(CameraText("cam0", added) + "rate_hz: 20\n"),
+            "camchain.yaml:10: rate_hz: expected it here or in cam0, found both");
+  EXPECT_THAT(message(CameraText("cam0", "  rate_hz: 0\n")),
+              HasSubstr("camchain.yaml:8: cam0.rate_hz: expected "));
+  EXPECT_THAT(message(CameraText("cam0", "  rate_hz: 1000000\n")),
+              HasSubstr("camchain.yaml:8: cam0.rate_hz: expected "));
+  EXPECT_THAT(message(CameraText("cam0", "") + "depth_factor: 1.0e-9\n"),
+              HasSubstr("camchain.yaml:8: depth_factor: expected "));
+  EXPECT_FALSE(ParseCamera(CameraText("cam0", ""), "camchain.yaml").rate_hz);
+}
+
 TEST(ReadKalibr, BadFilesAreNamedByLineAndKey) {
   const auto message = [](const std::string& from, const std::string& to) {
     std::string text = kPair;
