@@ -175,6 +175,12 @@ McapFileWriter::McapFileWriter(std::filesystem::path path)
 }
 
 McapFileWriter::~McapFileWriter() {
+  const bool empty = std::all_of(counts_.begin(), counts_.end(), [](auto n) { return n == 0; });
+  if (empty && !closed_) {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+    return;
+  }
   try {
     Close();
   } catch (const std::exception&) {

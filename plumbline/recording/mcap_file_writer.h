@@ -50,7 +50,8 @@ class McapFileWriter {
   // Begins a file, and sets aside a part that is there. Throws InputError where the file cannot be
   // written, as do all functions.
   explicit McapFileWriter(std::filesystem::path path);
-  // Completes the file; a failure is not reported.
+  // Completes the file, and says nothing where that fails. A file without messages is removed: it
+  // would take the place of an earlier one when a program fails before there is anything to write.
   ~McapFileWriter();
   McapFileWriter(const McapFileWriter&) = delete;
   McapFileWriter& operator=(const McapFileWriter&) = delete;

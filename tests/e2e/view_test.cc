@@ -157,6 +157,12 @@ TEST(View, ThePartOfARecordingReplacesNothing) {
                 ": an earlier run did not complete it; what it had recorded is in " +
                 part.string() + "-1\n");
   EXPECT_TRUE(Contents(part.string() + "-1") == recorded);
+  // One that cannot listen has nothing to record.
+  const std::string complete = Contents(record);
+  outcome = RunProgram(folder, poster + " --view 192.0.2.1:80");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(Contents(record) == complete);
+  EXPECT_FALSE(std::filesystem::exists(part));
   folder.Write("run.mcap.part", "mine");
   outcome = RunProgram(folder, poster);
   EXPECT_EQ(outcome.code, 2);

@@ -53,7 +53,7 @@ TEST(McapFileWriter, WhatIsWrittenIsRead) {
 
 TEST(McapFileWriter, FilesBeginAlike) {
   const ScratchFolder folder;
-  { McapFileWriter file(folder / "a.mcap"); }
+  McapFileWriter(folder / "a.mcap").Close();
   EXPECT_THAT(plumbline::Contents(folder / "a.mcap"),
               testing::StartsWith(McapFileWriter::Beginning()));
   EXPECT_THAT(McapFileWriter::Beginning(), testing::HasSubstr("plumbline"));
@@ -61,8 +61,19 @@ TEST(McapFileWriter, FilesBeginAlike) {
 
 TEST(McapFileWriter, AFileWithoutMessagesIsOne) {
   const ScratchFolder folder;
-  McapFileWriter(folder / "a.mcap").AddChannel({"/a", "protobuf", "x.Y", "protobuf", ""});
+  McapFileWriter file(folder / "a.mcap");
+  file.AddChannel({"/a", "protobuf", "x.Y", "protobuf", ""});
+  file.Close();
   EXPECT_TRUE(RowsOf(folder / "a.mcap").empty());
+}
+
+TEST(McapFileWriter, ReplacesNothingWhereNothingWasWritten) {
+  const ScratchFolder folder;
+  const std::string earlier = McapFileWriter::Beginning() + "earlier";
+  folder.Write("a.mcap", earlier);
+  McapFileWriter(folder / "a.mcap").AddChannel({"/a", "protobuf", "x.Y", "protobuf", ""});
+  EXPECT_EQ(plumbline::Contents(folder / "a.mcap"), earlier);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.mcap.part"));
 }
 
 TEST(McapFileWriter, AFolderThatIsNotThereIsBadInput) {
@@ -76,7 +87,7 @@ TEST(McapFileWriter, SetsAsideWhatWasNotCompleted) {
   const std::string left = McapFileWriter::Beginning() + "messages";
   folder.Write("a.mcap.part", left);
   folder.Write("a.mcap.part-1", "mine");
-  { const McapFileWriter file(path); }
+  McapFileWriter(path).Close();
   EXPECT_EQ(plumbline::Contents(folder / "a.mcap.part-1"), "mine");
   EXPECT_EQ(plumbline::Contents(folder / "a.mcap.part-2"), left);
   EXPECT_TRUE(RowsOf(path).empty());
