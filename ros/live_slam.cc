@@ -13,7 +13,6 @@
 
 #include "apps/command_line.h"
 #include "sensor_messages.h"
-#include <future>
 #include <map>
 #include <mutex>
 
@@ -215,11 +214,8 @@ void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
 
 std::string LiveSlam::Implementation::Save(const std::string& path) {
   if (!HasFrames()) throw InputError(path + ": expected frames before a map is saved, found none");
-  std::promise<SavedAtlas> promise;
   session_->pipeline().Drain();
-  session_->system().CopyMaps(
-      [&promise](SavedAtlas saved) { promise.set_value(std::move(saved)); });
-  const SavedAtlas saved = promise.get_future().get();
+  const SavedAtlas saved = session_->system().Save().maps;
   SaveAtlas(path, saved.atlas, saved.context);
   const Map* map = saved.atlas.Find(saved.atlas.active_id());
   return fmt::format("{}: {} keyframes, {} points, {} lines",

@@ -13,17 +13,21 @@ const BasePose& OdometryFrame::Next(std::int64_t stamp_ns,
   pose.map_from_base = map_from_base;
   pose.odom_from_base = map_from_base;
   if (last_) {
+    // Stamps of a bag that is played anew go back; a device may repeat one.
     const double seconds = 1e-9 * static_cast<double>(stamp_ns - last_stamp_ns_);
+    const bool later = seconds > 0;
     Vector6d motion = Vector6d::Zero();  // of the base in its frame before: [rotation, translation]
     if (map == last_map_ && !corrected && !correcting_) {
       motion = LogSe3(Inverse(last_->map_from_base) * map_from_base);
-    } else if (seconds <= kLongest) {
+    } else if (later && seconds <= kLongest) {
       motion << seconds * last_->angular, seconds * last_->linear;
     }
     pose.odom_from_base = last_->odom_from_base * ExpSe3(motion);
     pose.odom_from_base.rotation.normalize();
-    pose.angular = motion.head<3>() / seconds;
-    pose.linear = motion.tail<3>() / seconds;
+    if (later) {
+      pose.angular = motion.head<3>() / seconds;
+      pose.linear = motion.tail<3>() / seconds;
+    }
   }
   last_ = pose;
   last_stamp_ns_ = stamp_ns;

@@ -57,6 +57,17 @@ TEST(OdometryFrame, GoesOnInAnotherMap) {
   }
 }
 
+TEST(OdometryFrame, StaysWhereItIsWhenStampsGoBackOrRepeat) {
+  for (const std::int64_t stamp : {std::int64_t{0}, 4 * kInterval}) {
+    OdometryFrame odometry;
+    for (int i = 0; i < 5; ++i) odometry.Next(kInterval * i, 0, OnTheCurve(i), false);
+    const BasePose& pose = odometry.Next(stamp, 0, OnTheCurve(0), true);
+    EXPECT_LT(Distance(pose.odom_from_base, OnTheCurve(4)), 1e-12) << stamp;
+    EXPECT_EQ(pose.linear.norm(), 0) << stamp;
+    EXPECT_EQ(pose.angular.norm(), 0) << stamp;
+  }
+}
+
 TEST(OdometryFrame, StandsStillWhereNothingIsKnownForLong) {
   OdometryFrame odometry;
   for (int i = 0; i < 5; ++i) odometry.Next(kInterval * i, 0, OnTheCurve(i), false);
