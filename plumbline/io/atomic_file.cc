@@ -101,12 +101,27 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
   file.Commit();
 }
 
+namespace {
+
+// Whether a folder holds anything beside what a program left that was killed while it filled it.
+bool HoldsFiles(const std::filesystem::path& folder) {
+  const std::string beginning = "." + folder.filename().string() + ".";
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(beginning) || !name.ends_with(".tmp")) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 AtomicFolder::AtomicFolder(const std::filesystem::path& path) : path_(path.lexically_normal()) {
   if (!path_.has_filename()) path_ = path_.parent_path();  // "out/" becomes "out"
   std::error_code error;
   if (std::filesystem::exists(path_, error)) {
     const bool folder = std::filesystem::is_directory(path_, error);
-    if (!folder || !std::filesystem::is_empty(path_, error)) {
+    if (!folder || HoldsFiles(path_)) {
       throw InputError(path.string() + ": expected a new or empty folder, found " +
                        (folder ? "files in it" : "a file of this name"));
     }
@@ -137,10 +152,7 @@ void AtomicFolder::Commit() {
 
 void AtomicFolder::MoveUp() const {
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(path_, error)) {
-    if (entry.path().filename() == temporary_.filename()) continue;
-    FailWrite(path_, std::make_error_code(std::errc::directory_not_empty));
-  }
+  if (HoldsFiles(path_)) FailWrite(path_, std::make_error_code(std::errc::directory_not_empty));
   std::vector<std::filesystem::path> names;
   for (const auto& entry : std::filesystem::directory_iterator(temporary_, error)) {
     names.push_back(entry.path().filename());

@@ -66,7 +66,7 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// A folder that appears whole or not at all: construct, let files be written below
+// A folder that appears whole or not at all, where it is new: construct, let files be written below
 // temporary_path(), which is beside the final place, then Commit(). Without Commit everything is
 // removed.
 // A folder that is there stays the same one, since a shell may be in it or a disk be mounted

@@ -118,6 +118,16 @@ TEST(AtomicFolder, FillsAFolderThatIsThere) {
   EXPECT_EQ(FileCount(folder.path()), 2);
 }
 
+TEST(AtomicFolder, FillsAFolderInWhichAProgramWasKilled) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "out";
+  MakeFolder(path / ".out.4711.tmp");
+  AtomicFolder made(path);
+  WriteFileAtomically(made.temporary_path() / "x.txt", "x");
+  made.Commit();
+  EXPECT_EQ(Contents(path / "x.txt"), "x");
+}
+
 TEST(AtomicFolder, ReplacesNothingThatCameMeanwhile) {
   const ScratchFolder folder;
   AtomicFolder made(folder.path());
