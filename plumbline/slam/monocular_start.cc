@@ -110,9 +110,22 @@ void MonocularStart::MapStarted(MapId map, const MapStart& start) {
     frame.reference = start.keyframes[static_cast<std::size_t>(at - start.frames.begin())];
   }
   starts_.push_back({map, std::exchange(waiting_, {})});
+  GiveUpTheOldest();
   young_keyframes_ = kYoungKeyFrames;
   young_frames_ = kMaxFrames;
   initializer_->Reset();
+}
+
+// A camera that is lost again and again begins many maps. The frames of the oldest ones are given
+// up: those that were tracked keep the pose that they have.
+void MonocularStart::GiveUpTheOldest() {
+  std::size_t kept = 0;
+  for (auto start = starts_.rbegin(); start != starts_.rend(); ++start) {
+    kept += start->frames.size();
+    if (kept <= kMostKept) continue;
+    starts_.erase(starts_.begin(), start.base());
+    return;
+  }
 }
 
 void MonocularStart::MapLeft() { young_keyframes_ = 0; }

@@ -39,6 +39,7 @@ struct EarlierFrame {
 class MonocularStart {
  public:
   static constexpr std::size_t kMaxFrames = 300;
+  static constexpr std::size_t kMostKept = 1200;  // of all maps, when another one begins
   static constexpr int kYoungKeyFrames = 5;
 
   MonocularStart(const ImagingModel& imaging, const SlamOptions& options);
@@ -96,6 +97,7 @@ class MonocularStart {
   static void VisitFrames(Self& self, const Visitor& visit) {
     visit(self.waiting_, self.starts_, self.young_keyframes_, self.young_frames_);
   }
+  void GiveUpTheOldest();
   void LocateFramesOf(const Start& start,
                       const Map& map,
                       const StopCheck& stop,

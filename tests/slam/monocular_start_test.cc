@@ -90,13 +90,16 @@ struct YoungRun {
   Atlas atlas;
 
   YoungRun() {
-    const auto begin = [&](const std::vector<int>& frames) {
-      return MakeMapStart(InitialMapOf(world, frames), world.Imaging(), Rigid3{}, KeyFrameId{0});
-    };
-    atlas.Start().Apply(begin({10, 14, 22, 30}).edit);
+    atlas.Start().Apply(StartOf({10, 14, 22, 30}).edit);
     atlas.active().Apply({edit::RemoveKeyFrame{KeyFrameId{3}}});
-    start.MapStarted(MapId{0}, begin({10, 14}));
+    Begin();
   }
+
+  MapStart StartOf(const std::vector<int>& frames) const {
+    return MakeMapStart(InitialMapOf(world, frames), world.Imaging(), Rigid3{}, KeyFrameId{0});
+  }
+
+  void Begin() { start.MapStarted(MapId{0}, StartOf({10, 14})); }
 
   void Track(int frame) {
     start.Tracked(frame < 22   ? TrackedOf(world, frame, KeyFrameId{1}, 14)
@@ -169,6 +172,19 @@ TEST(MonocularStart, KeepsABoundedNumberOfFrames) {
   const std::vector<EarlierFrame> located = run.start.Locate(run.atlas);
   ASSERT_EQ(located.size(), 1U);  // a blind frame is not found and keeps its place
   EXPECT_EQ(located[0].id, FrameId{16});
+}
+
+TEST(MonocularStart, KeepsABoundedNumberOfFramesOfAllMaps) {
+  YoungRun run;
+  TrackingResult blind = TrackedOf(run.world, 15, KeyFrameId{1}, 14);
+  blind.frame.indexed = IndexFeatures(run.world.camera, {});
+  constexpr std::size_t kStarts = MonocularStart::kMostKept / MonocularStart::kMaxFrames + 2;
+  for (std::size_t start = 0; start < kStarts; ++start) {
+    if (start > 0) run.Begin();
+    run.Track(16);
+    for (std::size_t i = 1; i < MonocularStart::kMaxFrames; ++i) run.start.Tracked(blind);
+  }
+  EXPECT_EQ(run.start.Locate(run.atlas).size(), kStarts - 1);  // each of frame 16
 }
 
 TEST(MonocularStart, ForgetsWhatWaitedWhenItBeginsAnew) {
