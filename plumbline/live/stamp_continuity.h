@@ -11,7 +11,8 @@ namespace plumbline {
 // or a recording that begins again, stamps go on one interval behind the last frame. Later stamps
 // are shifted alike, so that times between them stay as they were, until the source's stamp is
 // later than the last one given: a single stamp that was not set (0) changes no others. Stamps that
-// increase are not changed. No stamp is later than what files may hold (kLatestStampNs).
+// increase are not changed. Behind the latest stamp that files may hold (kLatestStampNs), stamps go
+// on by a nanosecond each.
 class StampContinuity {
  public:
   struct Stamp {

@@ -173,6 +173,11 @@ std::optional<RelocalizationOutcome> MappingStage::TakeRelocalization() {
 
 void MappingStage::Use(const std::shared_ptr<const MapSnapshot>& snapshot) {
   const std::lock_guard lock(mutex_);
+  const auto& before = versions_.back().snapshot;
+  if (before != nullptr && before->map != snapshot->map) {
+    map_begins_ = submitted_;
+    kept_.clear();
+  }
   for (Version& version : versions_) version.snapshot = snapshot;
 }
 

@@ -269,6 +269,24 @@ TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapInUse) {
   EXPECT_EQ(stage_.EarlierSnapshot(), nullptr);
 }
 
+// A camera that is only localized is found in another map without a MapReturn.
+TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapWhereTheCameraIsFound) {
+  stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
+  for (std::int64_t k = 1; k <= 2; ++k) {
+    stage_.SnapshotFor(k);
+    stage_.Submit(k, KeyFrameAt(world_, k, k - 1), false);
+    stage_.WorkOnce();
+  }
+  const auto newest = stage_.SnapshotFor(3);
+  stage_.Use(newest);
+  EXPECT_NE(stage_.EarlierSnapshot(), nullptr);
+  auto elsewhere = std::make_shared<MapSnapshot>(*newest);
+  elsewhere->map = MapId{5};
+  stage_.Use(elsewhere);
+  EXPECT_EQ(stage_.SnapshotFor(4)->map, MapId{5});
+  EXPECT_EQ(stage_.EarlierSnapshot(), nullptr);
+}
+
 // Poses of a run over the synthetic world, as first reported.
 std::vector<Rigid3> Poses(int lag, RunMode mode = RunMode::kInline) {
   SyntheticRun run(MakeSyntheticWorld(300, 60), WithLag(lag, mode));
