@@ -93,6 +93,10 @@ class CandidateSearch {
       positions.push_back(p.px);
       extent = extent.cwiseMax(p.px);
     }
+    // Points that were moved by a motion of few matches may be anywhere. What is beyond this lies
+    // in the grid's last cells.
+    constexpr double kLargest = 32768;
+    extent = extent.cwiseMin(kLargest);
     const int cell = std::clamp(static_cast<int>(radius), 8, 256);
     grid_ = PointGrid(
         positions, static_cast<int>(extent.x()) + 1, static_cast<int>(extent.y()) + 1, cell);

@@ -62,6 +62,19 @@ TEST(MatchPoints, FindsTheNearestOfAllAsPairByPair) {
   EXPECT_GT(matches.size(), 40U);
 }
 
+// Places that a motion of few matches predicts may be anywhere.
+TEST(MatchPoints, SearchesAmongPointsThatAreFarBeyondTheImage) {
+  auto a = RandomPoints(60);
+  const auto b = a;
+  a[7].px = {3e6, 3e6};
+  a[9].px = {1e300, -1e300};
+  for (const bool swapped : {false, true}) {
+    const auto matches =
+        swapped ? MatchPoints(b, a, {.radius_px = 25}) : MatchPoints(a, b, {.radius_px = 25});
+    EXPECT_EQ(matches.size(), 58U);
+  }
+}
+
 TEST(MatchPoints, RefusesDistantAmbiguousAndFarAwayCandidates) {
   const auto a = RandomPoints(1);
   PointMatchOptions options;
