@@ -24,7 +24,7 @@ struct Place {
 // Returns the pixel at or before a place, and the weight of the next pixel. Both pixels are in the
 // image, whatever the place.
 Place PlaceOf(float place, int size) {
-  constexpr float kLimit = 32768;
+  constexpr float kLimit = 131072;  // more than any side; its parts are exact in single precision
   // Rounds to the nearest number, ties to even.
   const auto units = static_cast<int>(std::nearbyint(std::clamp(place, -kLimit, kLimit) * kUnit));
   const int first = units >> 5;

@@ -15,8 +15,8 @@ namespace plumbline {
 // numbers.
 class BilinearMap {
  public:
-  // x, y: the place of each pixel in an image of width x height pixels. Places beyond +-32768 count
-  // as that far. Cost: some passes over the images, once.
+  // x, y: the place of each pixel in an image of width x height pixels. Places beyond +-131072
+  // count as that far. Cost: some passes over the images, once.
   BilinearMap(const Image<float>& x, const Image<float>& y, int width, int height);
 
   // Maps an image, which must have the size to which the places refer (BugError otherwise). Cost:

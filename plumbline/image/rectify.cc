@@ -216,6 +216,12 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
     left_mask_ = GrayImage(left.width(), left.height(), 255);
     if (stereo) right_mask_ = left_mask_;
   } else {
+    // Pixels of depth images are looked up by whole numbers of 16 bits.
+    constexpr int kWidestDepth = 32766;
+    if (with_depth && std::max(left.width(), left.height()) > kWidestDepth) {
+      Refuse("expected depth images of a distorted camera of at most 32766 pixels a side, found " +
+             SizeText(left.width(), left.height()));
+    }
     const View right_view{stereo ? &*calibration_.right : nullptr, rectified_right_from_right_};
     camera_ = ChooseCamera(left_view, stereo ? &right_view : nullptr);
     FloatMaps maps = ComputeMaps(camera_, left_view);

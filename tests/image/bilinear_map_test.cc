@@ -65,6 +65,14 @@ TEST(BilinearMap, KnowsImagesOfASingleRowOrColumn) {
   }
 }
 
+TEST(BilinearMap, ReachesTheEndOfAWideImage) {
+  GrayImage from(40'000, 2, 10);
+  from.at(39'000, 0) = from.at(39'000, 1) = 200;
+  Image<float> x(1, 1), y(1, 1);
+  x.at(0, 0) = 39'000;
+  EXPECT_EQ(BilinearMap(x, y, from.width(), from.height()).Apply(from).at(0, 0), 200);
+}
+
 TEST(BilinearMap, TakesPixelsAsTheyAreFromWholePlaces) {
   Rng rng(2, "bilinear_map");
   const GrayImage from = Noise(rng, 20, 10);

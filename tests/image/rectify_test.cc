@@ -266,6 +266,16 @@ TEST(Rectifier, NamesExpectedAndFoundSizes) {
               HasSubstr("depth image: expected 640x480, found 320x240"));
 }
 
+TEST(Rectifier, RefusesDistortedDepthImagesThatAreTooWide) {
+  Calibration calibration = TumCalibration();
+  CameraIntrinsics wide = calibration.left.intrinsics();
+  wide.width = 34000;
+  wide.height = 4;
+  calibration.left = Camera(wide);
+  EXPECT_THAT(MessageOf([&] { Rectifier{calibration}; }),
+              HasSubstr("at most 32766 pixels a side, found 34000x4"));
+}
+
 TEST(Rectifier, RefusesPairsThatContradictThemselves) {
   Calibration swapped = EurocCalibration();
   swapped.right_from_left = Inverse(swapped.right_from_left);
