@@ -17,14 +17,19 @@ namespace {
 
 std::array<Eigen::Vector3d, 4> ImageSides(const Camera& camera) {
   const double right = camera.width() - 1, bottom = camera.height() - 1;
-  const auto ray = [&](double u, double v) {
-    const auto found = camera.Unproject({u, v});
-    PLUMBLINE_CHECK(found, "the image lies within the domain of its distortion");
+  // A fisheye has no ray in front of it at its border: the outermost pixel that has one is the
+  // side.
+  const auto ray = [&](Eigen::Vector2d px, const Eigen::Vector2d& inwards) {
+    std::optional<Eigen::Vector3d> found;
+    for (int i = 0; i < camera.width() + camera.height() && !found; ++i, px += inwards) {
+      found = camera.Unproject(px);
+    }
+    PLUMBLINE_CHECK(found, "a camera with rays");
     return *found;
   };
   // Each plane goes through the middle of a border: (x - left, 0, 1) . (x, y, 1) >= 0 and so on.
-  const double x0 = ray(0, bottom / 2).x(), x1 = ray(right, bottom / 2).x();
-  const double y0 = ray(right / 2, 0).y(), y1 = ray(right / 2, bottom).y();
+  const double x0 = ray({0, bottom / 2}, {1, 0}).x(), x1 = ray({right, bottom / 2}, {-1, 0}).x();
+  const double y0 = ray({right / 2, 0}, {0, 1}).y(), y1 = ray({right / 2, bottom}, {0, -1}).y();
   return {Eigen::Vector3d(1, 0, -x0), {-1, 0, x1}, {0, 1, -y0}, {0, -1, y1}};
 }
 

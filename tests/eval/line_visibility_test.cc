@@ -51,6 +51,25 @@ TEST(ViewersOf, AreKeyFramesWithAFrameAndAPose) {
   EXPECT_DOUBLE_EQ(viewers.frames[0].camera_from_world.translation.x(), -1);
 }
 
+// Its border is 101 degrees from the middle, where nothing is in front of the camera any more.
+TEST(ViewersOf, TakeAFisheyeThatSeesBehindItself) {
+  CameraIntrinsics intrinsics;
+  intrinsics.fx = intrinsics.fy = 180;
+  intrinsics.cx = 319.5;
+  intrinsics.cy = 239.5;
+  intrinsics.width = 640;
+  intrinsics.height = 480;
+  intrinsics.model = DistortionModel::kEquidistant;
+  const std::vector<std::int64_t> frames = {10}, keyframes = {10};
+  const std::vector<EvaluatedPose> poses = {PoseAt(10, {0, 0, 0})};
+  const LineViewers viewers = ViewersOf(Camera(intrinsics), frames, keyframes, poses);
+  const Eigen::Vector3d nearly_beside(20, 0, 1), below(0, 3, 1);
+  for (const Eigen::Vector3d& side : viewers.image_sides) {
+    EXPECT_GT(side.dot(nearly_beside), 0);
+    EXPECT_GT(side.dot(below), 0);
+  }
+}
+
 TEST(SeenStretches, EndAtTheBordersOfTheImage) {
   // At depth 2 the image is 4 m wide, 3 m high.
   const auto seen = SeenStretches({{{-5, 0, 2}, {5, 0, 2}}}, ThreeViewers());
