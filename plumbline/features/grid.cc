@@ -31,13 +31,20 @@ PointGrid::PointGrid(const std::vector<Eigen::Vector2d>& positions,
   }
 }
 
-int PointGrid::CellX(double x) const {
-  return static_cast<int>(std::clamp(std::floor(x / cell_px_), 0.0, columns_ - 1.0));
+namespace {
+
+// Returns the cell of a place among `count`. A place that is no number is in the first one: a file
+// may hold it, and is refused only after the grid was made.
+int CellOf(double place, int cell_px, int count) {
+  const double cell = std::floor(place / cell_px);
+  return cell > 0 ? static_cast<int>(std::min(cell, count - 1.0)) : 0;
 }
 
-int PointGrid::CellY(double y) const {
-  return static_cast<int>(std::clamp(std::floor(y / cell_px_), 0.0, rows_ - 1.0));
-}
+}  // namespace
+
+int PointGrid::CellX(double x) const { return CellOf(x, cell_px_, columns_); }
+
+int PointGrid::CellY(double y) const { return CellOf(y, cell_px_, rows_); }
 
 std::vector<int> PointGrid::InWindow(const Eigen::Vector2d& center,
                                      const Eigen::Vector2d& radius) const {

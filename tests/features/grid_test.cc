@@ -5,6 +5,7 @@
 #include "plumbline/base/random.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,6 +33,14 @@ TEST(PointGrid, FindsExactlyWhatACompleteSearchFinds) {
     }
     EXPECT_THAT(grid.InWindow(center, radius), testing::UnorderedElementsAreArray(expected));
   }
+}
+
+TEST(PointGrid, TakesPlacesThatAreNoNumbers) {
+  const double none = std::nan("");
+  const double infinite = std::numeric_limits<double>::infinity();
+  const PointGrid grid({{none, -none}, {infinite, -infinite}, {5, 5}}, 320, 240, 25);
+  EXPECT_THAT(grid.InWindow({5, 5}, {1, 1}), testing::ElementsAre(2));
+  EXPECT_THAT(grid.InWindow({none, none}, {1, 1}), testing::IsEmpty());
 }
 
 TEST(PointGrid, OfNothingFindsNothing) {
