@@ -26,8 +26,9 @@ namespace plumbline {
 // Images come in the order of the header. The end of the stream is the end of the run; one in the
 // middle of a frame loses that frame only.
 //
-// Reads the header from the file descriptor, which stays open. Throws InputError "standard input:
-// ..." for data that are not in this form: for the header at once, for frames from Next.
+// Reads the header from the file descriptor, which stays open. Data that are not in this form throw
+// an InputError that begins with "standard input:". A wrong header throws at once, a wrong frame
+// when Next comes to it.
 std::unique_ptr<LiveSource> OpenRawStream(int descriptor, const LiveOptions& options);
 
 }  // namespace plumbline

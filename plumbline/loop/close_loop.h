@@ -41,7 +41,7 @@ struct LoopCorrection {
   double largest_shift = 0;  // largest shift of a keyframe, map units
   double largest_turn = 0;   // largest turn of a keyframe, radians
   double query_scale = 1;    // factor by which lengths around the query change
-  // By how much the new loop raises chi2 of all edges of the graph together.
+  // The new loop raises chi2, summed over all edges of the graph, by this much.
   double raised_chi2 = 0;
   double worst_odometry_chi2 = 0;  // largest chi2 of an edge between keyframes
 };

@@ -31,7 +31,7 @@ struct PoseSigma {
 PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth);
 
 // Returns how well each pose of a problem is known from its observations, with all landmarks held.
-// Of `state` only poses, points, lines and inliers are used.
+// The function uses nothing of `state` but poses, points, lines and inliers.
 std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state);
 
 // Marks free poses as fixed that the observations in use do not fix to `limit`. Such a pose fits

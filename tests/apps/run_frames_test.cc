@@ -92,7 +92,7 @@ TEST(ProcessFrames, ThrowsWhenNothingWasDone) {
               HasSubstr("out of memory after 0 of 8 frames"));
 }
 
-// As where somebody asks to stop before the first frame.
+// A run has no frames where somebody asks to stop before the first one.
 TEST(ProcessFrames, LeavesNothingOfARunWithoutFrames) {
   const ScratchFolder scratch;
   {

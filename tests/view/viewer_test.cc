@@ -262,7 +262,8 @@ TEST_F(Shown, GarbageHarmsNobody) {
 
 TEST_F(Shown, TenThousandConnectionsLeaveNothing) {
   Open();
-  // As many as fill what an allocator keeps back, the quarantine of AddressSanitizer among it.
+  // An allocator keeps freed memory back (AddressSanitizer in its quarantine). These connections
+  // fill that room, so that memory which grows afterwards is a leak.
   for (int i = 0; i < 5'000; ++i) TestSocket socket(port_);
   const double before = MegabytesInUse();
   for (int i = 0; i < 10'000; ++i) {
