@@ -103,13 +103,19 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
 
 namespace {
 
+// The name under which the process of this number fills a folder.
+std::string TemporaryName(const std::filesystem::path& folder, const std::string& process) {
+  return fmt::format(".{}.{}.tmp", folder.filename().string(), process);
+}
+
 // Whether a folder holds anything beside what a program left that was killed while it filled it.
 bool HoldsFiles(const std::filesystem::path& folder) {
-  const std::string beginning = "." + folder.filename().string() + ".";
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(beginning) || !name.ends_with(".tmp")) return true;
+    const std::string_view before = std::string_view(name).substr(0, name.rfind(".tmp"));
+    const std::string process(before.substr(before.find_last_not_of("0123456789") + 1));
+    if (process.empty() || name != TemporaryName(folder, process)) return true;
   }
   return false;
 }
@@ -129,7 +135,7 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path) : path_(path.lexic
   }
   if (!is_there_ && path_.has_parent_path()) MakeFolder(path_.parent_path());
   const std::filesystem::path above = is_there_ ? path_ : path_.parent_path();
-  temporary_ = above / fmt::format(".{}.{}.tmp", path_.filename().string(), ::getpid());
+  temporary_ = above / TemporaryName(path_, std::to_string(::getpid()));
   MakeFolder(temporary_);
 }
 

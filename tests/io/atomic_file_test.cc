@@ -128,6 +128,16 @@ TEST(AtomicFolder, FillsAFolderInWhichAProgramWasKilled) {
   EXPECT_EQ(Contents(path / "x.txt"), "x");
 }
 
+TEST(AtomicFolder, TakesNoHiddenFileForOneOfItsOwn) {
+  const ScratchFolder folder;
+  for (const char* name : {".out.notes.tmp", ".out.4711.tmp.txt", ".other.4711.tmp", ".out..tmp"}) {
+    const std::filesystem::path path = folder / name / "out";
+    MakeFolder(path / name);
+    EXPECT_THAT(MessageOf([&] { AtomicFolder made(path); }), HasSubstr("found files in it"))
+        << name;
+  }
+}
+
 TEST(AtomicFolder, ReplacesNothingThatCameMeanwhile) {
   const ScratchFolder folder;
   AtomicFolder made(folder.path());
