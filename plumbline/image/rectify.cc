@@ -219,7 +219,8 @@ Rectifier::Rectifier(const Calibration& calibration) : calibration_(calibration)
     // Pixels of depth images are looked up by whole numbers of 16 bits.
     constexpr int kWidestDepth = 32766;
     if (with_depth && std::max(left.width(), left.height()) > kWidestDepth) {
-      Refuse("expected depth images of a distorted camera of at most 32766 pixels a side, found " +
+      Refuse("expected depth images of a distorted camera of at most " +
+             std::to_string(kWidestDepth) + " pixels a side, found " +
              SizeText(left.width(), left.height()));
     }
     const View right_view{stereo ? &*calibration_.right : nullptr, rectified_right_from_right_};

@@ -73,8 +73,7 @@ void MappingStage::Submit(std::int64_t frame, RelocalizationRequest request) {
 
 void MappingStage::Submit(std::int64_t frame, MapReturn back) {
   Submit(frame, Work(back), false);
-  map_begins_ = submitted_;  // earlier snapshots show another map
-  kept_.clear();
+  ForgetEarlierSnapshots();
 }
 
 void MappingStage::Submit(std::int64_t frame, Sighting sighting) {
@@ -174,19 +173,19 @@ std::optional<RelocalizationOutcome> MappingStage::TakeRelocalization() {
 void MappingStage::Use(const std::shared_ptr<const MapSnapshot>& snapshot) {
   const std::lock_guard lock(mutex_);
   const auto& before = versions_.back().snapshot;
-  if (before != nullptr && before->map != snapshot->map) {
-    map_begins_ = submitted_;
-    kept_.clear();
-  }
+  if (before != nullptr && before->map != snapshot->map) ForgetEarlierSnapshots();
   for (Version& version : versions_) version.snapshot = snapshot;
+}
+
+// Snapshots taken before the last task that was submitted show another map than the one in use.
+void MappingStage::ForgetEarlierSnapshots() {
+  map_begins_ = submitted_;
+  kept_.clear();
 }
 
 void MappingStage::Submit(std::int64_t frame, Work work, bool starts_map) {
   ++submitted_;
-  if (starts_map) {
-    map_begins_ = submitted_;
-    kept_.clear();
-  }
+  if (starts_map) ForgetEarlierSnapshots();
   if (mode_ != RunMode::kLive || starts_map) {
     dues_.push_back({starts_map ? frame : frame + 1 + lag_, submitted_});
   }

@@ -238,6 +238,7 @@ class MappingStage {
   };
 
   void Submit(std::int64_t frame, Work work, bool starts_map);
+  void ForgetEarlierSnapshots();
   std::optional<DemotedKeyFrame> GiveUpOne();
   std::shared_ptr<const MapSnapshot> NewestSnapshot();
   void WaitFor(std::int64_t task);
