@@ -14,13 +14,13 @@ std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
                                              std::uint64_t seed) {
   switch (options.method) {
     case InitializationMethod::kRank1:
-      return std::make_unique<Rank1Initializer>(imaging.camera, options, seed);
+      return std::make_unique<Rank1Initializer>(imaging, options, seed);
     case InitializationMethod::kRank1Klt:
       return std::make_unique<KltInitializer>(imaging.camera, options, seed);
     case InitializationMethod::kTwoView:
       return std::make_unique<TwoViewInitializer>(imaging.camera, seed);
     case InitializationMethod::kTwoViewImages:
-      return std::make_unique<TwoViewImagesInitializer>(imaging.camera, seed);
+      return std::make_unique<TwoViewImagesInitializer>(imaging, seed);
   }
   throw BugError("unknown initialization method");
 }

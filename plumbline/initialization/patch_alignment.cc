@@ -14,7 +14,6 @@
 namespace plumbline {
 namespace {
 
-constexpr double kOctave = 1.2;  // scale from one octave to the next
 // A step is small enough below this, in pixels of the octave.
 constexpr double kConverged = 0.01;
 
@@ -105,7 +104,7 @@ TrackedPixels AlignPatches(const GrayImage& reference_image,
   TrackedPixels places(guesses.size());
   for (std::size_t k = 0; k < guesses.size(); ++k) {
     if (!guesses[k]) continue;
-    const double step = math::Pow(kOctave, reference[k].octave);
+    const double step = math::Pow(options.octave_scale, reference[k].octave);
     const auto patch = PatchAround(reference_image, reference[k].px, step, options.radius);
     if (!patch || !patch->IsRound(options.min_roundness)) continue;
     const Eigen::Matrix2d axes = step * linear;

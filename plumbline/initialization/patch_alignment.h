@@ -25,6 +25,7 @@ struct PatchAlignmentOptions {
   // Expected difference between the affine map of a patch and that of the whole image: standard
   // deviation of each entry of their quotient.
   double warp_sigma = 0.05;
+  double octave_scale = 1.2;  // scale from one octave of the features to the next
 };
 
 // Finds where the later image shows exactly the point that the reference shows at a feature. The

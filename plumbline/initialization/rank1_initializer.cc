@@ -20,19 +20,20 @@ constexpr double kMaxInterpolationPx = 2;
 
 }  // namespace
 
-Rank1Initializer::Rank1Initializer(const RectifiedCamera& camera,
+Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
                                    const InitializationOptions& options,
                                    std::uint64_t seed)
-    : camera_(camera),
+    : camera_(imaging.camera),
       frames_(options.frames),
-      selection_{{.factorize = options.factorize,
-                  .interpolate = options.interpolate,
-                  .max_interpolation_sigma = kMaxInterpolationPx / (0.5 * (camera.fx + camera.fy)),
-                  .min_line_angle = options.min_line_angle_deg * kDegree,
-                  .reweighting = options.reweighting},
-                 options.relative_pose},
+      selection_{
+          {.factorize = options.factorize,
+           .interpolate = options.interpolate,
+           .max_interpolation_sigma = kMaxInterpolationPx / (0.5 * (camera_.fx + camera_.fy)),
+           .min_line_angle = options.min_line_angle_deg * kDegree,
+           .reweighting = options.reweighting},
+          options.relative_pose},
       seed_(seed),
-      window_(camera, options.matching) {}
+      window_(imaging, options.matching) {}
 
 InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   InitializationResult result = window_.Offer(frame, frames_);

@@ -17,7 +17,7 @@ namespace plumbline {
 // attempt.
 class Rank1Initializer : public Initializer {
  public:
-  Rank1Initializer(const RectifiedCamera& camera,
+  Rank1Initializer(const ImagingModel& imaging,
                    const InitializationOptions& options,
                    std::uint64_t seed);
 

@@ -165,8 +165,13 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationF
     auto& guess = guesses[Index(match.a)];
     if (!guess) guess = frame.indexed->features.points[Index(match.b)].px;
   }
-  const TrackedPixels aligned = AlignPatches(
-      *reference_->image, reference, *frame.image, guesses, matches.motion.linear(), warps_);
+  const TrackedPixels aligned = AlignPatches(*reference_->image,
+                                             reference,
+                                             *frame.image,
+                                             guesses,
+                                             matches.motion.linear(),
+                                             warps_,
+                                             {.octave_scale = octave_scale_});
   std::vector<Place> places(reference.size());
   for (std::size_t k = 0; k < aligned.size(); ++k) {
     if (!aligned[k]) continue;

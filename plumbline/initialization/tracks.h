@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/association/projection_search.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/initialization/initializer.h"
@@ -87,8 +88,8 @@ std::vector<RayMatch> MatchesBetween(const TrackedPoints& reference, const Track
 // moves forward only when matches with it die out.
 class FrameWindow {
  public:
-  FrameWindow(const RectifiedCamera& camera, InitialMatching matching)
-      : camera_(camera), matching_(matching) {}
+  FrameWindow(const ImagingModel& imaging, InitialMatching matching)
+      : camera_(imaging.camera), octave_scale_(imaging.octave_scale), matching_(matching) {}
 
   void Reset();
   bool empty() const { return !reference_; }
@@ -173,6 +174,7 @@ class FrameWindow {
   LineTracks CollectLineTracks(const std::vector<int>& frames) const;
 
   RectifiedCamera camera_;
+  double octave_scale_;
   InitialMatching matching_;
   std::optional<InitializationFrame> reference_;
   // Follows the reference's features, one point for each feature.

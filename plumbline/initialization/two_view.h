@@ -86,8 +86,8 @@ class TwoViewInitializer : public Initializer {
 // of all frames (BugError otherwise).
 class TwoViewImagesInitializer : public Initializer {
  public:
-  TwoViewImagesInitializer(const RectifiedCamera& camera, std::uint64_t seed)
-      : camera_(camera), seed_(seed), window_(camera, InitialMatching::kImages) {}
+  TwoViewImagesInitializer(const ImagingModel& imaging, std::uint64_t seed)
+      : camera_(imaging.camera), seed_(seed), window_(imaging, InitialMatching::kImages) {}
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override { window_.Reset(); }

@@ -77,6 +77,17 @@ TEST(AlignPatches, FollowsTurnScaleBrightnessAndContrast) {
   }
 }
 
+TEST(AlignPatches, TakesPatchesOfTheSizeOfTheirOctave) {
+  const Scene moved = [](const Eigen::Vector2d& p) { return Waves(kCentre + 0.9 * (p - kCentre)); };
+  const auto place = [&](int octave, double scale) {
+    const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
+    return Align(Waves, kCentre, moved, kCentre, same, octave, {.octave_scale = scale});
+  };
+  ASSERT_TRUE(place(2, 1.44));
+  EXPECT_LT((*place(2, 1.44) - *place(4, 1.2)).norm(), 1e-9);
+  EXPECT_GT((*place(2, 1.44) - *place(2, 1.2)).norm(), 1e-9);
+}
+
 // A surface may turn otherwise than the image as a whole. By shifts alone the place of a corner is
 // half a pixel off, since parts of the patch on either side move apart.
 TEST(AlignPatches, FollowsSurfacesThatTurnByThemselves) {

@@ -24,7 +24,7 @@ template <class Pose>
 StartedRun Start(const Pose& pose_of, int frames, double noise = 0.5) {
   StartedRun run;
   Rng rng(11, "rank1_initializer");
-  Rank1Initializer initializer(run.world.camera, {.matching = InitialMatching::kDescriptors}, 1);
+  Rank1Initializer initializer(run.world.Imaging(), {.matching = InitialMatching::kDescriptors}, 1);
   for (int i = 0; i < frames && !run.map; ++i) {
     const SyntheticFrame frame =
         Sense(run.world, pose_of(i), {.depth = false, .noise = noise}, rng);
@@ -72,7 +72,7 @@ TEST(Rank1Initializer, AsksForFeatures) {
   const SyntheticWorld world = MakeSyntheticWorld(20, 0);
   Rng rng(1);
   const SyntheticFrame frame = Sense(world, {}, {.depth = false}, rng);
-  Rank1Initializer initializer(world.camera, {.matching = InitialMatching::kDescriptors}, 1);
+  Rank1Initializer initializer(world.Imaging(), {.matching = InitialMatching::kDescriptors}, 1);
   const auto result = initializer.Add({FrameId{0}, 0, frame.indexed, nullptr});
   EXPECT_EQ(result.wait, InitializationWait::kTooFewFeatures);
 }
@@ -80,7 +80,7 @@ TEST(Rank1Initializer, AsksForFeatures) {
 TEST(Rank1Initializer, ForgetsWhenReset) {
   const SyntheticWorld world = MakeSyntheticWorld(600, 0);
   Rng rng(2);
-  Rank1Initializer initializer(world.camera, {.matching = InitialMatching::kDescriptors}, 1);
+  Rank1Initializer initializer(world.Imaging(), {.matching = InitialMatching::kDescriptors}, 1);
   const SyntheticFrame frame = Sense(world, {}, {.depth = false}, rng);
   initializer.Add({FrameId{0}, 0, frame.indexed, nullptr});
   EXPECT_GT(initializer.Add({FrameId{1}, 1, frame.indexed, nullptr}).matches, 100);

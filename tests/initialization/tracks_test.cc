@@ -28,7 +28,7 @@ struct Sequence {
 
 TEST(FrameWindow, SpreadsFramesSinceTheReference) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
+  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   EXPECT_TRUE(window.empty());
   for (int i = 0; i < 11; ++i) window.Add(sequence.Next());
   EXPECT_EQ(window.size(), 10);
@@ -41,7 +41,7 @@ TEST(FrameWindow, SpreadsFramesSinceTheReference) {
 
 TEST(FrameWindow, TracksShowTheSamePoints) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
+  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   int matches = 0;
   for (int i = 0; i < 7; ++i) matches = window.Add(sequence.Next());
   EXPECT_GT(matches, 100);
@@ -86,7 +86,7 @@ TEST(FrameWindow, FollowsPointsOnTheImages) {
                                IndexFeatures(camera, std::move(seen)),
                                std::make_shared<const GrayImage>(poster.Frame(i).left)};
   };
-  FrameWindow window(camera, InitialMatching::kImages);
+  FrameWindow window({camera}, InitialMatching::kImages);
   const auto number = static_cast<int>(features.points.size()) / 2;
   window.Add(frame(0, std::move(features)));
   int seen = 0;
@@ -104,7 +104,7 @@ TEST(FrameWindow, FollowsPointsOnTheImages) {
 
 TEST(FrameWindow, TakesPointsFromAllOverTheImage) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
+  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   for (int i = 0; i < 4; ++i) window.Add(sequence.Next());
   // Cells of a quarter of the image's focal length: 40 points are in more of them than the
   // first 40.
@@ -124,7 +124,7 @@ TEST(FrameWindow, TakesPointsFromAllOverTheImage) {
 
 TEST(FrameWindow, MovesTheReferenceForward) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
+  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   for (int i = 0; i < 9; ++i) window.Add(sequence.Next());
   window.MoveReference();
   EXPECT_EQ(window.reference().id.value, 4);
@@ -138,7 +138,7 @@ TEST(FrameWindow, MovesTheReferenceForward) {
 
 TEST(FrameWindow, KeepsEverySecondOfTooMany) {
   Sequence sequence;
-  FrameWindow window(sequence.world.camera, InitialMatching::kDescriptors);
+  FrameWindow window(sequence.world.Imaging(), InitialMatching::kDescriptors);
   const InitializationFrame first = sequence.Next();
   window.Add(first);
   for (int i = 0; i < 41; ++i) {

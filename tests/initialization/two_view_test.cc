@@ -121,7 +121,7 @@ TEST(TwoViewInitializer, ReplacesAReferenceThatIsOutOfSight) {
 TEST(TwoViewImagesInitializer, StartsFromPlacesOnTheImages) {
   const Blobs blobs;
   Rng rng(1);
-  TwoViewImagesInitializer initializer(blobs.world.camera, 1);
+  TwoViewImagesInitializer initializer(blobs.world.Imaging(), 1);
   for (int i = 0; i < 20; ++i) {
     const auto result = initializer.Add(FrameAt(blobs, PoseOnPath(i), i, rng));
     EXPECT_EQ(result.map.has_value(), result.wait == InitializationWait::kNone);
@@ -143,7 +143,7 @@ TEST(TwoViewImagesInitializer, StartsFromPlacesOnTheImages) {
 TEST(TwoViewImagesInitializer, KeepsTheReferenceWhileTheCameraStands) {
   const Blobs blobs;
   Rng rng(1);
-  TwoViewImagesInitializer initializer(blobs.world.camera, 1);
+  TwoViewImagesInitializer initializer(blobs.world.Imaging(), 1);
   constexpr int kStanding = 4;
   std::optional<InitialMap> map;
   for (int i = 0; i < kStanding + 20 && !map; ++i) {
@@ -162,7 +162,7 @@ TEST(TwoViewImagesInitializer, KeepsTheReferenceWhileTheCameraStands) {
 TEST(TwoViewImagesInitializer, MovesTheReferenceWhenMatchesDieOut) {
   const Blobs blobs;
   Rng rng(3);
-  TwoViewImagesInitializer initializer(blobs.world.camera, 1);
+  TwoViewImagesInitializer initializer(blobs.world.Imaging(), 1);
   InitializationResult before;
   bool moved = false;
   for (int i = 0; i < 30 && !moved; ++i) {
@@ -179,7 +179,7 @@ TEST(TwoViewImagesInitializer, MovesTheReferenceWhenMatchesDieOut) {
 TEST(TwoViewImagesInitializer, AsksForFeaturesAndImages) {
   const Blobs blobs;
   Rng rng(4);
-  TwoViewImagesInitializer initializer(blobs.world.camera, 1);
+  TwoViewImagesInitializer initializer(blobs.world.Imaging(), 1);
   InitializationFrame frame = FrameAt(blobs, {}, 0, rng);
   const SyntheticFrame nothing{IndexFeatures(blobs.world.camera, {}), {}, {}};
   EXPECT_EQ(initializer.Add({FrameId{0}, 0, nothing.indexed, frame.image}).wait,
