@@ -22,6 +22,11 @@ std::string Size(std::uint64_t bytes) {
 
 }  // namespace
 
+bool IsTaken(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
 std::string KindOf(const fs::path& path) {
   std::error_code error;
   switch (fs::status(path, error).type()) {

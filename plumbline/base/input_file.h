@@ -35,6 +35,10 @@ void RefuseForeignFiles(const std::filesystem::path& folder,
                         std::string_view writer,
                         const std::function<bool(const std::string& name)>& is_foreign);
 
+// Whether there is something at the path. A link counts by itself, even where it leads nowhere,
+// since what others put there must not be replaced.
+bool IsTaken(const std::filesystem::path& path);
+
 // Returns what is at an existing path: "a folder", "a file", "a pipe", "a device", "a socket".
 std::string KindOf(const std::filesystem::path& path);
 

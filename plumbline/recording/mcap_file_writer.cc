@@ -94,12 +94,6 @@ std::string LastReason() {
   return errno == 0 ? std::string("unknown reason") : std::generic_category().message(errno);
 }
 
-// Whether something is at the path, a link that leads nowhere too.
-bool IsTaken(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::exists(std::filesystem::symlink_status(path, error));
-}
-
 // Whether a program that runs has locked the file.
 bool IsBeingWritten(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);

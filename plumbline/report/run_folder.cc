@@ -43,13 +43,6 @@ void RemoveFile(const fs::path& path) {
   if (error) throw InputError("cannot remove " + path.string() + ": " + error.message());
 }
 
-// Whether there is something of this name. A link counts by itself, even where it leads nowhere
-// (unlike with PathExists), since what others put there must not be replaced.
-bool Exists(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(fs::symlink_status(path, error));
-}
-
 bool IsFolder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(fs::symlink_status(path, error));
@@ -87,7 +80,7 @@ std::optional<std::string> Foreign(const fs::path& folder,
                                    const RunManifest& manifest,
                                    const std::vector<std::string>& names) {
   const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-    return Exists(folder / name) && !IsOurs(manifest, folder, name);
+    return IsTaken(folder / name) && !IsOurs(manifest, folder, name);
   });
   return found == names.end() ? std::nullopt : std::optional(*found);
 }
@@ -106,7 +99,7 @@ void MoveIntoPlace(const fs::path& part, const fs::path& folder) {
                  std::back_inserter(both.files));
   WriteRunManifest(folder, both);
   for (const std::string& name : next.files) {
-    if (Exists(part / name)) MoveFile(part / name, folder / name);
+    if (IsTaken(part / name)) MoveFile(part / name, folder / name);
   }
   for (const std::string& name : earlier.files) {
     if (!next.Lists(name) && IsOurs(earlier, folder, name)) RemoveFile(folder / name);
@@ -182,7 +175,7 @@ RunFolder::~RunFolder() {
 
 void RunFolder::Open() {
   fs::path above = folder_;
-  while (!above.empty() && !Exists(above) && above != above.parent_path()) {
+  while (!above.empty() && !IsTaken(above) && above != above.parent_path()) {
     made_.insert(made_.begin(), above);
     above = above.parent_path();
   }
@@ -198,7 +191,7 @@ void RunFolder::Open() {
 
 void RunFolder::TakeCareOfPart() {
   std::error_code error;
-  if (!Exists(part_)) return;
+  if (!IsTaken(part_)) return;
   const std::optional<RunManifest> left = IsFolder(part_) ? ReadRunManifest(part_) : std::nullopt;
   if (!left) {
     if (IsFolder(part_) && fs::is_empty(part_, error)) return;
@@ -214,7 +207,7 @@ void RunFolder::TakeCareOfPart() {
   }
   for (int k = 1;; ++k) {
     const fs::path kept = folder_ / fmt::format("interrupted-{}", k);
-    if (Exists(kept)) continue;
+    if (IsTaken(kept)) continue;
     MoveFile(part_, kept);
     fs::remove(kept / kReserve, error);
     notes_.push_back(fmt::format("{}: an earlier run was killed; what it had written is in {}",
@@ -244,7 +237,7 @@ void RunFolder::RemoveFolders() {
 }
 
 void RunFolder::Restore() {
-  if (lock_->IsInPlace() && Exists(part_ / RunManifest::kFile)) return;
+  if (lock_->IsInPlace() && IsTaken(part_ / RunManifest::kFile)) return;
   MakeFolder(folder_);
   if (!lock_->IsInPlace()) lock_.emplace(folder_, kHeld);
   StartPart();
@@ -282,7 +275,7 @@ std::optional<std::string> RunFolder::Failures() const {
 
 void RunFolder::KeepOnly(const std::vector<std::string>& names) const {
   std::error_code ignored;
-  if (!Exists(part_)) return;
+  if (!IsTaken(part_)) return;
   for (const std::string& name : RunFilesIn(part_)) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       fs::remove(part_ / name, ignored);

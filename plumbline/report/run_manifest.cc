@@ -65,8 +65,7 @@ std::vector<std::string> RunFilesIn(const fs::path& folder) {
 
 std::optional<RunManifest> ReadRunManifest(const fs::path& folder) {
   const fs::path file = folder / RunManifest::kFile;
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(file, error))) {
+  if (!IsTaken(file)) {
     if (!IsOfOlderVersion(folder)) return std::nullopt;
     return RunManifest{true, RunFilesIn(folder)};
   }

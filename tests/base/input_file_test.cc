@@ -83,6 +83,14 @@ TEST(FileBeginsWith, ReadsTheBeginningOfFilesOnly) {
   EXPECT_TRUE(FileBeginsWith(file, "a,b\n"));
 }
 
+TEST(IsTaken, IsAPathWhereThereIsSomething) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(IsTaken(folder.path()));
+  EXPECT_FALSE(IsTaken(folder / "nothing"));
+  std::filesystem::create_symlink(folder / "nowhere", folder / "link");
+  EXPECT_TRUE(IsTaken(folder / "link"));
+}
+
 TEST(RefuseForeignFiles, NamesTheFirstOfTheNamesThatAreTaken) {
   const ScratchFolder folder;
   const auto is_foreign = [](const std::string& name) { return name != "notes.txt"; };
