@@ -197,9 +197,10 @@ PointGreys WriteImages(const SavedMap& saved,
     const GrayImage image = images.Read(keyframe);
     WriteGrayPng(folder / names.at(id), image);
     const Frame& frame = keyframe.frame;
+    const Features measured = MeasuredFeatures(*frame.indexed);
     for (std::size_t i = 0; i < frame.points.size(); ++i) {
       if (!frame.points[i].valid()) continue;
-      const Eigen::Vector2d& px = frame.features().points[i].px;
+      const Eigen::Vector2d& px = measured.points[i].px;
       const auto x = std::clamp<long>(std::lround(px.x()), 0, image.width() - 1);
       const auto y = std::clamp<long>(std::lround(px.y()), 0, image.height() - 1);
       auto& [sum, count] = sums[frame.points[i]];

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/features/feature_correction.h"
 #include "plumbline/features/front_end_fingerprint.h"
-#include "plumbline/features/stereo_correction.h"
 #include "plumbline/features/stereo_evidence.h"
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/byte_format.h"
@@ -15,11 +15,21 @@
 
 namespace plumbline {
 
-// Transfer (base/byte_format.h) of features and corrections of disparities.
+// Transfer (base/byte_format.h) of features and their corrections.
 
 template <class Archive, Like<StereoCorrection> T>
 void Transfer(Archive& archive, T& correction) {
   StereoCorrection::VisitNumbers(correction, [&](auto& number) { archive(number); });
+}
+
+template <class Archive, Like<LensCorrection> T>
+void Transfer(Archive& archive, T& correction) {
+  LensCorrection::VisitNumbers(correction, [&](auto& number) { archive(number); });
+}
+
+template <class Archive, Like<FeatureCorrection> T>
+void Transfer(Archive& archive, T& correction) {
+  TransferAll(archive, correction.stereo, correction.lens);
 }
 
 template <class Archive, Like<StereoEvidence> T>

@@ -53,6 +53,10 @@ std::vector<int> PointGrid::InWindow(const Eigen::Vector2d& center,
   return result;
 }
 
+PointGrid PointGrid::WithPositions(const std::vector<Eigen::Vector2d>& positions) const {
+  return {positions, columns_ * cell_px_, rows_ * cell_px_, cell_px_};
+}
+
 void PointGrid::InWindow(const Eigen::Vector2d& center,
                          const Eigen::Vector2d& radius,
                          std::vector<int>* out) const {

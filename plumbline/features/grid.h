@@ -28,6 +28,9 @@ class PointGrid {
                 const Eigen::Vector2d& radius,
                 std::vector<int>* out) const;
 
+  // Returns the index of other positions in an image of the same size, with the same cells.
+  PointGrid WithPositions(const std::vector<Eigen::Vector2d>& positions) const;
+
   bool empty() const { return positions_.empty(); }
 
  private:

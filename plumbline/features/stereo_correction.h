@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/features/types.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
 
@@ -47,13 +46,5 @@ class StereoCorrection {
   double inverse_unit_ = 1;
   Vector6d coefficients_ = Vector6d::Zero();
 };
-
-// Gives disparities of points and right lines another correction than `before`, which they have.
-// The measured number, which has single precision, is recovered exactly (where the correction
-// changes by less than half a pixel from pixel to pixel) and corrected anew. The result does not
-// depend on the corrections in between, to the last bit.
-void Correct(const StereoCorrection& before,
-             const StereoCorrection& correction,
-             Features& features);
 
 }  // namespace plumbline

@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view kMagic = kCheckpointMagic;
 // Has to be increased with every change of what System::Save writes, and with the version of map
 // files.
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::size_t kPreambleBytes = 12;  // magic and version
 
 // The sections after those of the maps: the input; the state, in as many sections as it needs; the

@@ -125,6 +125,7 @@ void WriteMap(const Map& map, const MapRecord& record, SectionWriter& file) {
                          static_cast<std::int64_t>(map.lines().size())};
   ByteWriter section;
   TransferAll(section, record, counts);
+  if (!(record.correction.lens == LensCorrection())) Transfer(section, record.correction.lens);
   file.Write(kMapRecord, section.bytes());
   WriteKeyFrames(map, file);
   WriteLandmarks(map.points(), map, kPoints, file);
@@ -221,7 +222,7 @@ void ReadKeyFrames(SectionReader& file,
         FailMap(file.source(), "a keyframe of a session that is not there");
       }
       keyframe.frame.indexed =
-          IndexFeatures(context.camera, std::move(measured), builder.map().stereo_correction());
+          IndexFeatures(context.camera, std::move(measured), builder.map().correction());
       builder.Add(std::move(keyframe));
     } while (++done < count && reader.remaining() != 0);
     CheckEnd(reader);
@@ -251,6 +252,9 @@ Map ReadMap(SectionReader& file, const AtlasContext& context) {
   MapRecord record;
   MapCounts counts;
   TransferAll(reader, record, counts);
+  // Only maps that have a lens correction keep one, so that others can be read by programs that
+  // know of none.
+  if (reader.remaining() != 0) Transfer(reader, record.correction.lens);
   CheckEnd(reader);
   MapBuilder builder(std::move(record), file.source());
   ReadKeyFrames(file, context, counts.keyframes, builder);

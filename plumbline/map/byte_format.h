@@ -48,7 +48,7 @@ void Transfer(Archive& archive, T& k) {
 template <class Archive, Like<MapRecord> T>
 void Transfer(Archive& archive, T& r) {
   TransferAll(archive, r.id, r.version, r.keyframes_taken_in, r.next_keyframe, r.next_point);
-  TransferAll(archive, r.next_line, r.stereo_correction, r.removed_keyframes, r.merged_points);
+  TransferAll(archive, r.next_line, r.correction.stereo, r.removed_keyframes, r.merged_points);
   TransferAll(archive, r.merged_lines);
 }
 template <class Archive, Like<MapContext> T>

@@ -41,16 +41,16 @@ struct MoveKeyFrames {
   std::map<KeyFrameId, Similarity3> new_from_old;
 };
 
-// Sets the correction of the disparities of all keyframes, later ones included.
-struct CorrectStereo {
-  StereoCorrection correction;
+// Sets the correction of the features of all keyframes, later ones included.
+struct CorrectFeatures {
+  FeatureCorrection correction;
   // Features of keyframes of the map that have the correction already (WithCorrection). Those of
   // other keyframes are computed when the edit is applied.
   std::vector<std::pair<KeyFrameId, std::shared_ptr<const IndexedFeatures>>> ready = {};
 };
 
 // Replaces the features of a keyframe by the same features in the same order, of which some are at
-// places that are known better. The map's stereo correction is applied to them.
+// places that are known better. The map's correction is applied to them.
 struct MoveFeatures {
   KeyFrameId id;
   std::shared_ptr<const IndexedFeatures> indexed;
@@ -131,7 +131,7 @@ using MapChange = std::variant<edit::AddKeyFrame,
                                edit::RemoveKeyFrame,
                                edit::SetPose,
                                edit::MoveKeyFrames,
-                               edit::CorrectStereo,
+                               edit::CorrectFeatures,
                                edit::MoveFeatures,
                                edit::AddPoint,
                                edit::AddLine,

@@ -5,12 +5,25 @@
 #include <utility>
 
 namespace plumbline {
+namespace {
+
+std::vector<Eigen::Vector2d> PositionsOf(const Features& features) {
+  std::vector<Eigen::Vector2d> positions;
+  positions.reserve(features.points.size());
+  for (const PointFeature& point : features.points) positions.push_back(point.px);
+  return positions;
+}
+
+}  // namespace
 
 std::shared_ptr<const IndexedFeatures> WithCorrection(
-    const std::shared_ptr<const IndexedFeatures>& indexed, const StereoCorrection& correction) {
+    const std::shared_ptr<const IndexedFeatures>& indexed, const FeatureCorrection& correction) {
   if (indexed->correction == correction) return indexed;
   auto corrected = std::make_shared<IndexedFeatures>(*indexed);
   Correct(indexed->correction, correction, corrected->features);
+  if (!(indexed->correction.lens == correction.lens)) {
+    corrected->point_grid = indexed->point_grid.WithPositions(PositionsOf(corrected->features));
+  }
   corrected->correction = correction;
   return corrected;
 }
@@ -22,26 +35,23 @@ std::shared_ptr<const IndexedFeatures> WithRightLines(
   auto whole = std::make_shared<IndexedFeatures>(*indexed);
   Features lines;
   lines.line_right = std::move(measured);
-  if (!(indexed->correction == StereoCorrection())) Correct({}, indexed->correction, lines);
+  if (!(indexed->correction == FeatureCorrection())) Correct({}, indexed->correction, lines);
   whole->features.line_right = std::move(lines.line_right);
   return whole;
 }
 
 std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
                                                      Features measured,
-                                                     const StereoCorrection& correction) {
-  std::vector<Eigen::Vector2d> positions;
-  positions.reserve(measured.points.size());
-  for (const PointFeature& point : measured.points) positions.push_back(point.px);
-  PointGrid grid(positions, camera.width, camera.height);
-  if (!(correction == StereoCorrection())) Correct({}, correction, measured);
+                                                     const FeatureCorrection& correction) {
+  if (!(correction == FeatureCorrection())) Correct({}, correction, measured);
+  PointGrid grid(PositionsOf(measured), camera.width, camera.height);
   return std::make_shared<const IndexedFeatures>(
       IndexedFeatures{std::move(measured), std::move(grid), correction});
 }
 
 Features MeasuredFeatures(const IndexedFeatures& indexed) {
   Features measured = indexed.features;
-  if (!(indexed.correction == StereoCorrection())) Correct(indexed.correction, {}, measured);
+  if (!(indexed.correction == FeatureCorrection())) Correct(indexed.correction, {}, measured);
   return measured;
 }
 

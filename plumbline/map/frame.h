@@ -3,8 +3,8 @@
 #pragma once
 
 #include "plumbline/base/ids.h"
+#include "plumbline/features/feature_correction.h"
 #include "plumbline/features/grid.h"
-#include "plumbline/features/stereo_correction.h"
 #include "plumbline/features/types.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/se3.h"
@@ -21,12 +21,12 @@ namespace plumbline {
 struct IndexedFeatures {
   Features features;
   PointGrid point_grid;
-  StereoCorrection correction = {};  // correction that disparities and right lines have
+  FeatureCorrection correction = {};  // the correction that the features have
 };
 
 // Returns the features with another correction; the same object where they have it already.
 std::shared_ptr<const IndexedFeatures> WithCorrection(
-    const std::shared_ptr<const IndexedFeatures>& indexed, const StereoCorrection& correction);
+    const std::shared_ptr<const IndexedFeatures>& indexed, const FeatureCorrection& correction);
 
 // Returns the features with the places of their lines in the right image, as measured
 // (FindRightLines).
@@ -37,7 +37,7 @@ std::shared_ptr<const IndexedFeatures> WithRightLines(
 // Returns measured features with a correction and their index, for images of the camera's size.
 std::shared_ptr<const IndexedFeatures> IndexFeatures(const RectifiedCamera& camera,
                                                      Features measured,
-                                                     const StereoCorrection& correction = {});
+                                                     const FeatureCorrection& correction = {});
 
 // Returns the features as they were measured, without the correction. The result is exact for what
 // IndexFeatures and WithCorrection made of features in single precision (RoundToSinglePrecision).

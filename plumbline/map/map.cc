@@ -84,7 +84,7 @@ MapRecord Map::Record() const {
           next_keyframe_,
           next_point_,
           next_line_,
-          stereo_correction_,
+          correction_,
           removed_keyframes_.entries(),
           {merged_points_.begin(), merged_points_.end()},
           {merged_lines_.begin(), merged_lines_.end()}};
@@ -210,7 +210,7 @@ struct MapChanger {
     const auto lines = std::exchange(keyframe.frame.lines, {});
     keyframe.frame.points.resize(points.size());
     keyframe.frame.lines.resize(lines.size());
-    keyframe.frame.indexed = WithCorrection(keyframe.frame.indexed, map.stereo_correction_);
+    keyframe.frame.indexed = WithCorrection(keyframe.frame.indexed, map.correction_);
     map.keyframes_.Insert(id, std::move(keyframe));
     ObserveMatches(id, points);
     ObserveMatches(id, lines);
@@ -248,8 +248,8 @@ struct MapChanger {
     }
   }
 
-  void Do(const edit::CorrectStereo& change) {
-    map.stereo_correction_ = change.correction;
+  void Do(const edit::CorrectFeatures& change) {
+    map.correction_ = change.correction;
     auto ready = change.ready.begin();
     map.keyframes_.ForEach([&](KeyFrameId id, KeyFrame& keyframe) {
       while (ready != change.ready.end() && ready->first < id) ++ready;
@@ -262,7 +262,7 @@ struct MapChanger {
 
   void Do(const edit::MoveFeatures& change) {
     if (KeyFrame* keyframe = FindKeyFrame(change.id)) {
-      keyframe->frame.indexed = WithCorrection(change.indexed, map.stereo_correction_);
+      keyframe->frame.indexed = WithCorrection(change.indexed, map.correction_);
     }
   }
 
@@ -323,7 +323,7 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
     motion.new_from_old.emplace(id, this_from_other);
     keyframe.number += keyframes_taken_in_;
   });
-  other.Apply({std::move(motion), edit::CorrectStereo{stereo_correction_}});
+  other.Apply({std::move(motion), edit::CorrectFeatures{correction_}});
   MoveEntries(other.keyframes_, keyframes_);
   MoveEntries(other.points_, points_);
   MoveEntries(other.lines_, lines_);

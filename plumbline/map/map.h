@@ -70,8 +70,8 @@ class Map {
   PointId NextPointId() const { return next_point_; }
   LineId NextLineId() const { return next_line_; }
 
-  // The correction that is applied to the disparities of all keyframes.
-  const StereoCorrection& stereo_correction() const { return stereo_correction_; }
+  // The correction that is applied to the features of all keyframes.
+  const FeatureCorrection& correction() const { return correction_; }
 
   // Returns what has to be saved beside keyframes and landmarks. A MapBuilder makes the map of all
   // of it.
@@ -83,8 +83,8 @@ class Map {
 
   // Takes in all of another map of the same atlas, which uses none of this map's ids. The other map
   // is moved by `this_from_other` (from world to world; scale 1 where depth is measured). Its
-  // keyframes count as taken in after those of this map, and their disparities get this map's
-  // stereo correction. Landmarks that both maps have are there twice until they are fused. O(size
+  // keyframes count as taken in after those of this map, and their features get this map's
+  // correction. Landmarks that both maps have are there twice until they are fused. O(size
   // of the other map).
   void Absorb(Map other, const Similarity3& this_from_other);
 
@@ -102,7 +102,7 @@ class Map {
   KeyFrameId next_keyframe_{0};
   PointId next_point_{0};
   LineId next_line_{0};
-  StereoCorrection stereo_correction_;
+  FeatureCorrection correction_;
   IdTable<KeyFrameId, KeyFrame> keyframes_;
   IdTable<PointId, MapPoint> points_;
   IdTable<LineId, MapLine> lines_;

@@ -74,7 +74,7 @@ MapBuilder::MapBuilder(MapRecord record, std::string source)
   map_.next_keyframe_ = record.next_keyframe;
   map_.next_point_ = record.next_point;
   map_.next_line_ = record.next_line;
-  map_.stereo_correction_ = record.stereo_correction;
+  map_.correction_ = record.correction;
   map_.removed_keyframes_ = RemovedKeyFrames(std::move(record.removed_keyframes));
   for (const auto& [gone, kept] : record.merged_points) map_.merged_points_.Insert(gone, kept);
   for (const auto& [gone, kept] : record.merged_lines) map_.merged_lines_.Insert(gone, kept);
@@ -87,7 +87,7 @@ void MapBuilder::CheckRecord(const MapRecord& record) const {
     Fail("an id out of range");
   }
   if (record.version < 0 || !is_count(record.keyframes_taken_in)) Fail("a count out of range");
-  if (!record.stereo_correction.IsFinite()) Fail("a stereo correction without a value");
+  if (!record.correction.IsFinite()) Fail("a correction without a value");
   for (const auto& [id, removed] : record.removed_keyframes) {
     if (!IsInRange(id, record.next_keyframe)) Fail("a removed keyframe that never was");
     if (!IsPose(removed.from_parent.cam_from_keyframe) || !IsUnit(removed.from_parent.unit) ||
@@ -115,7 +115,7 @@ void MapBuilder::Add(KeyFrame keyframe) {
   }
   Frame& frame = keyframe.frame;
   const Features& f = frame.features();
-  PLUMBLINE_CHECK(frame.indexed->correction == map_.stereo_correction_, "another correction");
+  PLUMBLINE_CHECK(frame.indexed->correction == map_.correction_, "another correction");
   if (f.points.size() != f.point_disparity.size() || f.lines.size() != f.line_right.size()) {
     Fail("features of unequal counts");
   }

@@ -23,7 +23,7 @@ class MapBuilder {
   MapBuilder(MapRecord record, std::string source);
 
   // Adds a keyframe. Its matches are cleared, since they follow from the observations of the
-  // landmarks. Its features must have the map's stereo correction (BugError).
+  // landmarks. Its features must have the map's correction (BugError).
   void Add(KeyFrame keyframe);
   // Adds a landmark, after all keyframes that observe it.
   void Add(MapPoint point);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "plumbline/base/ids.h"
-#include "plumbline/features/stereo_correction.h"
+#include "plumbline/features/feature_correction.h"
 #include "plumbline/map/removed_keyframes.h"
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct MapRecord {
   KeyFrameId next_keyframe{0};
   PointId next_point{0};
   LineId next_line{0};
-  StereoCorrection stereo_correction;
+  FeatureCorrection correction;
   std::map<KeyFrameId, RemovedKeyFrame> removed_keyframes;
   // key: the landmark that is gone; value: the one it became
   std::map<PointId, PointId> merged_points;

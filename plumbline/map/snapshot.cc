@@ -71,7 +71,7 @@ std::shared_ptr<const MapSnapshot> TakeSnapshot(const Map& map,
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->map = map.id();
   snapshot->centre = centre;
-  snapshot->stereo_correction = map.stereo_correction();
+  snapshot->correction = map.correction();
   snapshot->reference = std::make_shared<const KeyFrame>(*reference);
   snapshot->places.emplace(centre, map.PlaceOf(centre));
   for (const KeyFrameId id : earlier) snapshot->places.emplace(id, map.PlaceOf(id));

@@ -28,7 +28,7 @@ struct SnapshotLine : LineModel {
 struct MapSnapshot {
   MapId map;
   KeyFrameId centre;
-  StereoCorrection stereo_correction;           // correction of the disparities
+  FeatureCorrection correction;                 // correction of the features
   std::map<KeyFrameId, Rigid3> cam_from_world;  // poses of the keyframes of the window
   // Places of the centre and of the centres of earlier snapshots. The tracker's last pose may refer
   // to one of these, even where the keyframe has left the map meanwhile.

@@ -28,7 +28,7 @@ template <class Archive, Like<IndexedFeatures> T>
 void Transfer(Archive& archive, T& indexed) {
   if constexpr (Archive::kReading) {
     Features measured;
-    StereoCorrection correction;
+    FeatureCorrection correction;
     TransferAll(archive, measured, correction);
     indexed = *IndexFeatures(archive.camera(), std::move(measured), correction);
   } else {
@@ -90,8 +90,7 @@ bool AscendById(const std::vector<Landmark>& landmarks) {
 
 template <class Archive, Like<MapSnapshot> T>
 void Transfer(Archive& archive, T& s) {
-  TransferAll(
-      archive, s.map, s.centre, s.stereo_correction, s.cam_from_world, s.places, s.reference);
+  TransferAll(archive, s.map, s.centre, s.correction, s.cam_from_world, s.places, s.reference);
   TransferAll(archive, s.points, s.lines, s.withdrawn);
   if constexpr (Archive::kReading) {
     if (s.reference == nullptr || !s.places.contains(s.centre)) {

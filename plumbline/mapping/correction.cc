@@ -53,6 +53,9 @@ MapEdit Rebased(const Correction& correction, const Map& today) {
     exact.push_back(edit::MovePoint{id, place.after});
   }
   MapEdit edit{std::move(motion)};
+  if (correction.lens) {
+    edit.push_back(edit::CorrectFeatures{{today.correction().stereo, *correction.lens}});
+  }
   edit.insert(edit.end(), exact.begin(), exact.end());
   edit.insert(edit.end(), correction.outliers.begin(), correction.outliers.end());
   return edit;

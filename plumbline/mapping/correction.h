@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/features/lens_correction.h"
 #include "plumbline/geometry/sim3.h"
 #include "plumbline/map/edit.h"
 #include "plumbline/map/map.h"
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,12 +40,13 @@ struct Correction {
   std::map<KeyFrameId, KeyFramePlace> keyframes;
   std::map<PointId, PointPlace> points;
   std::vector<edit::RemovePointObservation> outliers;
+  std::optional<LensCorrection> lens = {};  // the lens correction of the map, where it is another
 
   bool empty() const { return keyframes.empty(); }
 
   template <class Self, class Visitor>
   static void VisitState(Self& self, const Visitor& visit) {
-    visit(self.keyframes, self.points, self.outliers);
+    visit(self.keyframes, self.points, self.outliers, self.lens);
   }
 };
 

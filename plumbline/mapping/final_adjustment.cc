@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/final_adjustment.h"
 
+#include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/map_problem.h"
 #include "plumbline/mapping/unit_of_length.h"
@@ -84,33 +85,37 @@ bool TakesTooLong(const MapProblem& whole, int limit) {
 // Adjusts poses and points, without lines, to a corrected lens. It starts from the places that were
 // found for a correction near by. Another lens changes the scale from place to place by more than
 // the final adjustment accepts before it sees a tear in the map, so that poses and points have to
-// move there first. Returns false when stopped.
-bool BringToLens(const LearnedLens& lens,
-                 const MappingOptions& options,
-                 const StopCheck& stop,
-                 BaProblem& problem) {
+// move there first. Returns nullopt when stopped.
+std::optional<BaResult> SolveForLens(const LearnedLens& lens,
+                                     const MappingOptions& options,
+                                     BaProblem problem,
+                                     const StopCheck& stop) {
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     problem.poses[i].cam_from_world = lens.poses[i];
   }
   problem.points = lens.points;
-  BaProblem points = problem;
-  points.lines.clear();
-  points.line_observations.clear();
+  problem.lines.clear();
+  problem.line_observations.clear();
   LocalBaOptions ba = options.ba;
   ba.rounds = 1;
   ba.max_iterations = 40;
   ba.function_tolerance = 1e-6;
-  const auto moved =
-      SolveInOnePiece(points, ba, SolveLocalBa, options.window.local_limits(), {}, stop);
-  if (!moved) return false;
-  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    problem.poses[i].cam_from_world = moved->poses[i];
-  }
-  problem.points = moved->points;
-  return true;
+  return SolveInOnePiece(problem, ba, SolveLocalBa, options.window.local_limits(), {}, stop);
 }
 
-Correction CorrectionOf(const Map& map, const MapProblem& whole, const BaResult& result) {
+void TakePlaces(const BaResult& solved, BaProblem& problem) {
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    problem.poses[i].cam_from_world = solved.poses[i];
+  }
+  problem.points = solved.points;
+}
+
+// Returns the places that an adjustment found, and the lens correction of the features together
+// with what was learned beside it.
+Correction CorrectionOf(const Map& map,
+                        const MapProblem& whole,
+                        const LensCorrection& learned,
+                        const BaResult& result) {
   Correction correction;
   const std::vector<double> scales = ScalesOf(whole.problem, result);
   const Rigid3 world_from_problem = Inverse(whole.problem_from_world);
@@ -126,6 +131,10 @@ Correction CorrectionOf(const Map& map, const MapProblem& whole, const BaResult&
     correction.points[id] = {map.Find(id)->position, world_from_problem * result.points[k]};
   }
   correction.outliers = OutliersOf(whole, result);
+  if (learned.border_px() != 0) {
+    const double border_px = map.correction().lens.border_px() + learned.border_px();
+    correction.lens = LensCorrection(whole.problem.camera, border_px);
+  }
   return correction;
 }
 
@@ -135,7 +144,6 @@ Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,
                           const MappingOptions& options,
-                          std::optional<LensCorrection>& lens,
                           const StopCheck& stop) {
   constexpr std::size_t kMinKeyFrames = 3;
   const int limit = options.final_adjustment_keyframes;
@@ -150,12 +158,16 @@ Correction AdjustWholeMap(const Map& map,
   // Long lines that are seen from far away can tie many keyframes together, so that solving would
   // take too long.
   if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weights(), {});
-  const bool learn = options.lens_calibration && !lens;
-  const LearnedLens learned = learn ? LearnLens(whole.problem, stop) : LearnedLens{};
-  if (!lens) lens = learned.correction;
-  Correct(*lens, whole.problem);
+  const LearnedLens learned =
+      options.lens_calibration ? LearnLens(whole.problem, map.correction().lens.border_px(), stop)
+                               : LearnedLens{};
+  Correct(learned.correction, whole.problem);
   BaProblem problem = whole.problem;
-  if (!learned.poses.empty() && !BringToLens(learned, options, stop, problem)) return {};
+  if (!learned.poses.empty()) {
+    const auto moved = SolveForLens(learned, options, problem, stop);
+    if (!moved) return {};
+    TakePlaces(*moved, problem);
+  }
   // KeepUnitOfTheOldest gets `whole.problem`, in which the poses that SolveInOnePiece holds are
   // free, so that it scales all poses.
   const std::optional<BaResult> result = SolveInOnePiece(
@@ -166,16 +178,24 @@ Correction AdjustWholeMap(const Map& map,
       [&](BaResult& solution) { KeepUnitOfTheOldest(whole.problem, solution); },
       stop);
   if (!result) return {};
-  return CorrectionOf(map, whole, *result);
+  return CorrectionOf(map, whole, learned.correction, *result);
 }
 
-Correction AdjustWholeMap(const Map& map,
-                          const ImagingModel& imaging,
-                          const LineOptions& lines,
-                          const MappingOptions& options,
-                          const StopCheck& stop) {
-  std::optional<LensCorrection> lens;
-  return AdjustWholeMap(map, imaging, lines, options, lens, stop);
+Correction AdjustToLens(const Map& map,
+                        const ImagingModel& imaging,
+                        const LineWeights& weights,
+                        const MappingOptions& options,
+                        const StopCheck& stop) {
+  if (map.keyframes().empty() || IsToStop(stop)) return {};
+  MapProblem whole = MakeWholeMap(map, imaging, weights, {});
+  const LearnedLens learned = LearnLens(whole.problem, map.correction().lens.border_px(), stop);
+  if (learned.poses.empty()) return {};
+  Correct(learned.correction, whole.problem);
+  std::optional<BaResult> result = SolveForLens(learned, options, whole.problem, stop);
+  if (!result) return {};
+  KeepPlaceOfTheNewest(whole.problem, *result);
+  whole.problem.poses.front().fixed = false;  // it has moved with all others
+  return CorrectionOf(map, whole, learned.correction, *result);
 }
 
 }  // namespace plumbline

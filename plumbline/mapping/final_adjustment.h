@@ -7,10 +7,7 @@
 #include "plumbline/base/stop_check.h"
 #include "plumbline/map/map.h"
 #include "plumbline/mapping/correction.h"
-#include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/options.h"
-
-#include <optional>
 
 namespace plumbline {
 
@@ -27,9 +24,8 @@ namespace plumbline {
 // depths it shows have changed (KeyFrame::unit).
 //
 // With a single camera, the radial distortion of the lens that the calibration has left is learned
-// from the points first and taken out of all measurements (LearnLens, mapping.lens_calibration).
-// `lens` holds what an earlier adjustment of this map has learned and is used as it is; where it is
-// empty, the lens is learned and stored in it.
+// from the points first and taken out of all measurements (LearnLens, mapping.lens_calibration). It
+// becomes part of the correction, beside what the map's features are corrected by already.
 //
 // Returns an empty correction for a map of less than three keyframes, and for one whose equations
 // take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share
@@ -40,14 +36,18 @@ Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,
                           const MappingOptions& options,
-                          std::optional<LensCorrection>& lens,
                           const StopCheck& stop = {});
-// Adjusts the whole of a map where no earlier adjustment has learned the lens. The lens that this
-// adjustment learns is forgotten afterwards.
-Correction AdjustWholeMap(const Map& map,
-                          const ImagingModel& imaging,
-                          const LineOptions& lines,
-                          const MappingOptions& options,
-                          const StopCheck& stop = {});
+
+// Learns the lens of a single camera from the points of a map that will still grow (LearnLens), and
+// adjusts keyframes and points to it, with the gauge and the limits of AdjustWholeMap. Lines move
+// with the keyframes that show them.
+//
+// Returns an empty correction where nothing is learned, and when `stop` says so before the end.
+// Cost: LearnLens, and one more adjustment of the points where something is learned.
+Correction AdjustToLens(const Map& map,
+                        const ImagingModel& imaging,
+                        const LineWeights& weights,
+                        const MappingOptions& options,
+                        const StopCheck& stop = {});
 
 }  // namespace plumbline

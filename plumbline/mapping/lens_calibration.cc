@@ -20,10 +20,6 @@ constexpr double kPriorSigma = 0.01;
 // Mean shift, relative to the width of the image, that the deviations of corners allow for already.
 constexpr double kAllowed = 5e-4;
 
-Eigen::Vector2d InHalfWidths(const RectifiedCamera& camera, const Eigen::Vector2d& px) {
-  return (px - Eigen::Vector2d(camera.cx, camera.cy)) / (0.5 * camera.width);
-}
-
 // The cost of a map's points as a function of the correction, in pixels at the border.
 class Profile {
  public:
@@ -40,7 +36,7 @@ class Profile {
     if (known != solved_.end()) return known->second.final_cost;
     BaProblem corrected = problem_;
     if (!solved_.empty()) TakePlaces(Nearest(border_px), corrected);
-    Correct({border_px}, corrected);
+    Correct({corrected.camera, border_px}, corrected);
     LocalBaOptions options;
     // No observation is taken out, so that all costs count the same observations.
     options.rounds = 1;
@@ -82,29 +78,29 @@ class Profile {
 };
 
 struct Parabola {
-  double middle_cost = 0;
   double minimum = 0;    // correction at which the cost is least
   double curvature = 0;  // second derivative of the cost
 
-  // Returns by how much the correction at the minimum lowers the cost compared with no correction.
-  // Holds for a parabola that was fitted around zero.
-  double Gain() const { return 0.5 * curvature * minimum * minimum; }
+  // Returns by how much the correction at the minimum lowers the cost compared with another one.
+  double GainOver(double other) const {
+    return 0.5 * curvature * (minimum - other) * (minimum - other);
+  }
 };
 
 // Returns the parabola through the costs at `middle` and at `step` before and after it.
 Parabola Through(double middle, double step, const std::array<double, 3>& costs) {
   const double slope = (costs[2] - costs[0]) / (2 * step);
   const double curvature = (costs[0] - 2 * costs[1] + costs[2]) / (step * step);
-  return {costs[1], middle - slope / curvature, curvature};
+  return {middle - slope / curvature, curvature};
 }
 
 // Returns by how much a correction of one pixel at the border moves the points of a problem, as the
 // root mean square [px].
 double MeanSize(const BaProblem& problem) {
+  const LensCorrection one(problem.camera, 1);
   double sum = 0;
   for (const auto& o : problem.point_observations) {
-    const Eigen::Vector2d& px = o.measurement.px;
-    sum += (LensCorrection{1}.At(problem.camera, px) - px).squaredNorm();
+    sum += one.ShiftAt(o.measurement.px).squaredNorm();
   }
   return std::sqrt(sum / static_cast<double>(problem.point_observations.size()));
 }
@@ -124,34 +120,21 @@ std::optional<Parabola> FitAround(Profile& profile, double middle, double step, 
 
 }  // namespace
 
-Eigen::Vector2d LensCorrection::At(const RectifiedCamera& camera, const Eigen::Vector2d& px) const {
-  const Eigen::Vector2d d = InHalfWidths(camera, px);
-  return px - border_px * d.squaredNorm() * d;
-}
-
-double LensCorrection::ScaleAt(const RectifiedCamera& camera, const Eigen::Vector2d& px) const {
-  const double part = border_px / (0.5 * camera.width) * InHalfWidths(camera, px).squaredNorm();
-  // The first factor is the scale along the circle around the principal point, the second along the
-  // radius.
-  return std::sqrt((1 - part) * (1 - 3 * part));
-}
-
 void Correct(const LensCorrection& correction, BaProblem& problem) {
-  const RectifiedCamera& camera = problem.camera;
   for (auto& o : problem.point_observations) {
-    o.measurement.sigma_px *= correction.ScaleAt(camera, o.measurement.px);
-    o.measurement.px = correction.At(camera, o.measurement.px);
+    o.measurement.sigma_px *= correction.ScaleAt(o.measurement.px);
+    o.measurement.px = correction.At(o.measurement.px);
   }
   for (auto& o : problem.line_observations) {
     if (o.measurement.camera != 0) continue;
     Segment2& segment = o.measurement.segment;
-    const double scale = correction.ScaleAt(camera, segment.Midpoint());
+    const double scale = correction.ScaleAt(segment.Midpoint());
     o.measurement.covariance *= scale * scale;
-    segment = {correction.At(camera, segment.start), correction.At(camera, segment.end)};
+    segment = {correction.At(segment.start), correction.At(segment.end)};
   }
 }
 
-LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
+LearnedLens LearnLens(const BaProblem& problem, double known_px, const StopCheck& stop) {
   // Steps between corrections, relative to the width of the image. With the first step all points
   // stay near where they were, which takes few iterations; the second leads to the places that a
   // large correction asks for.
@@ -163,32 +146,37 @@ LearnedLens LearnLens(const BaProblem& problem, const StopCheck& stop) {
   // the views for independent.
   constexpr double kSigmas = 6;
   constexpr double kEnough = 0.5 * kSigmas * kSigmas;  // least decrease of the cost
+  // A smaller change of the known correction, relative to the width, is not worth an adjustment.
+  constexpr double kLeastChange = 2e-4;
   if (problem.camera.baseline > 0 || problem.point_observations.empty()) return {};
-  const double sigma = kPriorSigma * problem.camera.width;
-  const double step = kStep * problem.camera.width;
+  const double width = problem.camera.width;
+  const double sigma = kPriorSigma * width;
+  const double step = kStep * width;
   Profile profile(problem, stop);
-  std::optional<Parabola> fit =
-      FitAround(profile, 0, kFirstStep * problem.camera.width, kMost * sigma);
-  // Longer steps change the gain that short ones find by far less than a factor of two, so that
-  // half of kEnough is a safe limit.
-  if (!fit || fit->Gain() < 0.5 * kEnough) return {};
+  std::optional<Parabola> fit;
+  if (known_px == 0) {
+    fit = FitAround(profile, 0, kFirstStep * width, kMost * sigma);
+    // Longer steps change the gain that short ones find by far less than a factor of two, so that
+    // half of kEnough is a safe limit.
+    if (!fit || fit->GainOver(0) < 0.5 * kEnough) return {};
+  }
   fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
-  const double uncorrected = fit->middle_cost;
-  double gain = fit->Gain();
   // The profile is a parabola only near its minimum, so that a distant minimum is fitted again.
   // Where that leads elsewhere, points have stuck on the way.
   if (std::abs(fit->minimum) > step) {
     const double middle = fit->minimum;
     fit = FitAround(profile, middle, step, kMost * sigma);
     if (!fit || std::abs(fit->minimum - middle) > step) return {};
-    gain = uncorrected - fit->middle_cost;
   }
-  const double border = fit->minimum * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
-  const bool matters = std::abs(border) * MeanSize(problem) > kAllowed * problem.camera.width;
-  if (gain <= kEnough || !matters) return {};
-  const BaResult& nearest = profile.Nearest(border);
-  return {{border}, nearest.poses, nearest.points};
+  const double whole =
+      (known_px + fit->minimum) * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
+  const bool matters = std::abs(whole) * MeanSize(problem) > kAllowed * width;
+  const bool counts = fit->GainOver(-known_px) > kEnough && matters;
+  const double change = (counts ? whole : 0) - known_px;
+  if (std::abs(change) < kLeastChange * width) return {};
+  const BaResult& nearest = profile.Nearest(change);
+  return {{problem.camera, change}, nearest.poses, nearest.points};
 }
 
 }  // namespace plumbline

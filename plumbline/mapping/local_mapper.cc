@@ -131,7 +131,7 @@ void LocalMapper::FollowJoins(const Atlas& atlas) {
 
 void LocalMapper::StartNewMap(Map& map) {
   GoOnInAnotherMap();
-  map.Apply({edit::CorrectStereo{calibrator_.Estimate()}});
+  map.Apply({edit::CorrectFeatures{{calibrator_.Estimate()}}});
 }
 
 LocalMapper::State LocalMapper::state() const {
@@ -176,13 +176,14 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
   constexpr int kRounds = 2;  // in the second round, better poses find more segments of each line
   std::vector<MappingStep> times;
   if (stereo_change_.Running(map)) {
-    map.Apply({edit::CorrectStereo{stereo_change_.state()->correction}});
+    map.Apply({edit::CorrectFeatures{{stereo_change_.state()->correction, map.correction().lens}}});
   }
-  std::optional<LensCorrection> lens;
+  MappingOptions options = options_;
   for (int round = 0; round < kRounds; ++round) {
     Timed("finish", times, [&] {
-      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options_, lens, stop), map));
+      map.Apply(Rebased(AdjustWholeMap(map, imaging_, lines_, options, stop), map));
     });
+    options.lens_calibration = false;  // the first round has learned the lens
   }
   return times;
 }
@@ -280,7 +281,7 @@ void LocalMapper::CalibrateStereo(Map& map, KeyFrameId id) {
   if (keyframe != nullptr) calibrator_.Observe(map, *keyframe);
   if (!stereo_change_.Running(map)) {
     const StereoCorrection correction = calibrator_.Estimate();
-    if (MaxDifference(imaging_.camera, correction, map.stereo_correction()) > kMinChangePx) {
+    if (MaxDifference(imaging_.camera, correction, map.correction().stereo) > kMinChangePx) {
       stereo_change_.Begin(map, correction);
     }
   }

@@ -154,8 +154,8 @@ void VisitFields(Visitor&& visit, MappingOptions& o) {
         "learn where the right image is displaced along its rows, and correct all disparities");
   visit("lens_calibration",
         o.lens_calibration,
-        "one camera: learn what the calibration has left of the lens's radial distortion when the "
-        "run ends, and adjust the whole map without it");
+        "one camera: learn what the calibration has left of the lens's radial distortion while the "
+        "map grows and when the run ends, and adjust the whole map without it");
   visit(
       "final_adjustment_keyframes",
       o.final_adjustment_keyframes,

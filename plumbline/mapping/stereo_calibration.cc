@@ -110,7 +110,7 @@ void StereoCalibrator::Observe(const Map& map, const KeyFrame& keyframe) {
     const double variance = predicted * predicted * depth_variance / (z * z);
     if (!(variance <= max_sigma_px * max_sigma_px)) continue;
     const Eigen::Vector2d px = frame.features().points[i].px - Eigen::Vector2d(disparity->px, 0);
-    const double displacement = disparity->px + frame.indexed->correction.At(px) - predicted;
+    const double displacement = disparity->px + frame.indexed->correction.stereo.At(px) - predicted;
     evidence.Add(StereoCorrection::Terms(camera_, px),
                  predicted,
                  displacement,

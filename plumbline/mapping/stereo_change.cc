@@ -23,17 +23,18 @@ void StereoChange::Step(Map& map) {
   const auto freed = static_cast<std::ptrdiff_t>(std::min(kSlice, retired_.size()));
   retired_.erase(retired_.begin(), retired_.begin() + freed);
   if (!Running(map)) return;
+  const FeatureCorrection correction{state_->correction, map.correction().lens};
   auto keyframe = map.keyframes().lower_bound(state_->next);
   for (std::size_t i = 0; i < kSlice && keyframe != map.keyframes().end(); ++i, ++keyframe) {
     const auto& [id, added] = *keyframe;
-    change_.ready.emplace_back(id, WithCorrection(added.frame.indexed, state_->correction));
+    change_.ready.emplace_back(id, WithCorrection(added.frame.indexed, correction));
     state_->next = KeyFrameId{id.value + 1};
   }
   if (keyframe != map.keyframes().end()) return;
   if (map.keyframes().size() > kSlice) {
     for (const auto& [id, changed] : map.keyframes()) retired_.push_back(changed.frame.indexed);
   }
-  change_.correction = state_->correction;
+  change_.correction = correction;
   map.Apply({std::move(change_)});
   GiveUp();
 }

@@ -49,7 +49,7 @@ class StereoChange {
 
  private:
   std::optional<State> state_;
-  edit::CorrectStereo change_;
+  edit::CorrectFeatures change_;
   // Features that no keyframe has any more. They are freed step by step, since freeing takes time.
   std::deque<std::shared_ptr<const IndexedFeatures>> retired_;
 };

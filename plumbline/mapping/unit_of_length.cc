@@ -38,6 +38,15 @@ void ScaleAbout(const Eigen::Vector3d& centre, double scale, BaResult& result) {
   }
 }
 
+void Move(const Rigid3& new_from_old, BaResult& result) {
+  const Rigid3 old_from_new = Inverse(new_from_old);
+  for (Rigid3& pose : result.poses) pose = pose * old_from_new;
+  for (Eigen::Vector3d& point : result.points) point = new_from_old * point;
+  for (OrthonormalLine& line : result.lines) {
+    line = ToOrthonormal(Transform(new_from_old, ToPlucker(line)));
+  }
+}
+
 }  // namespace
 
 std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result) {
@@ -66,6 +75,15 @@ void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
   if (fixed > 1) return;
   const Eigen::Vector3d centre = Inverse(problem.poses.front().cam_from_world).translation;
   ScaleAbout(centre, 1 / ScalesOf(problem, result).front(), result);
+}
+
+void KeepPlaceOfTheNewest(const BaProblem& problem, BaResult& result) {
+  if (problem.poses.empty() || problem.camera.baseline > 0) return;
+  const Rigid3 before_from_after =
+      Inverse(problem.poses.back().cam_from_world) * result.poses.back();
+  const double scale = 1 / ScalesOf(problem, result).back();
+  Move(before_from_after, result);
+  ScaleAbout(Inverse(result.poses.back()).translation, scale, result);
 }
 
 }  // namespace plumbline

@@ -23,4 +23,9 @@ std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result);
 // ones.
 void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result);
 
+// Moves a solution for a single camera as a whole, poses, points and lines, so that its last pose
+// is where it was, and scales it so that the depths which this pose shows stay as they were in the
+// median. Poses that are reported from then on go on from those before without a step.
+void KeepPlaceOfTheNewest(const BaProblem& problem, BaResult& result);
+
 }  // namespace plumbline

@@ -15,7 +15,7 @@ constexpr Color kFreeLine{70, 130, 255};
 }  // namespace
 
 void WriteFeatureOverlay(const FrameView& view, const std::filesystem::path& path) {
-  const Features& features = view.frame.features();
+  const Features features = MeasuredFeatures(*view.frame.indexed);
   Overlay overlay;
   for (std::size_t i = 0; i < features.points.size(); ++i) {
     const bool matched = view.frame.points[i].valid();

@@ -33,7 +33,7 @@ SampleImage MakeSampleImage(const FrameView& view, const std::string& file) {
   sample.width = view.images.left.width();
   sample.height = view.images.left.height();
   sample.jpeg = SmallJpegOf(view.images.left);
-  const Features& features = view.frame.features();
+  const Features features = MeasuredFeatures(*view.frame.indexed);
   for (std::size_t i = 0; i < features.points.size(); ++i) {
     const bool matched = view.frame.points[i].valid();
     (matched ? sample.matched_points : sample.other_points).push_back(features.points[i].px);

@@ -20,20 +20,18 @@ void LowerPriority() {
 
 }  // namespace
 
-BackgroundAdjustment::BackgroundAdjustment(Compute compute, Worker worker)
-    : compute_(std::move(compute)), worker_(worker) {}
-
 BackgroundAdjustment::~BackgroundAdjustment() { GiveUp(); }
 
-void BackgroundAdjustment::Begin(const Map& map, std::int64_t due_frame) {
+void BackgroundAdjustment::Begin(const Map& map, std::int64_t due_frame, Compute compute) {
   GiveUp();
   job_ = std::make_unique<Job>();
+  job_->compute = std::move(compute);
   job_->map = map;
   job_->id = map.id();
   job_->due_frame = due_frame;
   if (worker_ == Worker::kCaller) return;
-  thread_ = std::jthread([this, job = job_.get()] {
-    if (worker_ == Worker::kThreadOfLowPriority) LowerPriority();
+  thread_ = std::jthread([low = worker_ == Worker::kThreadOfLowPriority, job = job_.get()] {
+    if (low) LowerPriority();
     Run(*job);
   });
 }
@@ -54,9 +52,9 @@ std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeReady() {
   return Take();
 }
 
-void BackgroundAdjustment::Run(Job& job) const {
+void BackgroundAdjustment::Run(Job& job) {
   try {
-    job.correction = compute_(job.map, [&job] { return job.stop.load(); });
+    job.correction = job.compute(job.map, [&job] { return job.stop.load(); });
   } catch (...) {
     job.failure = std::current_exception();
   }

@@ -37,7 +37,7 @@ class BackgroundAdjustment {
   };
 
   // With Worker::kCaller the correction is computed in the caller's thread when it is taken.
-  BackgroundAdjustment(Compute compute, Worker worker);
+  explicit BackgroundAdjustment(Worker worker) : worker_(worker) {}
   // Gives up what is being computed, and waits until the computation has stopped.
   ~BackgroundAdjustment();
   BackgroundAdjustment(const BackgroundAdjustment&) = delete;
@@ -45,7 +45,7 @@ class BackgroundAdjustment {
 
   // Begins a correction of a copy of the map. Copying is cheap: map and copy share what the map
   // does not change meanwhile.
-  void Begin(const Map& map, std::int64_t due_frame);
+  void Begin(const Map& map, std::int64_t due_frame, Compute compute);
   void GiveUp();
   bool Running() const { return job_ != nullptr; }
 
@@ -73,6 +73,7 @@ class BackgroundAdjustment {
 
  private:
   struct Job {
+    Compute compute;
     Map map;
     MapId id;
     std::int64_t due_frame = 0;
@@ -81,11 +82,10 @@ class BackgroundAdjustment {
     std::atomic<bool> stop = false;
     std::atomic<bool> ready = false;
   };
-  void Run(Job& job) const;
+  static void Run(Job& job);
   void Complete();
   Result Take();
 
-  Compute compute_;
   Worker worker_;
   std::unique_ptr<Job> job_;
   std::jthread thread_;  // declared last, so that it ends before what it uses

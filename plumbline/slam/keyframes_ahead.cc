@@ -155,7 +155,7 @@ std::shared_ptr<const MapSnapshot> WithKeyFramesAhead(
       frame.cam_from_world = PoseBeside(parent->second, added->from_parent);
       keyframe->unit = parent->second.unit;
     }
-    frame.indexed = WithCorrection(frame.indexed, snapshot.stereo_correction);
+    frame.indexed = WithCorrection(frame.indexed, snapshot.correction);
     CountShown(mapped, result->points, frame.points);
     CountShown(mapped, result->lines, frame.lines);
     DepthLandmarks landmarks = LandmarksFromDepth(camera, frame, options);

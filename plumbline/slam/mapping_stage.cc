@@ -9,6 +9,7 @@
 #include "plumbline/slam/keyframes_ahead.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <iterator>
 
@@ -18,10 +19,18 @@ namespace {
 BackgroundAdjustment::Compute WholeMapAdjustment(const ImagingModel& imaging,
                                                  const SlamOptions& options) {
   MappingOptions mapping = options.mapping;
-  // The lens stays fixed, because frames to come are measured with the lens as it is.
+  // What closes a loop does not tell of the lens; LearnLens has times of its own.
   mapping.lens_calibration = false;
   return [imaging, lines = options.lines, mapping](const Map& map, const StopCheck& stop) {
     return AdjustWholeMap(map, imaging, lines, mapping, stop);
+  };
+}
+
+BackgroundAdjustment::Compute LensAdjustment(const ImagingModel& imaging,
+                                             const SlamOptions& options) {
+  return [imaging, weights = options.lines.weights(), mapping = options.mapping](
+             const Map& map, const StopCheck& stop) {
+    return AdjustToLens(map, imaging, weights, mapping, stop);
   };
 }
 
@@ -44,7 +53,9 @@ MappingStage::MappingStage(const ImagingModel& imaging,
       relocalizer_(
           imaging, options.tracking, PoseEstimator(imaging.camera, options.lines, options.cutting)),
       places_(imaging, options.loop),
-      adjustment_(WholeMapAdjustment(imaging, options), AdjustmentWorker(mode_, execution)) {
+      adjustment_(AdjustmentWorker(mode_, execution)),
+      adjust_map_(WholeMapAdjustment(imaging, options)),
+      adjust_to_lens_(LensAdjustment(imaging, options)) {
   if (mode_ != RunMode::kInline && execution.threads) {
     worker_ = std::jthread([this] { WorkUntilStopped(); });
   }
@@ -104,6 +115,7 @@ MappingStage::Checkpoint MappingStage::Save() {
           outcomes_,
           changed_,
           centres_,
+          first_places_,
           times_,
           atlas_.history(),
           places_.state(),
@@ -123,6 +135,7 @@ void MappingStage::Resume(Atlas atlas, const Checkpoint& checkpoint) {
   outcomes_ = checkpoint.outcomes;
   changed_ = checkpoint.changed;
   centres_ = checkpoint.centres;
+  first_places_ = checkpoint.first_places;
   times_ = checkpoint.times;
   places_.SetState(checkpoint.places);
   events_ = {places_.loops(), places_.joins(), {}};
@@ -150,12 +163,20 @@ void MappingStage::CheckFits(const Atlas& atlas, const Checkpoint& c) {
     fits = fits && (snapshot == nullptr || has(snapshot->map));
   }
   for (const MapId id : c.changed) fits = fits && atlas.Find(id) != nullptr;
+  for (const auto& [id, place] : c.first_places) {
+    const Map* map = atlas.Find(id);
+    fits =
+        fits && map != nullptr && map->Knows(place.id) && place.cam_from_world.Matrix().allFinite();
+  }
   for (const KeyFrameId id : c.centres) {  // of any map: a lost camera was looked for in all
     fits = fits && std::any_of(atlas.maps().begin(), atlas.maps().end(), [&](const auto& map) {
              return map.second.Knows(id);
            });
   }
   fits = fits && (!c.adjustment || has(c.adjustment->result.map));
+  if (c.adjustment && c.adjustment->result.correction.lens) {
+    fits = fits && c.adjustment->result.correction.lens->IsFinite();
+  }
   if (const auto& change = c.mapper.stereo_change) {
     fits = fits && atlas.Find(change->map) != nullptr && change->correction.IsFinite();
   }
@@ -305,7 +326,9 @@ void MappingStage::Finish(const StopCheck& stop) {
   while (versions_.size() > 1) versions_.pop_front();
   adjustment_.GiveUp();  // the adjustment below does more
   for (const MapId id : std::exchange(changed_, {})) {
-    const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
+    Map& map = *atlas_.Find(id);
+    const std::vector<MappingStep> times = mapper_.Finish(map, stop);
+    MoveFirstKeyFrameBack(map);
     times_.insert(times_.end(), times.begin(), times.end());
   }
 }
@@ -394,6 +417,12 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   Done done = std::visit([&](const auto& work) { return Do(work, task.frame); }, task.work);
   lock.lock();
   begun_ = nullptr;
+  const auto& in_use = versions_.back().snapshot;
+  // The lost camera may have been found in another map since it saw this.
+  const bool is_sighting = std::holds_alternative<Sighting>(task.work);
+  if (is_sighting && done.snapshot && in_use && done.snapshot->map != in_use->map) {
+    done.snapshot = nullptr;
+  }
   if (done.snapshot == nullptr) done.snapshot = versions_.back().snapshot;
   versions_.push_back({task.number, std::move(done.snapshot)});
   times_.insert(times_.end(), done.times.begin(), done.times.end());
@@ -408,6 +437,7 @@ MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& ad
   Done done;
   done.times = mapper_.Add(map, SettledIn(map, *added), added->scores, added->image.get());
   Recognize(added->keyframe.id, frame, done.times);
+  LearnLens(added->keyframe.id, frame);
   done.snapshot = TakeSnapshotAround(atlas_.active(), added->keyframe.id);
   return done;
 }
@@ -427,7 +457,19 @@ void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<Mapp
   changed_.insert(map.id());
   const std::vector<MappingStep> more = mapper_.Tie(map, id, *older);
   times.insert(times.end(), more.begin(), more.end());
-  adjustment_.Begin(map, frame + AdjustmentDelay(map));
+  adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_map_);
+}
+
+// Begins to learn the lens of a single camera when the map has taken in enough keyframes to tell of
+// it, and again whenever these have doubled, four times. An adjustment that is under way goes on
+// instead, because it knows of a loop.
+void MappingStage::LearnLens(KeyFrameId newest, std::int64_t frame) {
+  constexpr std::array<std::int64_t, 5> kTimes{16, 32, 64, 128, 256};
+  if (camera_.baseline > 0 || !mapping_options_.lens_calibration || adjustment_.Running()) return;
+  const Map& map = atlas_.active();
+  const std::int64_t taken_in = map.NumberOf(newest) + 1;
+  if (std::find(kTimes.begin(), kTimes.end(), taken_in) == kTimes.end()) return;
+  adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_to_lens_);
 }
 
 // What is remembered of a map that was joined is of the one that it is part of.
@@ -436,6 +478,7 @@ void MappingStage::FollowJoins() {
   std::set<MapId> changed;
   for (const MapId id : changed_) changed.insert(atlas_.Current(id));
   changed_ = std::move(changed);
+  std::erase_if(first_places_, [&](const auto& place) { return !atlas_.Find(place.first); });
 }
 
 MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {
@@ -496,8 +539,24 @@ void MappingStage::TakeCorrection(std::int64_t frame) {
   const auto found = when_ready ? adjustment_.TakeReady() : adjustment_.TakeDue(frame);
   if (!found) return;
   Map& map = *atlas_.Find(atlas_.Current(found->map));
+  if (found->correction.lens) {
+    const auto& [first, keyframe] = *map.keyframes().begin();
+    first_places_.try_emplace(map.id(), PlacedKeyFrame{first, keyframe.frame.cam_from_world});
+  }
   map.Apply(Rebased(found->correction, map));
   changed_.insert(map.id());
+}
+
+// Moves a map as a whole, so that its first keyframe is where it was before the map was adjusted to
+// a lens: the world is the camera of that keyframe.
+void MappingStage::MoveFirstKeyFrameBack(Map& map) const {
+  const auto place = first_places_.find(map.id());
+  if (place == first_places_.end()) return;
+  const auto& [first, before] = place->second;
+  const Similarity3 new_from_old = ToSimilarity(Inverse(before) * map.PoseOf(first));
+  edit::MoveKeyFrames motion;
+  for (const auto& [id, keyframe] : map.keyframes()) motion.new_from_old.emplace(id, new_from_old);
+  map.Apply({std::move(motion), edit::SetPose{first, before}});
 }
 
 // Takes a snapshot that also holds the places of earlier centres, because the tracker's last pose

@@ -230,6 +230,15 @@ class MappingStage {
       visit(self.task, self.outcome);
     }
   };
+  struct PlacedKeyFrame {
+    KeyFrameId id;
+    Rigid3 cam_from_world;
+
+    template <class Self, class Visitor>
+    static void VisitState(Self& self, const Visitor& visit) {
+      visit(self.id, self.cam_from_world);
+    }
+  };
   // The results of a task.
   struct Done {
     std::shared_ptr<const MapSnapshot> snapshot;  // null: the snapshot before stays in use
@@ -255,8 +264,10 @@ class MappingStage {
   Done Do(const Sighting& sighting, std::int64_t frame);
   Done Do(const Visit& visit, std::int64_t frame);
   void Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times);
+  void LearnLens(KeyFrameId newest, std::int64_t frame);
   void FollowJoins();
   void TakeCorrection(std::int64_t frame);
+  void MoveFirstKeyFrameBack(Map& map) const;
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
   std::int64_t LastDone() const { return versions_.back().task; }
 
@@ -283,7 +294,10 @@ class MappingStage {
   // Maps that changed since they were loaded or last adjusted as a whole.
   std::set<MapId> changed_;
   std::deque<KeyFrameId> centres_;  // centres of the last snapshots
+  // Where the first keyframes of maps were before the maps were adjusted to a lens.
+  std::map<MapId, PlacedKeyFrame> first_places_;
   BackgroundAdjustment adjustment_;
+  BackgroundAdjustment::Compute adjust_map_, adjust_to_lens_;
   // State that both threads use, guarded by mutex_.
   mutable std::mutex mutex_;
   std::condition_variable task_added_, task_done_;
@@ -312,6 +326,7 @@ struct MappingStage::Checkpoint {
   std::deque<Outcome> outcomes;
   std::set<MapId> changed;
   std::deque<KeyFrameId> centres;
+  std::map<MapId, PlacedKeyFrame> first_places;
   std::vector<MappingStep> times;
   Atlas::History history;
   PlaceRecognition::State places;
@@ -324,7 +339,7 @@ struct MappingStage::Checkpoint {
     visit(self.mapper.adjusted_lines, self.submitted, self.map_begins, self.dues);
     visit(self.versions, self.outcomes, self.changed, self.centres, self.times);
     visit(self.history, self.places, self.adjustment, self.mapper.stereo_change);
-    visit(self.mapper.recent_patches);
+    visit(self.mapper.recent_patches, self.first_places);
   }
 };
 

@@ -183,8 +183,9 @@ void MonocularStart::LocateFramesOf(const Start& start,
       prediction.Add(frame->stamp_ns, predicted);
       continue;
     }
-    const auto pose = LocateFrame(
-        imaging_, estimator_, *frame->indexed, predicted, nearest.snapshot(), max_pose_sigma_);
+    const auto indexed = WithCorrection(frame->indexed, nearest.snapshot().correction);
+    const auto pose =
+        LocateFrame(imaging_, estimator_, *indexed, predicted, nearest.snapshot(), max_pose_sigma_);
     if (!pose) {
       if (tracked) prediction.Add(frame->stamp_ns, predicted);
       missed += !tracked;

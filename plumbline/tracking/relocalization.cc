@@ -98,9 +98,9 @@ std::optional<Relocalized> Relocalizer::Find(const Map& map,
 std::optional<Relocalized> Relocalizer::Find(const Frame& frame,
                                              std::span<const PlaceToTry> candidates) const {
   std::vector<PlaceFound> places;
-  Frame corrected = frame;  // disparities corrected as in the map of the place
+  Frame corrected = frame;  // corrected as in the map of the place
   for (const PlaceToTry& place : OfDifferentPlaces(candidates)) {
-    const StereoCorrection& correction = place.map->stereo_correction();
+    const FeatureCorrection& correction = place.map->correction();
     if (!(corrected.indexed->correction == correction)) {
       corrected.indexed = WithCorrection(frame.indexed, correction);
     }

@@ -57,8 +57,8 @@ TrackingResult Tracker::Track(FrameId id,
   frame.stamp_ns = stamp_ns;
   frame.points.resize(indexed->features.points.size());
   frame.lines.resize(indexed->features.lines.size());
-  frame.indexed = snapshot != nullptr ? WithCorrection(indexed, snapshot->stereo_correction)
-                                      : std::move(indexed);
+  frame.indexed =
+      snapshot != nullptr ? WithCorrection(indexed, snapshot->correction) : std::move(indexed);
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
   if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");

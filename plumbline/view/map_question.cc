@@ -23,10 +23,12 @@ json SeenBy(const Map& map, const Observations& observations, bool is_line) {
   for (const auto& [id, feature] : observations) {
     const KeyFrame* keyframe = map.Find(id);
     if (keyframe == nullptr) continue;
-    list.push_back(
-        {{"keyframe", id.value},
-         {"frame", keyframe->frame.id.value},
-         {"px", PixelsOf(keyframe->frame.features(), is_line, static_cast<std::size_t>(feature))}});
+    list.push_back({{"keyframe", id.value},
+                    {"frame", keyframe->frame.id.value},
+                    {"px",
+                     PixelsOf(MeasuredFeatures(*keyframe->frame.indexed),
+                              is_line,
+                              static_cast<std::size_t>(feature))}});
   }
   return list;
 }

@@ -29,7 +29,7 @@ std::uint64_t Unsigned(int count) { return count > 0 ? static_cast<std::uint64_t
 
 void AddFeatures(const ViewedFrame& frame, ProtobufWriter& message) {
   if (frame.indexed == nullptr) return;
-  const Features& features = frame.indexed->features;
+  const Features features = MeasuredFeatures(*frame.indexed);
   std::vector<float> numbers;
   std::vector<std::int32_t> ids;
   const auto put = [&](const Eigen::Vector2d& px) {
@@ -93,7 +93,7 @@ std::array<ImageMarks, 4> MarksOf(const ViewedFrame& frame) {
   matched_lines.thickness = 2;
   other_lines.color = {0.36, 0.58, 1, 1};
   if (frame.indexed == nullptr) return marks;
-  const Features& features = frame.indexed->features;
+  const Features features = MeasuredFeatures(*frame.indexed);
   for (std::size_t i = 0; i < features.points.size(); ++i) {
     const bool matched = i < frame.points.size() && frame.points[i].valid();
     (matched ? matched_points : other_points).points.push_back(features.points[i].px);

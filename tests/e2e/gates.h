@@ -44,7 +44,7 @@ inline constexpr Gate kRoadTurnMono{
     "--sensor mono --set features.lines=false --set features.point_count=2000",
     160,
     0,
-    0.2};
+    0.15};
 // Lines only: above all, that the track is kept.
 inline constexpr Gate kMachineHallLines{
     "euroc/MH_01_easy_first250", "--set features.points=false", 249, 1, 0.01};

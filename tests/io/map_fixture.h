@@ -105,7 +105,7 @@ inline void FillMap(Map& map) {
              edit::RemoveKeyFrame{id(1)},
              edit::MergePoints{second.id, third.id},
              edit::MoveKeyFrames{{{id(4), Similarity3{2}}}},
-             edit::CorrectStereo{SomeCorrection()}});
+             edit::CorrectFeatures{{SomeCorrection()}}});
 }
 
 // Two maps, the first one active, and a context in which nothing is as by default.

@@ -119,7 +119,7 @@ void ExpectSame(const Map& a, const Map& b) {
   EXPECT_EQ(a.NextKeyFrameId(), b.NextKeyFrameId());
   EXPECT_EQ(a.NextPointId(), b.NextPointId());
   EXPECT_EQ(a.NextLineId(), b.NextLineId());
-  EXPECT_EQ(a.stereo_correction(), b.stereo_correction());
+  EXPECT_EQ(a.correction(), b.correction());
   ExpectSame(a.keyframes(), b.keyframes());
   ExpectSame(a.points(), b.points());
   ExpectSame(a.lines(), b.lines());
@@ -140,11 +140,22 @@ TEST(LoadAtlas, GivesBackAllMapsToTheLastBit) {
   const SavedAtlas loaded = LoadAtlas(Saved(folder, saved));
   ASSERT_EQ(loaded.atlas.maps().size(), 2U);
   EXPECT_EQ(loaded.atlas.active_id(), MapId{0});
-  ASSERT_NE(saved.atlas.active().stereo_correction(), StereoCorrection());
+  ASSERT_NE(saved.atlas.active().correction(), FeatureCorrection());
   ASSERT_EQ(saved.atlas.active().keyframes().size(), 4U);
   ASSERT_EQ(saved.atlas.active().Find(KeyFrameId{4})->unit, 2);
   ASSERT_EQ(saved.atlas.active().Current(PointId{5}), PointId{4});
   for (const auto& [id, map] : saved.atlas.maps()) ExpectSame(map, *loaded.atlas.Find(id));
+}
+
+TEST(LoadAtlas, GivesBackTheLensOfAMap) {
+  const ScratchFolder folder;
+  SavedAtlas saved = MakeSavedAtlas();
+  Map& map = saved.atlas.active();
+  const FeatureCorrection correction{map.correction().stereo, {kMapCamera, 2.5}};
+  map.Apply({edit::CorrectFeatures{correction}});
+  const SavedAtlas loaded = LoadAtlas(Saved(folder, saved));
+  EXPECT_EQ(loaded.atlas.active().correction(), correction);
+  ExpectSame(map, loaded.atlas.active());
 }
 
 TEST(LoadAtlas, GivesBackWhatTheMapsWereMadeWith) {
@@ -177,9 +188,9 @@ TEST(LoadAtlas, DoesNotLetDisparitiesBeCorrectedTwice) {
   const ScratchFolder folder;
   SavedAtlas never_saved = MakeSavedAtlas();
   SavedAtlas loaded = LoadAtlas(Saved(folder, never_saved));
-  const StereoCorrection next(kMapCamera, Vector6d::Constant(0.25));
+  const FeatureCorrection next{{kMapCamera, Vector6d::Constant(0.25)}};
   for (SavedAtlas* one : {&never_saved, &loaded}) {
-    one->atlas.active().Apply({edit::CorrectStereo{next}});
+    one->atlas.active().Apply({edit::CorrectFeatures{next}});
   }
   ExpectSame(never_saved.atlas.active(), loaded.atlas.active());
   Features once = ThreePointsAndTwoLines(3);

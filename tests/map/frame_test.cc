@@ -16,12 +16,28 @@ TEST(WithCorrection, CorrectsACopyAndRemembersTheCorrection) {
   features->features.points.resize(1);
   features->features.point_disparity = {Disparity{10, 1}};
   const std::shared_ptr<const IndexedFeatures> raw = features;
-  const StereoCorrection half(TestCamera(), 0.5 * Vector6d::Unit(0));
+  const FeatureCorrection half{{TestCamera(), 0.5 * Vector6d::Unit(0)}};
   const auto corrected = WithCorrection(raw, half);
   EXPECT_DOUBLE_EQ(raw->features.point_disparity[0]->px, 10);
   EXPECT_DOUBLE_EQ(corrected->features.point_disparity[0]->px, 9.5);
   EXPECT_EQ(corrected->correction, half);
   EXPECT_DOUBLE_EQ(WithCorrection(corrected, {})->features.point_disparity[0]->px, 10);
+}
+
+TEST(WithCorrection, IndexesPointsWhereTheLensCorrectionPutsThem) {
+  const RectifiedCamera camera = TestCamera();
+  Features measured;
+  measured.points.resize(1);
+  measured.points[0].px = {camera.cx + 0.5 * camera.width, camera.cy};
+  measured.point_disparity.resize(1);
+  const FeatureCorrection lens{{}, {camera, 4}};
+  const auto raw = IndexFeatures(camera, measured);
+  const Eigen::Vector2d corrected = lens.lens.At(measured.points[0].px);
+  for (const auto& indexed : {WithCorrection(raw, lens), IndexFeatures(camera, measured, lens)}) {
+    EXPECT_EQ(indexed->point_grid.InWindow(corrected, 1), std::vector<int>{0});
+    EXPECT_TRUE(indexed->point_grid.InWindow(measured.points[0].px, 1).empty());
+    EXPECT_EQ(MeasuredFeatures(*indexed).points[0].px, measured.points[0].px);
+  }
 }
 
 TEST(WithCorrection, SharesFeaturesThatHaveTheCorrection) {
@@ -38,7 +54,7 @@ TEST(WithRightLines, GivesThemTheCorrectionOfTheRest) {
   Features measured;
   measured.lines.resize(2);
   measured.line_right.resize(2);
-  const StereoCorrection half(TestCamera(), 0.5 * Vector6d::Unit(0));
+  const FeatureCorrection half{{TestCamera(), 0.5 * Vector6d::Unit(0)}};
   const auto without = IndexFeatures(TestCamera(), measured, half);
   RightLine right;
   right.segment = {{100, 50}, {120, 90}};
@@ -59,7 +75,7 @@ TEST(IndexFeatures, CorrectsWhatWasMeasuredAndFindsItAgain) {
   measured.point_disparity = {Disparity{20.125, 1}, std::nullopt};
   Vector6d k;
   k << 0.1, -0.2, 0.3, -0.4, 0.5, -0.6;
-  const StereoCorrection correction(TestCamera(), k);
+  const FeatureCorrection correction{{TestCamera(), k}};
   const auto indexed = IndexFeatures(TestCamera(), measured, correction);
   EXPECT_EQ(indexed->correction, correction);
   EXPECT_EQ(indexed->point_grid.InWindow({700, 400}, 1), std::vector<int>{1});

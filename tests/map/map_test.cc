@@ -142,12 +142,12 @@ TEST(Map, CorrectsTheDisparitiesOfAllKeyFramesOnceForAll) {
     return map.Find(KeyFrameId{id})->frame.features().point_disparity[0]->px;
   };
   map.Apply({edit::AddKeyFrame{keyframe}});
-  map.Apply({edit::CorrectStereo{{camera, 0.5 * Vector6d::Unit(0)}}});
+  map.Apply({edit::CorrectFeatures{{{camera, 0.5 * Vector6d::Unit(0)}}}});
   EXPECT_DOUBLE_EQ(disparity(1), 9.5);
   keyframe.id = KeyFrameId{2};
   map.Apply({edit::AddKeyFrame{keyframe}});
   EXPECT_DOUBLE_EQ(disparity(2), 9.5);
-  map.Apply({edit::CorrectStereo{{camera, 0.2 * Vector6d::Unit(0)}}});
+  map.Apply({edit::CorrectFeatures{{{camera, 0.2 * Vector6d::Unit(0)}}}});
   EXPECT_DOUBLE_EQ(disparity(1), 9.8);
   EXPECT_DOUBLE_EQ(disparity(2), 9.8);
   EXPECT_DOUBLE_EQ(features->features.point_disparity[0]->px, 10);

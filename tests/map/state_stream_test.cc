@@ -28,7 +28,7 @@ std::shared_ptr<const IndexedFeatures> OnePoint(double x) {
   features.point_disparity.emplace_back(Disparity{3.25, 0.5});
   Vector6d k;
   k << 0.1, -0.2, 0.3, -0.4, 0.5, -0.6;
-  return IndexFeatures(kCamera, std::move(features), {kCamera, k});
+  return IndexFeatures(kCamera, std::move(features), {{kCamera, k}, {kCamera, 2}});
 }
 
 TEST(StateStream, WhatIsSharedIsWrittenOnceAndSharedAgain) {
@@ -54,7 +54,7 @@ TEST(StateStream, WhatIsSharedIsWrittenOnceAndSharedAgain) {
   EXPECT_EQ(loaded[1]->features.points[0].px, b->features.points[0].px);
   EXPECT_EQ(loaded[1]->features.point_disparity[0]->px, b->features.point_disparity[0]->px);
   EXPECT_EQ(loaded[1]->correction, b->correction);
-  EXPECT_EQ(loaded[1]->point_grid.InWindow({30, 20}, 1), std::vector<int>{0});
+  EXPECT_EQ(loaded[1]->point_grid.InWindow(b->features.points[0].px, 1), std::vector<int>{0});
 }
 
 TEST(StateStream, ANumberOfNothingOrOfSomethingElseIsRefused) {

@@ -54,6 +54,18 @@ TEST(Correction, GivesAnUntouchedMapExactlyThePlacesFound) {
   scene.map().CheckInvariants();
 }
 
+TEST(Correction, GivesTheMapItsLensAndLeavesTheStereoCorrection) {
+  Scene scene;
+  const RectifiedCamera& camera = scene.world.camera;
+  const FeatureCorrection before{{camera, 0.5 * Vector6d::Unit(0)}, {camera, 1}};
+  scene.map().Apply({edit::CorrectFeatures{before}});
+  scene.Apply();
+  EXPECT_EQ(scene.map().correction(), before);
+  scene.correction.lens = LensCorrection(camera, 3);
+  scene.Apply();
+  EXPECT_EQ(scene.map().correction(), (FeatureCorrection{before.stereo, {camera, 3}}));
+}
+
 TEST(Correction, OfNothingChangesNothing) {
   Scene scene;
   EXPECT_TRUE(Rebased({}, scene.map()).empty());

@@ -7,7 +7,7 @@
 #include "tests/mapping/vertical_lines.h"
 #include "tests/support/true_map.h"
 #include <algorithm>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -50,25 +50,63 @@ TEST(AdjustWholeMap, BringsKeyFramesToTheirPlaces) {
             1e-9);
 }
 
-// A map of one camera, whose lens has nothing left to correct.
-TEST(AdjustWholeMap, LearnsTheLensOnceAndTakesOneThatIsKnown) {
-  SyntheticWorld world = MakeSyntheticWorld(300, 0);
+// A true map of one camera that turns, whose features are displaced by what a lens correction of
+// `border_px` would take away.
+TrueMap MapThroughALens(SyntheticWorld& world, double border_px) {
   world.camera.baseline = 0;
-  const TrueMap scene = MakeTrueMap(world, TruePoses(), {.depth = false, .noise = 0.1});
-  const auto adjust = [&](std::optional<LensCorrection>& lens) {
-    return AdjustWholeMap(scene.map, world.Imaging(), {}, {}, lens);
-  };
-  std::optional<LensCorrection> lens;
-  const Correction learned = adjust(lens);
-  ASSERT_TRUE(lens);
-  EXPECT_EQ(lens->border_px, 0);
-  const auto place = [](const Correction& c) { return c.points.begin()->second.after; };
-  EXPECT_EQ(place(adjust(lens)), place(learned));
+  TrueMap scene = MakeTrueMap(world, TruePoses(), {.depth = false, .noise = 0.1});
+  const FeatureCorrection lens{{}, {world.camera, border_px}};
+  MapEdit edit;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    Features displaced = keyframe.frame.features();
+    Correct(lens, {}, displaced);
+    edit.push_back(edit::MoveFeatures{id, IndexFeatures(world.camera, std::move(displaced))});
+  }
+  scene.map.Apply(edit);
+  return scene;
+}
 
-  lens = LensCorrection{3};
-  const Correction corrected = adjust(lens);
-  EXPECT_EQ(lens->border_px, 3);
-  EXPECT_NE(place(corrected), place(learned));
+TEST(AdjustWholeMap, LearnsWhatIsLeftOfTheLens) {
+  SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  TrueMap scene = MapThroughALens(world, 12);
+  const Correction learned = AdjustWholeMap(scene.map, world.Imaging(), {}, {});
+  ASSERT_TRUE(learned.lens);
+  EXPECT_NEAR(learned.lens->border_px(), 12, 3);
+  MappingOptions fixed;
+  fixed.lens_calibration = false;
+  EXPECT_FALSE(AdjustWholeMap(scene.map, world.Imaging(), {}, fixed).lens);
+
+  scene.map.Apply(Rebased(learned, scene.map));
+  EXPECT_EQ(scene.map.correction().lens, *learned.lens);
+  EXPECT_FALSE(AdjustWholeMap(scene.map, world.Imaging(), {}, {}).lens);
+  EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.02);
+}
+
+TEST(AdjustToLens, LeavesTheNewestKeyFrameInItsPlace) {
+  SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  TrueMap scene = MapThroughALens(world, 12);
+  const Rigid3 before = scene.map.keyframes().rbegin()->second.frame.cam_from_world;
+  const Correction learned = AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {});
+  ASSERT_TRUE(learned.lens);
+  EXPECT_NEAR(learned.lens->border_px(), 12, 3);
+  const auto& [newest, place] = *learned.keyframes.rbegin();
+  EXPECT_LT(LogSe3(place.after * Inverse(before)).norm(), 1e-9);
+  EXPECT_NEAR(place.scale, 1, 1e-9);
+  scene.map.Apply(Rebased(learned, scene.map));
+  scene.map.CheckInvariants();
+  EXPECT_TRUE(AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {}).empty());
+}
+
+TEST(AdjustToLens, ChangesNothingWhereNothingIsLearned) {
+  SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  EXPECT_TRUE(
+      AdjustToLens(MapThroughALens(world, 0).map, world.Imaging(), LineOptions().weights(), {})
+          .empty());
+  const TrueMap scene = MapThroughALens(world, 12);
+  int asked = 0;
+  const StopCheck soon = [&] { return asked++ >= 30; };
+  EXPECT_TRUE(AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {}, soon).empty());
+  EXPECT_TRUE(AdjustToLens(Map(), world.Imaging(), LineOptions().weights(), {}).empty());
 }
 
 TEST(AdjustWholeMap, ChangesNothingWhenItIsStopped) {

@@ -63,7 +63,7 @@ class MapperRun {
   StereoCorrection CorrectionOfNewMap() {
     Map map;
     mapper_.StartNewMap(map);
-    return map.stereo_correction();
+    return map.correction().stereo;
   }
 
   const Map& map() const { return map_; }
@@ -98,7 +98,7 @@ class MapperRun {
     Vector6d k;
     k << 0.2, 0.4, -0.3, -0.8, 0.3, 0.2;
     auto displaced = std::make_shared<IndexedFeatures>(*frame.indexed);
-    Correct({world_.camera, k}, {}, displaced->features);
+    Correct({{world_.camera, k}}, {}, displaced->features);
     frame.indexed = displaced;
   }
 
@@ -161,12 +161,12 @@ TEST(LocalMapper, BeginsNewMapsWithWhatItLearnedOfTheRightImage) {
   run.DisplaceRightImages();
   EXPECT_EQ(run.CorrectionOfNewMap(), StereoCorrection());
   for (int k = 0; k < 12; ++k) run.Add(8 * k, 0);
-  ASSERT_NE(run.map().stereo_correction(), StereoCorrection());
+  ASSERT_NE(run.map().correction().stereo, StereoCorrection());
   constexpr double kSmallestChangePx = 0.02;
   const StereoCorrection begun = run.CorrectionOfNewMap();
   for (const double x : {0.0, 300.0, 600.0}) {
     const Eigen::Vector2d px(x, 0.5 * x);
-    EXPECT_NEAR(begun.At(px), run.map().stereo_correction().At(px), kSmallestChangePx);
+    EXPECT_NEAR(begun.At(px), run.map().correction().stereo.At(px), kSmallestChangePx);
   }
 }
 
@@ -181,7 +181,7 @@ TEST(LocalMapper, GoesOnFromAFileAsIfItHadNeverStopped) {
     paused.Save(folder / "paused.plb");
     paused.GoOnFrom(folder / "paused.plb");
   }
-  ASSERT_NE(whole.map().stereo_correction(), StereoCorrection());
+  ASSERT_NE(whole.map().correction().stereo, StereoCorrection());
   whole.Save(folder / "whole.plb");
   paused.Save(folder / "paused.plb");
   EXPECT_EQ(Contents(folder / "whole.plb"), Contents(folder / "paused.plb"));

@@ -28,7 +28,7 @@ TrueMap Scene(const SyntheticWorld& world, const SensorModel& sensor) {
   for (const auto& [id, keyframe] : scene.map.keyframes()) {
     KeyFrame copy = keyframe;
     auto indexed = std::make_shared<IndexedFeatures>(*keyframe.frame.indexed);
-    Correct(Displacement(world.camera), {}, indexed->features);
+    Correct({Displacement(world.camera)}, {}, indexed->features);
     copy.frame.indexed = indexed;
     copy.frame.points.assign(copy.frame.points.size(), PointId{});
     copy.frame.lines.assign(copy.frame.lines.size(), LineId{});
@@ -90,7 +90,7 @@ TEST(StereoCalibrator, LearnsTheSameFromDisparitiesThatAreCorrectedAlready) {
   const SyntheticWorld world = MakeSyntheticWorld(300, 100);
   TrueMap scene = Scene(world, {.noise = 0.5});
   const StereoCorrection first = Learn(world, scene.map);
-  scene.map.Apply({edit::CorrectStereo{first}});
+  scene.map.Apply({edit::CorrectFeatures{{first}}});
   const StereoCorrection second = Learn(world, scene.map);
   for (const double x : {50.0, 300.0, 600.0}) {
     EXPECT_NEAR(first.At({x, 200}), second.At({x, 200}), 0.01);

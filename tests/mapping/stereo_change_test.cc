@@ -41,7 +41,7 @@ double CorrectionOf(const Map& map) {
   const double first = of(map.keyframes().begin()->second);
   for (const auto& [id, keyframe] : map.keyframes()) {
     EXPECT_NEAR(of(keyframe), first, 1e-9) << id.value;
-    EXPECT_EQ(keyframe.frame.indexed->correction, map.stereo_correction()) << id.value;
+    EXPECT_EQ(keyframe.frame.indexed->correction, map.correction()) << id.value;
   }
   return first;
 }

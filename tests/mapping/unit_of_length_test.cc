@@ -65,6 +65,25 @@ TEST(UnitOfLength, ScalesOfMeasuredLengthsAreOne) {
   for (const double scale : ScalesOf(problem, Enlarged(problem, 1.7))) EXPECT_EQ(scale, 1);
 }
 
+TEST(UnitOfLength, PlaceOfTheNewestIsKeptWithAllTheRest) {
+  const BaProblem problem = Scene();
+  BaResult result = Enlarged(problem, 1.7);
+  KeepPlaceOfTheNewest(problem, result);
+  for (std::size_t k = 0; k < problem.poses.size(); ++k) {
+    EXPECT_LT(LogSe3(result.poses[k] * Inverse(problem.poses[k].cam_from_world)).norm(), 1e-9);
+  }
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    EXPECT_LT((result.points[i] - problem.points[i]).norm(), 1e-9);
+  }
+  const auto expected = problem.lines[0].Homogeneous();
+  EXPECT_LT((result.lines[0].Homogeneous() - expected).norm(), 1e-9);
+  BaProblem pair = problem;
+  pair.camera.baseline = 0.1;
+  BaResult measured = Enlarged(problem, 1.7);
+  KeepPlaceOfTheNewest(pair, measured);
+  EXPECT_EQ(measured.points[0], Enlarged(problem, 1.7).points[0]);
+}
+
 TEST(UnitOfLength, IsKeptWithPosesPointsAndLines) {
   const BaProblem problem = Scene();
   BaResult result = Enlarged(problem, 1.7);

@@ -40,9 +40,9 @@ std::int64_t Told(const std::optional<BackgroundAdjustment::Result>& result) {
 
 TEST(BackgroundAdjustment, TakesEffectAtTheFrameThatItIsDueAndOnce) {
   for (const Worker worker : kWorkers) {
-    BackgroundAdjustment adjustment(CountKeyFrames, worker);
+    BackgroundAdjustment adjustment(worker);
     EXPECT_FALSE(adjustment.TakeDue(100));
-    adjustment.Begin(MapOf(3), 10);
+    adjustment.Begin(MapOf(3), 10, CountKeyFrames);
     EXPECT_TRUE(adjustment.Running());
     EXPECT_FALSE(adjustment.TakeDue(9));
     EXPECT_EQ(Told(adjustment.TakeDue(10)), 3);
@@ -53,17 +53,17 @@ TEST(BackgroundAdjustment, TakesEffectAtTheFrameThatItIsDueAndOnce) {
 
 TEST(BackgroundAdjustment, SeesTheMapAsItWasWhenItBegan) {
   Map map = MapOf(4);
-  BackgroundAdjustment adjustment(CountKeyFrames, Worker::kCaller);
-  adjustment.Begin(map, 0);
+  BackgroundAdjustment adjustment(Worker::kCaller);
+  adjustment.Begin(map, 0, CountKeyFrames);
   map.Apply({edit::RemoveKeyFrame{KeyFrameId{2}}});
   EXPECT_EQ(Told(adjustment.TakeDue(0)), 4);
 }
 
 TEST(BackgroundAdjustment, ALaterOneTakesThePlaceOfAnother) {
   for (const Worker worker : kWorkers) {
-    BackgroundAdjustment adjustment(CountKeyFrames, worker);
-    adjustment.Begin(MapOf(3), 10);
-    adjustment.Begin(MapOf(5), 20);
+    BackgroundAdjustment adjustment(worker);
+    adjustment.Begin(MapOf(3), 10, CountKeyFrames);
+    adjustment.Begin(MapOf(5), 20, CountKeyFrames);
     EXPECT_FALSE(adjustment.TakeDue(19));
     EXPECT_EQ(Told(adjustment.TakeDue(20)), 5);
   }
@@ -76,8 +76,8 @@ TEST(BackgroundAdjustment, IsStoppedWhenItIsGivenUp) {
     while (!stop()) std::this_thread::yield();
     return Correction();
   };
-  BackgroundAdjustment adjustment(until_stopped, Worker::kThread);
-  adjustment.Begin(MapOf(2), 0);
+  BackgroundAdjustment adjustment(Worker::kThread);
+  adjustment.Begin(MapOf(2), 0, until_stopped);
   while (!begun) std::this_thread::yield();
   EXPECT_FALSE(adjustment.TakeReady());
   adjustment.GiveUp();
@@ -86,8 +86,8 @@ TEST(BackgroundAdjustment, IsStoppedWhenItIsGivenUp) {
 }
 
 TEST(BackgroundAdjustment, IsTakenWhenItIsReady) {
-  BackgroundAdjustment adjustment(CountKeyFrames, Worker::kThread);
-  adjustment.Begin(MapOf(3), 1000);
+  BackgroundAdjustment adjustment(Worker::kThread);
+  adjustment.Begin(MapOf(3), 1000, CountKeyFrames);
   std::optional<BackgroundAdjustment::Result> result;
   while (!result) result = adjustment.TakeReady();
   EXPECT_EQ(Told(result), 3);
@@ -96,10 +96,10 @@ TEST(BackgroundAdjustment, IsTakenWhenItIsReady) {
 
 TEST(BackgroundAdjustment, TakingRethrowsWhatTheComputationThrew) {
   for (const Worker worker : kWorkers) {
-    BackgroundAdjustment adjustment(
-        [](const Map&, const StopCheck&) -> Correction { throw std::runtime_error("no memory"); },
-        worker);
-    adjustment.Begin(MapOf(2), 0);
+    BackgroundAdjustment adjustment(worker);
+    adjustment.Begin(MapOf(2), 0, [](const Map&, const StopCheck&) -> Correction {
+      throw std::runtime_error("no memory");
+    });
     EXPECT_THROW(adjustment.TakeDue(0), std::runtime_error);
     EXPECT_FALSE(adjustment.Running());
   }

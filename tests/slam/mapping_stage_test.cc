@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/mapping_stage.h"
 
+#include "plumbline/features/single_precision.h"
+
 #include "tests/support/initial_map_of.h"
 #include "tests/support/synthetic_run.h"
 #include <string>
@@ -287,6 +289,26 @@ TEST_F(MappingStageStepByStep, EarlierSnapshotsAreOfTheMapWhereTheCameraIsFound)
   EXPECT_EQ(stage_.EarlierSnapshot(), nullptr);
 }
 
+// A camera that is only localized tells what it sees; before mapping has looked at that, it is lost
+// and found in another map.
+TEST_F(MappingStageStepByStep, ASightingInAMapThatIsNotInUseAnyMoreChangesNothing) {
+  stage_.Submit(0, KeyFrameAt(world_, 0, -1), true);
+  const auto snapshot = stage_.SnapshotFor(1);
+  ASSERT_FALSE(snapshot->points.empty());
+  const Sighting sighting{MapId{0}, {snapshot->points.front().id}, {}};
+  stage_.Submit(1, sighting);
+  auto elsewhere = std::make_shared<MapSnapshot>(*snapshot);
+  elsewhere->map = MapId{5};
+  stage_.Use(elsewhere);
+  EXPECT_TRUE(stage_.WorkOnce());
+  EXPECT_EQ(stage_.SnapshotFor(2)->map, MapId{5});
+
+  stage_.Use(snapshot);
+  stage_.Submit(3, sighting);
+  EXPECT_TRUE(stage_.WorkOnce());
+  EXPECT_EQ(stage_.SnapshotFor(4)->map, MapId{0});
+}
+
 // Poses of a run over the synthetic world, as first reported.
 std::vector<Rigid3> Poses(int lag, RunMode mode = RunMode::kInline) {
   SyntheticRun run(MakeSyntheticWorld(300, 60), WithLag(lag, mode));
@@ -330,6 +352,59 @@ TEST(TrackingAndMapping, TheLagIsPartOfTheAlgorithm) {
     EXPECT_LT(CentreDistance(at_once[static_cast<std::size_t>(i)], PoseOnPath(i)), 0.03);
     EXPECT_LT(CentreDistance(later[static_cast<std::size_t>(i)], PoseOnPath(i)), 0.03);
   }
+}
+
+// The features as a lens shows them that a correction of `border_px` would take away.
+std::shared_ptr<const IndexedFeatures> ThroughALens(
+    const RectifiedCamera& camera,
+    double border_px,
+    const std::shared_ptr<const IndexedFeatures>& indexed) {
+  Features displaced = indexed->features;
+  Correct({{}, {camera, border_px}}, {}, displaced);
+  RoundToSinglePrecision(displaced);
+  return IndexFeatures(camera, std::move(displaced));
+}
+
+// Tracks a single camera whose lens is not quite that of the calibration, at first with a map that
+// knows nothing of it.
+TEST(TrackingAndMapping, LearnTheLensOfOneCameraWhileTheMapGrows) {
+  constexpr double kBorder = 5;
+  constexpr int kFrames = 300;
+  const SyntheticWorld world = MakeMonocularWorld(800, 0);
+  SyntheticRun run(world);
+  InitialMap initial = InitialMapOf(world, {0, 8, 16});
+  for (auto& view : initial.views) {
+    view.frame.indexed = ThroughALens(world.camera, kBorder, view.frame.indexed);
+  }
+  const Rigid3 motion = InMapUnit(PoseOnPath(16)) * Inverse(InMapUnit(PoseOnPath(15)));
+  run.Start(initial, LogSe3(motion) / 0.05);
+  std::optional<int> learned_at;
+  std::optional<Rigid3> last;
+  for (int i = 17; i < kFrames; ++i) {
+    Rng rng(1, "lens", static_cast<std::uint64_t>(i));
+    SyntheticFrame sensed = Sense(world, PoseOnPath(i), {.depth = false, .noise = 0.1}, rng);
+    sensed.indexed = ThroughALens(world.camera, kBorder, sensed.indexed);
+    const TrackingResult result = run.Step(sensed);
+    ASSERT_TRUE(result.cam_from_world) << "frame " << i;
+    const LensCorrection& lens = run.maps().rbegin()->second.correction().lens;
+    EXPECT_EQ(result.frame.indexed->correction.lens, lens) << "frame " << i;
+    if (lens.border_px() != 0 && !learned_at) {
+      learned_at = i;
+      EXPECT_NEAR(lens.border_px(), kBorder, 1.5);
+    }
+    // What is learned moves the map behind the camera, and not the camera.
+    if (last) {
+      EXPECT_LT(CentreDistance(*result.cam_from_world, *last), 0.02) << "frame " << i;
+    }
+    last = result.cam_from_world;
+  }
+  ASSERT_TRUE(learned_at);
+  const Map& map = run.maps().rbegin()->second;
+  const KeyFrameId first = map.keyframes().begin()->first;
+  EXPECT_GT(LogSe3(map.PoseOf(first)).norm(), 1e-4) << "the map has moved behind the camera";
+  run.Finish();
+  EXPECT_EQ(LogSe3(map.PoseOf(first)).norm(), 0) << "the world is the first keyframe's camera";
+  map.CheckInvariants();
 }
 
 }  // namespace

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/features/feature_correction.h"
+
+#include "plumbline/features/single_precision.h"
+
+#include <cstddef>
+
+namespace plumbline {
+namespace {
+
+// Most rounds in which a measured number is recovered. The correction changes with the place by far
+// less than the place does, so that a round gains a digit or two, and half a bit in the worst case.
+// Rounding to single precision removes the rest, and the solution is exact.
+constexpr int kMaxRounds = 64;
+
+// Returns the number of single precision that solves measured = corrected +
+// displacement_at(measured).
+template <class DisplacementAt>
+double Measured(double corrected, const DisplacementAt& displacement_at) {
+  double measured = InSinglePrecision(corrected);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const double next = InSinglePrecision(corrected + displacement_at(measured));
+    if (next == measured) break;
+    measured = next;
+  }
+  return measured;
+}
+
+// Returns the place of single precision that the lens correction took to `corrected`.
+Eigen::Vector2d Measured(const LensCorrection& lens, const Eigen::Vector2d& corrected) {
+  const auto rounded = [](const Eigen::Vector2d& px) {
+    return Eigen::Vector2d(InSinglePrecision(px.x()), InSinglePrecision(px.y()));
+  };
+  Eigen::Vector2d measured = rounded(corrected);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const Eigen::Vector2d next = rounded(corrected + lens.ShiftAt(measured));
+    if (next == measured) break;
+    measured = next;
+  }
+  return measured;
+}
+
+void Correct(const StereoCorrection& before,
+             const StereoCorrection& correction,
+             Features& features) {
+  for (std::size_t i = 0; i < features.points.size(); ++i) {
+    auto& disparity = features.point_disparity[i];
+    if (!disparity) continue;
+    const auto right = [&](double px) {
+      return Eigen::Vector2d(features.points[i].px - Eigen::Vector2d(px, 0));
+    };
+    const double measured =
+        Measured(disparity->px, [&](double px) { return before.At(right(px)); });
+    disparity->px = measured - correction.At(right(measured));
+  }
+  const auto correct_end = [&](Eigen::Vector2d& end) {
+    end.x() = Measured(end.x(), [&](double x) { return -before.At({x, end.y()}); });
+    end.x() += correction.At(end);
+  };
+  for (auto& right : features.line_right) {
+    if (!right) continue;
+    correct_end(right->segment.start);
+    correct_end(right->segment.end);
+  }
+}
+
+// Deviations shrink with the surroundings of their place.
+void Correct(const LensCorrection& before, const LensCorrection& correction, Features& features) {
+  const auto rescale = [&](const Eigen::Vector2d& measured, double& sigma_px) {
+    sigma_px =
+        InSinglePrecision(sigma_px / before.ScaleAt(measured)) * correction.ScaleAt(measured);
+  };
+  for (PointFeature& point : features.points) {
+    const Eigen::Vector2d measured = Measured(before, point.px);
+    rescale(measured, point.sigma_px);
+    point.px = correction.At(measured);
+  }
+  for (LineFeature& line : features.lines) {
+    Segment2& segment = line.segment;
+    const Segment2 measured{Measured(before, segment.start), Measured(before, segment.end)};
+    rescale(measured.Midpoint(), line.sigma_px);
+    segment = {correction.At(measured.start), correction.At(measured.end)};
+  }
+}
+
+}  // namespace
+
+bool FeatureCorrection::IsFinite() const { return stereo.IsFinite() && lens.IsFinite(); }
+
+void Correct(const FeatureCorrection& before,
+             const FeatureCorrection& correction,
+             Features& features) {
+  // Disparities are corrected by where they were measured, between the two steps of the lens.
+  if (!(before.lens == LensCorrection())) Correct(before.lens, {}, features);
+  if (!(before.stereo == correction.stereo)) Correct(before.stereo, correction.stereo, features);
+  if (!(correction.lens == LensCorrection())) Correct({}, correction.lens, features);
+}
+
+}  // namespace plumbline
