@@ -108,6 +108,7 @@ Json MapJson(const RectifiedCamera& camera, const Map& map) {
     json["last_keyframe_s"] = FormatStamp(summary.time_ns->second);
   }
   if (summary.reprojection_px) json["mean_reprojection_px"] = *summary.reprojection_px;
+  json["lens_correction_px"] = map.correction().lens.border_px();
   return json;
 }
 
@@ -136,6 +137,9 @@ std::string MapRows(const RectifiedCamera& camera, const Map& map) {
               fmt::format("{}, seen by {:.1f} keyframes on average",
                           summary.lines,
                           PerLandmark(summary.line_observations, summary.lines)));
+  if (const double border_px = map.correction().lens.border_px(); border_px != 0) {
+    text += Row("lens", fmt::format("corrected by {:.1f} px at the image's side", border_px));
+  }
   if (!summary.bounds.isEmpty()) {
     text += Row("bounds", BoxText(summary.bounds, unit));
     text += Row("middle 90 %", BoxText(summary.middle_bounds, unit));

@@ -81,6 +81,15 @@ void JoinAsTold(const Similarity3& transform, MapId second, MergedAtlases& merge
         "depth, whose scale is 1",
         transform.scale));
   }
+  const double lens = atlas.active().correction().lens.border_px();
+  const double second_lens = atlas.Find(second)->correction().lens.border_px();
+  if (lens != second_lens) {
+    throw InputError(fmt::format(
+        "transform: expected maps with the same lens correction, found {:.2f} and {:.2f} px, which "
+        "only a merge without a transform adjusts to one another",
+        lens,
+        second_lens));
+  }
   atlas.Join(atlas.active_id(), second, transform);
   merged.first_from_second = transform;
 }

@@ -206,16 +206,22 @@ std::int64_t LiveSlam::Implementation::StampAsFed(std::int64_t stamp_ns) {
 void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
   if (!HasFrames()) return;
   session_->pipeline().Drain();
-  session_->system().CopyMaps([take = std::move(take)](const SavedAtlas& saved) {
-    const Map* map = saved.atlas.Find(saved.atlas.active_id());
-    if (map != nullptr) take(ViewOf(*map, saved.context.rectified_from_left));
-  });
+  System& system = session_->system();
+  // The map is shown in the world of the poses that are reported meanwhile.
+  system.LookAtMaps(
+      [take = std::move(take), rectified_from_left = system.Context().rectified_from_left](
+          const Atlas& atlas, const MapEvents&) {
+        const Map* map = atlas.Find(atlas.active_id());
+        if (map != nullptr) take(ViewOf(*map, rectified_from_left));
+      });
 }
 
 std::string LiveSlam::Implementation::Save(const std::string& path) {
   if (!HasFrames()) throw InputError(path + ": expected frames before a map is saved, found none");
   session_->pipeline().Drain();
-  const SavedAtlas saved = session_->system().Save().maps;
+  SavedAtlas saved;
+  session_->system().CopyMaps([&saved](SavedAtlas copy) { saved = std::move(copy); });
+  session_->system().Save();  // waits for the copy
   SaveAtlas(path, saved.atlas, saved.context);
   const Map* map = saved.atlas.Find(saved.atlas.active_id());
   return fmt::format("{}: {} keyframes, {} points, {} lines",

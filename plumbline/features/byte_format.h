@@ -19,12 +19,12 @@ namespace plumbline {
 
 template <class Archive, Like<StereoCorrection> T>
 void Transfer(Archive& archive, T& correction) {
-  StereoCorrection::VisitNumbers(correction, [&](auto& number) { archive(number); });
+  StereoCorrection::VisitNumbers(correction, [&](auto& number) { Transfer(archive, number); });
 }
 
 template <class Archive, Like<LensCorrection> T>
 void Transfer(Archive& archive, T& correction) {
-  LensCorrection::VisitNumbers(correction, [&](auto& number) { archive(number); });
+  LensCorrection::VisitNumbers(correction, [&](auto& number) { Transfer(archive, number); });
 }
 
 template <class Archive, Like<FeatureCorrection> T>

@@ -10,8 +10,8 @@ namespace plumbline {
 namespace {
 
 // Most rounds in which a measured number is recovered. The correction changes with the place by far
-// less than the place does, so that a round gains a digit or two, and half a bit in the worst case.
-// Rounding to single precision removes the rest, and the solution is exact.
+// less than the place does, so that most corrections need four rounds, and all that are as large as
+// they may be fewer than these. Rounding to single precision makes the solution exact.
 constexpr int kMaxRounds = 64;
 
 // Returns the number of single precision that solves measured = corrected +
@@ -86,7 +86,7 @@ void Correct(const LensCorrection& before, const LensCorrection& correction, Fea
 
 }  // namespace
 
-bool FeatureCorrection::IsFinite() const { return stereo.IsFinite() && lens.IsFinite(); }
+bool FeatureCorrection::IsPlausible() const { return stereo.IsFinite() && lens.IsPlausible(); }
 
 void Correct(const FeatureCorrection& before,
              const FeatureCorrection& correction,

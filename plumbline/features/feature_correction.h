@@ -15,7 +15,7 @@ struct FeatureCorrection {
   LensCorrection lens = {};
 
   bool operator==(const FeatureCorrection&) const = default;
-  bool IsFinite() const;
+  bool IsPlausible() const;
 };
 
 // Gives features another correction than `before`, which they have. The measured numbers, which

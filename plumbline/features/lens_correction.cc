@@ -21,10 +21,10 @@ double LensCorrection::ScaleAt(const Eigen::Vector2d& px) const {
   return std::sqrt((1 - part) * (1 - 3 * part));
 }
 
-bool LensCorrection::IsFinite() const {
+bool LensCorrection::IsPlausible() const {
   bool finite = true;
   VisitNumbers(*this, [&](double number) { finite = finite && std::isfinite(number); });
-  return finite;
+  return finite && std::abs(border_px_) * inverse_unit_ <= 2 * kLargest;
 }
 
 }  // namespace plumbline

@@ -13,6 +13,9 @@ namespace plumbline {
 // is thus the correction at the side of the image, in pixels.
 class LensCorrection {
  public:
+  // The largest border_px that is plausible, in widths of the image.
+  static constexpr double kLargest = 0.05;
+
   LensCorrection() = default;  // no distortion is left
   LensCorrection(const RectifiedCamera& camera, double border_px);
 
@@ -26,7 +29,8 @@ class LensCorrection {
   double ScaleAt(const Eigen::Vector2d& px) const;
 
   bool operator==(const LensCorrection&) const = default;
-  bool IsFinite() const;
+  // Whether it is a number, and not so large that it folds the image over.
+  bool IsPlausible() const;
 
   // Calls visit for each number of which `correction`, const or not, is made.
   template <class Correction, class Visitor>

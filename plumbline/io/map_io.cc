@@ -125,7 +125,8 @@ void WriteMap(const Map& map, const MapRecord& record, SectionWriter& file) {
                          static_cast<std::int64_t>(map.lines().size())};
   ByteWriter section;
   TransferAll(section, record, counts);
-  if (!(record.correction.lens == LensCorrection())) Transfer(section, record.correction.lens);
+  if (record.correction.lens.border_px() != 0)
+    Transfer(section, record.correction.lens.border_px());
   file.Write(kMapRecord, section.bytes());
   WriteKeyFrames(map, file);
   WriteLandmarks(map.points(), map, kPoints, file);
@@ -254,7 +255,11 @@ Map ReadMap(SectionReader& file, const AtlasContext& context) {
   TransferAll(reader, record, counts);
   // Only maps that have a lens correction keep one, so that others can be read by programs that
   // know of none.
-  if (reader.remaining() != 0) Transfer(reader, record.correction.lens);
+  if (reader.remaining() != 0) {
+    double border_px = 0;
+    Transfer(reader, border_px);
+    record.correction.lens = LensCorrection(context.camera, border_px);
+  }
   CheckEnd(reader);
   MapBuilder builder(std::move(record), file.source());
   ReadKeyFrames(file, context, counts.keyframes, builder);

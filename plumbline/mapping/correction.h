@@ -15,9 +15,9 @@
 
 namespace plumbline {
 
-// The result of a computation that ran beside mapping: the places of keyframes and points. The map
-// may have changed since the computation began; Rebased() applies the result to the map as it is
-// now.
+// The result of a computation that ran beside mapping: the places of keyframes and points, and the
+// lens correction of the features. The map may have changed since the computation began; Rebased()
+// applies the result to the map as it is now.
 struct Correction {
   struct KeyFramePlace {
     Rigid3 before, after;  // cam_from_world

@@ -83,17 +83,17 @@ bool TakesTooLong(const MapProblem& whole, int limit) {
 }
 
 // Adjusts poses and points, without lines, to a corrected lens. It starts from the places that were
-// found for a correction near by. Another lens changes the scale from place to place by more than
-// the final adjustment accepts before it sees a tear in the map, so that poses and points have to
-// move there first. Returns nullopt when stopped.
+// found when the lens was learned, or else from those of the problem. Another lens changes the
+// scale from place to place by more than the final adjustment accepts before it sees a tear in the
+// map, so that poses and points have to move there first. Returns nullopt when stopped.
 std::optional<BaResult> SolveForLens(const LearnedLens& lens,
                                      const MappingOptions& options,
                                      BaProblem problem,
                                      const StopCheck& stop) {
-  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+  for (std::size_t i = 0; i < lens.poses.size(); ++i) {
     problem.poses[i].cam_from_world = lens.poses[i];
   }
-  problem.points = lens.points;
+  if (!lens.points.empty()) problem.points = lens.points;
   problem.lines.clear();
   problem.line_observations.clear();
   LocalBaOptions ba = options.ba;
@@ -133,7 +133,33 @@ Correction CorrectionOf(const Map& map,
   correction.outliers = OutliersOf(whole, result);
   if (learned.border_px() != 0) {
     const double border_px = map.correction().lens.border_px() + learned.border_px();
-    correction.lens = LensCorrection(whole.problem.camera, border_px);
+    correction.lens =
+        border_px == 0 ? LensCorrection() : LensCorrection(whole.problem.camera, border_px);
+  }
+  return correction;
+}
+
+// Adjusts keyframes and points of a map that will still grow to a change of the lens.
+Correction AdjustPointsToLens(const Map& map,
+                              const LearnedLens& change,
+                              const MappingOptions& options,
+                              MapProblem whole,
+                              const StopCheck& stop) {
+  Correct(change.correction, whole.problem);
+  std::optional<BaResult> result = SolveForLens(change, options, whole.problem, stop);
+  if (!result) return {};
+  const std::vector<PoseSigma> sigmas = SigmasOfPoses(whole.problem, *result);
+  const auto is_fixed = [&](std::size_t k) {
+    return sigmas[k].AtMost(options.window.max_pose_sigma);
+  };
+  std::size_t newest = whole.keyframes.size() - 1;
+  while (newest > 0 && !is_fixed(newest)) --newest;
+  KeepPlaceOf(newest, whole.problem, *result);
+  // CorrectionOf leaves fixed keyframes in their places, and the first one has moved with the rest.
+  whole.problem.poses.front().fixed = false;
+  Correction correction = CorrectionOf(map, whole, change.correction, *result);
+  for (std::size_t k = 0; k < whole.keyframes.size(); ++k) {
+    if (!is_fixed(k)) correction.keyframes.erase(whole.keyframes[k]);
   }
   return correction;
 }
@@ -163,7 +189,8 @@ Correction AdjustWholeMap(const Map& map,
                                : LearnedLens{};
   Correct(learned.correction, whole.problem);
   BaProblem problem = whole.problem;
-  if (!learned.poses.empty()) {
+  // A map that has a lens correction may have taken in keyframes of a map that had another one.
+  if (!learned.poses.empty() || map.correction().lens.border_px() != 0) {
     const auto moved = SolveForLens(learned, options, problem, stop);
     if (!moved) return {};
     TakePlaces(*moved, problem);
@@ -190,12 +217,19 @@ Correction AdjustToLens(const Map& map,
   MapProblem whole = MakeWholeMap(map, imaging, weights, {});
   const LearnedLens learned = LearnLens(whole.problem, map.correction().lens.border_px(), stop);
   if (learned.poses.empty()) return {};
-  Correct(learned.correction, whole.problem);
-  std::optional<BaResult> result = SolveForLens(learned, options, whole.problem, stop);
-  if (!result) return {};
-  KeepPlaceOfTheNewest(whole.problem, *result);
-  whole.problem.poses.front().fixed = false;  // it has moved with all others
-  return CorrectionOf(map, whole, learned.correction, *result);
+  return AdjustPointsToLens(map, learned, options, std::move(whole), stop);
+}
+
+Correction BringToLens(const Map& map,
+                       const ImagingModel& imaging,
+                       const LineWeights& weights,
+                       const MappingOptions& options,
+                       const LensCorrection& lens,
+                       const StopCheck& stop) {
+  const double change = lens.border_px() - map.correction().lens.border_px();
+  if (change == 0 || map.keyframes().empty()) return {};
+  const LearnedLens known{{imaging.camera, change}, {}, {}};
+  return AdjustPointsToLens(map, known, options, MakeWholeMap(map, imaging, weights, {}), stop);
 }
 
 }  // namespace plumbline

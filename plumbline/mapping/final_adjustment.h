@@ -39,8 +39,10 @@ Correction AdjustWholeMap(const Map& map,
                           const StopCheck& stop = {});
 
 // Learns the lens of a single camera from the points of a map that will still grow (LearnLens), and
-// adjusts keyframes and points to it, with the gauge and the limits of AdjustWholeMap. Lines move
-// with the keyframes that show them.
+// adjusts keyframes and points to it. The newest keyframe that points fix stays where it is, with
+// the lengths around it, so that tracking goes on without a step. Keyframes that points do not fix
+// to mapping.window.max_pose_sigma are not in the correction, so that they move with their parents.
+// Lines move with the keyframes that show them.
 //
 // Returns an empty correction where nothing is learned, and when `stop` says so before the end.
 // Cost: LearnLens, and one more adjustment of the points where something is learned.
@@ -49,5 +51,14 @@ Correction AdjustToLens(const Map& map,
                         const LineWeights& weights,
                         const MappingOptions& options,
                         const StopCheck& stop = {});
+
+// Adjusts a map of a single camera to a lens that is known from another map, in the same way.
+// Returns an empty correction where the map has that lens. Cost: an adjustment of the points.
+Correction BringToLens(const Map& map,
+                       const ImagingModel& imaging,
+                       const LineWeights& weights,
+                       const MappingOptions& options,
+                       const LensCorrection& lens,
+                       const StopCheck& stop = {});
 
 }  // namespace plumbline

@@ -81,10 +81,9 @@ struct Parabola {
   double minimum = 0;    // correction at which the cost is least
   double curvature = 0;  // second derivative of the cost
 
-  // Returns by how much the correction at the minimum lowers the cost compared with another one.
-  double GainOver(double other) const {
-    return 0.5 * curvature * (minimum - other) * (minimum - other);
-  }
+  // Returns by how much the correction at the minimum lowers the cost compared with no correction.
+  // Holds for a parabola that was fitted around zero.
+  double Gain() const { return 0.5 * curvature * minimum * minimum; }
 };
 
 // Returns the parabola through the costs at `middle` and at `step` before and after it.
@@ -140,7 +139,7 @@ LearnedLens LearnLens(const BaProblem& problem, double known_px, const StopCheck
   // large correction asks for.
   constexpr double kFirstStep = 0.0005;
   constexpr double kStep = 0.002;
-  constexpr double kMost = 3;  // largest correction, in deviations of the prior
+  constexpr double kMost = 3;  // largest correction and change, in deviations of the prior
   // In a map of a camera that goes straight on, 4.6 deviations spoke for a correction where there
   // was nothing to correct: an error of a corner is the same in all its views, but the cost takes
   // the views for independent.
@@ -158,7 +157,7 @@ LearnedLens LearnLens(const BaProblem& problem, double known_px, const StopCheck
     fit = FitAround(profile, 0, kFirstStep * width, kMost * sigma);
     // Longer steps change the gain that short ones find by far less than a factor of two, so that
     // half of kEnough is a safe limit.
-    if (!fit || fit->GainOver(0) < 0.5 * kEnough) return {};
+    if (!fit || fit->Gain() < 0.5 * kEnough) return {};
   }
   fit = FitAround(profile, 0, step, kMost * sigma);
   if (!fit) return {};
@@ -171,12 +170,16 @@ LearnedLens LearnLens(const BaProblem& problem, double known_px, const StopCheck
   }
   const double whole =
       (known_px + fit->minimum) * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
+  if (!(std::abs(whole) < kMost * sigma)) return {};
+  const std::optional<double> without = profile.At(-known_px);
+  const std::optional<double> with = profile.At(whole - known_px);
+  if (!without || !with) return {};
   const bool matters = std::abs(whole) * MeanSize(problem) > kAllowed * width;
-  const bool counts = fit->GainOver(-known_px) > kEnough && matters;
+  const bool counts = *without - *with > kEnough && matters;
   const double change = (counts ? whole : 0) - known_px;
   if (std::abs(change) < kLeastChange * width) return {};
-  const BaResult& nearest = profile.Nearest(change);
-  return {{problem.camera, change}, nearest.poses, nearest.points};
+  const BaResult& solution = profile.Nearest(change);
+  return {{problem.camera, change}, solution.poses, solution.points};
 }
 
 }  // namespace plumbline

@@ -35,12 +35,12 @@ void Correct(const LensCorrection& correction, BaProblem& problem);
 //   problem   of a whole map: poses with their gauge held, points with all observations
 //   known_px  border_px of the correction that the measurements have had
 //   returns   the correction that is to be made in addition
-//   cost      that of three adjustments of the points alone, of up to eight where there may be a
+//   cost      that of three adjustments of the points alone, of up to ten where there may be a
 //             correction
 struct LearnedLens {
   LensCorrection correction;
-  // Poses and points adjusted to a correction near that one, by their index in the problem; empty
-  // where there is no change.
+  // Poses and points adjusted to that correction, by their index in the problem; empty where there
+  // is no change.
   std::vector<Rigid3> poses;
   std::vector<Eigen::Vector3d> points;
 };

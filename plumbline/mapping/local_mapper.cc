@@ -134,6 +134,10 @@ void LocalMapper::StartNewMap(Map& map) {
   map.Apply({edit::CorrectFeatures{{calibrator_.Estimate()}}});
 }
 
+Correction LocalMapper::ToLens(const Map& map, const LensCorrection& lens) const {
+  return BringToLens(map, imaging_, lines_.weights(), options_, lens);
+}
+
 LocalMapper::State LocalMapper::state() const {
   return {young_,
           calibrator_.evidence(),

@@ -8,6 +8,7 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/map.h"
 #include "plumbline/map/young_landmarks.h"
+#include "plumbline/mapping/correction.h"
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
 #include "plumbline/mapping/point_alignment.h"
@@ -77,8 +78,10 @@ class LocalMapper {
   // adjustment that was completed. Returns the time of each step, in order.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
-  // Gives a new, empty map what was learned about the camera.
+  // Gives a new, empty map what was learned about a pair of cameras.
   void StartNewMap(Map& map);
+  // Returns what adjusts a map of a single camera to the lens that another map has learned.
+  Correction ToLens(const Map& map, const LensCorrection& lens) const;
   // Tells that keyframes of another map are taken in from now on.
   void GoOnInAnotherMap();
   // Follows maps of the atlas that were joined since the last call; to be called after a join.

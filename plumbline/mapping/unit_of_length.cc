@@ -77,13 +77,11 @@ void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result) {
   ScaleAbout(centre, 1 / ScalesOf(problem, result).front(), result);
 }
 
-void KeepPlaceOfTheNewest(const BaProblem& problem, BaResult& result) {
-  if (problem.poses.empty() || problem.camera.baseline > 0) return;
-  const Rigid3 before_from_after =
-      Inverse(problem.poses.back().cam_from_world) * result.poses.back();
-  const double scale = 1 / ScalesOf(problem, result).back();
-  Move(before_from_after, result);
-  ScaleAbout(Inverse(result.poses.back()).translation, scale, result);
+void KeepPlaceOf(std::size_t pose, const BaProblem& problem, BaResult& result) {
+  if (problem.camera.baseline > 0) return;
+  const double scale = 1 / ScalesOf(problem, result)[pose];
+  Move(Inverse(problem.poses[pose].cam_from_world) * result.poses[pose], result);
+  ScaleAbout(Inverse(result.poses[pose]).translation, scale, result);
 }
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "plumbline/optimization/local_ba_result.h"
 #include "plumbline/optimization/problem.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace plumbline {
@@ -23,9 +24,10 @@ std::vector<double> ScalesOf(const BaProblem& problem, const BaResult& result);
 // ones.
 void KeepUnitOfTheOldest(const BaProblem& problem, BaResult& result);
 
-// Moves a solution for a single camera as a whole, poses, points and lines, so that its last pose
-// is where it was, and scales it so that the depths which this pose shows stay as they were in the
-// median. Poses that are reported from then on go on from those before without a step.
-void KeepPlaceOfTheNewest(const BaProblem& problem, BaResult& result);
+// Moves a solution for a single camera as a whole, poses, points and lines, so that one of its
+// poses is where it was, and scales it so that the depths which this pose shows stay as they were
+// in the median. Where it is the newest one, poses that are reported from then on go on from those
+// before without a step. Does nothing where lengths are measured.
+void KeepPlaceOf(std::size_t pose, const BaProblem& problem, BaResult& result);
 
 }  // namespace plumbline

@@ -9,20 +9,26 @@
 #include "plumbline/slam/keyframes_ahead.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 
 namespace plumbline {
 namespace {
 
+// Features of all keyframes are corrected at once when a lens is learned, which must not take long.
+bool MayLearnLens(const Map& map) {
+  constexpr std::size_t kMostKeyFrames = 512;
+  return map.keyframes().size() <= kMostKeyFrames;
+}
+
 BackgroundAdjustment::Compute WholeMapAdjustment(const ImagingModel& imaging,
                                                  const SlamOptions& options) {
-  MappingOptions mapping = options.mapping;
-  // What closes a loop does not tell of the lens; LearnLens has times of its own.
-  mapping.lens_calibration = false;
-  return [imaging, lines = options.lines, mapping](const Map& map, const StopCheck& stop) {
-    return AdjustWholeMap(map, imaging, lines, mapping, stop);
+  return [imaging, lines = options.lines, mapping = options.mapping](const Map& map,
+                                                                     const StopCheck& stop) {
+    MappingOptions adjusted = mapping;
+    adjusted.lens_calibration = mapping.lens_calibration && MayLearnLens(map);
+    return AdjustWholeMap(map, imaging, lines, adjusted, stop);
   };
 }
 
@@ -116,6 +122,7 @@ MappingStage::Checkpoint MappingStage::Save() {
           changed_,
           centres_,
           first_places_,
+          lens_asked_,
           times_,
           atlas_.history(),
           places_.state(),
@@ -136,6 +143,7 @@ void MappingStage::Resume(Atlas atlas, const Checkpoint& checkpoint) {
   changed_ = checkpoint.changed;
   centres_ = checkpoint.centres;
   first_places_ = checkpoint.first_places;
+  lens_asked_ = checkpoint.lens_asked;
   times_ = checkpoint.times;
   places_.SetState(checkpoint.places);
   events_ = {places_.loops(), places_.joins(), {}};
@@ -165,9 +173,10 @@ void MappingStage::CheckFits(const Atlas& atlas, const Checkpoint& c) {
   for (const MapId id : c.changed) fits = fits && atlas.Find(id) != nullptr;
   for (const auto& [id, place] : c.first_places) {
     const Map* map = atlas.Find(id);
-    fits =
-        fits && map != nullptr && map->Knows(place.id) && place.cam_from_world.Matrix().allFinite();
+    fits = fits && map != nullptr && map->Knows(place.id) &&
+           std::abs(place.cam_from_world.rotation.norm() - 1) < 1e-6;
   }
+  for (const auto& [id, taken_in] : c.lens_asked) fits = fits && atlas.Find(id) != nullptr;
   for (const KeyFrameId id : c.centres) {  // of any map: a lost camera was looked for in all
     fits = fits && std::any_of(atlas.maps().begin(), atlas.maps().end(), [&](const auto& map) {
              return map.second.Knows(id);
@@ -175,7 +184,7 @@ void MappingStage::CheckFits(const Atlas& atlas, const Checkpoint& c) {
   }
   fits = fits && (!c.adjustment || has(c.adjustment->result.map));
   if (c.adjustment && c.adjustment->result.correction.lens) {
-    fits = fits && c.adjustment->result.correction.lens->IsFinite();
+    fits = fits && c.adjustment->result.correction.lens->IsPlausible();
   }
   if (const auto& change = c.mapper.stereo_change) {
     fits = fits && atlas.Find(change->map) != nullptr && change->correction.IsFinite();
@@ -326,11 +335,11 @@ void MappingStage::Finish(const StopCheck& stop) {
   while (versions_.size() > 1) versions_.pop_front();
   adjustment_.GiveUp();  // the adjustment below does more
   for (const MapId id : std::exchange(changed_, {})) {
-    Map& map = *atlas_.Find(id);
-    const std::vector<MappingStep> times = mapper_.Finish(map, stop);
-    MoveFirstKeyFrameBack(map);
+    const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
     times_.insert(times_.end(), times.begin(), times.end());
   }
+  MoveFirstKeyFramesBack(atlas_);
+  first_places_.clear();
 }
 
 void MappingStage::CheckComplete() const {
@@ -461,15 +470,26 @@ void MappingStage::Recognize(KeyFrameId id, std::int64_t frame, std::vector<Mapp
 }
 
 // Begins to learn the lens of a single camera when the map has taken in enough keyframes to tell of
-// it, and again whenever these have doubled, four times. An adjustment that is under way goes on
-// instead, because it knows of a loop.
+// it, and again when these have doubled, four times. Where an adjustment is under way, the map is
+// asked with the first keyframe after it.
 void MappingStage::LearnLens(KeyFrameId newest, std::int64_t frame) {
-  constexpr std::array<std::int64_t, 5> kTimes{16, 32, 64, 128, 256};
-  if (camera_.baseline > 0 || !mapping_options_.lens_calibration || adjustment_.Running()) return;
+  constexpr std::int64_t kFirst = 16, kLast = 256;
   const Map& map = atlas_.active();
+  if (camera_.baseline > 0 || !mapping_options_.lens_calibration || !MayLearnLens(map)) return;
+  std::int64_t& asked = lens_asked_.try_emplace(map.id(), kFirst / 2).first->second;
   const std::int64_t taken_in = map.NumberOf(newest) + 1;
-  if (std::find(kTimes.begin(), kTimes.end(), taken_in) == kTimes.end()) return;
+  if (adjustment_.Running() || asked >= kLast || taken_in < 2 * asked) return;
+  asked = taken_in;
   adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_to_lens_);
+}
+
+// Adjusts a new map to the lens that the newest map before it has learned.
+void MappingStage::TakeKnownLens(Map& map) {
+  for (auto other = atlas_.maps().rbegin(); other != atlas_.maps().rend(); ++other) {
+    const LensCorrection& lens = other->second.correction().lens;
+    if (other->first == map.id() || lens.border_px() == 0) continue;
+    return Apply(mapper_.ToLens(map, lens), map);
+  }
 }
 
 // What is remembered of a map that was joined is of the one that it is part of.
@@ -479,6 +499,7 @@ void MappingStage::FollowJoins() {
   for (const MapId id : changed_) changed.insert(atlas_.Current(id));
   changed_ = std::move(changed);
   std::erase_if(first_places_, [&](const auto& place) { return !atlas_.Find(place.first); });
+  std::erase_if(lens_asked_, [&](const auto& asked) { return !atlas_.Find(asked.first); });
 }
 
 MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {
@@ -486,6 +507,7 @@ MappingStage::Done MappingStage::Do(const MapStart& start, std::int64_t) {
   changed_.insert(map.id());
   Done done;
   done.times = mapper_.Start(map, NumberedFor(map, start.edit), start.keyframes.back());
+  TakeKnownLens(map);
   places_.Follow(atlas_);
   done.snapshot = TakeSnapshotAround(map, start.keyframes.back());
   return done;
@@ -538,25 +560,32 @@ void MappingStage::TakeCorrection(std::int64_t frame) {
   const bool when_ready = mode_ == RunMode::kLive && worker_.joinable();
   const auto found = when_ready ? adjustment_.TakeReady() : adjustment_.TakeDue(frame);
   if (!found) return;
+  if (found->correction.empty()) return;
   Map& map = *atlas_.Find(atlas_.Current(found->map));
-  if (found->correction.lens) {
-    const auto& [first, keyframe] = *map.keyframes().begin();
-    first_places_.try_emplace(map.id(), PlacedKeyFrame{first, keyframe.frame.cam_from_world});
-  }
-  map.Apply(Rebased(found->correction, map));
+  Apply(found->correction, map);
   changed_.insert(map.id());
 }
 
-// Moves a map as a whole, so that its first keyframe is where it was before the map was adjusted to
-// a lens: the world is the camera of that keyframe.
-void MappingStage::MoveFirstKeyFrameBack(Map& map) const {
-  const auto place = first_places_.find(map.id());
-  if (place == first_places_.end()) return;
-  const auto& [first, before] = place->second;
-  const Similarity3 new_from_old = ToSimilarity(Inverse(before) * map.PoseOf(first));
-  edit::MoveKeyFrames motion;
-  for (const auto& [id, keyframe] : map.keyframes()) motion.new_from_old.emplace(id, new_from_old);
-  map.Apply({std::move(motion), edit::SetPose{first, before}});
+void MappingStage::Apply(const Correction& correction, Map& map) {
+  if (correction.lens) {
+    const auto& [first, keyframe] = *map.keyframes().begin();
+    first_places_.try_emplace(map.id(), PlacedKeyFrame{first, keyframe.frame.cam_from_world});
+  }
+  map.Apply(Rebased(correction, map));
+}
+
+void MappingStage::MoveFirstKeyFramesBack(Atlas& copy) const {
+  for (const auto& [id, place] : first_places_) {
+    Map* map = copy.Find(id);
+    if (map == nullptr) continue;
+    const Similarity3 new_from_old =
+        ToSimilarity(Inverse(place.cam_from_world) * map->PoseOf(place.id));
+    edit::MoveKeyFrames motion;
+    for (const auto& [moved, keyframe] : map->keyframes()) {
+      motion.new_from_old.emplace(moved, new_from_old);
+    }
+    map->Apply({std::move(motion), edit::SetPose{place.id, place.cam_from_world}});
+  }
 }
 
 // Takes a snapshot that also holds the places of earlier centres, because the tracker's last pose

@@ -83,7 +83,8 @@ struct Visit {
 //             wait; when one more comes, the one without which the map loses least is given up.
 //
 // A map whose shape has changed at large is adjusted as a whole beside mapping
-// (BackgroundAdjustment). The correction is applied before the first task that was submitted at or
+// (BackgroundAdjustment), and so is a map of one camera that has grown enough to tell of the lens.
+// The correction is applied before the first task that was submitted at or
 // after the frame at which it is due; a live run applies it as soon as it is ready. It is applied
 // to the map as it is then (Rebased), and shows in that task's snapshot.
 //
@@ -118,6 +119,11 @@ class MappingStage {
   // of it.
   void Submit(std::int64_t frame, Sighting sighting);
   void Submit(std::int64_t frame, Visit visit);
+
+  // Moves maps that are copies of this stage's, each as a whole, so that the first keyframe is
+  // where it was before the map was adjusted to a lens: the world is the camera of that keyframe.
+  // When it may be called: see atlas(), or in a Visit.
+  void MoveFirstKeyFramesBack(Atlas& copy) const;
 
   // Begins with maps that there are already, of which one is active, and with what mapping
   // remembered of them. To be called before anything is submitted.
@@ -164,6 +170,7 @@ class MappingStage {
   bool WorkOnce();
 
   // Does all work that is left and adjusts each map as a whole (`stop` cuts the adjustment short).
+  // Maps that were adjusted to a lens are moved back to their world.
   // After that no keyframe may be added to a map that is to be tracked against. Rethrows what
   // mapping threw.
   void Finish(const StopCheck& stop = {});
@@ -265,9 +272,10 @@ class MappingStage {
   Done Do(const Visit& visit, std::int64_t frame);
   void Recognize(KeyFrameId id, std::int64_t frame, std::vector<MappingStep>& times);
   void LearnLens(KeyFrameId newest, std::int64_t frame);
+  void TakeKnownLens(Map& map);
+  void Apply(const Correction& correction, Map& map);
   void FollowJoins();
   void TakeCorrection(std::int64_t frame);
-  void MoveFirstKeyFrameBack(Map& map) const;
   std::shared_ptr<const MapSnapshot> TakeSnapshotAround(const Map& map, KeyFrameId centre);
   std::int64_t LastDone() const { return versions_.back().task; }
 
@@ -296,6 +304,8 @@ class MappingStage {
   std::deque<KeyFrameId> centres_;  // centres of the last snapshots
   // Where the first keyframes of maps were before the maps were adjusted to a lens.
   std::map<MapId, PlacedKeyFrame> first_places_;
+  // How many keyframes maps had taken in when they were last asked for the lens.
+  std::map<MapId, std::int64_t> lens_asked_;
   BackgroundAdjustment adjustment_;
   BackgroundAdjustment::Compute adjust_map_, adjust_to_lens_;
   // State that both threads use, guarded by mutex_.
@@ -327,6 +337,7 @@ struct MappingStage::Checkpoint {
   std::set<MapId> changed;
   std::deque<KeyFrameId> centres;
   std::map<MapId, PlacedKeyFrame> first_places;
+  std::map<MapId, std::int64_t> lens_asked;
   std::vector<MappingStep> times;
   Atlas::History history;
   PlaceRecognition::State places;
@@ -339,7 +350,7 @@ struct MappingStage::Checkpoint {
     visit(self.mapper.adjusted_lines, self.submitted, self.map_begins, self.dues);
     visit(self.versions, self.outcomes, self.changed, self.centres, self.times);
     visit(self.history, self.places, self.adjustment, self.mapper.stereo_change);
-    visit(self.mapper.recent_patches, self.first_places);
+    visit(self.mapper.recent_patches, self.first_places, self.lens_asked);
   }
 };
 

@@ -378,10 +378,11 @@ void System::CopyMaps(std::function<void(SavedAtlas)> take) {
   Complete();
   mapping_.Submit(
       newest_.id.value,
-      Visit{[context = ContextWithoutMaps(), take = std::move(take)](
+      Visit{[this, context = ContextWithoutMaps(), take = std::move(take)](
                 const Atlas& atlas, const LocalMapper& mapper, const PlaceRecognition&) {
         SavedAtlas copy{atlas, context};
         AddMaps(atlas, mapper.state(), copy.context);
+        mapping_.MoveFirstKeyFramesBack(copy.atlas);
         take(std::move(copy));
       }});
 }

@@ -105,8 +105,9 @@ class System {
   // Does the next task of mapping; returns false when none waits. For live runs without threads
   // (Execution).
   bool MapOnce() { return mapping_.WorkOnce(); }
-  // Calls `take` with a copy of the maps, and with what SaveAtlas needs beside them, once mapping
-  // has done what was submitted so far. The call happens in the thread that maps. Changes no
+  // Calls `take` with a copy of the maps as they would be saved (MoveFirstKeyFramesBack), and with
+  // what SaveAtlas needs beside them, once mapping has done what was submitted so far. The call
+  // happens in the thread that maps. Changes no
   // result. To be called in the thread that tracks, after the first frame.
   void CopyMaps(std::function<void(SavedAtlas)> take);
   // Calls `look` with the maps and with the loops and joins so far, once mapping has done what was

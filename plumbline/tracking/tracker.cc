@@ -82,8 +82,11 @@ TrackingResult Tracker::Follow(Frame frame,
   Finding found = Find(frame, predicted, snapshot);
   const MapSnapshot* seen = &snapshot;
   if (!found.Succeeded() && live.earlier != nullptr) {
-    Finding again = FindByAppearance(frame, *live.earlier);
+    Frame corrected = frame;
+    corrected.indexed = WithCorrection(frame.indexed, live.earlier->correction);
+    Finding again = FindByAppearance(corrected, *live.earlier);
     if (again.Succeeded()) {
+      frame = std::move(corrected);
       found = std::move(again);
       seen = live.earlier;
     }

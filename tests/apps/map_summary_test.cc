@@ -111,6 +111,21 @@ TEST(MapInfo, CountsTheMaps) {
   EXPECT_EQ(maps[1]["id"], 1);
 }
 
+TEST(MapInfo, TellsTheLensThatWasLearned) {
+  const ScratchFolder folder;
+  const auto file = folder.Write("m.plb", "x");
+  WorldMap saved = MakeWorldMap(0);
+  const auto lens = [&](const SavedAtlas& atlas) {
+    return nlohmann::json::parse(MapInfoJson(file, atlas))["maps"][0]["lens_correction_px"];
+  };
+  EXPECT_EQ(lens(AtlasOf({saved.map})), 0);
+  EXPECT_EQ(MapInfoTable(file, AtlasOf({saved.map})).find("lens"), std::string::npos);
+  saved.map.Apply({edit::CorrectFeatures{{{}, {saved.camera, 3.25}}}});
+  EXPECT_EQ(lens(AtlasOf({saved.map})), 3.25);
+  EXPECT_THAT(MapInfoTable(file, AtlasOf({saved.map})),
+              HasSubstr("lens          corrected by 3.2 px at the image's side\n"));
+}
+
 TEST(MapInfo, TakesNamesThatAreNotUtf8) {
   const ScratchFolder folder;
   const auto file = folder.Write("m\xFF.plb", "x");

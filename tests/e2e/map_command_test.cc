@@ -182,6 +182,21 @@ TEST(MapCommands, RefuseFilesThatAreNoWholeMaps) {
   EXPECT_EQ(FilesOf(folder.path()).size(), before.size() + 2);  // stdout and stderr
 }
 
+TEST(MapMerge, AsToldRefusesMapsOfAnotherLens) {
+  const ScratchFolder folder;
+  SavedAtlas saved = LoadAtlas(Posters().map);
+  const FeatureCorrection corrected{saved.atlas.active().correction().stereo,
+                                    {saved.context.camera, 3}};
+  saved.atlas.active().Apply({edit::CorrectFeatures{corrected}});
+  SaveAtlas(folder / "lens.plb", saved.atlas, saved.context);
+  ExpectRefusal(
+      RunProgram(folder,
+                 "map merge " + Quoted(Posters().map) + " " + Quoted(folder / "lens.plb") +
+                     " --transform '0 0 0 0 0 0 1' --out " + Quoted(folder / "out")),
+      "expected maps with the same lens correction, found 0.00 and 3.00 px");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 struct Refusal {
   std::string arguments;  // MAP, SEQUENCE and FOLDER stand for paths
   std::string message;

@@ -103,12 +103,12 @@ TEST(FeatureCorrection, TakesTheLensOutOfPointsAndLeftLines) {
   EXPECT_EQ(features.lines[0].segment.end.x(), camera.cx);
 }
 
-TEST(FeatureCorrection, IsFiniteWhereBothPartsAre) {
+TEST(FeatureCorrection, IsPlausibleWhereBothPartsAre) {
   const RectifiedCamera camera = TestCamera();
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(FeatureCorrection{}.IsFinite());
-  EXPECT_FALSE((FeatureCorrection{{}, {camera, kNaN}}.IsFinite()));
-  EXPECT_FALSE((FeatureCorrection{{camera, Vector6d::Constant(kNaN)}, {}}.IsFinite()));
+  EXPECT_TRUE(FeatureCorrection{}.IsPlausible());
+  EXPECT_FALSE((FeatureCorrection{{}, {camera, kNaN}}.IsPlausible()));
+  EXPECT_FALSE((FeatureCorrection{{camera, Vector6d::Constant(kNaN)}, {}}.IsPlausible()));
 }
 
 }  // namespace feature_correction_test

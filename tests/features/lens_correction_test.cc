@@ -49,8 +49,13 @@ TEST(LensCorrection, IsNothingByDefault) {
   EXPECT_EQ(LensCorrection().At({500, 40}), Vector2d(500, 40));
   EXPECT_EQ(LensCorrection().ScaleAt({500, 40}), 1);
   EXPECT_EQ(LensCorrection().border_px(), 0);
-  EXPECT_TRUE(LensCorrection().IsFinite());
-  EXPECT_FALSE(LensCorrection(OneCamera(), std::numeric_limits<double>::infinity()).IsFinite());
+}
+
+TEST(LensCorrection, IsPlausibleUpToATwentiethOfTheWidth) {
+  EXPECT_TRUE(LensCorrection().IsPlausible());
+  EXPECT_TRUE(LensCorrection(OneCamera(), -29).IsPlausible());
+  EXPECT_FALSE(LensCorrection(OneCamera(), 31).IsPlausible());
+  EXPECT_FALSE(LensCorrection(OneCamera(), std::numeric_limits<double>::infinity()).IsPlausible());
 }
 
 }  // namespace lens_correction_test

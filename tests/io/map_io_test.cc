@@ -158,6 +158,14 @@ TEST(LoadAtlas, GivesBackTheLensOfAMap) {
   ExpectSame(map, loaded.atlas.active());
 }
 
+TEST(LoadAtlas, RefusesALensThatFoldsTheImageOver) {
+  const ScratchFolder folder;
+  SavedAtlas saved = MakeSavedAtlas();
+  saved.atlas.active().Apply({edit::CorrectFeatures{{{}, {kMapCamera, 0.06 * kMapCamera.width}}}});
+  const auto file = Saved(folder, saved);
+  EXPECT_THROW(LoadAtlas(file), InputError);
+}
+
 TEST(LoadAtlas, GivesBackWhatTheMapsWereMadeWith) {
   const ScratchFolder folder;
   const AtlasContext saved = MakeSavedAtlas().context;

@@ -97,6 +97,41 @@ TEST(AdjustToLens, LeavesTheNewestKeyFrameInItsPlace) {
   EXPECT_TRUE(AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {}).empty());
 }
 
+TEST(AdjustToLens, TakesBackWhatThePointsContradict) {
+  SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  TrueMap scene = MapThroughALens(world, 0);
+  scene.map.Apply({edit::CorrectFeatures{{{}, {world.camera, 4}}}});
+  const Correction learned = AdjustToLens(scene.map, world.Imaging(), LineOptions().weights(), {});
+  ASSERT_TRUE(learned.lens);
+  EXPECT_EQ(*learned.lens, LensCorrection());
+}
+
+TEST(BringToLens, AdjustsAMapToTheLensOfAnother) {
+  SyntheticWorld world = MakeSyntheticWorld(600, 0);
+  TrueMap scene = MapThroughALens(world, 6);
+  const LensCorrection lens(world.camera, 6);
+  const auto bring = [&] {
+    return BringToLens(scene.map, world.Imaging(), LineOptions().weights(), {}, lens);
+  };
+  const Correction correction = bring();
+  ASSERT_TRUE(correction.lens);
+  EXPECT_EQ(*correction.lens, lens);
+  const Rigid3 newest = scene.map.keyframes().rbegin()->second.frame.cam_from_world;
+  EXPECT_LT(LogSe3(correction.keyframes.rbegin()->second.after * Inverse(newest)).norm(), 1e-9);
+  scene.map.Apply(Rebased(correction, scene.map));
+  EXPECT_TRUE(bring().empty()) << "it has that lens";
+  double worst = 0;
+  for (const auto& [id, point] : scene.map.points()) {
+    for (const auto& [keyframe, feature] : point.observations) {
+      const Frame& frame = scene.map.Find(keyframe)->frame;
+      const Eigen::Vector2d px = frame.features().points[static_cast<std::size_t>(feature)].px;
+      const Eigen::Vector2d seen = world.camera.Project(frame.cam_from_world * point.position);
+      worst = std::max(worst, (px - seen).norm());
+    }
+  }
+  EXPECT_LT(worst, 2);
+}
+
 TEST(AdjustToLens, ChangesNothingWhereNothingIsLearned) {
   SyntheticWorld world = MakeSyntheticWorld(600, 0);
   EXPECT_TRUE(

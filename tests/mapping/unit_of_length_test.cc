@@ -65,10 +65,10 @@ TEST(UnitOfLength, ScalesOfMeasuredLengthsAreOne) {
   for (const double scale : ScalesOf(problem, Enlarged(problem, 1.7))) EXPECT_EQ(scale, 1);
 }
 
-TEST(UnitOfLength, PlaceOfTheNewestIsKeptWithAllTheRest) {
+TEST(UnitOfLength, PlaceOfAPoseIsKeptWithAllTheRest) {
   const BaProblem problem = Scene();
   BaResult result = Enlarged(problem, 1.7);
-  KeepPlaceOfTheNewest(problem, result);
+  KeepPlaceOf(2, problem, result);
   for (std::size_t k = 0; k < problem.poses.size(); ++k) {
     EXPECT_LT(LogSe3(result.poses[k] * Inverse(problem.poses[k].cam_from_world)).norm(), 1e-9);
   }
@@ -80,7 +80,7 @@ TEST(UnitOfLength, PlaceOfTheNewestIsKeptWithAllTheRest) {
   BaProblem pair = problem;
   pair.camera.baseline = 0.1;
   BaResult measured = Enlarged(problem, 1.7);
-  KeepPlaceOfTheNewest(pair, measured);
+  KeepPlaceOf(2, pair, measured);
   EXPECT_EQ(measured.points[0], Enlarged(problem, 1.7).points[0]);
 }
 

@@ -60,6 +60,27 @@ TEST(MappingStage, AMapThatBeginsWithSeveralKeyFramesTakesEffectAtOnce) {
   stage.maps().at(MapId{0}).CheckInvariants();
 }
 
+TEST(MappingStage, ANewMapTakesTheLensOfTheMapBefore) {
+  const SyntheticWorld world = MakeMonocularWorld(300, 60);
+  const LensCorrection lens(world.camera, 2);
+  Atlas atlas;
+  atlas.Start().Apply({edit::CorrectFeatures{{{}, lens}}});
+  MappingStage stage(world.Imaging(), WithLag(5));
+  stage.Continue(std::move(atlas), {});
+  const InitialMap initial = InitialMapOf(world, {0, 8, 16});
+  stage.Submit(16, MakeMapStart(initial, world.Imaging(), Rigid3{}, KeyFrameId{0}));
+  const auto snapshot = stage.SnapshotFor(16);
+  ASSERT_NE(snapshot, nullptr);
+  EXPECT_EQ(snapshot->map, MapId{1});
+  EXPECT_EQ(snapshot->correction.lens, lens);
+  EXPECT_EQ(snapshot->reference->frame.indexed->correction.lens, lens);
+  Atlas copy = stage.atlas();
+  stage.MoveFirstKeyFramesBack(copy);
+  EXPECT_EQ(LogSe3(copy.Find(MapId{1})->PoseOf(KeyFrameId{0})).norm(), 0);
+  stage.Finish();
+  EXPECT_EQ(LogSe3(stage.maps().at(MapId{1}).PoseOf(KeyFrameId{0})).norm(), 0);
+}
+
 TEST(MappingStage, OthersTakeEffectAfterTheLag) {
   const SyntheticWorld world = MakeSyntheticWorld(200, 40);
   for (const int lag : {0, 1, 4}) {
