@@ -117,7 +117,7 @@ px (2,) in the rectified image, corrected for what was learned of the lens, sigm
 Ordered by point, then keyframe. A read-only copy.)")
       .def_property_readonly("line_tracks", Frozen(LineTracks), R"(Which keyframe shows which line
 where: structured array of line and keyframe (ids), feature, octave, start (2,) and end (2,) in the
-rectified image, corrected alike, sigma_px across. Ordered by line, then keyframe. A read-only copy.)")
+rectified image, corrected for the lens as well, sigma_px across. Ordered by line, then keyframe. A read-only copy.)")
       .def_property_readonly(
           "camera",
           [](const PyMap& map) { return map.saved->context.camera; },

@@ -125,7 +125,10 @@ SavedAtlas RunningSystem::CopyMaps() {
   }
   if (finished_) return {system_.atlas(), system_.Context()};
   pipeline_.Drain();
-  return system_.Save().maps;
+  SavedAtlas copy;
+  system_.CopyMaps([&copy](SavedAtlas maps) { copy = std::move(maps); });
+  system_.Save();  // waits for the copy
+  return copy;
 }
 
 MapEvents RunningSystem::Events() {

@@ -209,7 +209,7 @@ void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
   System& system = session_->system();
   // The map is shown in the world of the poses that are reported meanwhile.
   system.LookAtMaps(
-      [take = std::move(take), rectified_from_left = system.Context().rectified_from_left](
+      [take = std::move(take), rectified_from_left = system.rectifier().rectified_left_from_left()](
           const Atlas& atlas, const MapEvents&) {
         const Map* map = atlas.Find(atlas.active_id());
         if (map != nullptr) take(ViewOf(*map, rectified_from_left));

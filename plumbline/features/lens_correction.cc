@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/lens_correction.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumbline {
@@ -17,8 +18,10 @@ Eigen::Vector2d LensCorrection::ShiftAt(const Eigen::Vector2d& px) const {
 double LensCorrection::ScaleAt(const Eigen::Vector2d& px) const {
   const double part = border_px_ * inverse_unit_ * FromCentre(px).squaredNorm();
   // The first factor is the scale along the circle around the principal point, the second along the
-  // radius.
-  return std::sqrt((1 - part) * (1 - 3 * part));
+  // radius. A large correction folds the corners of a narrow image over; there the scale has no
+  // meaning, and must only be a number.
+  constexpr double kLeast = 0.01;
+  return std::sqrt(std::max((1 - part) * (1 - 3 * part), kLeast));
 }
 
 bool LensCorrection::IsPlausible() const {

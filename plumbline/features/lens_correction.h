@@ -14,7 +14,7 @@ namespace plumbline {
 class LensCorrection {
  public:
   // The largest border_px that is plausible, in widths of the image.
-  static constexpr double kLargest = 0.05;
+  static constexpr double kLargest = 0.03;
 
   LensCorrection() = default;  // no distortion is left
   LensCorrection(const RectifiedCamera& camera, double border_px);

@@ -323,7 +323,10 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
     motion.new_from_old.emplace(id, this_from_other);
     keyframe.number += keyframes_taken_in_;
   });
-  other.Apply({std::move(motion), edit::CorrectFeatures{correction_}});
+  FeatureCorrection joined = correction_;
+  if (joined.lens.border_px() == 0) joined.lens = other.correction_.lens;
+  if (!(joined == correction_)) Apply({edit::CorrectFeatures{joined}});
+  other.Apply({std::move(motion), edit::CorrectFeatures{joined}});
   MoveEntries(other.keyframes_, keyframes_);
   MoveEntries(other.points_, points_);
   MoveEntries(other.lines_, lines_);

@@ -84,8 +84,8 @@ class Map {
   // Takes in all of another map of the same atlas, which uses none of this map's ids. The other map
   // is moved by `this_from_other` (from world to world; scale 1 where depth is measured). Its
   // keyframes count as taken in after those of this map, and their features get this map's
-  // correction. Landmarks that both maps have are there twice until they are fused. O(size
-  // of the other map).
+  // correction; where it has no lens correction, both get that of the other map. Landmarks that
+  // both maps have are there twice until they are fused. O(size of the other map).
   void Absorb(Map other, const Similarity3& this_from_other);
 
   // Throws BugError when observations and matches disagree or a landmark has none.

@@ -87,7 +87,7 @@ void MapBuilder::CheckRecord(const MapRecord& record) const {
     Fail("an id out of range");
   }
   if (record.version < 0 || !is_count(record.keyframes_taken_in)) Fail("a count out of range");
-  if (!record.correction.IsPlausible()) Fail("a correction without a value");
+  if (!record.correction.IsPlausible()) Fail("an implausible correction");
   for (const auto& [id, removed] : record.removed_keyframes) {
     if (!IsInRange(id, record.next_keyframe)) Fail("a removed keyframe that never was");
     if (!IsPose(removed.from_parent.cam_from_keyframe) || !IsUnit(removed.from_parent.unit) ||

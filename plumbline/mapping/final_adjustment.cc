@@ -100,7 +100,14 @@ std::optional<BaResult> SolveForLens(const LearnedLens& lens,
   ba.rounds = 1;
   ba.max_iterations = 40;
   ba.function_tolerance = 1e-6;
-  return SolveInOnePiece(problem, ba, SolveLocalBa, options.window.local_limits(), {}, stop);
+  const BaProblem start = problem;  // in which no pose is held yet, so that all are scaled
+  return SolveInOnePiece(
+      problem,
+      ba,
+      SolveLocalBa,
+      options.window.local_limits(),
+      [&](BaResult& solution) { KeepUnitOfTheOldest(start, solution); },
+      stop);
 }
 
 void TakePlaces(const BaResult& solved, BaProblem& problem) {
@@ -191,8 +198,9 @@ Correction AdjustWholeMap(const Map& map,
   BaProblem problem = whole.problem;
   // A map that has a lens correction may have taken in keyframes of a map that had another one.
   if (!learned.poses.empty() || map.correction().lens.border_px() != 0) {
-    const auto moved = SolveForLens(learned, options, problem, stop);
+    auto moved = SolveForLens(learned, options, problem, stop);
     if (!moved) return {};
+    KeepUnitOfTheOldest(whole.problem, *moved);
     TakePlaces(*moved, problem);
   }
   // KeepUnitOfTheOldest gets `whole.problem`, in which the poses that SolveInOnePiece holds are

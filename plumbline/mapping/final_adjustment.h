@@ -25,7 +25,8 @@ namespace plumbline {
 //
 // With a single camera, the radial distortion of the lens that the calibration has left is learned
 // from the points first and taken out of all measurements (LearnLens, mapping.lens_calibration). It
-// becomes part of the correction, beside what the map's features are corrected by already.
+// becomes part of the correction, beside what the map's features are corrected by already. Where
+// the features are corrected for a lens, points are adjusted without lines first.
 //
 // Returns an empty correction for a map of less than three keyframes, and for one whose equations
 // take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share
@@ -52,8 +53,9 @@ Correction AdjustToLens(const Map& map,
                         const MappingOptions& options,
                         const StopCheck& stop = {});
 
-// Adjusts a map of a single camera to a lens that is known from another map, in the same way.
-// Returns an empty correction where the map has that lens. Cost: an adjustment of the points.
+// Adjusts a map of a single camera to a lens that is known from another map, as AdjustToLens does
+// to one that it learns. Returns an empty correction where the map has that lens. Cost: an
+// adjustment of the points.
 Correction BringToLens(const Map& map,
                        const ImagingModel& imaging,
                        const LineWeights& weights,

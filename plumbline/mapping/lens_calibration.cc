@@ -171,11 +171,14 @@ LearnedLens LearnLens(const BaProblem& problem, double known_px, const StopCheck
   const double whole =
       (known_px + fit->minimum) * fit->curvature / (fit->curvature + 1 / (sigma * sigma));
   if (!(std::abs(whole) < kMost * sigma)) return {};
+  const std::optional<double> as_it_is = profile.At(0);
   const std::optional<double> without = profile.At(-known_px);
   const std::optional<double> with = profile.At(whole - known_px);
-  if (!without || !with) return {};
+  if (!as_it_is || !without || !with) return {};
   const bool matters = std::abs(whole) * MeanSize(problem) > kAllowed * width;
   const bool counts = *without - *with > kEnough && matters;
+  const bool contradicted = *as_it_is - *without > kEnough;
+  if (!counts && !contradicted) return {};
   const double change = (counts ? whole : 0) - known_px;
   if (std::abs(change) < kLeastChange * width) return {};
   const BaResult& solution = profile.Nearest(change);

@@ -29,7 +29,7 @@ void Correct(const LensCorrection& correction, BaProblem& problem);
 // more than a deviation of six would (a likelihood ratio of 36); where the camera goes straight on,
 // nothing tells of the distortion. Where measurements have had a correction already, the same is
 // asked of the whole correction: it is changed to what the points say now, and taken back where
-// they do not speak for it any more. There is no change where lengths are measured (a pair), where
+// they speak as clearly against it. There is no change where lengths are measured (a pair), where
 // it is smaller than 2e-4 of the image's width, or when `stop` says so.
 //
 //   problem   of a whole map: poses with their gauge held, points with all observations

@@ -93,7 +93,7 @@ class BackgroundAdjustment {
 
 // Returns after how many frames the adjustment of a whole map takes effect in runs that do not
 // depend on the speed of the machine: about twice the time that it takes, at 20 frames a second.
-// Where a lens is learned, it takes up to twice as long.
+// An adjustment that also learns a lens takes about twice as long as others.
 std::int64_t AdjustmentDelay(const Map& map);
 
 }  // namespace plumbline

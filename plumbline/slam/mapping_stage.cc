@@ -483,11 +483,13 @@ void MappingStage::LearnLens(KeyFrameId newest, std::int64_t frame) {
   adjustment_.Begin(map, frame + AdjustmentDelay(map), adjust_to_lens_);
 }
 
-// Adjusts a new map to the lens that the newest map before it has learned.
+// Adjusts a new map to the lens that the newest of the other maps has learned.
 void MappingStage::TakeKnownLens(Map& map) {
+  if (!mapping_options_.lens_calibration) return;
   for (auto other = atlas_.maps().rbegin(); other != atlas_.maps().rend(); ++other) {
     const LensCorrection& lens = other->second.correction().lens;
-    if (other->first == map.id() || lens.border_px() == 0) continue;
+    if (other->first == map.id() || places_.IsWithdrawn(other->first)) continue;
+    if (lens.border_px() == 0) continue;
     return Apply(mapper_.ToLens(map, lens), map);
   }
 }

@@ -51,10 +51,10 @@ TEST(LensCorrection, IsNothingByDefault) {
   EXPECT_EQ(LensCorrection().border_px(), 0);
 }
 
-TEST(LensCorrection, IsPlausibleUpToATwentiethOfTheWidth) {
+TEST(LensCorrection, IsPlausibleUpToThreePercentOfTheWidth) {
   EXPECT_TRUE(LensCorrection().IsPlausible());
-  EXPECT_TRUE(LensCorrection(OneCamera(), -29).IsPlausible());
-  EXPECT_FALSE(LensCorrection(OneCamera(), 31).IsPlausible());
+  EXPECT_TRUE(LensCorrection(OneCamera(), -17).IsPlausible());
+  EXPECT_FALSE(LensCorrection(OneCamera(), 19).IsPlausible());
   EXPECT_FALSE(LensCorrection(OneCamera(), std::numeric_limits<double>::infinity()).IsPlausible());
 }
 

@@ -161,7 +161,7 @@ TEST(LoadAtlas, GivesBackTheLensOfAMap) {
 TEST(LoadAtlas, RefusesALensThatFoldsTheImageOver) {
   const ScratchFolder folder;
   SavedAtlas saved = MakeSavedAtlas();
-  saved.atlas.active().Apply({edit::CorrectFeatures{{{}, {kMapCamera, 0.06 * kMapCamera.width}}}});
+  saved.atlas.active().Apply({edit::CorrectFeatures{{{}, {kMapCamera, 0.04 * kMapCamera.width}}}});
   const auto file = Saved(folder, saved);
   EXPECT_THROW(LoadAtlas(file), InputError);
 }

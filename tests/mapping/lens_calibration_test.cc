@@ -83,12 +83,15 @@ TEST(LearnLens, FindsWhatTheCalibrationHasLeft) {
   }
 }
 
-// What little had taught is corrected by what the whole map says, and taken back where it says
-// nothing.
+// What little had taught is corrected by what the whole map says, and taken back where it says the
+// opposite.
 TEST(LearnLens, ChangesWhatIsKnownToWhatThePointsSay) {
   EXPECT_NEAR(LearnLens(DriveRoundABend(3), 3).correction.border_px(), 3, 1);
   EXPECT_NEAR(LearnLens(DriveRoundABend(-3), 7).correction.border_px(), -3, 1);
-  EXPECT_EQ(LearnLens(DriveRoundABend(-3), 3).correction.border_px(), -3);
+  EXPECT_EQ(LearnLens(DriveRoundABend(-4), 4).correction.border_px(), -4);
+  // These points do not tell whether half of a pixel is left, or all of it.
+  EXPECT_EQ(LearnLens(DriveRoundABend(0), 0.5).correction.border_px(), 0);
+  EXPECT_EQ(LearnLens(DriveRoundABend(-0.5), 0.5).correction.border_px(), 0);
 }
 
 TEST(LearnLens, LeavesAGoodCalibrationAlone) {
