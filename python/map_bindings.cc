@@ -113,11 +113,11 @@ of the rectified left camera, that of `camera`. A read-only copy.)")
       .def_property_readonly(
           "point_tracks", Frozen(PointTracks), R"(Which keyframe shows which point
 where: structured array of point and keyframe (ids), feature (its number in the keyframe), octave,
-px (2,) in the rectified image, corrected for what was learned of the lens, sigma_px, disparity and disparity_sigma (NaN: not measured).
-Ordered by point, then keyframe. A read-only copy.)")
+px (2,) in the rectified image, corrected for what was learned of the lens, sigma_px, disparity and
+disparity_sigma (NaN: not measured). Ordered by point, then keyframe. A read-only copy.)")
       .def_property_readonly("line_tracks", Frozen(LineTracks), R"(Which keyframe shows which line
 where: structured array of line and keyframe (ids), feature, octave, start (2,) and end (2,) in the
-rectified image, corrected for the lens as well, sigma_px across. Ordered by line, then keyframe. A read-only copy.)")
+rectified, corrected image, sigma_px across. Ordered by line, then keyframe. A read-only copy.)")
       .def_property_readonly(
           "camera",
           [](const PyMap& map) { return map.saved->context.camera; },

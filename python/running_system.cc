@@ -125,10 +125,7 @@ SavedAtlas RunningSystem::CopyMaps() {
   }
   if (finished_) return {system_.atlas(), system_.Context()};
   pipeline_.Drain();
-  SavedAtlas copy;
-  system_.CopyMaps([&copy](SavedAtlas maps) { copy = std::move(maps); });
-  system_.Save();  // waits for the copy
-  return copy;
+  return system_.CopyMaps();
 }
 
 MapEvents RunningSystem::Events() {

@@ -219,9 +219,7 @@ void LiveSlam::Implementation::ViewMap(std::function<void(MapView)> take) {
 std::string LiveSlam::Implementation::Save(const std::string& path) {
   if (!HasFrames()) throw InputError(path + ": expected frames before a map is saved, found none");
   session_->pipeline().Drain();
-  SavedAtlas saved;
-  session_->system().CopyMaps([&saved](SavedAtlas copy) { saved = std::move(copy); });
-  session_->system().Save();  // waits for the copy
+  const SavedAtlas saved = session_->system().CopyMaps();
   SaveAtlas(path, saved.atlas, saved.context);
   const Map* map = saved.atlas.Find(saved.atlas.active_id());
   return fmt::format("{}: {} keyframes, {} points, {} lines",

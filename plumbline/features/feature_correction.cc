@@ -14,27 +14,13 @@ namespace {
 // they may be fewer than these. Rounding to single precision makes the solution exact.
 constexpr int kMaxRounds = 64;
 
-// Returns the number of single precision that solves measured = corrected +
+// Returns the number or the place of single precision that solves measured = corrected +
 // displacement_at(measured).
-template <class DisplacementAt>
-double Measured(double corrected, const DisplacementAt& displacement_at) {
-  double measured = InSinglePrecision(corrected);
+template <class Value, class DisplacementAt>
+Value Measured(const Value& corrected, const DisplacementAt& displacement_at) {
+  Value measured = InSinglePrecision(corrected);
   for (int round = 0; round < kMaxRounds; ++round) {
-    const double next = InSinglePrecision(corrected + displacement_at(measured));
-    if (next == measured) break;
-    measured = next;
-  }
-  return measured;
-}
-
-// Returns the place of single precision that the lens correction took to `corrected`.
-Eigen::Vector2d Measured(const LensCorrection& lens, const Eigen::Vector2d& corrected) {
-  const auto rounded = [](const Eigen::Vector2d& px) {
-    return Eigen::Vector2d(InSinglePrecision(px.x()), InSinglePrecision(px.y()));
-  };
-  Eigen::Vector2d measured = rounded(corrected);
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const Eigen::Vector2d next = rounded(corrected + lens.ShiftAt(measured));
+    const Value next = InSinglePrecision(Value(corrected + displacement_at(measured)));
     if (next == measured) break;
     measured = next;
   }
@@ -67,18 +53,21 @@ void Correct(const StereoCorrection& before,
 
 // Deviations shrink with the surroundings of their place.
 void Correct(const LensCorrection& before, const LensCorrection& correction, Features& features) {
+  const auto measured_at = [&](const Eigen::Vector2d& px) {
+    return Measured(px, [&](const Eigen::Vector2d& place) { return before.ShiftAt(place); });
+  };
   const auto rescale = [&](const Eigen::Vector2d& measured, double& sigma_px) {
     sigma_px =
         InSinglePrecision(sigma_px / before.ScaleAt(measured)) * correction.ScaleAt(measured);
   };
   for (PointFeature& point : features.points) {
-    const Eigen::Vector2d measured = Measured(before, point.px);
+    const Eigen::Vector2d measured = measured_at(point.px);
     rescale(measured, point.sigma_px);
     point.px = correction.At(measured);
   }
   for (LineFeature& line : features.lines) {
     Segment2& segment = line.segment;
-    const Segment2 measured{Measured(before, segment.start), Measured(before, segment.end)};
+    const Segment2 measured{measured_at(segment.start), measured_at(segment.end)};
     rescale(measured.Midpoint(), line.sigma_px);
     segment = {correction.At(measured.start), correction.At(measured.end)};
   }

@@ -5,11 +5,9 @@
 namespace plumbline {
 namespace {
 
-void Round(double& value) { value = InSinglePrecision(value); }
-
-void Round(Eigen::Vector2d& value) {
-  Round(value.x());
-  Round(value.y());
+template <class Value>
+void Round(Value& value) {
+  value = InSinglePrecision(value);
 }
 
 void Round(Segment2& segment) {

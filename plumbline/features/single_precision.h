@@ -4,6 +4,8 @@
 
 #include "plumbline/features/types.h"
 
+#include <Eigen/Core>
+
 namespace plumbline {
 
 // Returns the nearest number with the 24 binary digits of single precision, for |value| < 1e290. It
@@ -13,6 +15,10 @@ inline double InSinglePrecision(double value) {
   constexpr double kSplit = (1 << 29) + 1;
   const double high = kSplit * value;
   return high - (high - value);
+}
+
+inline Eigen::Vector2d InSinglePrecision(const Eigen::Vector2d& value) {
+  return {InSinglePrecision(value.x()), InSinglePrecision(value.y())};
 }
 
 // Rounds everything that was measured in an image except the descriptors: positions, deviations,

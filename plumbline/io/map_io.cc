@@ -125,8 +125,8 @@ void WriteMap(const Map& map, const MapRecord& record, SectionWriter& file) {
                          static_cast<std::int64_t>(map.lines().size())};
   ByteWriter section;
   TransferAll(section, record, counts);
-  if (record.correction.lens.border_px() != 0)
-    Transfer(section, record.correction.lens.border_px());
+  const double border_px = record.correction.lens.border_px();
+  if (border_px != 0) Transfer(section, border_px);
   file.Write(kMapRecord, section.bytes());
   WriteKeyFrames(map, file);
   WriteLandmarks(map.points(), map, kPoints, file);

@@ -19,10 +19,6 @@ constexpr int kMaxOctave = 64;
 std::vector<PointId>& Matches(Frame& frame, PointId) { return frame.points; }
 std::vector<LineId>& Matches(Frame& frame, LineId) { return frame.lines; }
 
-bool IsPose(const Rigid3& pose) {
-  return pose.translation.allFinite() && std::abs(pose.rotation.norm() - 1) < 1e-6;
-}
-
 bool IsUnit(double unit) { return std::isfinite(unit) && unit > 0; }
 
 bool IsPlaced(const MapPoint& point) { return point.position.allFinite(); }

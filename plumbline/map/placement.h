@@ -4,7 +4,14 @@
 
 #include "plumbline/geometry/se3.h"
 
+#include <cmath>
+
 namespace plumbline {
+
+// Whether what was read from a file can be a pose: finite, with a rotation of norm 1.
+inline bool IsPose(const Rigid3& pose) {
+  return pose.translation.allFinite() && std::abs(pose.rotation.norm() - 1) < 1e-6;
+}
 
 // The pose of a keyframe, and the present unit of lengths around it (KeyFrame::unit).
 struct Placement {

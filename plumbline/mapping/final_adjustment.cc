@@ -110,13 +110,6 @@ std::optional<BaResult> SolveForLens(const LearnedLens& lens,
       stop);
 }
 
-void TakePlaces(const BaResult& solved, BaProblem& problem) {
-  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    problem.poses[i].cam_from_world = solved.poses[i];
-  }
-  problem.points = solved.points;
-}
-
 // Returns the places that an adjustment found, and the lens correction of the features together
 // with what was learned beside it.
 Correction CorrectionOf(const Map& map,
@@ -201,7 +194,7 @@ Correction AdjustWholeMap(const Map& map,
     auto moved = SolveForLens(learned, options, problem, stop);
     if (!moved) return {};
     KeepUnitOfTheOldest(whole.problem, *moved);
-    TakePlaces(*moved, problem);
+    TakePosesAndPoints(*moved, problem);
   }
   // KeepUnitOfTheOldest gets `whole.problem`, in which the poses that SolveInOnePiece holds are
   // free, so that it scales all poses.

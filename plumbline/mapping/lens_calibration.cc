@@ -35,7 +35,7 @@ class Profile {
     const auto known = solved_.find(border_px);
     if (known != solved_.end()) return known->second.final_cost;
     BaProblem corrected = problem_;
-    if (!solved_.empty()) TakePlaces(Nearest(border_px), corrected);
+    if (!solved_.empty()) TakePosesAndPoints(Nearest(border_px), corrected);
     Correct({corrected.camera, border_px}, corrected);
     LocalBaOptions options;
     // No observation is taken out, so that all costs count the same observations.
@@ -65,13 +65,6 @@ class Profile {
   }
 
  private:
-  static void TakePlaces(const BaResult& solved, BaProblem& problem) {
-    for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-      problem.poses[i].cam_from_world = solved.poses[i];
-    }
-    problem.points = solved.points;
-  }
-
   BaProblem problem_;
   const StopCheck& stop_;
   std::map<double, BaResult> solved_;  // the solution for each correction

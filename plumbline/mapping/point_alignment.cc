@@ -95,7 +95,7 @@ std::shared_ptr<const IndexedFeatures> PointAligner::Align(const Map& map,
     Eigen::Vector2d& px = features.points[i].px;
     const auto found = Find(*reference, point.position, frame, px, pyramid);
     if (!found) continue;
-    px = {InSinglePrecision(found->x()), InSinglePrecision(found->y())};
+    px = InSinglePrecision(*found);
     moved = true;
   }
   Remember(id, features, pyramid);

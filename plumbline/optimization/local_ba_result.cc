@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/optimization/local_ba_result.h"
 
+#include <cstddef>
 #include <limits>
 
 namespace plumbline {
@@ -25,6 +26,13 @@ BaResult NotFinite(const BaProblem& problem) {
   result.line_chi2.assign(problem.line_observations.size(), infinite);
   result.termination = BaTermination::kNotFinite;
   return result;
+}
+
+void TakePosesAndPoints(const BaResult& solved, BaProblem& problem) {
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    problem.poses[i].cam_from_world = solved.poses[i];
+  }
+  problem.points = solved.points;
 }
 
 }  // namespace plumbline

@@ -94,6 +94,9 @@ struct BaResult {
 // Returns a problem before anything is solved, with all observations as inliers and no chi2 known.
 BaResult InitialState(const BaProblem& problem);
 
+// Puts the poses and points of a problem where a solution of it has them, and leaves lines alone.
+void TakePosesAndPoints(const BaResult& solved, BaProblem& problem);
+
 // Returns the result for a problem that is not solved because it has numbers that are not finite:
 // the input, with no observation as inlier and infinite chi2.
 BaResult NotFinite(const BaProblem& problem);

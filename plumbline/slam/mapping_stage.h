@@ -120,14 +120,17 @@ class MappingStage {
   void Submit(std::int64_t frame, Sighting sighting);
   void Submit(std::int64_t frame, Visit visit);
 
-  // Moves maps that are copies of this stage's, each as a whole, so that the first keyframe is
-  // where it was before the map was adjusted to a lens: the world is the camera of that keyframe.
-  // When it may be called: see atlas(), or in a Visit.
-  void MoveFirstKeyFramesBack(Atlas& copy) const;
+  // Moves the maps of this stage's atlas, or of a copy of it, each as a whole, so that the first
+  // keyframe is where it was before the map was adjusted to a lens: the world is the camera of that
+  // keyframe. When it may be called: see atlas(), or in a Visit.
+  void MoveFirstKeyFramesBack(Atlas& atlas) const;
 
   // Begins with maps that there are already, of which one is active, and with what mapping
   // remembered of them. To be called before anything is submitted.
   void Continue(Atlas atlas, const LocalMapper::State& mapper);
+
+  // Waits until all that was submitted is done. Rethrows what mapping threw.
+  void WaitUntilDone() { WaitFor(submitted_); }
 
   // What the stage needs, beside its maps, to go on once everything that was submitted is done:
   // what tracking is to see of that, and from which frame on.
@@ -170,9 +173,8 @@ class MappingStage {
   bool WorkOnce();
 
   // Does all work that is left and adjusts each map as a whole (`stop` cuts the adjustment short).
-  // Maps that were adjusted to a lens are moved back to their world.
-  // After that no keyframe may be added to a map that is to be tracked against. Rethrows what
-  // mapping threw.
+  // Maps that were adjusted to a lens are moved back to their world. After that no keyframe may be
+  // added to a map that is to be tracked against. Rethrows what mapping threw.
   void Finish(const StopCheck& stop = {});
 
   // The maps; none before the first keyframe. With a thread they may be asked for only after Finish

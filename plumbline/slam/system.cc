@@ -387,6 +387,13 @@ void System::CopyMaps(std::function<void(SavedAtlas)> take) {
       }});
 }
 
+SavedAtlas System::CopyMaps() {
+  SavedAtlas copied;
+  CopyMaps([&copied](SavedAtlas copy) { copied = std::move(copy); });
+  mapping_.WaitUntilDone();
+  return copied;
+}
+
 void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look) {
   Complete();
   mapping_.Submit(

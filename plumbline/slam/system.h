@@ -107,9 +107,12 @@ class System {
   bool MapOnce() { return mapping_.WorkOnce(); }
   // Calls `take` with a copy of the maps as they would be saved (MoveFirstKeyFramesBack), and with
   // what SaveAtlas needs beside them, once mapping has done what was submitted so far. The call
-  // happens in the thread that maps. Changes no
-  // result. To be called in the thread that tracks, after the first frame.
+  // happens in the thread that maps. Changes no result. To be called in the thread that tracks,
+  // after the first frame.
   void CopyMaps(std::function<void(SavedAtlas)> take);
+  // Waits for such a copy and returns it. Completes the mapping of the frames so far, which changes
+  // the result of live runs only. Rethrows what mapping threw.
+  SavedAtlas CopyMaps();
   // Calls `look` with the maps and with the loops and joins so far, once mapping has done what was
   // submitted so far. The call happens in the thread that maps. Changes no result. To be called in
   // the thread that tracks.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/features/lens_correction.h"
 
+#include "tests/support/single_camera.h"
 #include <cmath>
 #include <limits>
 
@@ -12,16 +13,6 @@ namespace plumbline {
 namespace lens_correction_test {
 
 using Eigen::Vector2d;
-
-RectifiedCamera OneCamera() {
-  RectifiedCamera camera;
-  camera.fx = camera.fy = 350;
-  camera.cx = 300;
-  camera.cy = 90;
-  camera.width = 600;
-  camera.height = 180;
-  return camera;
-}
 
 TEST(LensCorrection, MovesTheSideOfTheImageByWhatItSays) {
   const RectifiedCamera camera = OneCamera();

@@ -5,6 +5,7 @@
 #include "plumbline/base/elementary.h"
 #include "plumbline/base/random.h"
 
+#include "tests/support/single_camera.h"
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -16,16 +17,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-RectifiedCamera OneCamera() {
-  RectifiedCamera camera;
-  camera.fx = camera.fy = 350;
-  camera.cx = 300;
-  camera.cy = 90;
-  camera.width = 600;
-  camera.height = 180;
-  return camera;
-}
 
 // Where the image shows what the correction takes to px.
 Vector2d Displaced(const LensCorrection& correction, Vector2d px) {
