@@ -16,7 +16,6 @@ namespace plumbline {
 namespace {
 
 constexpr std::chrono::seconds kOftenest(1);
-constexpr std::chrono::seconds kRarest(8);
 
 // Adds rows in the order of their stamps: those of frames played backwards go in front.
 void AddRows(const Trajectory& played, std::optional<std::int64_t> mirror_ns, std::string& text) {
@@ -100,8 +99,7 @@ std::optional<std::string> RunJournal::Write(RunFolder& folder) {
 
 std::optional<std::string> RunJournal::WriteIfDue(RunFolder& folder, Clock::time_point now) {
   constexpr int kShare = 20;
-  const auto interval =
-      std::clamp<Clock::duration>(kShare * taken_, Clock::duration(kOftenest), kRarest);
+  const auto interval = std::max<Clock::duration>(kShare * taken_, kOftenest);
   if (now - last_ < interval) return std::nullopt;
   return Write(folder);
 }

@@ -18,7 +18,7 @@ namespace plumbline {
 
 // Keeps on the disk what a run has so far, in the part of its folder and by the names of the
 // results: the causal trajectories, frames.csv, and keyframes with their first poses. Whatever ends
-// the program, only the last seconds are lost.
+// the program, only what came after the last write is lost (WriteIfDue).
 //
 // Every file is written anew and renamed, so that each is complete at any time.
 class RunJournal {
@@ -36,7 +36,8 @@ class RunJournal {
   // Writes everything. Returns why that failed, only once; later calls try again and return
   // nothing.
   std::optional<std::string> Write(RunFolder& folder);
-  // Writes if the last time is so long ago that writing takes little of the time: 1 to 8 s.
+  // Writes if the last time is a second ago and twenty times what that write took: files grow with
+  // the run, and writing them is to take a twentieth of the time at most.
   std::optional<std::string> WriteIfDue(RunFolder& folder, Clock::time_point now = Clock::now());
 
  private:
