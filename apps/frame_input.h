@@ -6,11 +6,11 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/live/live_source.h"
 #include "plumbline/live/stamp_continuity.h"
+#include "plumbline/report/reading_time.h"
 #include "plumbline/slam/options.h"
 
 #include "apps/frame_reader.h"
 #include "apps/patient_reader.h"
-#include "apps/reading_time.h"
 #include <chrono>
 #include <cstddef>
 #include <cstdint>

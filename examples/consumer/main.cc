@@ -14,7 +14,11 @@ int main(int argc, char** argv) {
   const auto dataset = plumbline::OpenDataset(argv[1]);
   plumbline::System system(dataset->calibration(), plumbline::SlamOptions{});
   for (std::size_t i = 0; i < dataset->size(); ++i) {
-    if (auto frame = dataset->Read(i)) system.Process(*frame);
+    if (const auto frame = dataset->Read(i)) {
+      system.Process(*frame);
+    } else {
+      system.Skip(dataset->stamp_ns(i), "image_unreadable");
+    }
   }
   system.Finish();
   const auto map = system.MainMap();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/reading_time.h"
+#include "plumbline/report/reading_time.h"
 
 #include <algorithm>
 #include <cstddef>
