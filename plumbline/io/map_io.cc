@@ -161,10 +161,22 @@ void WriteSections(const std::vector<const Map*>& maps,
   file.Write(kEnd, {});
 }
 
+// Throws InputError for a map that could not be read again (MapBuilder), before the file that is
+// there is replaced.
+void CheckIds(const std::filesystem::path& path, const Map& map) {
+  const std::int64_t next = std::max(map.NextPointId().value, map.NextLineId().value);
+  if (next <= kMaxBuiltId) return;
+  throw InputError(fmt::format("{}: expected a map that gave at most {} ids to points, found {}",
+                               path.string(),
+                               kMaxBuiltId,
+                               next));
+}
+
 void WriteFile(const std::filesystem::path& path,
                const std::vector<const Map*>& maps,
                const AtlasContext& context,
                MapId active) {
+  for (const Map* map : maps) CheckIds(path, *map);
   SectionWriter file(path, Preamble());
   WriteSections(maps, context, active, file);
   file.Commit();

@@ -80,6 +80,7 @@ class IdTable {
   // The whole copy counts as changed, later than all changes of the other table. O(pages).
   IdTable(const IdTable& other)
       : pages_(other.pages_),
+        first_page_(other.first_page_),
         size_(other.size_),
         changes_(other.changes_ + 1),
         copied_at_(changes_) {}
@@ -92,7 +93,7 @@ class IdTable {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  Iterator begin() const { return {this, NextPlace(0)}; }
+  Iterator begin() const { return {this, NextPlace(first_page_ * kPage)}; }
   Iterator end() const { return {this, kEnd}; }
   ReverseIterator rbegin() const { return ReverseIterator(end()); }
   ReverseIterator rend() const { return ReverseIterator(begin()); }
@@ -148,6 +149,7 @@ class IdTable {
     if (pages_.size() <= PageOf(id)) pages_.resize(PageOf(id) + 1);
     CopyOnWrite<Page>& shared = pages_[PageOf(id)];
     if (!shared) shared = CopyOnWrite(Page());
+    if (size_ == 0 || PageOf(id) < first_page_) first_page_ = PageOf(id);
     Page& page = shared.Own();
     page.entries[PlaceInPage(id)] = CopyOnWrite(Entry(id, std::move(entry)));
     page.taken |= Bit(PlaceInPage(id));
@@ -162,6 +164,7 @@ class IdTable {
     CopyOnWrite<Page>& shared = pages_[PageOf(id)];
     if (shared->taken == Bit(PlaceInPage(id))) {
       shared = {};
+      SkipEmptyPages();
       return;
     }
     Page& page = shared.Own();
@@ -236,14 +239,22 @@ class IdTable {
     }
   }
 
+  // Moves first_page_ to the first page that exists. Where the oldest entries go first, all calls
+  // together look at each page once.
+  void SkipEmptyPages() {
+    while (first_page_ < pages_.size() && !pages_[first_page_]) ++first_page_;
+  }
+
   void Swap(IdTable& other) noexcept {
     pages_.swap(other.pages_);
+    std::swap(first_page_, other.first_page_);
     std::swap(size_, other.size_);
     std::swap(changes_, other.changes_);
     std::swap(copied_at_, other.copied_at_);
   }
 
   std::vector<CopyOnWrite<Page>> pages_;  // none where no id of the page is there
+  std::size_t first_page_ = 0;            // no page before it exists
   std::size_t size_ = 0;
   std::uint64_t changes_ = 0;
   std::uint64_t copied_at_ = 0;  // changes_ at the time this became a copy

@@ -10,8 +10,9 @@
 namespace plumbline {
 
 // All ids of a map to be built must be less than this, because a map has an index of all of its
-// ids.
-inline constexpr std::int64_t kMaxBuiltId = std::int64_t{1} << 26;
+// ids: a pointer for every 64 of them, which a forged file must not make as large as it likes. A
+// camera that never stops gives about 600 ids a second to points, which is enough for ten days.
+inline constexpr std::int64_t kMaxBuiltId = std::int64_t{1} << 29;
 
 // Makes a map from its saved parts: Map::Record, its keyframes, its points, its lines, each kind in
 // the order of the ids. The parts are checked: for what no map can be it throws InputError

@@ -35,6 +35,7 @@ void Follow(const Atlas& atlas, PlaceIndex* index) {
   for (const KeyFrameId id : index->Ids()) {
     if (MapOf(atlas, id) == nullptr) index->Remove(id);
   }
+  if (index->size() == KeyFramesOf(atlas)) return;
   for (const auto& [map_id, map] : atlas.maps()) {  // adopted maps have older ones
     for (const auto& [id, keyframe] : map.keyframes()) {
       if (!index->Contains(id)) index->Add(id, keyframe.frame.features());

@@ -117,21 +117,25 @@ std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
   return ids;
 }
 
+// The candidates are sorted by id as far as they are in the map, so that each score is found beside
+// the one before.
 template <class Candidate, class LandmarkId>
 void CountSeenKind(const std::vector<int>& expected,
                    const std::vector<int>& match_of_feature,
                    const std::vector<Candidate>& candidates,
                    std::map<LandmarkId, TrackingScore>& scores) {
-  const auto entry = [&](int candidate) -> TrackingScore* {
-    const LandmarkId id = candidates[static_cast<std::size_t>(candidate)].id;
-    return id.valid() ? &scores.try_emplace(id, TrackingScore{0, 0}).first->second : nullptr;
-  };
-  for (const int candidate : expected) {
-    if (TrackingScore* score = entry(candidate)) ++score->visible;
-  }
+  std::vector<TrackingScore> seen(candidates.size(), TrackingScore{0, 0});
+  for (const int candidate : expected) ++seen[static_cast<std::size_t>(candidate)].visible;
   for (const int candidate : match_of_feature) {
-    if (candidate < 0) continue;
-    if (TrackingScore* score = entry(candidate)) ++score->found;
+    if (candidate >= 0) ++seen[static_cast<std::size_t>(candidate)].found;
+  }
+  auto beside = scores.begin();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!candidates[i].id.valid() || (seen[i].visible == 0 && seen[i].found == 0)) continue;
+    const auto score = scores.try_emplace(beside, candidates[i].id, TrackingScore{0, 0});
+    score->second.visible += seen[i].visible;
+    score->second.found += seen[i].found;
+    beside = std::next(score);
   }
 }
 

@@ -98,11 +98,19 @@ TrackingResult Tracker::Follow(Frame frame,
   if (!found.Succeeded()) return Fail(std::move(frame), found.failure, found.counts);
 
   PoseAttempt& attempt = *found.attempt;
-  motion_.Observe(last_pose, attempt.pose, seconds);
   frame.cam_from_world = attempt.pose.cam_from_world;
   SetLandmarks(attempt.association, frame);
   const bool wanted = WantsKeyFrame(frame, attempt.association, *seen, live.feature_share);
-  return Succeed(std::move(frame), std::move(found), *seen, wanted);
+  // The centre of an earlier snapshot may have moved since, and the pose moves with it.
+  const Placement before = seen->places.at(seen->centre);
+  const auto today = snapshot.places.find(seen->centre);
+  const Placement centre = today == snapshot.places.end() ? before : today->second;
+  Rigid3& pose = attempt.pose.cam_from_world;
+  if (seen != &snapshot)
+    pose = PoseBeside(centre, {pose * Inverse(before.cam_from_world), before.unit});
+  motion_.Observe(last_pose, attempt.pose, seconds);
+  frame.cam_from_world = pose;
+  return Succeed(std::move(frame), std::move(found), seen->centre, centre, wanted);
 }
 
 // Searches near the predicted pose. It searches by appearance as well where that finds no pose,
@@ -204,28 +212,25 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
   return DecideKeyFrame(situation, options_.keyframes) != KeyFrameReason::kNone;
 }
 
-TrackingResult Tracker::Succeed(Frame frame,
-                                Finding found,
-                                const MapSnapshot& snapshot,
-                                bool wants_keyframe) {
+TrackingResult Tracker::Succeed(
+    Frame frame, Finding found, KeyFrameId reference, const Placement& place, bool wants_keyframe) {
   lost_frames_ = 0;
   state_ = NextState(state_, true, 0, options_.new_map_after);
   TrackingResult result;
   result.counts = found.counts;
   result.state = state_;
   result.cam_from_world = frame.cam_from_world;
-  result.reference = snapshot.centre;
-  const Placement& centre = snapshot.places.at(snapshot.centre);
-  result.from_reference = {frame.cam_from_world * Inverse(centre.cam_from_world), centre.unit};
+  result.reference = reference;
+  result.from_reference = {frame.cam_from_world * Inverse(place.cam_from_world), place.unit};
   Anchor parent;
   if (wants_keyframe && use_ && use_->read_only) {
     result.leaves_surroundings = true;
     frames_since_keyframe_ = 0;
   } else if (wants_keyframe) {
-    parent = {snapshot.centre, result.from_reference};
-    result.keyframe = MakeKeyFrame(frame, snapshot.centre, result.from_reference);
+    parent = {reference, result.from_reference};
+    result.keyframe = MakeKeyFrame(frame, reference, result.from_reference);
     result.reference = newest_keyframe_;
-    result.from_reference = {Rigid3{}, centre.unit};
+    result.from_reference = {Rigid3{}, place.unit};
   }
   result.frame = frame;
   last_ = Tracked{{std::move(frame), std::move(found.attempt->association)},

@@ -226,9 +226,11 @@ class Tracker {
                      const MapSnapshot& snapshot,
                      double feature_share) const;
 
+  // reference, place: the keyframe that the frame's pose is relative to, and where it is.
   TrackingResult Succeed(Frame frame,
                          Finding found,
-                         const MapSnapshot& snapshot,
+                         KeyFrameId reference,
+                         const Placement& place,
                          bool wants_keyframe);
   TrackingResult Fail(Frame frame, TrackingFailure failure, FrameCounts counts);
   TrackingResult StartMap(Frame frame);

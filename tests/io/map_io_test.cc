@@ -5,6 +5,7 @@
 #include "plumbline/base/byte_stream.h"
 #include "plumbline/base/crc32.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/map/map_builder.h"
 
 #include "tests/io/map_fixture.h"
 #include "tests/io/scratch_folder.h"
@@ -307,6 +308,20 @@ TEST(SaveAtlas, LeavesTheOldFileWhereThereIsNoRoom) {
   EXPECT_EQ(Contents(folder / "m.plb"), before);
   EXPECT_THAT(MessageOf([&] { SaveAtlas(folder / "none/m.plb", saved.atlas, saved.context); }),
               HasSubstr("none/m.plb: No such file or directory"));
+}
+
+TEST(SaveAtlas, KeepsTheOldFileOfAMapThatCouldNotBeReadAgain) {
+  const ScratchFolder folder;
+  SavedAtlas saved = MakeSavedAtlas();
+  const std::string before = Contents(Saved(folder, saved));
+  saved.atlas.active().ReserveIds(PointId{kMaxBuiltId}, LineId{0});
+  Saved(folder, saved);
+  EXPECT_NO_THROW(LoadAtlas(folder / "m.plb"));
+  WriteFileAtomically(folder / "m.plb", before);
+  saved.atlas.active().ReserveIds(PointId{kMaxBuiltId + 1}, LineId{0});
+  EXPECT_THAT(MessageOf([&] { Saved(folder, saved); }),
+              HasSubstr("m.plb: expected a map that gave at most 536870912 ids to points, found"));
+  EXPECT_EQ(Contents(folder / "m.plb"), before);
 }
 
 TEST(LoadAtlas, RefusesWhatContradictsItself) {

@@ -151,6 +151,26 @@ TEST(ContinuedMap, ThatDoesNotShowTheCamerasPlaceGivesWayToANewOne) {
   EXPECT_LT(old.points().rbegin()->first, young.points().begin()->first);
 }
 
+// The newest map was taken into another one: its id is not given again.
+TEST(ContinuedMap, ANewMapGetsAnIdThatNoJoinedOneHad) {
+  SavedAtlas saved = MappedPoster();
+  saved.atlas.Start();
+  saved.atlas.Join(MapId{0}, MapId{1}, Similarity3{});
+  saved.atlas.Activate(MapId{0});
+  SlamOptions options = InMode(RunMode::kInline);
+  options.relocalization.patience = 6;
+  options.loop.enabled = false;  // or it would be recognized as the same place
+  System system(MovingPoster::MakeCalibration(), options);
+  system.Continue(saved, false);
+  const MovingPoster poster;
+  for (int i = 0; i < 8; ++i) system.Process(MovingPoster::BlindFrame(i));
+  for (int i = 8; i < 14; ++i) system.Process(poster.Frame(i));
+  system.Finish();
+  EXPECT_EQ(system.frames().back().map, MapId{2});
+  EXPECT_TRUE(system.maps().contains(MapId{2}));
+  EXPECT_EQ(system.FinalTrajectory(MapId{2}).size(), 6U);
+}
+
 TEST(ContinuedMap, ThatIsOnlyReadNeverGivesWay) {
   SlamOptions options = InMode(RunMode::kInline);
   options.relocalization.patience = 2;
