@@ -62,8 +62,8 @@ TrackingResult Tracker::Track(FrameId id,
   if (state_ == TrackerState::kInitializing) return StartMap(std::move(frame));
   if (!last_) return Fail(std::move(frame), TrackingFailure::kNotRelocalized, {});
   PLUMBLINE_CHECK(snapshot != nullptr, "tracking without a map");
-  if (snapshot->withdrawn && !use_) {
-    // a map that was withdrawn counts as one that failed its trial
+  if (snapshot->withdrawn) {
+    // A map that was withdrawn counts as one that failed its trial, so that a new one may begin.
     trial_keyframes_ = std::max(trial_keyframes_, 1);
     return Fail(std::move(frame), TrackingFailure::kMapWithdrawn, {});
   }

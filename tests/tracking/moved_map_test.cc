@@ -8,6 +8,8 @@
 
 #include "tests/support/most_alike.h"
 #include "tests/support/true_map.h"
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -52,6 +54,8 @@ class Follower {
     map_.Apply({change});
   }
 
+  void Withdraw() { withdrawn_ = true; }
+
  private:
   SensorModel Sensor() const { return {.depth = world_.camera.baseline > 0, .noise = 0.2}; }
   SyntheticFrame Sensed(int frame) const {
@@ -59,7 +63,9 @@ class Follower {
     return Sense(world_, PoseOnPath(frame), Sensor(), rng);
   }
   std::shared_ptr<const MapSnapshot> Snapshot() const {
-    return TakeSnapshot(map_, centre_, kSnapshotKeyFrames, earlier_);
+    MapSnapshot snapshot = *TakeSnapshot(map_, centre_, kSnapshotKeyFrames, earlier_);
+    snapshot.withdrawn = withdrawn_;
+    return std::make_shared<const MapSnapshot>(std::move(snapshot));
   }
 
   SyntheticWorld world_ = MakeSyntheticWorld(400, 80);
@@ -67,7 +73,18 @@ class Follower {
   Tracker tracker_{world_.Imaging(), {}, {world_.camera, {}, {}}, Rigid3{}};
   KeyFrameId centre_;
   std::vector<KeyFrameId> earlier_;
+  bool withdrawn_ = false;
 };
+
+// A map of an earlier run that proves wrong while it grows: nothing can be found in it any more.
+TEST(LoadedMap, IsLeftWhenItIsWithdrawn) {
+  Follower follower(0);
+  EXPECT_TRUE(follower.Step(kFirst + 1).cam_from_world);
+  follower.Withdraw();
+  const TrackingResult result = follower.Step(kFirst + 2);
+  EXPECT_EQ(result.failure, TrackingFailure::kMapWithdrawn);
+  EXPECT_EQ(result.state, TrackerState::kInitializing);
+}
 
 TEST(MovedMap, OfOneCameraScaledByTwoGivesTheSameMatches) {
   Follower stays(0), moved(0);
