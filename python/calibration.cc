@@ -130,7 +130,8 @@ where there are, a second one or a depth image. Made by `Calibration.load`,
                   py::arg("sensor") = py::none(),
                   R"(load(path_or_name, sensor=None) -> Calibration
 
-Reads a camera file (of Plumbline, EuRoC, Kalibr or ORB-SLAM) or a built-in camera by name.
+Reads a camera file (of Plumbline, EuRoC, Kalibr, OpenCV, ROS or ORB-SLAM) or a built-in camera
+by name.
 `sensor`: "mono", "stereo" or "rgbd"; None: the richest that the file has.)")
       .def_static("parse",
                   &Parse,

@@ -10,6 +10,7 @@
 #include "plumbline/io/camera_section.h"
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/kalibr.h"
+#include "plumbline/io/opencv_calibration.h"
 #include "plumbline/io/orb_slam_settings.h"
 #include "plumbline/io/yaml_section.h"
 
@@ -163,6 +164,10 @@ const CameraFormat& FormatOf(const YamlSection& root) {
        {"camera_model", "T_BS"},
        ReadEuroc,
        {.pair = {}, .rate = {"rate_hz"}, .depth_factor = {}, .lever = {"T_BS"}}},
+      {"OpenCV or ROS calibration",
+       {"camera_matrix"},
+       ReadOpenCvCalibration,
+       {.pair = {}, .rate = {"rate_hz"}, .depth_factor = {"depth_factor"}, .lever = {}}},
       {"KITTI calib.txt", {"P0"}, RefuseKitti, {}},
       {"Plumbline camera file",
        {},

@@ -40,6 +40,13 @@ void FailOn(const std::optional<std::string>& fault,
   FailAtPath(root, found == keys.end() ? keys.front() : *found, *fault);
 }
 
+// Returns a width or height that `key` gives; throws InputError unless it is a whole number of
+// pixels.
+int CheckedLength(const YamlSection& section, const std::string& key, double length) {
+  if (const auto fault = SizeFault(length, 1)) section.Fail(key, *fault);
+  return static_cast<int>(length);
+}
+
 }  // namespace
 
 Camera ReadListedCamera(const YamlSection& section,
@@ -96,9 +103,31 @@ Camera CheckedCamera(const YamlSection& section,
   return Camera(intrinsics);
 }
 
-int CheckedLength(const YamlSection& section, const std::string& key, double length) {
-  if (const auto fault = SizeFault(length, 1)) section.Fail(key, *fault);
-  return static_cast<int>(length);
+int ReadLength(const YamlSection& section, const std::string& key) {
+  if (!section.Has(key)) {
+    section.Fail(key, "expected the size of the images in pixels, found none; add the row");
+  }
+  return CheckedLength(section, key, section.Number(key));
+}
+
+void ReadCameraMatrix(const YamlSection& section,
+                      const std::string& key,
+                      CameraIntrinsics& intrinsics) {
+  const Eigen::MatrixXd K = section.Matrix(key, 3, 3);
+  const bool pinhole = K(0, 1) == 0 && K(1, 0) == 0 && K.row(2) == Eigen::RowVector3d(0, 0, 1);
+  if (!pinhole) section.Fail(key, "expected fx 0 cx, 0 fy cy, 0 0 1");
+  intrinsics.fx = K(0, 0);
+  intrinsics.fy = K(1, 1);
+  intrinsics.cx = K(0, 2);
+  intrinsics.cy = K(1, 2);
+}
+
+void SetRadTan(const std::vector<double>& coefficients, CameraIntrinsics& intrinsics) {
+  std::copy(coefficients.begin(), coefficients.end(), intrinsics.distortion.begin());
+  const bool any = std::any_of(coefficients.begin(), coefficients.end(), [](double coefficient) {
+    return coefficient != 0;
+  });
+  intrinsics.model = any ? DistortionModel::kRadTan : DistortionModel::kNone;
 }
 
 void CheckCalibration(const YamlSection& root,

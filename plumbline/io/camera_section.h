@@ -49,9 +49,18 @@ Camera CheckedCamera(const YamlSection& section,
                      const CameraKeys& keys,
                      const CameraIntrinsics& intrinsics);
 
-// Returns a width or height that `key` gives; throws InputError unless it is a whole number of
+// Reads a width or height. Throws InputError unless the file has it and it is a whole number of
 // pixels.
-int CheckedLength(const YamlSection& section, const std::string& key, double length);
+int ReadLength(const YamlSection& section, const std::string& key);
+
+// Reads fx, fy, cx and cy from the 3x3 matrix at `key`. Throws InputError unless it has no skew.
+void ReadCameraMatrix(const YamlSection& section,
+                      const std::string& key,
+                      CameraIntrinsics& intrinsics);
+
+// Sets the distortion to these coefficients k1, k2, p1, p2 and, where there is a fifth, k3; to none
+// where all are 0.
+void SetRadTan(const std::vector<double>& coefficients, CameraIntrinsics& intrinsics);
 
 // Where a file of some format has the numbers of a calibration: for each the keys at which it may
 // stand, of which the file has one. "cam1/T_cn_cnm1" is a key of a group.

@@ -31,12 +31,8 @@ Projection ReadProjection(const YamlSection& root) {
 }
 
 // Reads a size by the first of two keys that is there.
-int ReadLength(const YamlSection& root, const std::string& key, const std::string& other) {
-  const std::string& found = root.Has(other) && !root.Has(key) ? other : key;
-  if (!root.Has(found)) {
-    root.Fail(found, "expected the size of the images in pixels, found none; add the row");
-  }
-  return CheckedLength(root, found, root.Number(found));
+int ReadEitherLength(const YamlSection& root, const std::string& key, const std::string& other) {
+  return ReadLength(root, root.Has(other) && !root.Has(key) ? other : key);
 }
 
 // Reads the coefficients prefix + "k1", ...; if all are zero there is no distortion.
@@ -73,8 +69,8 @@ bool HasCamera(const YamlSection& root, const std::string& prefix) {
 
 Camera ReadCamera(const YamlSection& root, const std::string& prefix, Projection projection) {
   CameraIntrinsics intrinsics;
-  intrinsics.width = ReadLength(root, "Camera.width", "LEFT.width");
-  intrinsics.height = ReadLength(root, "Camera.height", "LEFT.height");
+  intrinsics.width = ReadEitherLength(root, "Camera.width", "LEFT.width");
+  intrinsics.height = ReadEitherLength(root, "Camera.height", "LEFT.height");
   intrinsics.fx = root.Number(prefix + "fx");
   intrinsics.fy = root.Number(prefix + "fy");
   intrinsics.cx = root.Number(prefix + "cx");
@@ -93,21 +89,11 @@ struct RectifiedBy {
 
 RectifiedBy ReadRectification(const YamlSection& root, const std::string& side) {
   const std::string key = side + "K";
-  const Eigen::MatrixXd K = root.Matrix(key, 3, 3);
-  const bool pinhole = K(0, 1) == 0 && K(1, 0) == 0 && K.row(2) == Eigen::RowVector3d(0, 0, 1);
-  if (!pinhole) root.Fail(key, "expected fx 0 cx, 0 fy cy, 0 0 1");
   CameraIntrinsics intrinsics;
-  intrinsics.fx = K(0, 0);
-  intrinsics.fy = K(1, 1);
-  intrinsics.cx = K(0, 2);
-  intrinsics.cy = K(1, 2);
-  intrinsics.width = ReadLength(root, side + "width", "Camera.width");
-  intrinsics.height = ReadLength(root, side + "height", "Camera.height");
-  const std::vector<double> d = root.Child(side + "D").Numbers("data", {4, 5});
-  std::copy(d.begin(), d.end(), intrinsics.distortion.begin());
-  if (std::any_of(d.begin(), d.end(), [](double k) { return k != 0; })) {
-    intrinsics.model = DistortionModel::kRadTan;
-  }
+  ReadCameraMatrix(root, key, intrinsics);
+  intrinsics.width = ReadEitherLength(root, side + "width", "Camera.width");
+  intrinsics.height = ReadEitherLength(root, side + "height", "Camera.height");
+  SetRadTan(root.Child(side + "D").Numbers("data", {4, 5}), intrinsics);
   const Eigen::MatrixXd P = root.Matrix(side + "P", 3, 4);
   if (!(P(0, 0) > 0) || P(1, 3) != 0 || P(2, 3) != 0) {
     root.Fail(side + "P", "expected the projection of a camera shifted along x");
