@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
+#include "plumbline/base/printable.h"
 #include "plumbline/io/euroc.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/image_folder.h"
@@ -17,7 +18,9 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <set>
 #include <span>
+#include <string>
 #include <system_error>
 
 namespace plumbline {
@@ -25,8 +28,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Refuses a file of ROS 2 that another recorder than that of MCAP wrote, whatever its name. It
+// would pass for a damaged bag or for a video.
+void RefuseSqliteFile(const fs::path& path) {
+  if (!FileBeginsWith(path, "SQLite format 3")) return;
+  throw InputError(path.string() +
+                   ": expected MCAP, found a ROS 2 bag of SQLite; ros2 bag convert makes one");
+}
+
+// Refuses a folder as `ros2 bag` writes it, and names the file in it that is to be given.
+void RefuseRos2Folder(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path / "metadata.yaml", error)) return;
+  std::set<std::string> names;  // in the same order everywhere
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+    names.insert(entry.path().filename().string());
+  }
+  for (const std::string& name : names) {
+    if (name.ends_with(".mcap")) {
+      throw InputError(path.string() + ": expected a file, found a folder of ros2 bag; give " +
+                       Printable(name) + " in it");
+    }
+  }
+  for (const std::string& name : names) {
+    if (name.ends_with(".db3")) RefuseSqliteFile(path / name);
+  }
+}
+
 DatasetFormat DetectFormat(const fs::path& path) {
+  RefuseSqliteFile(path);
   if (const std::optional<DatasetFormat> format = FindFormat(path)) return *format;
+  RefuseRos2Folder(path);
   throw InputError(path.string() +
                    ": expected a EuRoC folder (mav0/), a TUM or ICL folder (rgb.txt), a KITTI "
                    "sequence (image_0/, calib.txt) or a folder of images, found none of them");
