@@ -58,6 +58,7 @@ struct VideoContent {
   int width = 0, height = 0;
   double announced_frames = 0;  // as the container says
   double rate_hz = 0;           // 0: the container tells none
+  double turned_deg = 0;        // by which a player turns the images, to either side
   std::vector<std::int64_t> stamps_ns;
 };
 
@@ -74,6 +75,9 @@ VideoContent Scan(const fs::path& path) {
   content.announced_frames = capture->Get(cv::CAP_PROP_FRAME_COUNT);
   const double rate = capture->Get(cv::CAP_PROP_FPS);
   if (!RateFault(rate)) content.rate_hz = rate;
+  // Versions of OpenCV count to opposite sides.
+  const double turned_deg = capture->Get(cv::CAP_PROP_ORIENTATION_META);
+  content.turned_deg = std::min(turned_deg, 360 - turned_deg);
   while (capture->Grab()) {
     const double milliseconds = capture->Get(cv::CAP_PROP_POS_MSEC);
     // Times that cannot be right do not increase, so that the rate takes their place.
@@ -159,6 +163,11 @@ std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& o
     info.notes.push_back(fmt::format("{:.0f} of {:.0f} frames cannot be decoded",
                                      content.announced_frames - frames,
                                      content.announced_frames));
+  }
+  if (content.turned_deg > 0) {
+    info.notes.push_back(fmt::format(
+        "the file says that its images are turned by {:.0f} degrees; they are used as stored",
+        content.turned_deg));
   }
   if (!info.calibration.rate_hz && content.rate_hz > 0) info.calibration.rate_hz = content.rate_hz;
   info.stamps_ns = std::move(content.stamps_ns);

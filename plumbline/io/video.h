@@ -12,7 +12,7 @@ namespace plumbline {
 // Opens a video file as a monocular sequence. Its calibration is the camera file that the options
 // name, or a camera.yaml beside the video. Times are those of the container; where it has none, or
 // they do not increase, frames are the container's frame rate apart. A rotation that the container
-// asks for is ignored: the calibration is of the raw pixels.
+// asks for is ignored, with a note: the calibration is of the raw pixels.
 //
 // Frames are best read in order: going back means decoding from the start. Throws the errors of
 // OpenDataset, and InputError for a file that is no video, has no frames, or is of another size

@@ -76,6 +76,45 @@ TEST(Video, GivesItsFramesInAnyOrder) {
   }
 }
 
+// Writes an MP4 file that asks players to turn its images by a quarter, as phones do.
+fs::path WriteTurnedVideo(const ScratchFolder& folder) {
+  const fs::path path = folder.path() / "upright.mp4";
+  {
+    cv::VideoWriter writer(path.string(),
+                           cv::CAP_FFMPEG,
+                           cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
+                           kRate,
+                           {kWidth, kHeight});
+    EXPECT_TRUE(writer.isOpened());
+    for (int i = 0; i < kFrames; ++i) {
+      writer.write(cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(LevelOf(i))));
+    }
+  }
+  // The matrix of the track header, whose first rows are (1, 0, 0) and (0, 1, 0) in 16.16 bits.
+  std::string file = Contents(path);
+  const std::string one("\0\1\0\0", 4), zero(4, '\0'), minus_one("\xff\xff\0\0", 4);
+  const std::size_t header = file.find("tkhd");
+  const std::size_t at = file.find(one + zero + zero + zero + one, header);
+  EXPECT_TRUE(header != std::string::npos && at != std::string::npos);
+  if (at != std::string::npos) file.replace(at, 20, zero + one + zero + minus_one + zero);
+  return folder.Write("turned.mp4", file);
+}
+
+TEST(Video, SaysThatItsImagesAreUsedAsStored) {
+  const ScratchFolder folder;
+  folder.Write("camera.yaml", kCamera);
+  const fs::path turned = WriteTurnedVideo(folder);
+  EXPECT_THAT(OpenDataset(folder / "upright.mp4")->info().notes, testing::IsEmpty());
+  const auto video = OpenDataset(turned);
+  EXPECT_THAT(video->info().notes,
+              testing::ElementsAre("the file says that its images are turned by 90 degrees; they "
+                                   "are used as stored"));
+  const auto frame = video->Read(0);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->left.width(), kWidth);
+  EXPECT_EQ(frame->left.height(), kHeight);
+}
+
 TEST(Video, TakesTheCameraFileBesideIt) {
   const ScratchFolder folder;
   const fs::path path = WriteVideo(folder);
