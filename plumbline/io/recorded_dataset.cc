@@ -216,6 +216,18 @@ void NoteTopics(const std::vector<const RecordedTopic*>& topics, DatasetInfo& in
   info.notes.push_back(fmt::format("topics: {}", fmt::join(names, ", ")));
 }
 
+// Notes where depth is in the frame of another camera: drivers leave it so unless they are asked to
+// register it to the image.
+void NoteFrames(const RecordedTopic& image, const RecordedTopic& depth, DatasetInfo& info) {
+  if (image.frame.empty() || depth.frame.empty() || image.frame == depth.frame) return;
+  info.notes.push_back(fmt::format(
+      "the depth of {} is in the frame {}, its image in {}: depth must be registered to "
+      "the image",
+      depth.name,
+      Printable(depth.frame),
+      Printable(image.frame)));
+}
+
 // Calls NoteBits for the image of a message.
 void NoteBitsOf(const Recording& file, const StoredMessage& place, DatasetInfo& info) {
   const auto bytes = file.Message(place);
@@ -301,6 +313,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
   } else {
     used.push_back(info.sensor == SensorKind::kStereo ? chosen.right : chosen.depth);
     frames = Join(*chosen.left, *used.back(), info);
+    if (info.sensor == SensorKind::kRgbd) NoteFrames(*chosen.left, *chosen.depth, info);
   }
   NoteTopics(used, info);
   if (!frames.empty()) NoteBitsOf(*topics.file, frames.front().left, info);

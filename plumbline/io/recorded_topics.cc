@@ -56,6 +56,7 @@ class TopicCollector {
     if (topic.images.empty()) {
       topic.name = channel.topic;
       topic.encoding = image->encoding;
+      topic.frame = image->frame;
       topic.contents = ContentsOf(*image);
     }
     std::int64_t stamp_ns = image->stamp_ns;

@@ -26,7 +26,8 @@ struct RecordedImage {
 // The images that were sent under one name.
 struct RecordedTopic {
   std::string name;
-  std::string encoding;                   // encoding of the first image: "mono8", "jpeg"
+  std::string encoding;  // encoding of the first image: "mono8", "jpeg"
+  std::string frame;     // coordinate frame of the first image; empty where it was not set
   std::optional<ImageContents> contents;  // nullopt where the encoding is not known
   std::vector<RecordedImage> images;      // in order of time, stamps strictly increasing
   // Images that have the time when they were recorded.

@@ -29,6 +29,7 @@ struct ImageMessage {
   std::uint32_t width = 0, height = 0, step = 0;
   bool big_endian = false;
   std::span<const std::uint8_t> data;  // points into the message that was parsed
+  std::string frame;  // coordinate frame of the camera (frame_id); empty where it was not set
 };
 
 // The numbers of a camera as sensor_msgs/CameraInfo has them.

@@ -124,12 +124,14 @@ bool TakeRaw(const Field& field, ImageMessage& image) {
   if (field.IsBytes(4)) image.encoding = field.Text();
   if (field.IsNumber(5, kFixed32)) image.step = static_cast<std::uint32_t>(field.number);
   if (field.IsBytes(6)) image.data = field.bytes;
+  if (field.IsBytes(7)) image.frame = field.Text();
   return true;
 }
 
 bool TakeCompressed(const Field& field, ImageMessage& image) {
   if (field.IsBytes(2)) image.data = field.bytes;
   if (field.IsBytes(3)) image.encoding = field.Text();
+  if (field.IsBytes(4)) image.frame = field.Text();
   return true;
 }
 

@@ -42,13 +42,16 @@ class FieldReader {
   }
   ByteSpan Bytes() { return cursor_.Take(U32()); }
 
-  // Reads std_msgs/Header and returns its stamp.
-  std::int64_t Header() {
+  // Reads std_msgs/Header.
+  struct Header {
+    std::int64_t stamp_ns = 0;
+    std::string_view frame;
+  };
+  Header ReadHeader() {
     if (!cdr_) U32();  // ROS 1 has the number of the message here
     const std::int64_t seconds = U32();
     const std::int64_t nanoseconds = U32();
-    Text();  // name of the coordinate frame
-    return seconds * kNsPerSecond + nanoseconds;
+    return {seconds * kNsPerSecond + nanoseconds, Text()};
   }
 
  private:
@@ -67,7 +70,9 @@ std::optional<ImageMessage> ParseRosImage(bool cdr, bool compressed, ByteSpan by
   FieldReader fields(cdr, bytes);
   ImageMessage image;
   image.compressed = compressed;
-  image.stamp_ns = fields.Header();
+  const FieldReader::Header header = fields.ReadHeader();
+  image.stamp_ns = header.stamp_ns;
+  image.frame = header.frame;
   if (!compressed) {
     image.height = fields.U32();
     image.width = fields.U32();
@@ -85,7 +90,7 @@ std::optional<CalibrationMessage> ParseRosCalibration(bool cdr, ByteSpan bytes) 
   if (cdr && !IsLittleEndianCdr(bytes)) return std::nullopt;
   FieldReader fields(cdr, bytes);
   CalibrationMessage camera;
-  fields.Header();
+  fields.ReadHeader();
   camera.height = fields.U32();
   camera.width = fields.U32();
   camera.distortion_model = fields.Text();

@@ -23,6 +23,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
@@ -201,6 +202,26 @@ TEST(Recordings, FindDepthByItsEncoding) {
     EXPECT_EQ(frame->depth->at(0, 0), encoding.size() <= 6 ? 0.0F : 1.5F);
     EXPECT_EQ(OpenDataset(path, {.sensor = SensorKind::kMono})->sensor(), SensorKind::kMono);
   }
+}
+
+TEST(Recordings, SayWhereDepthIsOfAnotherCamera) {
+  const auto notes_for = [](const std::string& image_frame, const std::string& depth_frame) {
+    const ScratchFolder folder;
+    BagWriter bag;
+    AddCamera(bag, "/camera/color/camera_info", {});
+    TestImage image = Gray(kSecond, 'a');
+    image.frame = image_frame;
+    AddImage(bag, "/camera/color/image_raw", image);
+    TestImage depth{kSecond, "16UC1", 8, 6, 16, std::string(96, '\1'), depth_frame};
+    AddImage(bag, "/camera/depth/image_rect_raw", depth);
+    return OpenDataset(Write(folder, bag))->info().notes;
+  };
+  const auto about_frames = Contains(HasSubstr("must be registered"));
+  EXPECT_THAT(notes_for("color", "depth"),
+              Contains("the depth of /camera/depth/image_rect_raw is in the frame depth, its image "
+                       "in color: depth must be registered to the image"));
+  EXPECT_THAT(notes_for("color", "color"), Not(about_frames));
+  EXPECT_THAT(notes_for("color", ""), Not(about_frames));
 }
 
 // 3000 / (v + 10) metres.

@@ -29,12 +29,14 @@ class Dialects : public testing::TestWithParam<Dialect> {
 };
 
 TEST_P(Dialects, HaveImages) {
-  const std::string bytes = RawImageMessage(GetParam(), {kStamp, "bgr8", 2, 3, 7, "0123456789"});
+  const std::string bytes =
+      RawImageMessage(GetParam(), {kStamp, "bgr8", 2, 3, 7, "0123456789", "camera_0"});
   const auto image = ParseImage(Form(MessageKind::kImage), BytesOf(bytes));
   ASSERT_TRUE(image);
   EXPECT_EQ(image->stamp_ns, kStamp);
   EXPECT_FALSE(image->compressed);
   EXPECT_EQ(image->encoding, "bgr8");
+  EXPECT_EQ(image->frame, "camera_0");
   EXPECT_EQ(image->width, 2U);
   EXPECT_EQ(image->height, 3U);
   EXPECT_EQ(image->step, 7U);
@@ -43,12 +45,14 @@ TEST_P(Dialects, HaveImages) {
 }
 
 TEST_P(Dialects, HaveCompressedImages) {
-  const std::string bytes = CompressedImageMessage(GetParam(), {kStamp, "jpeg", 0, 0, 0, "abc"});
+  const std::string bytes =
+      CompressedImageMessage(GetParam(), {kStamp, "jpeg", 0, 0, 0, "abc", "camera_0"});
   const auto image = ParseImage(Form(MessageKind::kCompressedImage), BytesOf(bytes));
   ASSERT_TRUE(image);
   EXPECT_EQ(image->stamp_ns, kStamp);
   EXPECT_TRUE(image->compressed);
   EXPECT_EQ(image->encoding, "jpeg");
+  EXPECT_EQ(image->frame, "camera_0");
   EXPECT_EQ(std::string(image->data.begin(), image->data.end()), "abc");
 }
 

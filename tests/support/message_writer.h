@@ -41,11 +41,11 @@ class RosFields {
     U32(static_cast<std::uint32_t>(bytes.size()));
     body_ += bytes;
   }
-  void Header(std::int64_t stamp_ns) {
+  void Header(std::int64_t stamp_ns, const std::string& frame) {
     if (!cdr_) U32(7);
     U32(static_cast<std::uint32_t>(stamp_ns / 1'000'000'000));
     U32(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
-    Text("cam");
+    Text(frame);
   }
 
   std::string Take() const { return cdr_ ? std::string("\0\1\0\0", 4) + body_ : body_; }
@@ -102,6 +102,7 @@ struct TestImage {
   std::string encoding = "mono8";
   std::uint32_t width = 0, height = 0, step = 0;
   std::string data;
+  std::string frame = "cam";
 };
 
 inline std::string RawImageMessage(Dialect dialect, const TestImage& image) {
@@ -113,11 +114,11 @@ inline std::string RawImageMessage(Dialect dialect, const TestImage& image) {
     fields.Bytes(4, image.encoding);
     fields.Fixed32(5, image.step);
     fields.Bytes(6, image.data);
-    fields.Bytes(7, "cam");
+    fields.Bytes(7, image.frame);
     return fields.Take();
   }
   RosFields fields(dialect == Dialect::kCdr);
-  fields.Header(image.stamp_ns);
+  fields.Header(image.stamp_ns, image.frame);
   fields.U32(image.height);
   fields.U32(image.width);
   fields.Text(image.encoding);
@@ -131,13 +132,13 @@ inline std::string CompressedImageMessage(Dialect dialect, const TestImage& imag
   if (dialect == Dialect::kProtobuf) {
     ProtobufFields fields;
     fields.Stamp(1, image.stamp_ns);
-    fields.Bytes(4, "cam");
+    fields.Bytes(4, image.frame);
     fields.Bytes(2, image.data);
     fields.Bytes(3, image.encoding);
     return fields.Take();
   }
   RosFields fields(dialect == Dialect::kCdr);
-  fields.Header(image.stamp_ns);
+  fields.Header(image.stamp_ns, image.frame);
   fields.Text(image.encoding);
   fields.Bytes(image.data);
   return fields.Take();
@@ -176,7 +177,7 @@ inline std::string CalibrationMessageOf(Dialect dialect, const TestCamera& camer
     return fields.Take();
   }
   RosFields fields(dialect == Dialect::kCdr);
-  fields.Header(1);
+  fields.Header(1, "cam");
   fields.U32(camera.height);
   fields.U32(camera.width);
   fields.Text(camera.model);
