@@ -6,18 +6,13 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace plumbline {
 
-// Returns the devices of "camera:0,1" or "camera:/dev/video2": numbers, or paths as they are.
-// Throws InputError unless there are one or two.
-std::vector<std::string> CameraDevices(const std::string& name);
-
-// Returns the pipeline of "gst:PIPELINE", with a sink for this program added where it has none.
-std::string GstreamerPipeline(const std::string& name);
-
 // Opens cameras (V4L2), a network stream (FFmpeg) or a GStreamer pipeline through OpenCV.
+//
+// Cameras are asked for images of the size that the calibration has, of twice the width where one
+// device has the images of both. Streams and pipelines have the size they have.
 //
 // Stamps count from the first frame, whose stamp is the time of the clock when it arrived. Later
 // stamps follow the driver's clock for a camera; for streams and pipelines they are the times of

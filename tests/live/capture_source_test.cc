@@ -14,23 +14,7 @@
 namespace plumbline {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
-
-TEST(CameraDevices, AreOneOrTwo) {
-  EXPECT_THAT(CameraDevices("camera:0"), ElementsAre("0"));
-  EXPECT_THAT(CameraDevices("camera:2,0"), ElementsAre("2", "0"));
-  EXPECT_THAT(CameraDevices("camera:/dev/video2"), ElementsAre("/dev/video2"));
-  for (const char* name :
-       {"camera:", "camera:x", "camera:-1", "camera:0,", "camera:0,1,2", "camera:1000"}) {
-    EXPECT_THAT(MessageOf([&] { CameraDevices(name); }), HasSubstr("expected camera:N")) << name;
-  }
-}
-
-TEST(GstreamerPipeline, GetsASink) {
-  EXPECT_EQ(GstreamerPipeline("gst:a ! b"), "a ! b ! videoconvert ! appsink");
-  EXPECT_EQ(GstreamerPipeline("gst:a ! appsink drop=true"), "a ! appsink drop=true");
-}
 
 // The pictures of a test signal of GStreamer in place of a camera.
 class Pipelines : public testing::Test {
