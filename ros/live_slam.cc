@@ -7,6 +7,7 @@
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/io/recorded_topics.h"
 #include "plumbline/live/stamp_continuity.h"
 #include "plumbline/slam/pipeline.h"
 #include "plumbline/slam/system.h"
@@ -103,7 +104,9 @@ class LiveSlam::Implementation {
         observer_(std::move(observer)) {}
 
   bool IsCalibrated() const { return calibration_.has_value(); }
-  void SetCameras(const CameraNumbers& left, const std::optional<CameraNumbers>& right);
+  void SetCameras(const CameraNumbers& left,
+                  const std::optional<CameraNumbers>& right,
+                  const std::string& image_topic);
   std::optional<double> Feed(std::int64_t stamp_ns, const RawImage& left, const RawImage* second);
   bool HasFrames() const { return session_ && has_frames_; }
   void ViewMap(std::function<void(MapView)> take);
@@ -118,7 +121,7 @@ class LiveSlam::Implementation {
   std::int64_t StampAsFed(std::int64_t stamp_ns);
 
   SensorKind sensor_;
-  bool rectified_;
+  std::optional<bool> rectified_;
   SlamOptions options_;
   std::optional<Calibration> calibration_;
   LiveSlam::Observer observer_;
@@ -132,11 +135,13 @@ class LiveSlam::Implementation {
 };
 
 void LiveSlam::Implementation::SetCameras(const CameraNumbers& left,
-                                          const std::optional<CameraNumbers>& right) {
+                                          const std::optional<CameraNumbers>& right,
+                                          const std::string& image_topic) {
   if ((sensor_ == SensorKind::kStereo) != right.has_value()) {
     throw InputError("cameras: expected two for stereo and one otherwise");
   }
-  calibration_ = CalibrationOf(left, right, rectified_, sensor_ == SensorKind::kRgbd);
+  const bool rectified = rectified_.value_or(IsRectifiedByName(image_topic));
+  calibration_ = CalibrationOf(left, right, rectified, sensor_ == SensorKind::kRgbd);
 }
 
 std::optional<double> LiveSlam::Implementation::Feed(std::int64_t stamp_ns,
@@ -258,8 +263,10 @@ LiveSlam::LiveSlam(const LiveSlamSettings& settings, Observer observer)
 LiveSlam::~LiveSlam() = default;
 
 bool LiveSlam::IsCalibrated() const { return implementation_->IsCalibrated(); }
-void LiveSlam::SetCameras(const CameraNumbers& left, const std::optional<CameraNumbers>& right) {
-  implementation_->SetCameras(left, right);
+void LiveSlam::SetCameras(const CameraNumbers& left,
+                          const std::optional<CameraNumbers>& right,
+                          const std::string& image_topic) {
+  implementation_->SetCameras(left, right, image_topic);
 }
 std::optional<double> LiveSlam::Feed(std::int64_t stamp_ns,
                                      const RawImage& left,

@@ -43,9 +43,10 @@ struct CameraNumbers {
 };
 
 struct LiveSlamSettings {
-  std::string sensor = "mono";       // mono, stereo, rgbd
-  std::string camera;                // a file, or the name of a built-in camera; empty: SetCameras
-  bool rectified = false;            // the images are (SetCameras)
+  std::string sensor = "mono";  // mono, stereo, rgbd
+  std::string camera;           // a file, or the name of a built-in camera; empty: SetCameras
+  // Whether the images are rectified (SetCameras); not set: as the name of their topic says.
+  std::optional<bool> rectified;
   std::string config;                // a file of options; empty: none
   std::vector<std::string> options;  // "features.line_count=100", applied after the file
 };
@@ -83,7 +84,11 @@ class LiveSlam {
 
   // Whether the cameras are known.
   bool IsCalibrated() const;
-  void SetCameras(const CameraNumbers& left, const std::optional<CameraNumbers>& right);
+  // image_topic: of the left images; the last part of its name may say that they are rectified, as
+  // for the topics of a bag.
+  void SetCameras(const CameraNumbers& left,
+                  const std::optional<CameraNumbers>& right,
+                  const std::string& image_topic);
 
   // A frame; `second` is the right image or the depth image, null with one camera. Stamps that jump
   // back go on behind the frame before (StampContinuity): then this returns by how many seconds

@@ -99,7 +99,7 @@ bool Node::GetReady(const sensor_msgs::Image& image) {
                         "images come but no camera_info, which frames wait for; or give ~camera");
       return false;
     }
-    slam_.SetCameras(cameras->first, cameras->second);
+    slam_.SetCameras(cameras->first, cameras->second, frames_.topic());
   }
   if (!base_from_camera_) base_from_camera_ = poses_.FindMounting(image.header.frame_id);
   return base_from_camera_.has_value();

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 
+#include <optional>
 #include <set>
 #include <sstream>
 #include <type_traits>
@@ -61,6 +62,12 @@ class Reader {
     Read(name, XmlRpcValue::TypeString, value);
   }
   void Flag(const std::string& name, bool& value) { Read(name, XmlRpcValue::TypeBoolean, value); }
+  // Stays empty where it is not set.
+  void Flag(const std::string& name, std::optional<bool>& value) {
+    bool flag = false;
+    Flag(name, flag);
+    if (own_.hasParam(name)) value = flag;
+  }
   // A group of any depth; not valid where there is none.
   XmlRpcValue Group(const std::string& name) {
     names_.insert(name);
