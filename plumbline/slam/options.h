@@ -38,7 +38,7 @@ void VisitFields(Visitor&& visit, ExecutionOptions& o) {
   visit("mode",
         o.mode,
         "inline: stages one after the other; lockstep: each in its own thread, same results; "
-        "live: never waits for a slower stage, may drop frames");
+        "live: never waits for a slower stage but at the start of a map, may drop frames");
   visit("seed", o.seed, "of everything random", Range{0, 2147483647});
   visit("lag",
         o.lag,

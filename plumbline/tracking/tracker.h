@@ -33,7 +33,7 @@ constexpr auto EnumNames(std::type_identity<TrackerState>) {
 // Why a frame has no pose.
 enum class TrackingFailure {
   kNone,
-  kTooFewFeatures,     // too few features to start a map
+  kTooFewFeatures,     // too few points and lines have depth (stereo, RGB-D) to start a map
   kNotRelocalized,     // nothing is known of the camera's place in the map yet
   kTooFewMatches,      // too few landmarks were found in the image
   kTooFewInliers,      // too few of the found landmarks agree on a pose
