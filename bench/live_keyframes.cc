@@ -144,11 +144,11 @@ class LiveKeyFrames {
         system.MapOnce();
         const std::int64_t free_ns = *done_ns;
         done_ns.reset();
-        if (system.KeyFramesWaiting() > 0) done_ns = free_ns + mapping_ns;
+        if (system.TasksWaiting() > 0) done_ns = free_ns + mapping_ns;
       }
-      const auto waiting = static_cast<int>(system.KeyFramesWaiting());
-      Track(frame, system, shedding.Next({.keyframes_waiting = waiting}));
-      if (!done_ns && system.KeyFramesWaiting() > 0) done_ns = frame.stamp_ns + mapping_ns;
+      const auto waiting = static_cast<int>(system.TasksWaiting());
+      Track(frame, system, shedding.Next({.tasks_waiting = waiting}));
+      if (!done_ns && system.TasksWaiting() > 0) done_ns = frame.stamp_ns + mapping_ns;
     }
     Print(std::to_string(mapping_ms), system);
   }

@@ -157,7 +157,7 @@ void RunningSystem::CheckFinished(const char* what) const {
 }
 
 void RunningSystem::CheckFrame(const SensorFrame& frame) const {
-  system_.CheckComplete(frame);
+  system_.CheckImages(frame);
   CheckImage("left", frame.left, calibration_);
   if (calibration_.right) CheckImage("right", *frame.right, calibration_);
   if (frame.depth) CheckImage("depth", *frame.depth, calibration_);

@@ -41,8 +41,8 @@ Shed LoadShedding::Next(const Load& load) {
     shed_ = Less(shed_);
     calm_ = 0;
   }
-  if (load.keyframes_waiting >= kManyKeyFramesWaiting) mapping_ = true;
-  if (load.keyframes_waiting == 0) mapping_ = false;
+  if (load.tasks_waiting >= kManyTasksWaiting) mapping_ = true;
+  if (load.tasks_waiting == 0) mapping_ = false;
   return std::max(shed_, mapping_ ? Shed::kMapping : Shed::kNothing);
 }
 

@@ -30,9 +30,9 @@ constexpr auto EnumNames(std::type_identity<Shed>) {
 
 // How far behind a live run is when the turn of a frame comes.
 struct Load {
-  double wait = 0;            // waiting time since the frame arrived, in intervals between frames
-  int frames_dropped = 0;     // frames left out since the last frame that was tracked
-  int keyframes_waiting = 0;  // keyframes that wait for mapping, without the one being mapped
+  double wait = 0;         // waiting time since the frame arrived, in intervals between frames
+  int frames_dropped = 0;  // frames left out since the last frame that was tracked
+  int tasks_waiting = 0;   // tasks that mapping has not begun, most of them keyframes
 };
 
 // Decides from frame to frame what is shed. A frame is late if it waited longer than the time
@@ -47,7 +47,7 @@ class LoadShedding {
   static constexpr int kCalmFrames = 8;     // frames in a row that hardly waited until less is shed
   static constexpr double kLateWait = 1;    // wait that makes a frame late [intervals]
   static constexpr double kCalmWait = 0.5;  // wait below which a frame hardly waited [intervals]
-  static constexpr int kManyKeyFramesWaiting = 3;
+  static constexpr int kManyTasksWaiting = 3;
 
   // Returns what to shed for the frame whose turn has come, at most kPoints.
   Shed Next(const Load& load);

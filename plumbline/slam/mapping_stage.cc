@@ -259,7 +259,7 @@ void MappingStage::Finish(const StopCheck& stop) {
   first_places_.clear();
 }
 
-void MappingStage::CheckComplete() const {
+void MappingStage::CheckMappingDone() const {
   if (mode_ == RunMode::kInline) return;
   const std::lock_guard lock(mutex_);
   if (failure_) return;  // the worker has ended, so that the maps cannot change any more
@@ -267,17 +267,17 @@ void MappingStage::CheckComplete() const {
 }
 
 const Atlas& MappingStage::atlas() const {
-  CheckComplete();
+  CheckMappingDone();
   return atlas_;
 }
 
 const AdjustedLines& MappingStage::adjusted_lines() const {
-  CheckComplete();
+  CheckMappingDone();
   return mapper_.adjusted_lines();
 }
 
 MapEvents MappingStage::events() const {
-  CheckComplete();
+  CheckMappingDone();
   return {places_.loops(), places_.joins(), {}};
 }
 
@@ -287,7 +287,7 @@ MapEvents MappingStage::EventsSoFar() const {
 }
 
 LocalMapper::State MappingStage::mapper_state() const {
-  CheckComplete();
+  CheckMappingDone();
   return mapper_.state();
 }
 

@@ -261,7 +261,7 @@ class MappingStage {
   std::shared_ptr<const MapSnapshot> NewestSnapshot();
   void WaitFor(std::int64_t task);
   void WorkUntilStopped();
-  void CheckComplete() const;
+  void CheckMappingDone() const;
   static void CheckFits(const Atlas& atlas, const Checkpoint& c);
   void TryNext(std::unique_lock<std::mutex>& lock);
   void DoNext(std::unique_lock<std::mutex>& lock);

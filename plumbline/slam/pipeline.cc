@@ -119,7 +119,7 @@ Shed Pipeline::Decide(const Job& job) {
   const std::chrono::duration<double> waited = execution_.now() - job.arrival;
   if (job.interval > 0) load.wait = waited.count() / job.interval;
   load.frames_dropped = std::exchange(dropped_, 0);
-  load.keyframes_waiting = static_cast<int>(system_.KeyFramesWaiting());
+  load.tasks_waiting = static_cast<int>(system_.TasksWaiting());
   return shedding_.Next(load);
 }
 

@@ -87,7 +87,7 @@ const FrameRecord& System::Keep(FrameRecord record) {
   return newest_;
 }
 
-void System::CheckComplete(const SensorFrame& frame) const {
+void System::CheckImages(const SensorFrame& frame) const {
   const Calibration& calibration = rectifier().calibration();
   if (calibration.right && !frame.right) {
     throw InputError("images: expected a left and a right image, as calibrated, found one image");
@@ -98,7 +98,7 @@ void System::CheckComplete(const SensorFrame& frame) const {
 }
 
 MeasuredFrame System::Measure(SensorFrame frame, StageClock clock, Shed shed) const {
-  CheckComplete(frame);
+  CheckImages(frame);
   return front_end_.Measure(std::move(frame), std::move(clock), shed);
 }
 
@@ -121,7 +121,8 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   clock.Done("wait");  // time until tracking began with the frame
 
   const bool start = monocular_start_ && tracker_.state() == TrackerState::kInitializing;
-  TrackingResult result = start ? StartMap(measured, record) : FollowMap(measured, record, clock);
+  TrackingResult result =
+      start ? OfferToStart(measured, record) : FollowMap(measured, record, clock);
   clock.Done(start ? "initialize" : "track");
   record.times = clock.Finish();
   view_ = {std::move(measured.images), result.frame};
@@ -200,7 +201,7 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   relocalizing_ = false;
   if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
   if (TrackedSince(outcome->found->frame.id)) return nullptr;
-  tracker_.Resume(*outcome->found, *outcome->snapshot);
+  tracker_.FollowFrom(*outcome->found, *outcome->snapshot);
   mapping_.Use(outcome->snapshot);
   if (outcome->snapshot->map != map_ && !read_only_) {
     mapping_.Submit(frame.value, MapReturn{outcome->snapshot->map, outcome->found->keyframe});
@@ -267,8 +268,9 @@ SessionId System::session_id() const {
   return SessionId{loaded_ ? static_cast<std::int64_t>(loaded_->sessions.size()) : 0};
 }
 
-// Handles a frame of a single camera that has no map yet.
-TrackingResult System::StartMap(const MeasuredFrame& measured, FrameRecord& record) {
+// Offers a frame of a single camera that has no map yet to the start of one. Most frames start
+// none.
+TrackingResult System::OfferToStart(const MeasuredFrame& measured, FrameRecord& record) {
   const InitializationResult start = monocular_start_->Offer(record.id, measured);
   if (start.map) return StartFrom(*start.map, record);
   record.status = StatusWithoutPose();

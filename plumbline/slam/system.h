@@ -85,7 +85,7 @@ class System {
   // InputError when an image is missing or has another size than the calibration says.
   MeasuredFrame Measure(SensorFrame frame, StageClock clock = {}, Shed shed = Shed::kNothing) const;
   // Throws InputError where an image is missing that the calibration speaks of. Measure calls it.
-  void CheckComplete(const SensorFrame& frame) const;
+  void CheckImages(const SensorFrame& frame) const;
   // Tracks a frame that was measured before and returns what became of it; valid until the next
   // frame. The pose is returned as soon as it is known: Complete does what the frame leaves to do
   // for the map. Throws InputError when the frame is no later than the one before.
@@ -100,8 +100,9 @@ class System {
   const FrameRecord& Skip(std::int64_t stamp_ns,
                           const std::string& reason,
                           Shed shed = Shed::kNothing);
-  // Returns the number of tasks that wait for mapping, most of them keyframes.
-  std::size_t KeyFramesWaiting() const { return mapping_.Waiting(); }
+  // Returns the number of tasks that wait for mapping, most of them keyframes. CopyMaps and
+  // LookAtMaps do not count.
+  std::size_t TasksWaiting() const { return mapping_.Waiting(); }
   // Does the next task of mapping; returns false when none waits. For live runs without threads
   // (Execution).
   bool MapOnce() { return mapping_.WorkOnce(); }
@@ -227,7 +228,7 @@ class System {
   void CompleteRightLines(Unfinished& unfinished, StageClock& clock);
   // Returns the times of the steps of mapping that ended since the last call.
   std::vector<StageTime> TakeMappingTimes();
-  TrackingResult StartMap(const MeasuredFrame& measured, FrameRecord& record);
+  TrackingResult OfferToStart(const MeasuredFrame& measured, FrameRecord& record);
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void Demote(const DemotedKeyFrame& gone);
   FrameStatus StatusWithoutPose() const;

@@ -365,7 +365,7 @@ void Tracker::BeginLost(const MapUse& use) {
   use_ = use;
 }
 
-void Tracker::Resume(const Relocalized& found, const MapSnapshot& snapshot) {
+void Tracker::FollowFrom(const Relocalized& found, const MapSnapshot& snapshot) {
   const Placement& place = snapshot.places.at(snapshot.centre);
   const RelativePose relative{found.frame.cam_from_world * Inverse(place.cam_from_world),
                               place.unit};

@@ -149,7 +149,7 @@ class Tracker {
   void BeginLost(const MapUse& use);
   // Goes on, after being lost, from a frame whose place was found in the map. `snapshot` is taken
   // around the keyframe from which the place was found.
-  void Resume(const Relocalized& found, const MapSnapshot& snapshot);
+  void FollowFrom(const Relocalized& found, const MapSnapshot& snapshot);
   // A keyframe was removed from the map: poses that refer to it refer to its parent from now on.
   void Rehang(KeyFrameId gone, KeyFrameId parent, const RelativePose& gone_from_parent);
 

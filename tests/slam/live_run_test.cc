@@ -46,7 +46,7 @@ class SimulatedRun {
         system_(MovingPoster::MakeCalibration(), Options(), Steps()),
         pipeline_(system_, [this](const FrameRecord& record, const FrameView&) {
           skipped_ = record.status == FrameStatus::kSkipped;
-          most_waiting_ = std::max(most_waiting_, system_.KeyFramesWaiting());
+          most_waiting_ = std::max(most_waiting_, system_.TasksWaiting());
         }) {}
 
   void Play(int frames) {
@@ -93,7 +93,7 @@ class SimulatedRun {
       system_.MapOnce();
       mapped_ms_.reset();
     }
-    if (!mapped_ms_ && system_.KeyFramesWaiting() > 0) {
+    if (!mapped_ms_ && system_.TasksWaiting() > 0) {
       mapped_ms_ = now_ms_ + speed_.keyframe_ms(fed_);
     }
   }

@@ -73,15 +73,15 @@ TEST(LoadShedding, KeepsWhatItShedsWhileFramesWaitALittle) {
 TEST(LoadShedding, ShedsMappingAloneWhereOnlyMappingIsBehind) {
   LoadShedding shedding;
   Load load = kInTime;
-  for (int waiting = 0; waiting < LoadShedding::kManyKeyFramesWaiting; ++waiting) {
-    load.keyframes_waiting = waiting;
+  for (int waiting = 0; waiting < LoadShedding::kManyTasksWaiting; ++waiting) {
+    load.tasks_waiting = waiting;
     EXPECT_EQ(shedding.Next(load), Shed::kNothing);
   }
-  load.keyframes_waiting = LoadShedding::kManyKeyFramesWaiting;
+  load.tasks_waiting = LoadShedding::kManyTasksWaiting;
   for (const Shed shed : Decide(shedding, load, 50)) EXPECT_EQ(shed, Shed::kMapping);
-  load.keyframes_waiting = 1;
+  load.tasks_waiting = 1;
   EXPECT_EQ(shedding.Next(load), Shed::kMapping);
-  load.keyframes_waiting = 0;
+  load.tasks_waiting = 0;
   EXPECT_EQ(shedding.Next(load), Shed::kNothing);
 }
 
@@ -89,7 +89,7 @@ TEST(LoadShedding, ADecisionFollowsFromTheLoadsAlone) {
   LoadShedding a, b;
   for (int i = 0; i < 200; ++i) {
     const Load load{
-        .wait = 0.01 * ((37 * i) % 200), .frames_dropped = i % 11 == 0, .keyframes_waiting = i % 5};
+        .wait = 0.01 * ((37 * i) % 200), .frames_dropped = i % 11 == 0, .tasks_waiting = i % 5};
     EXPECT_EQ(a.Next(load), b.Next(load));
   }
 }

@@ -35,7 +35,7 @@ class Follower {
     const auto found = relocalizer.Find(map_, frame, KeyFramesOf(map_));
     centre_ = found->keyframe;
     tracker_.BeginLost({.next_keyframe = map_.NextKeyFrameId()});
-    tracker_.Resume(*found, *Snapshot());
+    tracker_.FollowFrom(*found, *Snapshot());
   }
 
   TrackingResult Step(int frame) {
