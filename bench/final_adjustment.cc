@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Time of the adjustment that ends a run, on maps that runs wrote: final_adjustment MAP.plb...
-#include "plumbline/mapping/final_adjustment.h"
-
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_io.h"
+#include "plumbline/mapping/whole_map_adjustment.h"
 
 #include "bench/run_bench.h"
 #include <chrono>

@@ -5,9 +5,9 @@
 #include "plumbline/association/fusion.h"
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/ba_window.h"
-#include "plumbline/mapping/final_adjustment.h"
 #include "plumbline/mapping/landmark_creation.h"
 #include "plumbline/mapping/unit_of_length.h"
+#include "plumbline/mapping/whole_map_adjustment.h"
 #include "plumbline/optimization/pose_sigma.h"
 
 #include <algorithm>

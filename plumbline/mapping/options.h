@@ -93,7 +93,9 @@ struct BaWindowOptions {
   bool parallel_lines = true;  // whether lines keep to directions that many lines of the map share
 
   PoseLimits local_limits() const { return {.sigma = max_pose_sigma, .change = max_correction}; }
-  PoseLimits final_limits() const { return {.sigma = max_pose_sigma, .change = max_pose_sigma}; }
+  PoseLimits whole_map_limits() const {
+    return {.sigma = max_pose_sigma, .change = max_pose_sigma};
+  }
 };
 
 template <class Visitor>

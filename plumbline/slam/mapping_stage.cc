@@ -4,7 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/map/covisibility.h"
-#include "plumbline/mapping/final_adjustment.h"
+#include "plumbline/mapping/whole_map_adjustment.h"
 #include "plumbline/slam/atlas_places.h"
 #include "plumbline/slam/keyframes_ahead.h"
 

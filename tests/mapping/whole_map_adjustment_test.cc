@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/mapping/final_adjustment.h"
+#include "plumbline/mapping/whole_map_adjustment.h"
 
 #include "plumbline/mapping/line_map.h"
 
@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace final_adjustment_test {
+namespace whole_map_adjustment_test {
 
 constexpr int kKeyFrames = 10;
 
@@ -277,5 +277,5 @@ TEST(AdjustWholeMap, LeavesOutLinesThatMakeItTakeTooLong) {
   EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
 }
 
-}  // namespace final_adjustment_test
+}  // namespace whole_map_adjustment_test
 }  // namespace plumbline

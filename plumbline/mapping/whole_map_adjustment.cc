@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/mapping/final_adjustment.h"
+#include "plumbline/mapping/whole_map_adjustment.h"
 
 #include "plumbline/mapping/lens_calibration.h"
 #include "plumbline/mapping/line_map.h"
@@ -84,8 +84,8 @@ bool TakesTooLong(const MapProblem& whole, int limit) {
 
 // Adjusts poses and points, without lines, to a corrected lens. It starts from the places that were
 // found when the lens was learned, or else from those of the problem. Another lens changes the
-// scale from place to place by more than the final adjustment accepts before it sees a tear in the
-// map, so that poses and points have to move there first. Returns nullopt when stopped.
+// scale from place to place by more than AdjustWholeMap accepts before it sees a tear in the map,
+// so that poses and points have to move there first. Returns nullopt when stopped.
 std::optional<BaResult> SolveForLens(const LearnedLens& lens,
                                      const MappingOptions& options,
                                      BaProblem problem,
@@ -202,7 +202,7 @@ Correction AdjustWholeMap(const Map& map,
       problem,
       options.ba,
       lines.method.adjust_map,
-      options.window.final_limits(),
+      options.window.whole_map_limits(),
       [&](BaResult& solution) { KeepUnitOfTheOldest(whole.problem, solution); },
       stop);
   if (!result) return {};

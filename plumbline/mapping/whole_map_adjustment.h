@@ -11,11 +11,13 @@
 
 namespace plumbline {
 
-// Adjusts all keyframes and points of a finished map together with lines that four keyframes or
-// more show (FindWellSeenLines, with limits of its own instead of those in mapping.line_map). Each
-// of these lines is one landmark with all segments that show it, where tracking made several that
-// end where its search ended. Such lines tie keyframes together that share no line landmark. Lines
-// have the residual of eq. 13 here, whatever lines.residual says, and are not held parallel.
+// Adjusts all keyframes and points of a map, when nothing more will be added to it
+// (LocalMapper::Finish) or beside mapping after a loop or a join (BackgroundAdjustment), together
+// with lines that four keyframes or more show (FindWellSeenLines, with limits of its own instead of
+// those in mapping.line_map). Each of these lines is one landmark with all segments that show it,
+// where tracking made several that end where its search ended. Such lines tie keyframes together
+// that share no line landmark. Lines have the residual of eq. 13 here, whatever lines.residual
+// says, and are not held parallel.
 //
 // Some keyframes stay where they are: the first one, those that the points and well seen lines do
 // not fix to mapping.window.max_pose_sigma, and both of two consecutive keyframes that would move
