@@ -194,12 +194,6 @@ class IdTable {
     }
   }
 
-  // Returns the number of pages that exist, which tells the memory of the table.
-  std::size_t pages() const {
-    return static_cast<std::size_t>(std::count_if(
-        pages_.begin(), pages_.end(), [](const auto& page) { return static_cast<bool>(page); }));
-  }
-
  private:
   struct Page {
     std::array<CopyOnWrite<Entry>, kPage> entries;
