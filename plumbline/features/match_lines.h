@@ -62,8 +62,8 @@ struct StereoLineOptions {
 // Returns for each left line of a rectified pair the same line in the right image, or nullopt.
 //
 // Both lines run the same way (bright side) and overlap in rows, and the disparities at both ends
-// of the common rows lie in [0, fx * baseline / min_depth]. The nearest descriptor wins, in both
-// directions. A line flatter than flat_angle is matched by its place across the rows alone: its
+// of the common rows lie in [0, fx * baseline / min_depth_m]. The nearest descriptor wins, in both
+// directions. A line flatter than flat_angle_deg is matched by its place across the rows alone: its
 // RightLine constrains the line's plane, but LineEndDisparities gives nullopt for it.
 std::vector<std::optional<RightLine>> MatchStereoLines(const RectifiedCamera& camera,
                                                        const std::vector<LineFeature>& left,

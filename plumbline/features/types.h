@@ -35,8 +35,8 @@ struct PointFeature {
 };
 
 // A straight edge in the rectified image. It is directed so that the brighter side is on its left
-// in image coordinates seen with y down, so that a physical edge keeps its direction from image to
-// image.
+// as one sees the image: above it where it runs to the right, to the right of it where it runs
+// down. A physical edge keeps this direction from image to image.
 struct LineFeature {
   Segment2 segment;
   double sigma_px = 1;  // standard deviation of each end point across the line

@@ -17,8 +17,8 @@ struct Rank1View {
   // Unit vector to the camera's centre, in the reference frame. Its sign does not matter.
   Eigen::Vector3d centre_direction = Eigen::Vector3d::UnitX();
   std::vector<Eigen::Vector2d> points;  // ideal image coordinates (x/z, y/z) of each point
-  // Standard deviation of each coordinate of each point; 0 where this frame does not show the
-  // point.
+  // Standard deviation of each coordinate of each point, in the same ideal coordinates (pixels /
+  // focal length); 0 where this frame does not show the point.
   std::vector<double> sigmas;
 };
 

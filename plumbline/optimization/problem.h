@@ -38,7 +38,9 @@ struct BaProblem {
   struct Pose {
     Rigid3 cam_from_world;
     bool fixed = false;
-    bool follows = true;  // whether it comes soon after the pose before it in time (HoldTornPoses)
+    // Whether it comes soon after the pose before it in time (HoldTornPoses); SolveLocalBa does not
+    // use it.
+    bool follows = true;
   };
   // An observation of a point; indices into `poses` and `points`.
   struct PointObservation {

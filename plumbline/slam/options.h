@@ -62,7 +62,8 @@ struct SlamOptions {
 
 // Throws InputError for a value out of its range, and where options contradict each other: neither
 // points nor lines, a least value that is not below the greatest (depths, frames between
-// keyframes), or a kind of line that lines.method does not do.
+// keyframes), or a kind of line that this build does not have
+// (docs/adr/0031-one-method-of-lines.md).
 void CheckOptions(const SlamOptions& options);
 
 template <class Visitor>
