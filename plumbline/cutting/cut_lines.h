@@ -7,8 +7,8 @@
 #include <vector>
 
 // Good line cutting: for the pose only the piece of each 3D line is used that tells most about it
-// (second paper, section 4). docs/methods/line-cutting.md has the derivation and what is not right
-// in print.
+// (Zhao and Vela, ECCV 2018, section 4). docs/methods/line-cutting.md has the derivation and what
+// is not right in print.
 namespace plumbline {
 
 // Returns cuts for all lines, in their order.

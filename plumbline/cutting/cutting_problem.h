@@ -14,7 +14,8 @@
 
 #include <Eigen/Core>
 
-// The input and the result of good line cutting (cut_lines.h), and its options.
+// The input and the result of good line cutting (Zhao and Vela, ECCV 2018; cut_lines.h), and its
+// options. Equations are those of that paper, which descriptions of options call the second paper.
 namespace plumbline {
 
 // How the cuts of all lines are found.
@@ -29,14 +30,14 @@ enum class CuttingMethod {
 enum class CuttingInformation {
   // J^T W J: the two cut points count as independent, as in the paper.
   kIndependent,
-  kPrinted,  // eq. 5 of the second paper to the letter
+  kPrinted,  // eq. 5 to the letter
   // J^T C^-1 J with the covariance between the cut points; cutting then changes nothing.
   kCorrelated,
 };
 // How well the ends of a line count as known where lines are cut.
 enum class CuttingEnds {
   kLandmark,  // as the information of the line says
-  // All ends alike in image and inverse depth, as the second paper assumes.
+  // All ends alike in image and inverse depth, as the paper assumes.
   kInverseDepth,
 };
 

@@ -71,11 +71,11 @@ struct TriangulatedLine {
 // Finds a line from its segments in two or more views.
 //
 // The linear solution comes first: the two leading right singular vectors of the stacked
-// interpretation planes are two planes through the line (first paper, eq. 25, 24). It differs from
-// the paper: rows are scaled to unit normals and weighted by length over sigma, and the origin is
-// moved to the line, since otherwise the sum that the SVD minimises means nothing. Then
-// Gauss-Newton minimises the distances of the measured end points from the reprojected line (eq.
-// 13); its normal matrix gives the covariance. The paper's test m.d < 0.01 is met by any two
+// interpretation planes are two planes through the line (Lee and Hwang, ICCV 2019, eq. 25, 24). It
+// differs from the paper: rows are scaled to unit normals and weighted by length over sigma, and
+// the origin is moved to the line, since otherwise the sum that the SVD minimises means nothing.
+// Then Gauss-Newton minimises the distances of the measured end points from the reprojected line
+// (eq. 13); its normal matrix gives the covariance. The paper's test m.d < 0.01 is met by any two
 // planes; the reprojection into every view takes its place.
 //
 // Cost: O(n^2) for the angle, otherwise O(n).

@@ -12,9 +12,9 @@
 namespace plumbline {
 
 // An infinite 3D line in Plücker coordinates: |direction| = 1, moment = X x direction for every
-// point X on the line. (The first paper prints d x X in eq. 6, which contradicts its eq. 9, 24 and
-// 30; see docs/methods/plucker-lines.md.) The moment is normal to the plane through the line and
-// the origin; its length is the distance of the line from the origin.
+// point X on the line. (Lee and Hwang, ICCV 2019, print d x X in eq. 6, which contradicts their
+// eq. 9, 24 and 30; see docs/methods/plucker-lines.md.) The moment is normal to the plane through
+// the line and the origin; its length is the distance of the line from the origin.
 struct PluckerLine {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
@@ -63,7 +63,7 @@ PluckerLine ToPlucker(const OrthonormalLine& line);
 OrthonormalLine Retract(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
 // U <- Exp(delta.head<3>()) U, w turned by delta(3): a turn about the axes of the frame instead of
-// those of the line, as PPL-SLAM has it (reference [20] of the first paper).
+// those of the line, as PPL-SLAM has it (reference [20] of Lee and Hwang).
 OrthonormalLine RetractLeft(const OrthonormalLine& line, const Eigen::Vector4d& delta);
 
 // Does what Retract() does to first order in delta, for optimization: (m, d) moves straight along

@@ -44,7 +44,8 @@ struct RectifiedCamera {
     return px.x() >= border && px.y() >= border && px.x() <= width - 1 - border &&
            px.y() <= height - 1 - border;
   }
-  // Image line of a Plücker moment in the camera frame, l = (K-line matrix of eq. 8) m, not scaled.
+  // Image line (a, b, c), a x + b y + c = 0 in pixels, of a Plücker moment in the camera frame; not
+  // scaled to a^2 + b^2 = 1.
   Eigen::Vector3d ProjectMoment(const Eigen::Vector3d& m) const {
     return {fy * m.x(), fx * m.y(), -fy * cx * m.x() - fx * cy * m.y() + fx * fy * m.z()};
   }

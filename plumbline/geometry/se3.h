@@ -37,7 +37,8 @@ Eigen::Matrix3d InverseLeftJacobianSo3(const Eigen::Vector3d& w);
 // A rigid motion b_from_a: p_b = rotation * p_a + translation. The seven numbers are contiguous in
 // memory: [qx qy qz qw tx ty tz], starting at rotation.coeffs().data().
 //
-// Perturbations are from the left with the rotation first: exp([w, v]) * T (errata E1, eq. 20).
+// Perturbations are from the left with the rotation first: exp([w, v]) * T
+// (docs/adr/0002-frames-units-tangents.md).
 struct Rigid3 {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();

@@ -24,7 +24,8 @@ struct Rank1View {
 
 // Settings of FactorizeRank1.
 struct Rank1Options {
-  int iterations = 5;  // rounds of reweighting; 0: one plain factorization, as in the paper
+  // Rounds of reweighting; 0: one plain factorization (Lee and Hwang, ICCV 2019, eq. 5).
+  int iterations = 5;
   // Rays nearer to the line of the centres than this [radians] say nothing about the length of the
   // motion.
   double min_epipole_angle = 0.02;
@@ -46,9 +47,8 @@ struct Rank1Solution {
   double spread = 0;  // spread of the residuals by their median, in standard deviations
 };
 
-// The 3m x n matrix of the first paper's eq. 4. Column k has, frame by frame, the camera centre in
-// units of the distance of point k. Without noise it is the product of centres and inverse
-// distances.
+// The 3m x n matrix of eq. 4. Column k has, frame by frame, the camera centre in units of the
+// distance of point k. Without noise it is the product of centres and inverse distances.
 //
 // It follows eq. 1-3 as corrected. Let p be the unit ray of the point in the reference, q its
 // measured ray in the frame, turned into the reference (printed: p itself turned), t the direction

@@ -24,8 +24,9 @@ struct PointMeasurement {
 };
 
 // A segment measured in the left or right camera. Residual: signed distances of its two end points
-// from the projected infinite line (eq. 13), weighted by the inverse of `covariance` (2 x 2, px^2).
-// Two measurements of one line in the two cameras of a pair are two LineMeasurements.
+// from the projected infinite line (Lee and Hwang, ICCV 2019, eq. 13), weighted by the inverse of
+// `covariance` (2 x 2, px^2). Two measurements of one line in the two cameras of a pair are two
+// LineMeasurements.
 struct LineMeasurement {
   Segment2 segment;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
