@@ -5,8 +5,10 @@
 #include "plumbline/eval/line_map_figure.h"
 #include "plumbline/eval/trajectory_figure.h"
 #include "plumbline/io/atomic_file.h"
+#include "plumbline/io/dataset.h"
 #include "plumbline/io/path_overlap.h"
 #include "plumbline/io/text_rows.h"
+#include "plumbline/report/error_options.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/report/run_manifest.h"
 
@@ -19,7 +21,6 @@
 #include "apps/reference_trajectory.h"
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -82,21 +83,31 @@ RelativeWindow ParseWindow(const std::string& text) {
                    Printable(text));
 }
 
+// The data set whose ground truth is written like this.
+DatasetFormat DatasetOf(TrajectoryFormat format) {
+  switch (format) {
+    case TrajectoryFormat::kTum:
+      return DatasetFormat::kTum;
+    case TrajectoryFormat::kEuroc:
+      return DatasetFormat::kEuroc;
+    case TrajectoryFormat::kKitti:
+      return DatasetFormat::kKitti;
+  }
+  return DatasetFormat::kTum;
+}
+
 TrajectoryErrorOptions ErrorOptions(const CommandLine& line,
                                     TrajectoryFormat format,
                                     const std::filesystem::path& estimate) {
-  constexpr std::int64_t kKittiGapNs = 250'000'000;  // its frames are 0.1 s apart
-  TrajectoryErrorOptions options;
-  if (const auto text = line.Value("--align")) {
-    options.alignment = ParseChoice<TrajectoryAlignment>("--align", *text);
-  } else if (IsMonocularRun(estimate)) {
-    options.alignment = TrajectoryAlignment::kSim3;
-  }
+  const auto alignment = line.Value("--align");
+  const bool free_scale = !alignment && IsMonocularRun(estimate);
+  TrajectoryErrorOptions options =
+      ErrorOptionsFor(free_scale ? SensorKind::kMono : SensorKind::kStereo, DatasetOf(format));
+  if (alignment) options.alignment = ParseChoice<TrajectoryAlignment>("--align", *alignment);
   if (const auto text = line.Value("--associate")) {
     options.association = ParseChoice<TrajectoryAssociation>("--associate", *text);
   }
   if (const auto text = line.Value("--delta")) options.window = ParseWindow(*text);
-  if (format == TrajectoryFormat::kKitti) options.max_gap_ns = kKittiGapNs;
   return options;
 }
 

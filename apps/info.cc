@@ -6,6 +6,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/error_options.h"
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
@@ -102,11 +103,11 @@ void PrintGroundTruth(const DatasetInfo& info) {
     Row("ground truth", "none");
     return;
   }
-  constexpr std::int64_t kMaxGapNs = 100'000'000;
+  const std::int64_t max_gap_ns = ErrorOptionsFor(info.sensor, info.format).max_gap_ns;
   const GroundTruth& truth = *info.ground_truth;
   const auto covered =
       std::count_if(info.stamps_ns.begin(), info.stamps_ns.end(), [&](std::int64_t stamp) {
-        return InterpolateAt(truth.poses, stamp, kMaxGapNs).has_value();
+        return InterpolateAt(truth.poses, stamp, max_gap_ns).has_value();
       });
   const bool body = truth.frame == GroundTruth::Frame::kBody;
   Row("ground truth",

@@ -4,6 +4,7 @@
 #include "plumbline/base/options.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
+#include "plumbline/report/error_options.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"
@@ -68,6 +69,14 @@ std::optional<PoseList> TruthOf(const Dataset& dataset) {
   return PoseList{truth->OfCamera(dataset.calibration())};
 }
 
+py::dict ErrorOptionsOf(const Dataset& dataset) {
+  const TrajectoryErrorOptions options = ErrorOptionsFor(dataset.sensor(), dataset.info().format);
+  py::dict dict;
+  dict["alignment"] = NameOf(options.alignment);
+  dict["max_gap_s"] = static_cast<double>(options.max_gap_ns) / 1e9;
+  return dict;
+}
+
 py::array Right(const py::object& self) {
   return View(*self.cast<const PyFrame&>().images.right, self);
 }
@@ -116,6 +125,9 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
            &ReadIfWhole,
            py::arg("index"),
            "The frame; None where an image is missing or damaged, IndexError.")
+      .def("_error_options",
+           &ErrorOptionsOf,
+           "How a run on it is compared with its ground truth: arguments of compare_trajectories.")
       .def_property_readonly(
           "stamps_ns",
           [](const Dataset& dataset) { return ToArray(dataset.info().stamps_ns); },

@@ -7,8 +7,8 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/error_options.h"
 
-#include <cstdint>
 #include <string>
 #include <system_error>
 
@@ -19,11 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kKittiGapNs = 250'000'000;
-
-bool IsOfOneCamera(const fs::path& run) {
+// Whether a run was of a single camera; kStereo stands for all sensors that measure depth.
+SensorKind SensorOf(const fs::path& run) {
   const auto summary = nlohmann::json::parse(ReadInputFile(run / "summary.json"), nullptr, false);
-  return summary.is_object() && summary.contains("sensor") && summary["sensor"] == "mono";
+  const bool mono =
+      summary.is_object() && summary.contains("sensor") && summary["sensor"] == "mono";
+  return mono ? SensorKind::kMono : SensorKind::kStereo;
 }
 
 }  // namespace
@@ -37,9 +38,7 @@ std::optional<TrajectoryError> CompareRunWithTruth(const fs::path& sequence, con
   data_options.allow_missing_camera = true;
   const auto dataset = OpenDataset(sequence, data_options);
   if (!dataset->info().ground_truth) return std::nullopt;
-  TrajectoryErrorOptions options;
-  if (IsOfOneCamera(run)) options.alignment = TrajectoryAlignment::kSim3;
-  if (dataset->info().format == DatasetFormat::kKitti) options.max_gap_ns = kKittiGapNs;
+  const TrajectoryErrorOptions options = ErrorOptionsFor(SensorOf(run), dataset->info().format);
   return CompareTrajectories(dataset->info().ground_truth->OfCamera(dataset->calibration()),
                              ReadTrajectory(run / "trajectory.txt").poses,
                              options);

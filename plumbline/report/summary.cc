@@ -3,6 +3,7 @@
 #include "plumbline/report/summary.h"
 
 #include "plumbline/base/options.h"
+#include "plumbline/report/error_options.h"
 #include "plumbline/report/timing.h"
 
 #include <ctime>
@@ -18,8 +19,6 @@ namespace plumbline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::int64_t kKittiGapNs = 250'000'000;
 
 Json OrNull(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
 
@@ -52,11 +51,9 @@ Json Accuracy(const TrajectoryError& error, SensorKind sensor, int frames) {
 
 std::optional<TrajectoryError> Compare(const Trajectory& estimate, const Dataset& dataset) {
   if (!dataset.info().ground_truth) return std::nullopt;
-  TrajectoryErrorOptions options;
-  if (dataset.sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
-  if (dataset.info().format == DatasetFormat::kKitti) options.max_gap_ns = kKittiGapNs;
-  return CompareTrajectories(
-      dataset.info().ground_truth->OfCamera(dataset.calibration()), estimate, options);
+  return CompareTrajectories(dataset.info().ground_truth->OfCamera(dataset.calibration()),
+                             estimate,
+                             ErrorOptionsFor(dataset.sensor(), dataset.info().format));
 }
 
 Json Timing(const FrameLog& frames) {

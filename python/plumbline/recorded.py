@@ -57,10 +57,8 @@ class Run:
         if truth is None:
             return None
         try:
-            return _plumbline.compare_trajectories(
-                truth, self.trajectory,
-                alignment="sim3" if self.dataset.sensor == "mono" else "se3",
-                max_gap_s=0.25 if self.dataset.format == "kitti" else 0.1)
+            return _plumbline.compare_trajectories(truth, self.trajectory,
+                                                   **self.dataset._error_options())
         except InputError:
             return None
 

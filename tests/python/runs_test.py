@@ -75,6 +75,12 @@ def test_results_come_in_order(dataset):
     assert seen[1].times_ms["total"] > 0
 
 
+def test_errors_of_one_camera_leave_the_scale_free(sequence, dataset):
+    assert dataset._error_options() == {"alignment": "se3", "max_gap_s": 0.1}
+    mono = plumbline.open(sequence, sensor="mono")
+    assert mono._error_options() == {"alignment": "sim3", "max_gap_s": 0.1}
+
+
 def test_errors_are_small(finished):
     assert finished.errors["ate"]["count"] == 12
     assert finished.errors["ate"]["rmse"] < 0.01

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumbline/eval/trajectory_error.h"
+#include "plumbline/io/dataset.h"
+
+namespace plumbline {
+
+// Returns how the trajectory of a run is compared with the ground truth of its data, where the user
+// does not say otherwise. The scale is free where the run is of a single camera. Reference poses
+// are interpolated over gaps that are usual in data of this format.
+TrajectoryErrorOptions ErrorOptionsFor(SensorKind sensor, DatasetFormat format);
+
+}  // namespace plumbline
