@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/cutting/cut_lines.h"
-#include "plumbline/cutting/endpoint_covariance.h"
 #include "plumbline/cutting/pose_information.h"
 
 #include "apps/command_line.h"

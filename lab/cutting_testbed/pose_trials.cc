@@ -5,7 +5,6 @@
 #include "lab/cutting_testbed/pose_from_lines.h"
 #include "plumbline/base/error.h"
 #include "plumbline/cutting/cut_lines.h"
-#include "plumbline/cutting/cut_residuals.h"
 
 #include <algorithm>
 #include <numbers>
@@ -65,7 +64,7 @@ Eigen::Matrix2d WeightOf(const RectifiedCamera& camera,
                          const LineCut& cut,
                          Weights weights) {
   const auto weight = [&](CuttingInformation information) {
-    return EvaluateCut(camera, line, cut, information).weight;
+    return CutWeight(camera, line, cut, information);
   };
   switch (weights) {
     case Weights::kNone:

@@ -3,7 +3,6 @@
 #include "lab/cutting_testbed/scene.h"
 
 #include "plumbline/base/elementary.h"
-#include "plumbline/cutting/endpoint_covariance.h"
 #include "plumbline/geometry/se3.h"
 
 #include <algorithm>

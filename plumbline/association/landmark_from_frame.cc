@@ -6,7 +6,7 @@
 #include "plumbline/association/measurements.h"
 #include "plumbline/base/error.h"
 #include "plumbline/base/median.h"
-#include "plumbline/cutting/endpoint_covariance.h"
+#include "plumbline/cutting/cutting_problem.h"
 #include "plumbline/features/match_lines.h"
 
 #include <cmath>

@@ -89,8 +89,7 @@ Cuts CutJointly(const CuttingProblem& problem, CuttingInformation information) {
 
 // Returns the mean variance of the two residuals of the line at full length.
 double Uncertainty(const RectifiedCamera& camera, const CuttableLine& line) {
-  const Eigen::Matrix2d weight =
-      EvaluateCut(camera, line, {}, CuttingInformation::kIndependent).weight;
+  const Eigen::Matrix2d weight = CutWeight(camera, line, {}, CuttingInformation::kIndependent);
   return 0.5 * (1 / weight(0, 0) + 1 / weight(1, 1));
 }
 
@@ -130,6 +129,13 @@ std::vector<LineCut> CutLines(const CuttingProblem& problem, const CuttingOption
       return DropLines(problem, options.drop_share);
   }
   return Cuts(problem.lines.size());
+}
+
+Eigen::Matrix2d CutWeight(const RectifiedCamera& camera,
+                          const CuttableLine& line,
+                          const LineCut& cut,
+                          CuttingInformation information) {
+  return EvaluateCut(camera, line, cut, information).weight;
 }
 
 }  // namespace plumbline

@@ -58,7 +58,8 @@ constexpr auto EnumNames(std::type_identity<CuttingEnds>) {
                     std::pair{CuttingEnds::kInverseDepth, "inverse_depth"}};
 }
 
-// Settings of CutLines and, for the budget, of ChooseFeatures.
+// Settings of line cutting. CutLines uses method, information and drop_share; ends, end_sigma and
+// budget are for runs alone.
 struct CuttingOptions {
   CuttingMethod method = CuttingMethod::kNone;
   CuttingInformation information = CuttingInformation::kIndependent;
@@ -102,7 +103,7 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
 
 // A 3D line that the image shows, linearized at the present estimate of the pose.
 struct CuttableLine {
-  Segment3 segment_in_cam;  // ends at ratio 0 and 1, in the camera frame; both with z > kMinDepth
+  Segment3 segment_in_cam;  // ends at ratio 0 and 1, in the camera frame; both with z > 1e-6 m
   // Covariances of the ends, camera frame, m^2; positive semidefinite. The errors of the two ends
   // are independent.
   Eigen::Matrix3d start_covariance;
@@ -122,6 +123,27 @@ struct CuttingProblem {
   // change with the cuts (eq. 7).
   Matrix6d other_information = Matrix6d::Zero();
 };
+
+// Returns the covariance (3 x 3, m^2, camera frame) of a point whose column and row in the image
+// are known to sigma_px and whose inverse depth is known to sigma_inverse_depth (1/m), all three
+// independent: "constant in inverse depth" of section 6. To first order, with X = (u, v, 1)/rho:
+// dX/du = e_x z / fx, dX/dv = e_y z / fy, dX/drho = -z X. `point_in_cam` must have z > 0 (BugError
+// otherwise).
+//
+// For a point measured in an earlier camera, compute that camera's covariance and turn it into the
+// present one: R Sigma R^T with R of cam_from_earlier.
+Eigen::Matrix3d CovarianceFromInverseDepth(const RectifiedCamera& camera,
+                                           const Eigen::Vector3d& point_in_cam,
+                                           double sigma_px,
+                                           double sigma_inverse_depth);
+
+// Returns the covariance of a point from a stereo pair or a depth image. The disparity fx *
+// baseline / z is known to sigma_disparity_px, and so the inverse depth to sigma_disparity_px / (fx
+// * baseline). The camera's baseline must be positive (BugError otherwise).
+Eigen::Matrix3d CovarianceFromDisparity(const RectifiedCamera& camera,
+                                        const Eigen::Vector3d& point_in_cam,
+                                        double sigma_px,
+                                        double sigma_disparity_px);
 
 // A cut of a line: the piece from ratio `first` to ratio `second` of its 3D segment, X(a) = (1 - a)
 // start + a end, 0 <= first <= second <= 1. With equal ratios one point counts twice.

@@ -81,7 +81,7 @@ struct PosePrior {
   Matrix6d information = Matrix6d::Zero();
 };
 
-// A camera pose to be found from landmarks that do not move.
+// A camera pose to be found from landmarks that do not move, by SolvePose (pose_only.h).
 struct PoseProblem {
   // A point of the map and where the frame shows it.
   struct PointMatch {

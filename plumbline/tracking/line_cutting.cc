@@ -6,8 +6,7 @@
 #include "plumbline/association/uncertain_line.h"
 #include "plumbline/base/chi2.h"
 #include "plumbline/cutting/choose_features.h"
-#include "plumbline/cutting/cut_residuals.h"
-#include "plumbline/cutting/endpoint_covariance.h"
+#include "plumbline/cutting/cut_lines.h"
 #include "plumbline/optimization/residuals.h"
 #include "plumbline/optimization/uncertain_point.h"
 
@@ -119,7 +118,7 @@ Eigen::Matrix2d PieceCovariance(const RectifiedCamera& camera,
   const CuttingInformation counted = information == CuttingInformation::kCorrelated
                                          ? CuttingInformation::kCorrelated
                                          : CuttingInformation::kIndependent;
-  const Eigen::Matrix2d covariance = EvaluateCut(camera, line, cut, counted).weight.inverse();
+  const Eigen::Matrix2d covariance = CutWeight(camera, line, cut, counted).inverse();
   if (weights.kind == LineWeighting::kCovariance) return covariance;
   return 0.5 * covariance.trace() * Eigen::Matrix2d::Identity();
 }

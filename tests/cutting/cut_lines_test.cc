@@ -47,6 +47,37 @@ TEST(CutLines, GainsNothingInTheCorrelatedInformation) {
   }
 }
 
+// The weight in full, of ends that are known alike in every direction: v = g^T Sigma(a) g +
+// sigma^2.
+TEST(CutWeight, IsTheInverseVarianceOfEachDistance) {
+  Rng rng(8, "cut weight");
+  CuttableLine line = RandomLine(rng);
+  line.start_covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  line.end_covariance = 4e-4 * Eigen::Matrix3d::Identity();
+  line.sigma_px = 0.7;
+  const LineCut cut{0.2, 0.9};
+  const auto distance = [&](const Eigen::Vector3d& point) {
+    return LineDistance(line.image_line, TestCamera().Project(point));
+  };
+  const Eigen::Matrix2d weight =
+      CutWeight(TestCamera(), line, cut, CuttingInformation::kIndependent);
+  const Segment3 piece = CutSegment(line.segment_in_cam, cut);
+  for (const int k : {0, 1}) {
+    const double a = k == 0 ? cut.first : cut.second;
+    const Eigen::Vector3d point = k == 0 ? piece.start : piece.end;
+    Eigen::Vector3d gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d step = 1e-5 * Eigen::Vector3d::Unit(axis);
+      gradient(axis) = (distance(point + step) - distance(point - step)) / 2e-5;
+    }
+    const double point_variance = (1 - a) * (1 - a) * 1e-4 + a * a * 4e-4;
+    const double variance = point_variance * gradient.squaredNorm() + 0.7 * 0.7;
+    EXPECT_NEAR(weight(k, k) * variance, 1, 1e-6);
+  }
+  EXPECT_EQ(weight(0, 1), 0);
+  EXPECT_EQ(weight(1, 0), 0);
+}
+
 TEST(CutLines, CutsLieOnTheLineInOrder) {
   const CuttingProblem problem = RandomProblem(5, 30);
   for (const auto method :

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "plumbline/cutting/cut_lines.h"
-#include "plumbline/cutting/endpoint_covariance.h"
 
 #include "tests/support/random_geometry.h"
 

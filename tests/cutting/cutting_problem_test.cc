@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "plumbline/cutting/endpoint_covariance.h"
+#include "plumbline/cutting/cutting_problem.h"
 
 #include "tests/support/jacobian.h"
 #include "tests/support/random_geometry.h"
