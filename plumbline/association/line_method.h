@@ -70,9 +70,10 @@ void MeasurePiece(const RectifiedCamera& camera,
                   const Segment3& piece,
                   PoseProblem::LineMatch& match);
 
-// How lines are made, adjusted and compared with images. Each member defaults to what the product
-// does. Only here does the laboratory put functions of its own (lab/line_rivals); the rest of the
-// product knows no other kind of line. The functions have no state and are called in any thread.
+// How lines are made, adjusted and compared with images, which System does by
+// SlamOptions::lines.method. Each member defaults to what the product does. Only here does the
+// laboratory put functions of its own (lab/line_rivals); the rest of the product knows no other
+// kind of line. The functions have no state and are called in any thread.
 struct LineMethod {
   // The values of the options of these names for which this is the method (CheckOptions).
   LineParametrization parametrization = LineParametrization::kPlucker;

@@ -39,16 +39,25 @@ struct FrameView {
 };
 
 // The whole of SLAM for one camera (or rig): feed frames in order of time, then call Finish.
+// Whether frames are single images, stereo pairs or images with depth is what the calibration says.
 //
 // Poses are world_from_camera of the left camera as delivered (before rectification). The world is
 // that camera at the first keyframe of each map; its unit is the metre where depth is measured,
 // otherwise arbitrary. slam.mode says how mapping runs beside tracking (MappingStage); Pipeline
-// adds a thread for tracking. Not thread-safe, except Measure.
+// (pipeline.h) adds a thread for tracking, and is what feeds a live run. Not thread-safe, except
+// Measure.
 class System {
  public:
-  // Lines are made, adjusted and matched by options.lines.method (LineMethod), the one place where
-  // other kinds of lines than the product's come in. Throws InputError for a calibration or options
-  // that cannot be used.
+  // Makes a system without a map. It keeps copies of all that it is given.
+  //
+  //   calibration  what the frames are made of and how their images are taken (Calibration)
+  //   options      all settings of the run; docs/options.md has those that are worth a change
+  //   execution    the clock and the threads of a live run; leave the default, unless the program
+  //                itself does a live run step by step
+  //
+  // Throws InputError for a calibration that cannot be used, for options that are out of range or
+  // contradict each other (CheckOptions), and where tracking.reference is last_frame for a single
+  // camera.
   System(const Calibration& calibration,
          const SlamOptions& options,
          const Execution& execution = {});
