@@ -29,28 +29,49 @@ namespace plumbline {
 //             them is left out (FrameStatus::kSkipped, reason kDropped). Where frames have to wait,
 //             less is done for them (LoadShedding), which their records tell. Not reproducible.
 //
-// One thread feeds. The observer is called for every frame in order, in the thread that tracks, and
-// gets the frame's record and view; it must be quick in live mode. What a stage throws comes out of
-// the next Feed, Skip or Finish; after that the pipeline takes no more frames.
+// A live run:
+//
+//   options.slam.mode = RunMode::kLive;
+//   System system(calibration, options);
+//   Pipeline pipeline(system, [](const FrameRecord& record, const FrameView&) { Show(record); });
+//   while (camera.IsOn()) pipeline.Feed(camera.Next());
+//   pipeline.Finish();
+//   if (const auto map = system.MainMap()) Use(system.FinalTrajectory(*map));
+//
+// One thread feeds. Until Finish the system belongs to the pipeline: nobody else uses it but the
+// observer, which may call what System has for the thread that tracks. What a stage throws comes
+// out of the next Feed, Skip or Finish; after that the pipeline takes no more frames.
 class Pipeline {
  public:
+  // Called for every frame in order, in the thread that tracks, as soon as the pose is known. It
+  // gets the frame's record and view, which are valid during the call; the view is empty where the
+  // frame was skipped. It must be quick in live mode.
   using Observer = std::function<void(const FrameRecord&, const FrameView&)>;
+  // The reason in the records of frames that a live run left out because they waited too long.
   static constexpr const char* kDropped = "dropped";
+  // The most frames with images that wait for tracking.
   static constexpr std::size_t kMaxWaiting = 2;
 
+  // Starts the thread that tracks, where the mode has one. The system must live longer than the
+  // pipeline, and the observer must not be empty. Throws BugError where the system is to work
+  // without threads (Execution) and the mode is not live.
   Pipeline(System& system, Observer observer);
   // Leaves undone all jobs that have not begun, unless Finish was called.
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
+  // Takes the next frame, in order of time. What System::Process would throw for it is thrown by
+  // this call or a later one.
   void Feed(SensorFrame frame);
-  // Tells of a frame that could not be read.
+  // Tells of a frame that could not be read. `reason` goes into its record, for example
+  // "image_unreadable"; it must not be empty (BugError).
   void Skip(std::int64_t stamp_ns, const std::string& reason);
   // Waits until all frames handed over so far are tracked, or until a failure ends the tracking.
   void Drain();
-  // Does all jobs that wait, and the mapping that belongs to them (System::Finish). After a failure
-  // it completes the mapping of the frames before, then rethrows.
+  // Does all jobs that wait, and the mapping that belongs to them (System::Finish, which gets
+  // `stop`). After a failure it completes the mapping of the frames before, then rethrows. To be
+  // called after the last frame.
   void Finish(const StopCheck& stop = {});
 
   // Does the next job in the caller's thread; returns false when none waits. For live runs without
