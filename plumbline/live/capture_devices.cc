@@ -30,13 +30,11 @@ std::optional<int> DeviceNumber(const std::string& device) {
   return whole && number >= 0 && number <= kHighestNumber ? std::optional(number) : std::nullopt;
 }
 
-bool OpenDevice(VideoCapture& capture,
-                const std::string& device,
-                const std::optional<ImageSize>& size) {
+bool OpenDevice(VideoCapture& capture, const std::string& device, const ImageSize* size) {
   const auto number = DeviceNumber(device);
   const bool is_open =
       number ? capture.Open(*number, cv::CAP_V4L2) : capture.Open(device, cv::CAP_V4L2);
-  if (is_open && size) {
+  if (is_open && size != nullptr) {
     // The driver is asked once both are set.
     capture.Set(cv::CAP_PROP_FRAME_WIDTH, size->width);
     capture.Set(cv::CAP_PROP_FRAME_HEIGHT, size->height);
@@ -44,10 +42,7 @@ bool OpenDevice(VideoCapture& capture,
   return is_open;
 }
 
-bool OpenAs(LiveKind kind,
-            VideoCapture& capture,
-            const std::string& what,
-            const std::optional<ImageSize>& size) {
+bool OpenAs(LiveKind kind, VideoCapture& capture, const std::string& what, const ImageSize* size) {
   const DecoderCall call;
   try {
     switch (kind) {
@@ -149,7 +144,7 @@ bool CaptureDevices::Open() {
   captures_.clear();
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     captures_.push_back(new_capture_ ? new_capture_() : LoadOpenCvModules().NewVideoCapture());
-    const auto size = i < sizes_.size() ? std::optional(sizes_[i]) : std::nullopt;
+    const ImageSize* size = i < sizes_.size() ? &sizes_[i] : nullptr;
     if (!OpenAs(kind_, *captures_.back(), parts_[i], size)) return false;
   }
   return true;
