@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 namespace plumbline {
-namespace {
+namespace opencv_calibration_test {
 
 using testing::HasSubstr;
 
@@ -136,5 +136,5 @@ TEST(ReadOpenCvCalibration, BadFilesAreNamedByLineAndKey) {
               HasSubstr("distortion_coefficients: expected a group of keys, found none"));
 }
 
-}  // namespace
+}  // namespace opencv_calibration_test
 }  // namespace plumbline
