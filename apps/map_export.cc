@@ -169,10 +169,7 @@ ExportedMap LoadExportedMap(const CommandLine& line) {
       SavedOptionsOrDefault(context, name, "lines as by default", [](const std::string& text) {
         std::cerr << text << '\n';
       });
-  return {{context.camera,
-           context.rectified_from_left,
-           std::move(ChooseMap(line, saved.atlas)),
-           saved.file_version},
+  return {SavedMapOf(std::move(ChooseMap(line, saved.atlas)), context, saved.file_version),
           {context.camera, context.octave_scale},
           options.mapping.line_map};
 }

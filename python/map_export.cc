@@ -44,9 +44,7 @@ void Warn(const std::string& text) {
 std::vector<Segment3> LinesOf(const PyMap& map) { return SegmentsOf(MappedLinesOf(map, {})); }
 
 void WriteColmap(const PyMap& map, const std::filesystem::path& path) {
-  const AtlasContext& context = map.saved->context;
-  const SavedMap saved{
-      context.camera, context.rectified_from_left, *map.map, map.saved->file_version};
+  const SavedMap saved = SavedMapOf(*map.map, map.saved->context, map.saved->file_version);
   const std::map<KeyFrameId, std::string> names = KeyFrameImageNames(saved.map);
   AtomicFolder folder(path);
   WriteColmapFolder(folder.temporary_path(), saved.map, MakeColmapModel(saved, names), names);

@@ -348,6 +348,29 @@ void ExtractLevel(const PyramidLevel& level,
 
 }  // namespace
 
+std::vector<std::optional<Descriptor>> DescribeOrbAt(const ImagePyramid& pyramid,
+                                                     const std::vector<PointFeature>& corners) {
+  std::vector<std::optional<Descriptor>> descriptors(corners.size());
+  for (std::size_t octave = 0; octave < pyramid.size(); ++octave) {
+    const PyramidLevel& level = pyramid[octave];
+    std::vector<std::size_t> of;  // the corners that the pixels belong to
+    std::vector<OrientedPixel> pixels;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i].octave != static_cast<int>(octave)) continue;
+      const Eigen::Vector2d px = level.FromFull(corners[i].px).array().round();
+      if (px.minCoeff() < kOrbReach || px.x() + kOrbReach >= level.image.width() ||
+          px.y() + kOrbReach >= level.image.height()) {
+        continue;
+      }
+      of.push_back(i);
+      pixels.push_back({static_cast<int>(px.x()), static_cast<int>(px.y()), corners[i].angle});
+    }
+    const std::vector<Descriptor> described = DescribeOrb(level.image, pixels);
+    for (std::size_t k = 0; k < of.size(); ++k) descriptors[of[k]] = described[k];
+  }
+  return descriptors;
+}
+
 ImagePyramid BuildOrbPyramid(const GrayImage& image, const OrbOptions& options) {
   return BuildPyramid(image, kLevels, options.scale_factor);
 }

@@ -8,6 +8,7 @@
 #include "plumbline/image/pyramid.h"
 
 #include <array>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -54,6 +55,13 @@ std::vector<PointFeature> ExtractOrb(const ImagePyramid& pyramid,
                                      const ValidRegion& valid,
                                      int count,
                                      const OrbOptions& options);
+
+// Returns the descriptors that corners of this image would have at the places, octaves and
+// orientations of the given ones, which may come from another image: how much the two images are
+// alike there. nullopt where the pyramid has no such octave, or where a descriptor would look
+// beyond the border.
+std::vector<std::optional<Descriptor>> DescribeOrbAt(const ImagePyramid& pyramid,
+                                                     const std::vector<PointFeature>& corners);
 
 ImagePyramid BuildOrbPyramid(const GrayImage& image, const OrbOptions& options);
 

@@ -3,7 +3,12 @@
 #include "plumbline/io/keyframe_images.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/base/median.h"
+#include "plumbline/features/lbd.h"
+#include "plumbline/features/line_detection.h"
+#include "plumbline/features/orb.h"
 #include "plumbline/geometry/camera_difference.h"
+#include "plumbline/image/gradient.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -11,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -34,6 +40,46 @@ std::optional<std::string> LeftCameraDifference(const Rectifier& rectifier, cons
                           {camera, rectifier.rectified_left_from_left()});
 }
 
+bool IsInside(const GrayImage& image, const Segment2& segment) {
+  return std::min(segment.start.minCoeff(), segment.end.minCoeff()) >= 0 &&
+         std::max(segment.start.x(), segment.end.x()) < image.width() &&
+         std::max(segment.start.y(), segment.end.y()) < image.height();
+}
+
+// Returns in how many bits the descriptors of a keyframe differ from those that the image has at
+// the same places, one number for each feature.
+std::vector<double> DifferingBits(const Features& features,
+                                  const GrayImage& image,
+                                  double octave_scale) {
+  std::vector<double> bits;
+  const auto points =
+      DescribeOrbAt(BuildOrbPyramid(image, {.scale_factor = octave_scale}), features.points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i]) continue;
+    bits.push_back(HammingDistance(*points[i], features.points[i].descriptor));
+  }
+  std::vector<LineFeature> measured = features.lines;
+  std::erase_if(measured, [&](const LineFeature& line) { return !IsInside(image, line.segment); });
+  std::vector<LineFeature> lines = measured;
+  if (!lines.empty()) DescribeLines(ComputeGradient(image, kLineBlurPx), &lines);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    bits.push_back(HammingDistance(lines[i].descriptor, measured[i].descriptor));
+  }
+  return bits;
+}
+
+// Whether an image may be the one that a keyframe was made of. On MH_01, KITTI 07 and a rendered
+// room, the median over the features of a keyframe is 0 for the image itself, 8 where the run
+// applied a box filter of 5 x 5 pixels to it and 52 with 21 x 21, about 100 for the next image of
+// a camera that moves, and at least 115 for an image of something else.
+bool MayShow(const GrayImage& image, const KeyFrame& keyframe, double octave_scale) {
+  constexpr std::size_t kFewest = 30;
+  constexpr double kMostBits = 80;
+  const std::vector<double> bits =
+      DifferingBits(MeasuredFeatures(*keyframe.frame.indexed), image, octave_scale);
+  return bits.size() < kFewest || UpperMedian(bits) <= kMostBits;
+}
+
 }  // namespace
 
 std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map) {
@@ -49,7 +95,8 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map) {
 
 KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
                                const DatasetOptions& options,
-                               const SavedMap& saved) {
+                               const SavedMap& saved)
+    : path_(path), octave_scale_(saved.octave_scale) {
   dataset_ = OpenDataset(path, options);
   std::vector<SensorKind> sensors = dataset_->info().available;
   if (options.sensor) sensors = {*options.sensor};
@@ -88,7 +135,16 @@ GrayImage KeyFrameImages::Read(const KeyFrame& keyframe) const {
   SensorFrame left;
   left.stamp_ns = read->stamp_ns;
   left.left = read->left;
-  return rectifier_->Apply(std::move(left)).left;
+  GrayImage image = rectifier_->Apply(std::move(left)).left;
+  if (octave_scale_ && !MayShow(image, keyframe, *octave_scale_)) {
+    throw InputError(
+        fmt::format("{}: expected the images that the map was made of, found another one at {} s, "
+                    "where the map has keyframe {} (played backwards, or another session?)",
+                    path_.string(),
+                    FormatStamp(keyframe.frame.stamp_ns),
+                    keyframe.id.value));
+  }
+  return image;
 }
 
 }  // namespace plumbline

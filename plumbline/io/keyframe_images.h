@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace plumbline {
@@ -20,6 +21,11 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 
 // The images of a map's keyframes as the camera of the map sees them: without distortion, rectified
 // for stereo. They are found by their time stamps in the data from which the map was made.
+//
+// Stamps alone do not tell whether the data are those: the stamps of a run that was played
+// backwards are mirrored, and sessions of one map may have the same stamps. So each image is
+// described again at the places of the keyframe's features, where the same image gives the same
+// descriptors. An image that was blurred for the run (--blur) is close enough.
 class KeyFrameImages {
  public:
   // Opens the data. `options` without a sensor: the sensor is the one whose images fit the map.
@@ -29,10 +35,14 @@ class KeyFrameImages {
                  const DatasetOptions& options,
                  const SavedMap& saved);
 
-  // Reads the left image. Throws InputError when it cannot be read.
+  // Reads the left image. Throws InputError when it cannot be read, and where it is another one
+  // than the keyframe was made of. What features are compared with is known of maps with an
+  // octave_scale only; keyframes with very few features are not compared.
   GrayImage Read(const KeyFrame& keyframe) const;
 
  private:
+  std::filesystem::path path_;
+  std::optional<double> octave_scale_;
   std::unique_ptr<Dataset> dataset_;
   std::unique_ptr<Rectifier> rectifier_;
 };

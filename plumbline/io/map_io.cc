@@ -409,12 +409,17 @@ void SaveMap(const std::filesystem::path& path,
   WriteFile(path, {&map}, context, map.id());
 }
 
+SavedMap SavedMapOf(Map map, const AtlasContext& context, std::uint32_t file_version) {
+  SavedMap saved{context.camera, context.rectified_from_left, std::move(map), file_version};
+  if (context.front_end.feature_format == kFeatureFormat) saved.octave_scale = context.octave_scale;
+  return saved;
+}
+
 SavedMap LoadMap(const std::filesystem::path& path) {
   SavedAtlas saved = LoadAtlas(path);
-  SavedMap loaded{
-      saved.context.camera, saved.context.rectified_from_left, Map(), saved.file_version};
-  if (!saved.atlas.empty()) loaded.map = std::move(saved.atlas.active());
-  return loaded;
+  Map map;
+  if (!saved.atlas.empty()) map = std::move(saved.atlas.active());
+  return SavedMapOf(std::move(map), saved.context, saved.file_version);
 }
 
 }  // namespace plumbline

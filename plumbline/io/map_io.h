@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include <Eigen/Geometry>
@@ -43,7 +44,13 @@ struct SavedMap {
   Eigen::Quaterniond rectified_from_left = Eigen::Quaterniond::Identity();
   Map map;
   std::uint32_t version = 0;  // version of the file's format
+  // Scale between octaves of the points' image pyramid; nullopt where the descriptors are not known
+  // to be those of the present front end (kFeatureFormat), so that images cannot be compared.
+  std::optional<double> octave_scale = std::nullopt;
 };
+
+// Returns a map of an atlas with what of its context belongs to it.
+SavedMap SavedMapOf(Map map, const AtlasContext& context, std::uint32_t file_version);
 
 // Saves one map as SaveAtlas does, where nothing else is known of it.
 void SaveMap(const std::filesystem::path& path,

@@ -225,6 +225,45 @@ TEST(MapExport, ColmapReadsTheModel) {
   }
 }
 
+// Gives a poster sequence of 12 frames its images in reverse, at the same times.
+void ShowBackwards(const ScratchFolder& folder) {
+  std::string list = "#timestamp [ns],filename\n";
+  for (int i = 0; i < 12; ++i) list += fmt::format("{},{}.png\n", MovingPoster::StampNs(i), 11 - i);
+  for (const char* camera : {"cam0", "cam1"}) {
+    folder.Write(fmt::format("sequence/mav0/{}/data.csv", camera), list);
+  }
+}
+
+// The times of a keyframe are in the data, but what it saw then is not: the run was played
+// backwards, or the keyframe is of another session of the map.
+TEST(MapExport, RefusesImagesThatAreNotThoseOfTheKeyframes) {
+  const ScratchFolder first, second;
+  const std::string a = Quoted(WritePosterSequence(first, 12));
+  const std::string b = Quoted(WritePosterSequence(second, 12));
+  ShowBackwards(second);
+  const auto run = [&](const std::string& arguments, const char* name) {
+    const Outcome outcome =
+        RunProgram(first, "run " + arguments + " --quiet --out " + Quoted(first / name));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return first / name / "map.plb";
+  };
+  const auto export_with = [&](const fs::path& map, const std::string& data) {
+    return RunProgram(first,
+                      "map export " + Quoted(map) + " --to nerfstudio --images " + data +
+                          " --out " + Quoted(first / "data"));
+  };
+  const fs::path forwards = run(a, "forwards");
+  const fs::path backwards = run(a + " --reverse", "backwards");
+  const fs::path continued = run(b + " --map " + Quoted(forwards), "continued");
+  const std::string message =
+      "sequence: expected the images that the map was made of, found another one at 1.000000000 s, "
+      "where the map has keyframe 0 (played backwards, or another session?)";
+  ExpectRefusal(export_with(backwards, a), message);
+  ExpectRefusal(export_with(continued, b), message);
+  EXPECT_FALSE(fs::exists(first / "data"));
+  EXPECT_EQ(export_with(forwards, a).code, 0);
+}
+
 // An image that cannot be read ends an export without a trace.
 TEST(MapExport, LeavesNothingWhenAnImageIsBroken) {
   const ScratchFolder folder;

@@ -5,6 +5,7 @@
 #include "plumbline/base/median.h"
 
 #include "tests/features/render.h"
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -172,6 +173,44 @@ TEST(Orb, SpreadsPointsOverATextureThatIsStrongInOnePlace) {
   const auto right = std::count_if(
       points.begin(), points.end(), [](const PointFeature& p) { return p.px.x() > 165; });
   EXPECT_GT(right, 40);
+}
+
+// The image that corners were found in gives their descriptors again, except where rounding takes
+// another pixel; another image does not.
+TEST(Orb, DescribesCornersAgain) {
+  const SquareTexture texture(150, 320, 240);
+  const GrayImage image = Render(320, 240, texture);
+  const std::vector<PointFeature> points = Orb(image, 300);
+  ASSERT_GT(points.size(), 100U);
+  EXPECT_GT(points.back().octave, 2);
+  const auto bits_in = [&](const GrayImage& other) {
+    std::vector<double> bits;
+    const auto described = DescribeOrbAt(BuildOrbPyramid(other, {}), points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bits.push_back(HammingDistance(described.at(i).value(), points[i].descriptor));
+    }
+    return bits;
+  };
+  const std::vector<double> same = bits_in(image);
+  EXPECT_GT(std::count(same.begin(), same.end(), 0.0), 0.98 * static_cast<double>(same.size()));
+  const GrayImage moved = Render(
+      320, 240, [&](const Eigen::Vector2d& p) { return texture(p + Eigen::Vector2d(40, 0)); });
+  EXPECT_GT(UpperMedian(bits_in(moved)), 100);
+}
+
+TEST(Orb, DescribesNoCornerBeyondTheImage) {
+  const ImagePyramid pyramid = BuildOrbPyramid(GrayImage(320, 240, 90), {});
+  PointFeature point;
+  point.px = {18, 221};
+  EXPECT_TRUE(DescribeOrbAt(pyramid, {point})[0]);
+  for (const Eigen::Vector2d& px :
+       {Eigen::Vector2d(17, 100), Eigen::Vector2d(100, 222), Eigen::Vector2d(1e300, -1e300)}) {
+    point.px = px;
+    EXPECT_FALSE(DescribeOrbAt(pyramid, {point})[0]) << px.transpose();
+  }
+  point.px = {160, 120};
+  point.octave = 60;
+  EXPECT_FALSE(DescribeOrbAt(pyramid, {point})[0]);
 }
 
 }  // namespace

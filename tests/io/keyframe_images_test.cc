@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/keyframe_images.h"
 
+#include "plumbline/features/extractor.h"
+#include "plumbline/image/box_filter.h"
+
 #include "tests/e2e/poster_sequence.h"
 #include "tests/io/scratch_folder.h"
 #include <memory>
@@ -97,6 +100,61 @@ TEST(KeyFrameImages, NamesWhatDoesNotFit) {
   folder.Write("sequence/mav0/cam0/data/1.png", "text");
   EXPECT_THAT(MessageOf([&] { images.Read(*whole.map.Find(KeyFrameId{0})); }),
               HasSubstr("cam0/data/1.png: not an image"));
+}
+
+// A map whose keyframe at a time of the poster sequence was made of this image.
+SavedMap MapOfImage(int frame, const GrayImage& image, const FeatureOptions& options = {}) {
+  SavedMap saved = MapAt({}, MovingPoster::MakeCalibration());
+  KeyFrame keyframe{KeyFrameId{0}, KeyFrameId{-1}, {}};
+  keyframe.frame.stamp_ns = MovingPoster::StampNs(frame);
+  keyframe.frame.indexed =
+      IndexFeatures(saved.camera, ExtractFeatures(saved.camera, {.left = &image}, options));
+  keyframe.frame.points.resize(keyframe.frame.features().points.size());
+  keyframe.frame.lines.resize(keyframe.frame.features().lines.size());
+  saved.map.Apply({edit::AddKeyFrame{keyframe}});
+  saved.octave_scale = options.orb.scale_factor;
+  return saved;
+}
+
+// Frames of the same times that are others: of a run that was played backwards, or of another
+// session of the map.
+TEST(KeyFrameImages, RefuseImagesThatAreNotThoseOfTheKeyframes) {
+  const ScratchFolder folder;
+  const std::filesystem::path sequence = WritePosterSequence(folder, 12);
+  const MovingPoster poster;
+  for (const auto& [points, lines] : {std::pair{true, true}, {true, false}, {false, true}}) {
+    FeatureOptions options;
+    options.points = points;
+    options.lines = lines;
+    const auto message = [&](int frame, const GrayImage& image) {
+      const SavedMap saved = MapOfImage(frame, image, options);
+      const KeyFrameImages images(sequence, {}, saved);
+      return MessageOf([&] { images.Read(*saved.map.Find(KeyFrameId{0})); });
+    };
+    EXPECT_EQ(message(2, poster.Frame(2).left), "no error") << points << lines;
+    EXPECT_EQ(message(2, BoxFiltered(poster.Frame(2).left, 5)), "no error") << points << lines;
+    EXPECT_THAT(message(2, poster.Frame(9).left),
+                HasSubstr("sequence: expected the images that the map was made of, found another "
+                          "one at 1.100000000 s, where the map has keyframe 0 (played backwards, "
+                          "or another session?)"))
+        << points << lines;
+  }
+}
+
+// What cannot be compared is taken as it is: too few features, and a map of a file that does not
+// say how they were described.
+TEST(KeyFrameImages, TakeWhatTheyCannotCompare) {
+  const ScratchFolder folder;
+  const std::filesystem::path sequence = WritePosterSequence(folder, 12);
+  const GrayImage other = MovingPoster().Frame(9).left;
+  FeatureOptions options;
+  options.point_count = 20;
+  options.lines = false;
+  const SavedMap few = MapOfImage(2, other, options);
+  EXPECT_NO_THROW(KeyFrameImages(sequence, {}, few).Read(*few.map.Find(KeyFrameId{0})));
+  SavedMap unknown = MapOfImage(2, other);
+  unknown.octave_scale.reset();
+  EXPECT_NO_THROW(KeyFrameImages(sequence, {}, unknown).Read(*unknown.map.Find(KeyFrameId{0})));
 }
 
 }  // namespace
