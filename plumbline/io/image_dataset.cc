@@ -63,9 +63,39 @@ std::string_view DigitRun(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
+// What digits behind "<digit>." count as, for all names of a folder.
+enum class DigitsBehindPoint { kNumber, kFraction };
+
+// Whether digits begin at this place of a name that stand behind "<digit>.".
+bool IsBehindPoint(std::string_view name, std::size_t place) {
+  return place >= 2 && name[place - 1] == '.' && !DigitRun(name.substr(place - 2)).empty();
+}
+
+// Decides about the digits behind a point. Times in seconds are often written without the zeros at
+// their end, so that 0.05, 0.1 and 0.15 follow each other; a counter behind the number of a camera
+// goes from 1.9 to 1.10. A counter soon comes to a number that ends with zero, which such a time
+// never does; in 1.2.3 there is no fraction at all.
+DigitsBehindPoint DigitsBehindPointOf(const std::vector<std::string>& names) {
+  for (const std::string_view name : names) {
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      const std::string_view run = DigitRun(name.substr(i));
+      if (run.empty()) continue;
+      const std::size_t end = i + run.size();
+      if (IsBehindPoint(name, i)) {
+        const bool another = end + 1 < name.size() && IsBehindPoint(name, end + 1) &&
+                             !DigitRun(name.substr(end + 1)).empty();
+        if (another || (run.size() > 1 && run.back() == '0')) return DigitsBehindPoint::kNumber;
+      }
+      i = end;
+    }
+  }
+  return DigitsBehindPoint::kFraction;
+}
+
 // Returns less than 0 where a comes first, and more than 0 where b does; 0 for names that differ at
 // most in zeros before numbers, such as 1 and 01.
-int NaturalOrder(std::string_view a, std::string_view b) {
+int NaturalOrder(std::string_view a, std::string_view b, DigitsBehindPoint behind_point) {
+  const std::string_view name = a;  // as far as the names are the same, both are like this one
   while (!a.empty() && !b.empty()) {
     std::string_view run_a = DigitRun(a);
     std::string_view run_b = DigitRun(b);
@@ -75,8 +105,14 @@ int NaturalOrder(std::string_view a, std::string_view b) {
       b.remove_prefix(1);
       continue;
     }
+    const bool fraction =
+        behind_point == DigitsBehindPoint::kFraction && IsBehindPoint(name, name.size() - a.size());
     a.remove_prefix(run_a.size());
     b.remove_prefix(run_b.size());
+    if (fraction) {
+      if (run_a != run_b) return run_a < run_b ? -1 : 1;
+      continue;
+    }
     run_a.remove_prefix(std::min(run_a.find_first_not_of('0'), run_a.size()));
     run_b.remove_prefix(std::min(run_b.find_first_not_of('0'), run_b.size()));
     const auto key = [](std::string_view run) { return std::tuple(run.size(), run); };
@@ -85,17 +121,17 @@ int NaturalOrder(std::string_view a, std::string_view b) {
   return a.empty() == b.empty() ? 0 : a.empty() ? -1 : 1;
 }
 
-bool NaturalLess(const std::string& a, const std::string& b) {
-  const int order = NaturalOrder(a, b);
-  return order != 0 ? order < 0 : a < b;
-}
-
-// Refuses names with the same number: nobody can tell which of 3.png, 000003.png and 3.jpg is the
-// image of that number.
-void CheckNumbersComeOnce(const fs::path& folder, const std::vector<std::string>& names) {
+// Sorts the names of the images in a folder. Refuses names with the same number: nobody can tell
+// which of 3.png, 000003.png and 3.jpg is the image of that number.
+void SortByNumbers(const fs::path& folder, std::vector<std::string>& names) {
+  const DigitsBehindPoint behind_point = DigitsBehindPointOf(names);
+  std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    const int order = NaturalOrder(a, b, behind_point);
+    return order != 0 ? order < 0 : a < b;
+  });
   const auto stem = [](const std::string& name) { return fs::path(name).stem().string(); };
   for (std::size_t i = 1; i < names.size(); ++i) {
-    if (NaturalOrder(stem(names[i - 1]), stem(names[i])) != 0) continue;
+    if (NaturalOrder(stem(names[i - 1]), stem(names[i]), behind_point) != 0) continue;
     throw InputError(fmt::format("{}: expected one image of each number, found {} and {}",
                                  folder.string(),
                                  names[i - 1],
@@ -262,17 +298,19 @@ std::vector<std::string> ListImages(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) throw InputError(folder.string() + ": no such folder");
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    // What is hidden is no image of the folder: macOS leaves a "._1.png" beside "1.png".
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.')) continue;
     std::string extension = entry.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
       return static_cast<char>(std::tolower(c));
     });
     if (std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end()) {
-      names.push_back(entry.path().filename().string());
+      names.push_back(name);
     }
   }
   if (error) throw InputError(folder.string() + ": cannot be listed: " + error.message());
-  std::sort(names.begin(), names.end(), NaturalLess);
-  CheckNumbersComeOnce(folder, names);
+  SortByNumbers(folder, names);
   return names;
 }
 

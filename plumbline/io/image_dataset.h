@@ -74,8 +74,9 @@ void UseCamera(CameraFile camera, DatasetInfo& info);
 // Returns the name that is shown to users.
 std::string SensorName(SensorKind sensor);
 
-// Returns the names of the image files in a folder, in natural order: runs of digits count as
-// numbers, so that 2.png comes before 10.png. Throws InputError when there is no such folder, and
+// Returns the names of the image files in a folder, without hidden ones, in natural order: runs of
+// digits count as numbers, so that 2.png comes before 10.png, and as fractions behind a decimal
+// point, so that 0.05.png comes before 0.1.png. Throws InputError when there is no such folder, and
 // when two names have the same number (3.png, 000003.png).
 std::vector<std::string> ListImages(const std::filesystem::path& folder);
 

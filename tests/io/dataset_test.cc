@@ -207,6 +207,45 @@ TEST(OpenDataset, SortsFoldersOfImagesByNumber) {
   EXPECT_EQ(dataset->Read(2)->left.at(0, 0), 10);
 }
 
+// Returns the order of images, each of which shows its place in the list.
+std::vector<int> OrderOf(const std::vector<std::string>& names) {
+  const ScratchFolder folder;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    folder.Write(names[i] + ".png", Png(8, 6, static_cast<int>(i)));
+  }
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+  const auto dataset = OpenDataset(folder.path());
+  std::vector<int> order;
+  for (std::size_t i = 0; i < dataset->size(); ++i) {
+    order.push_back(dataset->Read(i)->left.at(0, 0));
+  }
+  return order;
+}
+
+// Seconds without zeros at their end are fractions. What counts on behind a point, or has zeros at
+// the end of all its fractions, is in the order of whole numbers.
+TEST(OpenDataset, SortsFoldersOfImagesByDecimalSeconds) {
+  EXPECT_THAT(OrderOf({"0.0", "0.05", "0.1", "0.15", "1.0", "1.5", "10.25"}),
+              ElementsAre(0, 1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(OrderOf({"a9.5_l", "a10.05_l", "a10.1_l"}), ElementsAre(0, 1, 2));
+  EXPECT_THAT(OrderOf({"cam1.8", "cam1.9", "cam1.10", "cam1.11", "cam2.1"}),
+              ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(OrderOf({"0.050", "0.100", "0.150", "1.000"}), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(OrderOf({"1.2.3", "1.2.14", "1.15.1"}), ElementsAre(0, 1, 2));
+}
+
+// macOS leaves a hidden file beside each on disks of other systems.
+TEST(OpenDataset, LeavesHiddenFilesOut) {
+  const ScratchFolder folder, numbered;
+  for (const char* name : {"1.png", "2.png"}) folder.Write(name, Png(8, 6, 7));
+  folder.Write("camera.yaml", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\nrate_hz: 3\n");
+  for (const char* name : {"._1.png", "._2.png", ".png"}) folder.Write(name, "Mac OS X");
+  EXPECT_EQ(OpenDataset(folder.path())->size(), 2U);
+  WriteKitti(numbered);
+  numbered.Write("image_0/._000001.png", "Mac OS X");
+  EXPECT_EQ(OpenDataset(numbered.path())->size(), 3U);
+}
+
 TEST(OpenDataset, TellsOfImagesOf16Bits) {
   const ScratchFolder folder;
   for (const char* name : {"1.png", "2.png"}) folder.Write(name, Png(8, 6, 4095));
