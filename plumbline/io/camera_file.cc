@@ -204,11 +204,16 @@ CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair) {
 
 CameraFile FindCamera(const std::string& path_or_name, bool use_pair) {
   std::error_code error;
-  if (!std::filesystem::exists(path_or_name, error)) {
+  const std::filesystem::file_status status = std::filesystem::status(path_or_name, error);
+  const bool exists = std::filesystem::exists(status);
+  // A folder is no camera file: data are often in one that has the name of their camera.
+  if (!exists || std::filesystem::is_directory(status)) {
     for (const BuiltInCamera& file : BuiltInCameraFiles()) {
       if (file.name != path_or_name) continue;
       return {ParseCamera(file.yaml, file.name + ".yaml"), file.name + " (built-in camera)"};
     }
+  }
+  if (!exists) {
     throw InputError(fmt::format("{}: no such camera file; built-in cameras: {}",
                                  Printable(path_or_name),
                                  fmt::join(BuiltInCameras(), ", ")));

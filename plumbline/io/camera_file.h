@@ -45,7 +45,7 @@ struct CameraFile {
 // Reads the file at a path; see ParseCamera for errors.
 CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair = true);
 
-// Reads the file at a path or, where there is none, the built-in camera of that name.
+// Reads the file at a path or, where there is none or a folder, the built-in camera of that name.
 CameraFile FindCamera(const std::string& path_or_name, bool use_pair = true);
 
 // Returns the camera file in a folder of images: camera.yaml or camchain.yaml, of any format.

@@ -381,6 +381,21 @@ TEST(FindCamera, KnowsTheBuiltInCameras) {
       HasSubstr("tum_fr4: no such camera file; built-in cameras: euroc, icl_nuim, kitti_00"));
 }
 
+// Data are often in a folder that has the name of their camera.
+TEST(FindCamera, AFolderHidesNoBuiltInCamera) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "euroc");
+  std::filesystem::create_directories(folder / "none");
+  folder.Write("tum_fr1", "size: [8, 6]\nintrinsics: [5, 5, 4, 3]\n");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  EXPECT_EQ(MessageOf([] { EXPECT_EQ(FindCamera("euroc").source, "euroc (built-in camera)"); }),
+            "no error");
+  EXPECT_EQ(FindCamera("tum_fr1").calibration.left.intrinsics().fx, 5);
+  EXPECT_THAT(MessageOf([] { FindCamera("none"); }), HasSubstr("none: "));
+  std::filesystem::current_path(before);
+}
+
 // The right camera lies within a few degrees and millimetres of the left camera's x axis.
 TEST(FindCamera, BuiltInPairsStandSideBySide) {
   for (const char* name : {"euroc", "kitti_00", "kitti_03", "kitti_04", "tum_vi_512"}) {
