@@ -64,7 +64,8 @@ struct LiveOptions {
 enum class LiveKind { kStandardInput, kCamera, kNetwork, kGstreamer };
 std::optional<LiveKind> LiveKindOf(std::string_view name);
 
-// Returns the name without the password that a URL may have: rtsp://user:***@host/.
+// Returns the name without passwords: those of URLs, rtsp://user:***@host/, and those that elements
+// of GStreamer take, user-pw=*** (proxy-pw, password, passwd).
 std::string WithoutPassword(const std::string& name);
 
 // The frames of a source after they have passed, for reports: what is known of them, without

@@ -42,6 +42,20 @@ TEST(WithoutPassword, HidesIt) {
   }
 }
 
+// A pipeline may have several, in URLs and in properties of its elements.
+TEST(WithoutPassword, HidesAllOfAPipeline) {
+  EXPECT_EQ(WithoutPassword("gst:rtspsrc location=rtsp://me:one@a/x ! b location=rtsp://me:two@c "
+                            "! d uri=http://e:80/f name=g@h"),
+            "gst:rtspsrc location=rtsp://me:***@a/x ! b location=rtsp://me:***@c "
+            "! d uri=http://e:80/f name=g@h");
+  EXPECT_EQ(WithoutPassword("gst:rtspsrc user-id=me user-pw=se!cret proxy-pw = \"a \\\" b\" ! c"),
+            "gst:rtspsrc user-id=me user-pw=*** proxy-pw = *** ! c");
+  EXPECT_EQ(WithoutPassword("gst:a passwd='x y' ! b password=z"),
+            "gst:a passwd=*** ! b password=***");
+  EXPECT_EQ(WithoutPassword("gst:a password= "), "gst:a password= ***");
+  EXPECT_EQ(WithoutPassword("rtsp://me:se cret@host/a"), "rtsp://me:***@host/a");
+}
+
 TEST(PassedFrames, HaveNoImages) {
   DatasetInfo info;
   info.stamps_ns = {1, 2};
