@@ -94,8 +94,16 @@ std::optional<InputFrame> LiveInput::Next(const GoOn& go_on) {
   return std::nullopt;
 }
 
-// Says once, not for every frame, what is wrong for longer, and nothing of frames that nobody
-// chose.
+// Says once, and once that it lasts, why chosen frames in succession are missing: a camera may be
+// wrong for hours.
+void LiveInput::SayWhyMissing(const std::string& why) {
+  alike_ = why == last_why_ ? alike_ + 1 : 1;
+  last_why_ = why;
+  if (why.empty() || alike_ > 2) return;
+  const char* again = "for the same reason; more such frames in succession are not told";
+  say_(fmt::format("frame {} skipped: {}: {}", position_, name_, alike_ == 1 ? why : again));
+}
+
 InputFrame LiveInput::Take(LiveEvent event, bool chosen) {
   InputFrame next;
   std::string why;
@@ -108,15 +116,7 @@ InputFrame LiveInput::Take(LiveEvent event, bool chosen) {
     next.reason = missing.reason;
     why = missing.why;
   }
-  const bool wrong_size = next.reason == "image_size";
-  if (chosen && !why.empty() && !(wrong_size && size_was_wrong_)) {
-    say_(fmt::format("frame {} skipped: {}: {}{}",
-                     position_,
-                     name_,
-                     why,
-                     wrong_size ? "; so are all until the size is that of the calibration" : ""));
-  }
-  if (chosen) size_was_wrong_ = wrong_size;
+  if (chosen) SayWhyMissing(why);
   const StampContinuity::Stamp stamp = continuity_.Next(next.stamp_ns);
   if (stamp.jumped_back_ns) {
     say_(fmt::format(

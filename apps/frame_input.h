@@ -93,13 +93,15 @@ class LiveInput : public FrameInput {
 
  private:
   InputFrame Take(LiveEvent event, bool chosen);
+  void SayWhyMissing(const std::string& why);
 
   std::string name_;
   LiveRange range_;
   Say say_;
   std::size_t next_ = 0;      // index of the frame that comes next
   std::size_t position_ = 0;  // number of the chosen frame that comes next
-  bool size_was_wrong_ = false;
+  std::string last_why_;      // why the chosen frame before was missing; empty: it was not
+  std::size_t alike_ = 0;     // chosen frames in succession that have this reason
   StampContinuity continuity_;
   PatientReader<LiveEvent> reader_;
 };

@@ -74,7 +74,12 @@ void CheckSizes(const CapturedImages& first, bool side_by_side, const DatasetInf
 Expected<GrayImage, ImageFailure> GrayOf(const cv::Mat& image, ImageSize wanted) {
   if (image.empty()) return ImageFailure{"", "no image came"};
   const bool color = image.type() == CV_8UC3;
-  if (!color && image.type() != CV_8UC1) return ImageFailure{"", "expected 8 bits a colour"};
+  if (!color && image.type() != CV_8UC1) {
+    return ImageFailure{"",
+                        fmt::format("expected 1 or 3 channels of 8 bits, found {} of {} bits",
+                                    image.channels(),
+                                    8 * image.elemSize1())};
+  }
   const RawPixels pixels{color ? "bgr8" : "mono8",
                          static_cast<std::uint32_t>(image.cols),
                          static_cast<std::uint32_t>(image.rows),

@@ -6,6 +6,7 @@
 
 #include "tests/io/scratch_folder.h"
 #include <string>
+#include <utility>
 #include <variant>
 
 #include <gmock/gmock.h>
@@ -88,6 +89,20 @@ TEST_F(Pipelines, LeaveOutFramesOfAnotherSize) {
     }
   }
   EXPECT_EQ(events, "+++---+++");
+}
+
+TEST_F(Pipelines, SayWhichPixelsTheyCannotUse) {
+  for (const auto& [format, found] :
+       {std::pair{"GRAY16_LE", "found 1 of 16 bits"}, std::pair{"BGRA", "found 4 of 8 bits"}}) {
+    const auto source =
+        OpenLiveSource(Signal(std::string("width=64,height=48,format=") + format + " ! appsink"),
+                       Options("64, 48"));
+    const LiveEvent event = source->Next();
+    ASSERT_TRUE(std::holds_alternative<MissingFrame>(event)) << format;
+    EXPECT_EQ(std::get<MissingFrame>(event).reason, "image_unreadable");
+    EXPECT_EQ(std::get<MissingFrame>(event).why,
+              std::string("expected 1 or 3 channels of 8 bits, ") + found);
+  }
 }
 
 // A test signal that is played nowhere: GStreamer would wait for its first picture for ever.
