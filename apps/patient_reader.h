@@ -46,7 +46,7 @@ class PatientReader {
 
   // What the function returns for `which`. `go_on` is asked about every 50 ms while that takes;
   // when it says no, the call has a quarter of a second more, then it is given up: nullopt, and
-  // nothing can be read any more. Rethrows what the function throws.
+  // nothing can be read any more, as when it throws. Rethrows what either function throws.
   std::optional<Result> Read(std::size_t which, const std::function<bool()>& go_on) {
     constexpr std::chrono::milliseconds kAskEvery(50);
     constexpr std::chrono::milliseconds kGrace(250);
@@ -57,7 +57,9 @@ class PatientReader {
     const auto answered = [&] { return exchange_->Answered(); };
     while (!exchange_->changed.wait_for(lock, kAskEvery, answered)) {
       lock.unlock();
+      given_up_ = true;  // unless `go_on` returns
       const bool more = go_on();
+      given_up_ = false;
       lock.lock();
       if (more || exchange_->changed.wait_for(lock, kGrace, answered)) continue;
       given_up_ = true;

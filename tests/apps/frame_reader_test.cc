@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,17 @@ TEST(FrameReader, GivesUpWhatDoesNotAnswer) {
   }
   EXPECT_EQ(asked, 3);
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(250));
+  dataset->Release();
+}
+
+// Who asks may throw in place of saying no, as Python does when it is interrupted.
+TEST(FrameReader, GivesUpWhereGoOnThrows) {
+  const auto dataset = std::make_shared<SlowDataset>();
+  {
+    FrameReader reader(dataset);
+    EXPECT_THROW(reader.Read(kBlocking, []() -> bool { throw std::runtime_error("interrupted"); }),
+                 std::runtime_error);
+  }  // does not wait for the frame
   dataset->Release();
 }
 
