@@ -37,6 +37,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -116,15 +117,31 @@ struct RunSetup {
 };
 
 // Which frames the run is of and what is done to them, as the arguments that say so; not where it
-// ends.
+// ends. What is as it would be without the argument is not told.
 std::string DescribeInput(const CommandLine& line) {
-  std::string words;
-  for (const char* option : {"--from", "--stride", "--blur"}) {
-    if (const auto value = line.Value(option)) words += fmt::format("{} {} ", option, *value);
+  std::vector<std::string> words;
+  const auto tell = [&](const char* option, int fallback, CountRange range) {
+    const int value = line.Count(option, fallback, range);
+    if (value != fallback) words.push_back(fmt::format("{} {}", option, value));
+  };
+  tell("--from", 0, {0, kMostFrames});
+  tell("--stride", 1, {1, kMostFrames});
+  tell("--blur", 1, {1, kWidestBlur});
+  if (line.Has("--reverse")) words.emplace_back("--reverse");
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+// The same of the words of a checkpoint, which may tell what is as by default; words that are no
+// arguments stay as they are.
+std::string DescribeInputAgain(const std::string& words) {
+  std::vector<std::string> arguments = {"PATH"};
+  std::istringstream stream(words);
+  for (std::string word; stream >> word;) arguments.push_back(word);
+  try {
+    return DescribeInput(CommandLine(RunSyntax(), arguments));
+  } catch (const InputError&) {
+    return words;
   }
-  if (line.Has("--reverse")) words += "--reverse ";
-  if (!words.empty()) words.pop_back();
-  return words;
 }
 
 // Reads the checkpoint that is to be gone on from, whole, before anything is written. Its options
@@ -139,11 +156,12 @@ void ReadCheckpoint(const CommandLine& line, RunSetup& setup, OptionTable& table
   setup.resume = *file;
   setup.saved = LoadCheckpoint(*file);
   const std::string input = DescribeInput(line);
+  const std::string saved_input = DescribeInputAgain(setup.saved->input);
   const auto shown = [](const std::string& words) { return words.empty() ? "none" : words; };
-  if (setup.saved->input != input) {
+  if (saved_input != input) {
     throw InputError(fmt::format("{}: expected the run's choice of frames again ({}), found {}",
                                  *file,
-                                 Printable(shown(setup.saved->input), kLongestMessage),
+                                 Printable(shown(saved_input), kLongestMessage),
                                  shown(input)));
   }
   table.LoadText(setup.saved->maps.context.options_yaml, *file);

@@ -4,6 +4,7 @@
 // Runs that stop in the middle and are gone on with: --checkpoint and --resume.
 //
 // PLUMBLINE_PAUSES=5 stops each recorded sequence and world at five frames, one after the other.
+#include "plumbline/io/checkpoint_io.h"
 #include "worlds/sequence_cache.h"
 #include "worlds/world.h"
 #include "worlds/world_catalog.h"
@@ -18,6 +19,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -128,6 +130,26 @@ TEST(CheckpointOfRun, IsWrittenWhenASignalStopsIt) {
   run.ExpectToRun("--resume " + Quoted(run.checkpoint()) + " --out " + Quoted(run.folder / "part"));
   run.ExpectToRun("--out " + Quoted(run.whole()));
   ExpectTheSameResults(run.whole(), run.folder / "part");
+}
+
+// What is given as it is by default is the same choice of frames, also in the words of a
+// checkpoint.
+TEST(CheckpointOfRun, DoesNotMindDefaultsThatAreSpeltOut) {
+  const PausedRun run{{}, Posters().sequence, ""};
+  const std::string spelt_out = "--from 0 --stride 1 --blur 1 ";
+  const std::string part = " --out " + Quoted(run.folder / "part");
+  for (const auto& [before, after] :
+       {std::pair{spelt_out, std::string()}, {std::string(), spelt_out}}) {
+    run.ExpectToRun(before + "--to 5 --checkpoint " + Quoted(run.checkpoint()) + part);
+    run.ExpectToRun(after + "--to 8 --resume " + Quoted(run.checkpoint()) + part);
+  }
+  SavedRun saved = LoadCheckpoint(run.checkpoint());
+  EXPECT_EQ(saved.input, "");
+  saved.input = "--from 0 --blur 1";
+  SaveCheckpoint(run.checkpoint(), saved);
+  run.ExpectToRun("--to 8 --resume " + Quoted(run.checkpoint()) + part);
+  ExpectRefusal(run.Run("--from 1 --resume " + Quoted(run.checkpoint()) + part),
+                "expected the run's choice of frames again (none), found --from 1");
 }
 
 TEST(CheckpointOfRun, IsRefusedForAnotherRunAndNothingIsTouched) {
