@@ -33,6 +33,27 @@ std::optional<ImageContents> ContentsOf(const ImageMessage& image) {
   return contents == ImageContents::kDepth ? contents : ImageContents::kGray;
 }
 
+// Whether the stamp 0 of the first image is a time, as that of a simulation that begins at 0: no
+// other image has it, and the next one comes soon after. Otherwise 0 means that there is no stamp.
+bool BeginsAtZero(const std::vector<RecordedImage>& images) {
+  constexpr std::int64_t kSoonNs = 60'000'000'000;
+  if (images.size() < 2 || images[0].stamp_ns != 0 || images[1].stamp_ns > kSoonNs) return false;
+  return std::none_of(images.begin() + 1, images.end(), [](const RecordedImage& image) {
+    return image.stamp_ns == 0;
+  });
+}
+
+// Gives images without a stamp the time when they were recorded. Returns how many there are.
+std::size_t TakeTimesOfRecording(std::vector<RecordedImage>& images) {
+  std::size_t count = 0;
+  for (RecordedImage& image : images) {
+    if (image.stamp_ns != 0) continue;
+    image.stamp_ns = image.place.logged_ns;
+    ++count;
+  }
+  return count;
+}
+
 // Collects the messages that pass.
 class TopicCollector {
  public:
@@ -59,12 +80,9 @@ class TopicCollector {
       topic.frame = image->frame;
       topic.contents = ContentsOf(*image);
     }
-    std::int64_t stamp_ns = image->stamp_ns;
-    if (stamp_ns == 0) {
-      stamp_ns = place.logged_ns;
-      ++topic.without_stamp;
-    }
-    if (stamp_ns < 0 || stamp_ns > kLatestStampNs) Fail(channel);
+    const std::int64_t stamp_ns = image->stamp_ns;
+    const std::int64_t checked_ns = stamp_ns == 0 ? place.logged_ns : stamp_ns;
+    if (checked_ns < 0 || checked_ns > kLatestStampNs) Fail(channel);
     topic.images.push_back({stamp_ns, place});
   }
 
@@ -73,6 +91,7 @@ class TopicCollector {
     topics.calibrations = std::move(calibrations_);
     for (auto& [name, topic] : images_) {
       auto& images = topic.images;
+      if (!BeginsAtZero(images)) topic.without_stamp = TakeTimesOfRecording(images);
       std::stable_sort(images.begin(), images.end(), [](const auto& a, const auto& b) {
         return a.stamp_ns < b.stamp_ns;
       });

@@ -430,6 +430,32 @@ TEST(Recordings, OrderImagesByTheSensorsStamps) {
               Contains(HasSubstr("1 images of /c/image have the stamp of another")));
 }
 
+// The frames of images with these stamps that are recorded one each second from 100 s on.
+std::vector<std::int64_t> FramesOfStamps(const std::vector<std::int64_t>& stamps_ns) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  std::int64_t logged_ns = 100 * kSecond;
+  for (const std::int64_t stamp_ns : stamps_ns) {
+    bag.Add("/c/image",
+            "sensor_msgs/Image",
+            logged_ns,
+            RawImageMessage(Dialect::kRos1, Gray(stamp_ns, 'a')));
+    logged_ns += kSecond;
+  }
+  return OpenDataset(Write(folder, bag))->info().stamps_ns;
+}
+
+// A simulation begins at 0; elsewhere 0 means that nobody set the stamp.
+TEST(Recordings, MayBeginAtZero) {
+  EXPECT_THAT(FramesOfStamps({0, kSecond / 20, kSecond / 10}),
+              ElementsAre(0, kSecond / 20, kSecond / 10));
+  EXPECT_THAT(FramesOfStamps({0, 0, 0}), ElementsAre(100 * kSecond, 101 * kSecond, 102 * kSecond));
+  EXPECT_THAT(FramesOfStamps({0, 103 * kSecond, 104 * kSecond}),
+              ElementsAre(100 * kSecond, 103 * kSecond, 104 * kSecond));
+  EXPECT_THAT(FramesOfStamps({0}), ElementsAre(100 * kSecond));
+}
+
 TEST(Recordings, RefuseWhatHasNoImages) {
   const ScratchFolder folder;
   BagWriter bag;
