@@ -8,8 +8,6 @@
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/version.h"
 
-#include <cstddef>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,11 +55,17 @@ FrameRecord RunningSystem::Process(SensorFrame frame) {
   CheckFrame(frame);
   const std::int64_t stamp_ns = frame.stamp_ns;
   CheckStamp(stamp_ns);
+  {
+    const std::lock_guard records(records_mutex_);
+    awaited_ns_ = stamp_ns;
+    awaited_.reset();
+  }
   pipeline_.Feed(std::move(frame));
   pipeline_.Drain();
   {
     const std::lock_guard records(records_mutex_);
-    if (newest_ && newest_->stamp_ns == stamp_ns) return *newest_;
+    awaited_ns_.reset();
+    if (awaited_) return *std::exchange(awaited_, std::nullopt);
   }
   // Tracking failed: completes what there is, and says why.
   finished_ = true;
@@ -84,14 +88,7 @@ std::vector<FrameRecord> RunningSystem::TakeRecords() {
 
 MapEvents RunningSystem::TakeEvents() {
   const std::lock_guard lock(records_mutex_);
-  const auto rest = [](const auto& all, std::size_t& taken) {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(taken);
-    taken = all.size();
-    return std::remove_cvref_t<decltype(all)>(first, all.end());
-  };
-  return {rest(events_.loops, loops_taken_),
-          rest(events_.joins, joins_taken_),
-          rest(events_.relocalizations, relocalizations_taken_)};
+  return std::exchange(events_, {});
 }
 
 std::vector<std::string> RunningSystem::Continue(SavedAtlas saved, bool read_only) {
@@ -115,7 +112,7 @@ void RunningSystem::Finish(const StopCheck& stop) {
   CheckRunning("finish");
   finished_ = true;
   pipeline_.Finish(stop);
-  NoteEvents(system_.events());
+  NoteNewEvents();
 }
 
 SavedAtlas RunningSystem::CopyMaps() {
@@ -175,21 +172,32 @@ void RunningSystem::CheckStamp(std::int64_t stamp_ns) {
   last_stamp_ns_ = stamp_ns;
 }
 
-void RunningSystem::NoteEvents(MapEvents events) {
+// In the thread that tracks, or when it has ended.
+void RunningSystem::NoteNewEvents() {
+  const MapEvents fresh = system_.EventsSince(events_known_);
+  if (fresh.empty()) return;
   const std::lock_guard lock(records_mutex_);
-  events_ = std::move(events);
+  const auto append = [](auto& events, const auto& more) {
+    events.insert(events.end(), more.begin(), more.end());
+  };
+  append(events_.loops, fresh.loops);
+  append(events_.joins, fresh.joins);
+  append(events_.relocalizations, fresh.relocalizations);
 }
 
 // In the thread that tracks.
 void RunningSystem::Observe(const FrameRecord& record, const FrameView& view) {
   views_.Offer(static_cast<std::size_t>(record.id.value), view);
-  NoteEvents(system_.EventsSoFar());
+  NoteNewEvents();
   const std::lock_guard lock(records_mutex_);
   if (!first_pose_seconds_ && record.status == FrameStatus::kTracked) {
     first_pose_seconds_ = SecondsSinceProcessStart();
   }
-  records_.push_back(record);
-  newest_ = record;
+  if (awaited_ns_ == record.stamp_ns) {
+    awaited_ = record;
+  } else {
+    records_.push_back(record);
+  }
 }
 
 }  // namespace plumbline::python

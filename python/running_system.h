@@ -28,13 +28,14 @@ class RunningSystem {
   const Calibration& calibration() const { return calibration_; }
   const SlamOptions& options() const { return options_; }
 
-  // Hands the images of a frame over. Its record comes, as those of all frames, out of TakeRecords.
+  // Hands the images of a frame over. Its record comes out of TakeRecords.
   void Feed(SensorFrame frame);
-  // Feed, and waits for the record, which TakeRecords will give too.
+  // Feed, and waits for the record, which TakeRecords does not give again: who calls nothing else
+  // must not gather records for ever.
   FrameRecord Process(SensorFrame frame);
   // A frame without images.
   void Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Of the frames that were tracked since the last call, in order.
+  // Of the frames that were tracked since the last call, in order, but for those of Process.
   std::vector<FrameRecord> TakeRecords();
   std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
   // From now on views of some of these frames are kept, for the report.
@@ -66,7 +67,7 @@ class RunningSystem {
   void CheckFrame(const SensorFrame& frame) const;
   void CheckStamp(std::int64_t stamp_ns);
   void Observe(const FrameRecord& record, const FrameView& view);
-  void NoteEvents(MapEvents events);
+  void NoteNewEvents();
 
   Calibration calibration_;
   SlamOptions options_;
@@ -78,12 +79,12 @@ class RunningSystem {
   KeptViews views_{{}};
   std::optional<double> first_pose_seconds_;
   std::mutex records_mutex_;
-  std::vector<FrameRecord> records_;  // not taken yet
-  std::optional<FrameRecord> newest_;
-  MapEvents events_;  // so far
-  // How many of them were taken.
-  std::size_t loops_taken_ = 0, joins_taken_ = 0, relocalizations_taken_ = 0;
-  Pipeline pipeline_;  // last: its thread calls Observe
+  std::vector<FrameRecord> records_;        // not taken yet
+  std::optional<std::int64_t> awaited_ns_;  // stamp of the frame that Process waits for
+  std::optional<FrameRecord> awaited_;      // its record
+  MapEvents events_;                        // not taken yet
+  MapEventCounts events_known_;             // taken or in events_; the tracking thread's
+  Pipeline pipeline_;                       // last: its thread calls Observe
 };
 
 }  // namespace plumbline::python

@@ -313,7 +313,8 @@ frames may be dropped. What came of the frames is told by results().)")
            py::call_guard<py::gil_scoped_release>(),
            R"(results() -> list of FrameResult
 
-Of the frames that were tracked since the last call, in order, those of process() too.)")
+Of the frames that were tracked since the last call, in order, but for those that process()
+returned.)")
       .def("continue_in",
            &ContinueIn,
            py::arg("atlas"),

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/ids.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace plumbline {
@@ -59,6 +60,23 @@ struct MapEvents {
   std::vector<Recognition> loops;
   std::vector<MapJoin> joins;
   std::vector<Relocalization> relocalizations;
+
+  bool empty() const { return loops.empty() && joins.empty() && relocalizations.empty(); }
 };
+
+// How many events of each kind somebody knows already.
+struct MapEventCounts {
+  std::size_t loops = 0;
+  std::size_t joins = 0;
+  std::size_t relocalizations = 0;
+};
+
+// Returns the events of one kind behind the first `known`; they are known from then on.
+template <class Event>
+std::vector<Event> TakeNew(const std::vector<Event>& all, std::size_t& known) {
+  std::vector<Event> fresh(all.begin() + static_cast<std::ptrdiff_t>(known), all.end());
+  known = all.size();
+  return fresh;
+}
 
 }  // namespace plumbline

@@ -281,9 +281,9 @@ MapEvents MappingStage::events() const {
   return {places_.loops(), places_.joins(), {}};
 }
 
-MapEvents MappingStage::EventsSoFar() const {
+MapEvents MappingStage::EventsSince(MapEventCounts& known) const {
   const std::lock_guard lock(mutex_);
-  return events_;
+  return {TakeNew(events_.loops, known.loops), TakeNew(events_.joins, known.joins), {}};
 }
 
 LocalMapper::State MappingStage::mapper_state() const {
@@ -352,7 +352,12 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   if (done.snapshot == nullptr) done.snapshot = versions_.back().snapshot;
   versions_.push_back({task.number, std::move(done.snapshot)});
   times_.insert(times_.end(), done.times.begin(), done.times.end());
-  events_ = {places_.loops(), places_.joins(), {}};
+  // Both lists only grow; a long one is not copied again for each task.
+  const auto take_over = [](auto& events, const auto& all) {
+    events.insert(events.end(), all.begin() + std::ssize(events), all.end());
+  };
+  take_over(events_.loops, places_.loops());
+  take_over(events_.joins, places_.joins());
   if (done.relocalization) outcomes_.push_back({task.number, *std::move(done.relocalization)});
 }
 

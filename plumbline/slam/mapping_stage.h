@@ -188,9 +188,10 @@ class MappingStage {
 
   // Loops that were closed and maps that were joined. When it may be called: see atlas().
   MapEvents events() const;
-  // Loops and joins from the steps of mapping that have ended. May be called at any time and in any
-  // thread. How many steps have ended depends on the machine's speed, their order does not.
-  MapEvents EventsSoFar() const;
+  // Loops and joins from the steps of mapping that have ended, without those that are known, which
+  // costs nothing where there are none. May be called at any time and in any thread. How many steps
+  // have ended depends on the machine's speed, their order does not.
+  MapEvents EventsSince(MapEventCounts& known) const;
 
   // What mapping remembers of the maps. When it may be called: see atlas().
   LocalMapper::State mapper_state() const;
@@ -321,7 +322,7 @@ class MappingStage {
   std::deque<Version> versions_{{}};
   std::vector<MappingStep> times_;
   std::deque<Outcome> outcomes_;  // outcomes that nobody has taken yet
-  MapEvents events_;              // what EventsSoFar() returns
+  MapEvents events_;              // what EventsSince() tells of
   std::exception_ptr failure_;
   bool stop_ = false;
   // The thread does not run in inline mode and step by step. It is declared last, so that it ends

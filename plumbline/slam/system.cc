@@ -461,8 +461,13 @@ MapEvents System::events() const {
 }
 
 MapEvents System::EventsSoFar() const {
-  MapEvents events = mapping_.EventsSoFar();
-  events.relocalizations = relocalizations_;
+  MapEventCounts none;
+  return EventsSince(none);
+}
+
+MapEvents System::EventsSince(MapEventCounts& known) const {
+  MapEvents events = mapping_.EventsSince(known);
+  events.relocalizations = TakeNew(relocalizations_, known.relocalizations);
   return events;
 }
 

@@ -190,9 +190,11 @@ class System {
   // What was recognized, joined and found again, each kind in order. When it may be called: see
   // atlas().
   MapEvents events() const;
-  // The part of events() that is known by now (MappingStage::EventsSoFar). To be called in the
-  // thread that tracks.
+  // The part of events() that is known by now. To be called in the thread that tracks.
   MapEvents EventsSoFar() const;
+  // The same without what the caller knows, which counts as known then (MappingStage::EventsSince).
+  // To be called in the thread that tracks.
+  MapEvents EventsSince(MapEventCounts& known) const;
 
   // Returns the poses of the camera as delivered after all corrections, in order of time; to be
   // called after Finish. `map` is one of maps(), otherwise InputError is thrown.

@@ -51,13 +51,13 @@ def test_python_goes_on_meanwhile(dataset):
 def test_one_thread_at_a_time_in_a_system(dataset):
     system = plumbline.System(dataset.calibration, slam={"mode": "inline"})
     frames = list(dataset)
-    begin, refusals = threading.Barrier(2), []
+    begin, results, refusals = threading.Barrier(2), [], []
 
     def work(own):
         begin.wait()
         for frame in own:
             try:
-                system.process(frame)
+                results.append(system.process(frame))
             except plumbline.InputError as error:
                 refusals.append(str(error))
 
@@ -67,7 +67,8 @@ def test_one_thread_at_a_time_in_a_system(dataset):
     for thread in threads:
         thread.join()
     # Frames that came too late or while the other one was in the system were refused, no more.
-    assert len(system.results()) + len(refusals) == 12
+    assert len(results) + len(refusals) == 12
+    assert len({result.index for result in results}) == len(results)
     for message in refusals:
         assert "one thread at a time" in message or "expected a frame after" in message
 

@@ -68,6 +68,17 @@ TEST(ContinuedMap, FirstFramesAreLostUntilTheirPlaceIsFound) {
   ExpectThePosesOfThePoster(system->CausalTrajectory(MapId{0}));
 }
 
+// What is known is not told again.
+TEST(ContinuedMap, TellsOnceThatThePlaceWasFound) {
+  const auto system = GoOn(MappedPoster(), false, 10, 30, RunMode::kInline);
+  MapEventCounts known;
+  const MapEvents events = system->EventsSince(known);
+  ASSERT_EQ(events.relocalizations.size(), 1U);
+  EXPECT_EQ(events.relocalizations[0].frame, system->events().relocalizations[0].frame);
+  EXPECT_TRUE(system->EventsSince(known).empty());
+  EXPECT_EQ(system->EventsSoFar().relocalizations.size(), 1U);
+}
+
 TEST(ContinuedMap, GrowsAndKeepsItsId) {
   const SavedAtlas saved = MappedPoster();
   const KeyFrameId first_new = saved.atlas.NextKeyFrameId();

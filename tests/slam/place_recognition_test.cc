@@ -99,7 +99,13 @@ TEST(PlaceRecognition, ClosesALoop) {
   const MapEvents events = round.stage().events();
   ASSERT_FALSE(events.loops.empty());
   EXPECT_TRUE(events.joins.empty());
-  EXPECT_EQ(round.stage().EventsSoFar().loops.size(), events.loops.size());
+  MapEventCounts known;
+  EXPECT_EQ(round.stage().EventsSince(known).loops.size(), events.loops.size());
+  EXPECT_TRUE(round.stage().EventsSince(known).empty());
+  known.loops = events.loops.size() - 1;
+  const MapEvents last = round.stage().EventsSince(known);
+  ASSERT_EQ(last.loops.size(), 1U);
+  EXPECT_EQ(last.loops[0].keyframe, events.loops.back().keyframe);
   const Recognition& loop = events.loops.front();
   EXPECT_GT(round.FrameOf(loop.keyframe) - round.FrameOf(loop.older), 250);
   EXPECT_GT(loop.points + loop.lines, 25);
@@ -125,7 +131,9 @@ TEST(PlaceRecognition, JoinsTheMapThatShowsTheSamePlace) {
   round.Go(kBlind);
   const MapEvents events = round.stage().events();
   ASSERT_EQ(events.joins.size(), 1U);
-  EXPECT_EQ(round.stage().EventsSoFar().joins.size(), 1U);
+  MapEventCounts known;
+  EXPECT_EQ(round.stage().EventsSince(known).joins.size(), 1U);
+  EXPECT_TRUE(round.stage().EventsSince(known).joins.empty());
   const MapJoin& join = events.joins.front();
   EXPECT_EQ(join.kept, MapId{0});
   EXPECT_EQ(join.gone, MapId{1});
