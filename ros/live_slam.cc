@@ -80,16 +80,13 @@ class Session {
 
  private:
   void Observe(const FrameRecord& record) {
-    const MapEvents events = system_.EventsSoFar();
-    const std::size_t count =
-        events.loops.size() + events.joins.size() + events.relocalizations.size();
-    observer_(record, count > std::exchange(corrections_, count));
+    observer_(record, !system_.EventsSince(corrections_).empty());
   }
 
   System system_;
   Observer observer_;
-  std::size_t corrections_ = 0;  // so far; the tracking thread's
-  Pipeline pipeline_;            // last: its thread calls Observe
+  MapEventCounts corrections_;  // so far; the tracking thread's
+  Pipeline pipeline_;           // last: its thread calls Observe
 };
 
 }  // namespace
@@ -116,6 +113,7 @@ class LiveSlam::Implementation {
 
  private:
   SensorFrame FrameOf(const RawImage& left, const RawImage* second) const;
+  std::unique_ptr<Session> MakeSession();
   std::unique_ptr<Session> Begin();
   void Observe(const FrameRecord& record, bool corrected);
   std::int64_t StampAsFed(std::int64_t stamp_ns);
@@ -127,6 +125,7 @@ class LiveSlam::Implementation {
   LiveSlam::Observer observer_;
   std::optional<SavedAtlas> loaded_;  // to begin with
   bool localize_ = false;
+  std::optional<std::string> unusable_;  // why no session could begin, where that was tried
   StampContinuity continuity_;
   bool has_frames_ = false;
   std::mutex stamps_mutex_;
@@ -147,6 +146,7 @@ void LiveSlam::Implementation::SetCameras(const CameraNumbers& left,
 std::optional<double> LiveSlam::Implementation::Feed(std::int64_t stamp_ns,
                                                      const RawImage& left,
                                                      const RawImage* second) {
+  if (unusable_) throw InputError(*unusable_);
   SensorFrame frame = FrameOf(left, second);
   if (!session_) session_ = Begin();
   const StampContinuity::Stamp next = continuity_.Next(stamp_ns);
@@ -173,16 +173,25 @@ SensorFrame LiveSlam::Implementation::FrameOf(const RawImage& left, const RawIma
   return frame;
 }
 
-// With what was loaded, or nothing. What was loaded stays where it does not fit.
-std::unique_ptr<Session> LiveSlam::Implementation::Begin() {
-  auto session = std::make_unique<Session>(
+std::unique_ptr<Session> LiveSlam::Implementation::MakeSession() {
+  return std::make_unique<Session>(
       *calibration_, options_, [this](const FrameRecord& r, bool corrected) {
         Observe(r, corrected);
       });
-  if (loaded_) {
-    session->system().Continue(*loaded_, localize_);
-    loaded_.reset();
+}
+
+// With what was loaded, or nothing. What was loaded stays where it does not fit, and is not tried
+// again: that would take longer than the time between two frames.
+std::unique_ptr<Session> LiveSlam::Implementation::Begin() {
+  std::unique_ptr<Session> session;
+  try {
+    session = MakeSession();
+    if (loaded_) session->system().Continue(*loaded_, localize_);
+  } catch (const InputError& error) {
+    unusable_ = error.what();
+    throw;
   }
+  loaded_.reset();
   has_frames_ = false;
   return session;
 }
@@ -241,12 +250,11 @@ std::vector<std::string> LiveSlam::Implementation::Load(const std::string& path,
     localize_ = localize;
     return {};
   }
-  auto session = std::make_unique<Session>(
-      *calibration_, options_, [this](const FrameRecord& r, bool corrected) {
-        Observe(r, corrected);
-      });
+  std::unique_ptr<Session> session = MakeSession();
   std::vector<std::string> remarks = session->system().Continue(std::move(saved), localize);
   session_ = std::move(session);
+  loaded_.reset();
+  unusable_.reset();
   has_frames_ = false;
   return remarks;
 }
@@ -254,6 +262,7 @@ std::vector<std::string> LiveSlam::Implementation::Load(const std::string& path,
 void LiveSlam::Implementation::Reset() {
   session_.reset();
   loaded_.reset();
+  unusable_.reset();
   localize_ = false;
   has_frames_ = false;
 }

@@ -92,7 +92,8 @@ class LiveSlam {
 
   // A frame; `second` is the right image or the depth image, null with one camera. Stamps that jump
   // back go on behind the frame before (StampContinuity): then this returns by how many seconds
-  // they jumped. 16 bits of depth are millimetres.
+  // they jumped. 16 bits of depth are millimetres. Where maps that wait do not fit the camera,
+  // every frame is refused for that reason until Load or Reset.
   std::optional<double> Feed(std::int64_t stamp_ns, const RawImage& left, const RawImage* second);
   bool HasFrames() const;
 

@@ -3,14 +3,24 @@
 #include "ros/live_slam.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/io/map_io.h"
 
+#include "tests/io/scratch_folder.h"
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace plumbline::ros_node {
 namespace {
+
+using testing::HasSubstr;
+
+constexpr std::uint32_t kWidth = 64, kHeight = 48;
 
 // Numbers of which only P, of the rectified images, can be those of a camera.
 CameraNumbers RectifiedNumbers() {
@@ -49,6 +59,70 @@ TEST(LiveSlam, TellsRectifiedImagesByTheirTopicUnlessItIsTold) {
     EXPECT_FALSE(AreRectified(std::nullopt, topic)) << topic;
     EXPECT_TRUE(AreRectified(true, topic)) << topic;
   }
+}
+
+CameraNumbers Numbers() {
+  CameraNumbers numbers;
+  numbers.topic = "/camera_info";
+  numbers.width = kWidth;
+  numbers.height = kHeight;
+  numbers.distortion_model = "plumb_bob";
+  numbers.d = {0, 0, 0, 0, 0};
+  numbers.k = {50, 0, 32, 0, 50, 24, 0, 0, 1};
+  numbers.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  numbers.p = {50, 0, 32, 0, 0, 50, 24, 0, 0, 0, 1, 0};
+  return numbers;
+}
+
+// A file with an empty map of another camera.
+std::filesystem::path MapOfAnotherCamera(const ScratchFolder& folder) {
+  Atlas atlas;
+  atlas.Start();
+  AtlasContext context;
+  context.camera = {70, 70, 32, 24, 0, kWidth, kHeight};
+  SaveAtlas(folder / "other.plb", atlas, context);
+  return folder / "other.plb";
+}
+
+// Frames of one grey.
+class Frames {
+ public:
+  explicit Frames(LiveSlam& slam) : slam_(slam) {}
+
+  void FeedNext(const std::string& encoding) {
+    RawImage image;
+    image.topic = "/image";
+    image.encoding = encoding;
+    image.width = image.step = kWidth;
+    image.height = kHeight;
+    image.data = pixels_.data();
+    image.size = pixels_.size();
+    slam_.Feed(stamp_ns_ += 50'000'000, image, nullptr);
+  }
+
+ private:
+  LiveSlam& slam_;
+  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(std::size_t{kWidth} * kHeight, 90);
+  std::int64_t stamp_ns_ = 0;
+};
+
+// A map that waits for the camera and does not fit it is tried once. Frames after that are refused
+// before anything is done for them, which the pixels of an unknown kind show.
+TEST(LiveSlam, TriesAMapThatDoesNotFitOnce) {
+  const ScratchFolder folder;
+  LiveSlam slam(LiveSlamSettings(), [](const FrameOutcome&) {});
+  Frames frames(slam);
+  EXPECT_TRUE(slam.Load(MapOfAnotherCamera(folder).string(), false).empty());
+  slam.SetCameras(Numbers(), std::nullopt, "/image");
+  const std::string message = MessageOf([&] { frames.FeedNext("mono8"); });
+  EXPECT_THAT(message, HasSubstr("expected a map of the same rectified camera, found "));
+  EXPECT_EQ(MessageOf([&] { frames.FeedNext("mono8"); }), message);
+  EXPECT_EQ(MessageOf([&] { frames.FeedNext("unknown"); }), message);
+  EXPECT_FALSE(slam.HasFrames());
+  slam.Reset();
+  EXPECT_EQ(MessageOf([&] { frames.FeedNext("mono8"); }), "no error");
+  EXPECT_TRUE(slam.HasFrames());
+  EXPECT_THAT(MessageOf([&] { frames.FeedNext("unknown"); }), HasSubstr("the encoding 'unknown'"));
 }
 
 }  // namespace
