@@ -52,12 +52,6 @@ class Floats {
   std::string bytes_;
 };
 
-std::string Positions(const std::vector<Rigid3>& poses, const Vector3d& origin) {
-  Floats floats;
-  for (const Rigid3& pose : poses) floats.Add(pose.translation - origin);
-  return floats.Encoded();
-}
-
 Json Options(const std::string& yaml) {
   SlamOptions defaults, used;
   const OptionTable default_table(defaults);
@@ -116,6 +110,7 @@ Json Counts(const RunCounts& c) {
           {"tracked", c.tracked},
           {"lost", c.lost},
           {"skipped", c.skipped},
+          {"dropped", c.dropped},
           {"initializing", c.initializing},
           {"shed_mapping", c.shed_mapping},
           {"shed_lines", c.shed_lines},
@@ -127,39 +122,35 @@ Json Counts(const RunCounts& c) {
           {"lines", c.lines}};
 }
 
-template <class Value>
-Json Column(const FrameLog& frames, Value value) {
-  Json column = Json::array();
-  for (const FrameRecord& frame : frames) column.push_back(value(frame));
-  return column;
-}
-
-Json Frames(const FrameLog& frames) {
+Json Frames(const FrameLog& frames, const ShownFrames& shown) {
   using F = FrameRecord;
-  const std::int64_t start = frames.empty() ? 0 : frames.front().stamp_ns;
-  return {{"seconds",
-           Column(frames,
-                  [&](const F& f) {
-                    return Rounded(static_cast<double>(f.stamp_ns - start) * 1e-9, 4);
-                  })},
-          {"state", Column(frames, [](const F& f) { return NameOf(f.status); })},
-          {"reason", Column(frames, [](const F& f) { return f.reason; })},
-          {"shed", Column(frames, [](const F& f) { return NameOf(f.shed); })},
-          {"map",
-           Column(frames,
-                  [](const F& f) { return f.map.valid() ? Json(f.map.value) : Json(nullptr); })},
-          {"keyframe", Column(frames, [](const F& f) { return f.keyframe ? 1 : 0; })},
-          {"matched_points", Column(frames, [](const F& f) { return f.counts.matched_points; })},
-          {"inlier_points", Column(frames, [](const F& f) { return f.counts.inlier_points; })},
-          {"matched_lines", Column(frames, [](const F& f) { return f.counts.matched_lines; })},
-          {"inlier_lines", Column(frames, [](const F& f) { return f.counts.inlier_lines; })}};
+  const auto column = [&](const auto& value) {
+    Json values = Json::array();
+    for (const std::size_t number : shown.numbers()) values.push_back(value(frames[number]));
+    return values;
+  };
+  const std::int64_t start = frames.empty() ? 0 : frames.StampOf(0);
+  return {
+      {"number", shown.numbers()},
+      {"seconds", column([&](const F& f) {
+         return Rounded(static_cast<double>(f.stamp_ns - start) * 1e-9, 4);
+       })},
+      {"state", column([](const F& f) { return NameOf(f.status); })},
+      {"reason", column([](const F& f) { return f.reason; })},
+      {"shed", column([](const F& f) { return NameOf(f.shed); })},
+      {"map", column([](const F& f) { return f.map.valid() ? Json(f.map.value) : Json(nullptr); })},
+      {"keyframe", column([](const F& f) { return f.keyframe ? 1 : 0; })},
+      {"matched_points", column([](const F& f) { return f.counts.matched_points; })},
+      {"inlier_points", column([](const F& f) { return f.counts.inlier_points; })},
+      {"matched_lines", column([](const F& f) { return f.counts.matched_lines; })},
+      {"inlier_lines", column([](const F& f) { return f.counts.inlier_lines; })}};
 }
 
-Json Stages(const FrameLog& frames) {
+Json Stages(const FrameLog& frames, const ShownFrames& shown) {
   Json stages = Json::array();
   for (const StageStatistics& s : TimingStatistics(frames)) {
     Json column = Json::array();
-    for (const std::optional<double>& ms : StageMilliseconds(frames, s.stage)) {
+    for (const std::optional<double>& ms : StageMilliseconds(frames, shown.numbers(), s.stage)) {
       column.push_back(ms ? Rounded(*ms, 3) : Json(nullptr));
     }
     stages.push_back({{"name", s.stage},
@@ -183,18 +174,28 @@ Json Statistics(const std::optional<ErrorStatistics>& s, double factor) {
           {"count", s->count}};
 }
 
-Json Error(const MapScene& map, SensorKind sensor) {
+// Returns the row of a frame; null where it is not shown.
+Json Row(const ShownFrames& shown, std::size_t frame) {
+  const std::optional<std::size_t> row = shown.RowOf(frame);
+  return row ? Json(*row) : Json(nullptr);
+}
+
+Json Error(const MapScene& map, SensorKind sensor, const ShownFrames& shown) {
   if (!map.error) return nullptr;
   const TrajectoryError& error = *map.error;
   Json frames = Json::array(), position = Json::array(), rotation = Json::array();
   for (const EvaluatedPose& pose : error.poses) {
-    frames.push_back(map.frames[pose.row]);
+    const Json row = Row(shown, map.frames[pose.row]);
+    if (row.is_null()) continue;
+    frames.push_back(row);
     position.push_back(Rounded(pose.position_error, 6));
     rotation.push_back(Rounded(pose.rotation_error * kDegrees, 4));
   }
   Json from = Json::array(), to = Json::array(), rpe = Json::array(), roe = Json::array();
   for (const RelativeError& r : error.relative) {
-    from.push_back(map.frames[error.poses[r.from].row]);
+    const Json row = Row(shown, map.frames[error.poses[r.from].row]);
+    if (row.is_null()) continue;
+    from.push_back(row);
     to.push_back(map.frames[error.poses[r.to].row]);
     rpe.push_back(Rounded(r.translation, 6));
     roe.push_back(Rounded(r.rotation * kDegrees, 5));
@@ -214,8 +215,18 @@ Json Error(const MapScene& map, SensorKind sensor) {
           {"relative_rotation", std::move(roe)}};
 }
 
-Json MapData(const MapScene& map, const Vector3d& origin, SensorKind sensor) {
-  Floats points, lines, keyframes;
+Json MapData(const MapScene& map,
+             const Vector3d& origin,
+             SensorKind sensor,
+             const ShownFrames& shown) {
+  Json frames = Json::array();
+  Floats positions, points, lines, keyframes;
+  for (std::size_t i = 0; i < map.frames.size(); ++i) {
+    const Json row = Row(shown, map.frames[i]);
+    if (row.is_null()) continue;
+    frames.push_back(row);
+    positions.Add(map.poses[i].translation - origin);
+  }
   for (const Vector3d& point : map.points) points.Add(point - origin);
   for (const Segment3& line : map.lines) {
     lines.Add(line.start - origin);
@@ -229,13 +240,14 @@ Json MapData(const MapScene& map, const Vector3d& origin, SensorKind sensor) {
           {"keyframe_count", map.keyframe_count},
           {"point_count", map.point_count},
           {"line_count", map.line_count},
-          {"frames", map.frames},
-          {"positions", Positions(map.poses, origin)},
+          {"pose_count", map.poses.size()},
+          {"frames", std::move(frames)},
+          {"positions", positions.Encoded()},
           {"keyframe_frames", map.keyframe_frames},
           {"keyframes", keyframes.Encoded()},
           {"points", points.Encoded()},
           {"lines", lines.Encoded()},
-          {"error", Error(map, sensor)}};
+          {"error", Error(map, sensor, shown)}};
 }
 
 Json Place(const std::optional<Vector3d>& place, const Vector3d& origin) {
@@ -244,10 +256,10 @@ Json Place(const std::optional<Vector3d>& place, const Vector3d& origin) {
   return {Rounded(at.x(), 4), Rounded(at.y(), 4), Rounded(at.z(), 4)};
 }
 
-Json Event(const RunEvent& event, const Vector3d& origin) {
+Json Event(const RunEvent& event, const Vector3d& origin, const ShownFrames& shown) {
   const Recognition& place = event.place;
   Json json = {{"kind", NameOf(event.kind)},
-               {"frame", place.frame.value},
+               {"frame", Row(shown, static_cast<std::size_t>(place.frame.value))},
                {"older_keyframe", place.older.value},
                {"map", event.map ? Json(event.map->value) : Json(nullptr)},
                {"older_at", Place(event.older_at, origin)},
@@ -268,19 +280,21 @@ Json Event(const RunEvent& event, const Vector3d& origin) {
   return json;
 }
 
-Json Events(const RunScene& scene) {
+Json Events(const RunScene& scene, const ShownFrames& shown) {
   Json events = Json::array();
-  for (const RunEvent& event : scene.events) events.push_back(Event(event, scene.origin));
+  for (const RunEvent& event : scene.events) events.push_back(Event(event, scene.origin, shown));
   return events;
 }
 
-Json Scene(const System& system, const Dataset& dataset) {
-  const RunScene scene = MakeRunScene(system, dataset);
+Json Scene(const System& system,
+           const Dataset& dataset,
+           const RunScene& scene,
+           const ShownFrames& shown) {
   Json maps = Json::array();
   for (const MapScene& map : scene.maps) {
-    maps.push_back(MapData(map, scene.origin, dataset.sensor()));
+    maps.push_back(MapData(map, scene.origin, dataset.sensor(), shown));
   }
-  const std::int64_t start = system.frames().empty() ? 0 : system.frames().front().stamp_ns;
+  const std::int64_t start = system.frames().empty() ? 0 : system.frames().StampOf(0);
   Floats reference, reference_seconds;
   for (const StampedPose& pose : scene.reference) {
     reference.Add(pose.world_from_camera.translation - scene.origin);
@@ -294,7 +308,7 @@ Json Scene(const System& system, const Dataset& dataset) {
           {"reference_seconds", reference_seconds.Encoded()},
           {"main", scene.main ? Json(*scene.main) : Json(nullptr)},
           {"maps", std::move(maps)},
-          {"events", Events(scene)},
+          {"events", Events(scene, shown)},
           // The borders of the image plane at unit depth: left, top, right, bottom.
           {"frustum",
            {-camera.cx / camera.fx,
@@ -318,10 +332,10 @@ std::string Pixels(const std::vector<Segment2>& segments) {
   return floats.Encoded();
 }
 
-Json Samples(const std::vector<SampleImage>& samples) {
+Json Samples(const std::vector<SampleImage>& samples, const ShownFrames& shown) {
   Json list = Json::array();
   for (const SampleImage& sample : samples) {
-    list.push_back({{"frame", sample.frame.value},
+    list.push_back({{"frame", Row(shown, static_cast<std::size_t>(sample.frame.value))},
                     {"file", sample.file},
                     {"width", sample.width},
                     {"height", sample.height},
@@ -334,18 +348,35 @@ Json Samples(const std::vector<SampleImage>& samples) {
   return list;
 }
 
+// Returns the frames that are shown whatever their number: those of events and images.
+std::vector<std::size_t> FramesSpokenOf(const RunScene& scene,
+                                        const std::vector<SampleImage>& samples) {
+  std::vector<std::size_t> frames;
+  for (const RunEvent& event : scene.events) {
+    frames.push_back(static_cast<std::size_t>(event.place.frame.value));
+  }
+  for (const SampleImage& sample : samples) {
+    frames.push_back(static_cast<std::size_t>(sample.frame.value));
+  }
+  return frames;
+}
+
 }  // namespace
 
 std::string FormatReportData(const System& system,
                              const Dataset& dataset,
                              const ReportContext& context) {
+  const RunScene scene = MakeRunScene(system, dataset);
+  const ShownFrames shown(
+      system.frames(), FramesSpokenOf(scene, context.samples), context.most_frames);
   Json json;
   json["run"] = Run(dataset, context);
   json["counts"] = Counts(CountRun(system));
-  json["frames"] = Frames(system.frames());
-  json["stages"] = Stages(system.frames());
-  json["scene"] = Scene(system, dataset);
-  json["samples"] = Samples(context.samples);
+  json["shown_every"] = shown.step();
+  json["frames"] = Frames(system.frames(), shown);
+  json["stages"] = Stages(system.frames(), shown);
+  json["scene"] = Scene(system, dataset, scene, shown);
+  json["samples"] = Samples(context.samples, shown);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

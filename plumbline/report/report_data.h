@@ -4,9 +4,11 @@
 
 #include "plumbline/io/dataset.h"
 #include "plumbline/report/sample_image.h"
+#include "plumbline/report/shown_frames.h"
 #include "plumbline/report/summary.h"
 #include "plumbline/slam/system.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,12 +20,17 @@ struct ReportContext {
   ResourceUse resources;
   std::string date;  // shown as it is
   std::vector<SampleImage> samples;
+  // Of a run with more frames every n-th one is shown (ShownFrames).
+  std::size_t most_frames = ShownFrames::kMost;
 };
 
 // Returns all that report.html shows, as one JSON object. Its keys are those that report_page.js
-// reads: "run" (what was run, with which options), "counts", "frames" (columns, one entry a frame),
-// "stages" (times), "scene" (maps, trajectories, errors, loops and the like; arrays of float32 in
+// reads: "run" (what was run, with which options), "counts" (of all frames), "frames" (columns, one
+// row for each frame that is shown, with its number), "stages" (times, of the same rows; statistics
+// of all frames), "scene" (maps, trajectories, errors, loops and the like; arrays of float32 in
 // base64, metres, relative to "origin"), "samples" (images as data: URIs, with their features).
+// What refers to a frame gives its row, but for "keyframe_frames" and "relative_to", which have
+// numbers of frames.
 //
 // Text that is not UTF-8 is repaired.
 //

@@ -86,7 +86,7 @@ function eventRow(event) {
   const older = `keyframe ${event.older_keyframe}` +
       (event.map !== null && scene.maps.length > 1 ? `, map ${event.map}` : "");
   const cells = [
-    eventWhat(event), `frame ${event.frame}, ${digits(frames.seconds[event.frame], 4)} s`,
+    eventWhat(event), `frame ${frameNumber(event.frame)}, ${digits(frames.seconds[event.frame], 4)} s`,
     `${older} at ${place}`, `${whole(event.points)} points, ${whole(event.lines)} lines`,
     chanceText(event.log10_chance), movedText(event)
   ];

@@ -11,7 +11,7 @@ function sampleCaption(sample) {
       plural(frames["matched_" + kind][i], "matched " + word);
   const matched = frames.matched_points[i] + frames.matched_lines[i] > 0;
   return [
-    make("b", {}, `Frame ${i}`),
+    make("b", {}, `Frame ${frameNumber(i)}`),
     ` at ${frames.seconds[i].toFixed(2)} s, ${frames.state[i]}${reason}${keyframe}. `,
     matched ? `Used for the pose: ${used("points", "point")}, ${used("lines", "line")}.` :
               "Nothing matched with the map."
@@ -45,7 +45,7 @@ function makePicture(sample) {
   const holder = document.createElement("template");
   // Only numbers go into this text. Pixel centres are at whole numbers.
   holder.innerHTML = `<svg viewBox="-0.5 -0.5 ${size}" aria-hidden="true">${layers.join("")}</svg>`;
-  const alt = `Frame ${sample.frame} with its features`;
+  const alt = `Frame ${frameNumber(sample.frame)} with its features`;
   const {image, width, height} = sample;
   return make(
       "div", {class: "picture"}, make("img", {src: image, width, height, alt}), holder.content);
@@ -82,7 +82,7 @@ function buildImages() {
     viewer.showModal();
   };
   for (const sample of data.samples) {
-    const label = `Enlarge frame ${sample.frame}`;
+    const label = `Enlarge frame ${frameNumber(sample.frame)}`;
     const attributes = {type: "button", "aria-label": label, onclick: () => enlarge(sample)};
     grid.append(make(
         "figure", {}, make("button", attributes, makePicture(sample)),
@@ -206,7 +206,7 @@ function makeHistogram(host) {
   if (period && period < 1.5 * longest) marks.push(["frame period", period]);
   const figure = chartFigure("Time from an image to its pose", makeLegend([{
                                color: paint("stage-1"),
-                               text: plural(times.length, "frame") +
+                               text: plural(times.length, "frame") + (data.shown_every > 1 ? " shown" : "") +
                                    (open ? ", the last bin with all that are longer" : "")
                              }]));
   host.append(figure);

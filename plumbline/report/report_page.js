@@ -15,8 +15,7 @@ function tile(name, value, unit, ...more) {
 }
 
 function missingFrames() {
-  const {lost, skipped, initializing} = data.counts;
-  const dropped = frames.reason.filter((reason) => reason === "dropped").length;
+  const {lost, skipped, dropped, initializing} = data.counts;
   return [
     [lost, "lost"],
     [skipped, dropped > 0 ? `skipped, ${whole(dropped)} of them dropped` : "skipped"],
@@ -52,7 +51,7 @@ function verdict() {
     parts.push(
         `ATE ${metres(error.ate.rmse)} (RMSE over ${plural(error.ate.count, "pose")}` +
         `${scene.maps.length > 1 ? " of the largest map" : ""}, ${error.alignment} alignment, ` +
-        `coverage ${percentOfFrames(mainMap.frames.length)} %)`);
+        `coverage ${percentOfFrames(mainMap.pose_count)} %)`);
   }
   if (events.length) parts.push(eventCounts().join(", "));
   if (shedWork().length) parts.push(`behind the camera: ${shedWork().join(", ")}`);
@@ -90,6 +89,15 @@ function changedText() {
   if (changedOptions.length === 0) return ["All options have their defaults. "];
   const settings = changedOptions.map(({key, value}) => make("code", {}, `${key}=${value}`));
   return ["Other than the defaults: ", ...settings.flatMap((setting) => [setting, " "])];
+}
+
+// Which frames are shown; nothing where all are.
+function shownText() {
+  const every = data.shown_every;
+  if (every === 1) return "";
+  return ` Of the frames ${whole(frameCount)} are shown one by one: one in ${whole(every)}, and ` +
+      "those where the state changes or a place was seen again. Figures are of all frames, and " +
+      "frames.csv and timing.csv have every one. ";
 }
 
 // Nothing where the run came to its end.
@@ -137,7 +145,7 @@ function buildHeader() {
               c.maps > 1 ? `largest of ${c.maps} maps` :
                   c.maps === 1 ? "one map" :
                                  "no map")),
-      make("p", {class: "note after"}, ...changedText(), run.notes.join(" ")),
+      make("p", {class: "note after"}, ...changedText(), run.notes.join(" "), shownText()),
       make(
           "nav", {"aria-label": "Sections"},
           nav.map(([id, name]) => make("a", {href: "#" + id}, name))));

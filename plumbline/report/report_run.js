@@ -4,7 +4,10 @@
 // The data of the run, and what the sections of the page share.
 
 const data = JSON.parse(document.getElementById("run-data").textContent);
+// Columns with a row for each frame that is shown: all of a short run, every n-th of a long one.
+// Everything below speaks of frames by their rows.
 const frames = data.frames;
+const frameNumber = (row) => frames.number[row];
 const frameCount = frames.seconds.length;
 const scene = data.scene;
 
@@ -76,8 +79,9 @@ for (let i = 0; i < frameCount; ++i) {
     outages.push({state, from: i, to: i});
 }
 
-// The mean time from frame to frame.
-const framePeriod = frameCount > 1 ? frames.seconds[frameCount - 1] / (frameCount - 1) : 1;
+// The mean time from frame to frame, those that are not shown included.
+const framePeriod =
+    frameCount > 1 ? frames.seconds[frameCount - 1] / (data.counts.frames - 1) : 1;
 
 // When an outage begins and ends, half a frame before and after its frames.
 const beginOf = (outage) => frames.seconds[outage.from] - framePeriod / 2;
@@ -110,7 +114,7 @@ function frameHead(i) {
   const what = state === "tracked" ? "" : ", " + state + reason;
   const less = {mapping: ", less mapping", lines: ", fewer lines", points: ", fewer points"};
   return {
-    head: `Frame ${i}${what}${frames.keyframe[i] ? ", keyframe" : ""}` +
+    head: `Frame ${frameNumber(i)}${what}${frames.keyframe[i] ? ", keyframe" : ""}` +
         `${less[frames.shed[i]] || ""}${eventsAt(i)}`
   };
 }

@@ -3,8 +3,8 @@
 #include "plumbline/report/run_scene.h"
 
 #include "plumbline/report/summary.h"
+#include "plumbline/report/thinning.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -12,11 +12,6 @@ namespace plumbline {
 namespace {
 
 using Eigen::Vector3d;
-
-// Returns n where every n-th of `count` things is shown, so that there are at most `limit`.
-std::size_t StepFor(std::size_t count, std::size_t limit) {
-  return std::max<std::size_t>(1, (count + limit - 1) / std::max<std::size_t>(limit, 1));
-}
 
 std::size_t FrameAt(const FrameLog& frames, std::int64_t stamp_ns) {
   // The range of frames in which the first later one is.
@@ -68,13 +63,6 @@ MapScene MakeMapScene(const System& system, const Dataset& dataset, const Map& m
   scene.point_count = scene.points.size();
   scene.line_count = scene.lines.size();
   return scene;
-}
-
-template <class T>
-void KeepEvery(std::size_t step, std::vector<T>& things) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < things.size(); i += step) things[kept++] = things[i];
-  things.resize(kept);
 }
 
 void Thin(const RunSceneLimits& limits, RunScene& scene) {

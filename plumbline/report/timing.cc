@@ -68,12 +68,13 @@ std::vector<StageStatistics> TimingStatistics(const FrameLog& frames) {
 }
 
 std::vector<std::optional<double>> StageMilliseconds(const FrameLog& frames,
+                                                     const std::vector<std::size_t>& numbers,
                                                      const std::string& stage) {
   std::vector<std::optional<double>> column;
-  column.reserve(frames.size());
-  for (const FrameRecord& frame : frames) {
+  column.reserve(numbers.size());
+  for (const std::size_t number : numbers) {
     std::optional<double> sum;
-    for (const StageTime& time : frame.times) {
+    for (const StageTime& time : frames[number].times) {
       if (time.stage == stage) sum = sum.value_or(0) + time.milliseconds;
     }
     column.push_back(sum);

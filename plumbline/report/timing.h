@@ -4,6 +4,7 @@
 
 #include "plumbline/slam/system.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,8 +24,10 @@ struct StageStatistics {
 // frame's arrival to its pose.
 std::vector<StageStatistics> TimingStatistics(const FrameLog& frames);
 
-// Returns the milliseconds of one stage in every frame; nullopt where it did not run.
+// Returns the milliseconds of one stage in the frames with these numbers; nullopt where it did not
+// run.
 std::vector<std::optional<double>> StageMilliseconds(const FrameLog& frames,
+                                                     const std::vector<std::size_t>& numbers,
                                                      const std::string& stage);
 
 // Return a table with a row for each frame and a column for each stage; empty where the stage did

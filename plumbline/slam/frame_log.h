@@ -56,6 +56,9 @@ class FrameLog {
 
   // Returns a single field without making the whole record.
   std::int64_t StampOf(std::size_t frame) const { return entries_[frame].stamp_ns; }
+  FrameStatus StatusOf(std::size_t frame) const {
+    return static_cast<FrameStatus>(entries_[frame].status);
+  }
   KeyFrameId ReferenceOf(std::size_t frame) const { return KeyFrameId{entries_[frame].reference}; }
 
   class const_iterator {

@@ -101,6 +101,8 @@ TEST(HtmlReport, HoldsTheWholeRun) {
   EXPECT_EQ(json["counts"]["tracked"], 4);
   const auto& frames = json["frames"];
   for (const auto& [name, column] : frames.items()) EXPECT_EQ(column.size(), 6U) << name;
+  EXPECT_EQ(json["shown_every"], 1);
+  EXPECT_EQ(frames["number"], nlohmann::json({0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(frames["state"],
             nlohmann::json({"tracked", "tracked", "skipped", "tracked", "lost", "tracked"}));
   EXPECT_NEAR(frames["seconds"][5], 0.25, 1e-9);
@@ -110,6 +112,40 @@ TEST(HtmlReport, HoldsTheWholeRun) {
     EXPECT_EQ(stage["milliseconds"].size(), 6U) << stage["name"];
     EXPECT_TRUE(stage["milliseconds"][2].is_null());
   }
+}
+
+// Of a run that is longer than a page can show, frames are told by their rows, and figures are of
+// all frames.
+TEST(HtmlReport, ShowsEveryNthFrameOfALongRun) {
+  const PosterRun run;
+  ReportContext context = ContextOf(run);
+  context.most_frames = 1;
+  const std::string page = FormatHtmlReport(run.system(), PosterDataset(6), context);
+  const auto json = DataOf(page);
+  EXPECT_EQ(json["shown_every"], 6);
+  // The first and the last, those around a change of state, and that of the image.
+  EXPECT_EQ(json["frames"]["number"], nlohmann::json({0, 1, 2, 3, 5}));
+  EXPECT_EQ(json["frames"]["state"],
+            nlohmann::json({"tracked", "tracked", "skipped", "tracked", "tracked"}));
+  for (const auto& [name, column] : json["frames"].items()) EXPECT_EQ(column.size(), 5U) << name;
+  for (const auto& stage : json["stages"]) EXPECT_EQ(stage["milliseconds"].size(), 5U);
+  EXPECT_EQ(json["counts"]["frames"], 6);
+  EXPECT_EQ(json["counts"]["lost"], 1);
+  const auto& map = json["scene"]["maps"][0];
+  EXPECT_EQ(map["pose_count"], 4);
+  EXPECT_EQ(map["frames"], nlohmann::json({0, 1, 3, 4}));
+  EXPECT_EQ(map["error"]["frames"], map["frames"]);
+  EXPECT_EQ(FloatsOf(map["positions"]).size(), 12U);
+  EXPECT_EQ(json["samples"][0]["frame"], 3);
+  EXPECT_THAT(page, HasSubstr("are shown one by one: one in ${whole(every)}"));
+
+  context.samples.clear();
+  const auto fewer = DataOf(FormatHtmlReport(run.system(), PosterDataset(6), context));
+  EXPECT_EQ(fewer["frames"]["number"], nlohmann::json({0, 1, 2, 5}));
+  EXPECT_EQ(fewer["scene"]["maps"][0]["frames"], nlohmann::json({0, 1, 3}));
+  EXPECT_EQ(fewer["scene"]["maps"][0]["pose_count"], 4);
+  EXPECT_EQ(FloatsOf(fewer["scene"]["maps"][0]["positions"]).size(), 9U);
+  EXPECT_EQ(fewer["scene"]["maps"][0]["error"]["position"].size(), 3U);
 }
 
 TEST(HtmlReport, HoldsTheMapRelativeToItsOrigin) {

@@ -85,6 +85,7 @@ TEST(FrameLog, RecordsComeOutAsTheyWentIn) {
   ExpectSame(log.back(), records.back());
   EXPECT_EQ(log.StampOf(1700), records[1700].stamp_ns);
   EXPECT_EQ(log.ReferenceOf(1700), records[1700].reference);
+  EXPECT_EQ(log.StatusOf(1700), records[1700].status);
 }
 
 TEST(FrameLog, ARecordCanBeChangedButForItsTimes) {
