@@ -69,7 +69,9 @@ std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   return next;
 }
 
-LiveInput::LiveInput(const std::shared_ptr<LiveSource>& source, const LiveRange& range, Say say)
+LiveInput::LiveInput(const std::shared_ptr<LiveSource>& source,
+                     const FrameSelection& range,
+                     Say say)
     : name_(source->info().name),
       range_(range),
       say_(std::move(say)),

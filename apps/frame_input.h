@@ -78,7 +78,7 @@ class RecordedInput : public FrameInput {
 };
 
 // Which frames of a source are taken: every stride-th from `from` to before `to`.
-struct LiveRange {
+struct FrameSelection {
   std::size_t from = 0;
   std::size_t to = 0;
   std::size_t stride = 1;
@@ -87,7 +87,7 @@ struct LiveRange {
 // The frames of a live source with stamps that increase (StampContinuity).
 class LiveInput : public FrameInput {
  public:
-  LiveInput(const std::shared_ptr<LiveSource>& source, const LiveRange& range, Say say);
+  LiveInput(const std::shared_ptr<LiveSource>& source, const FrameSelection& range, Say say);
   // InputError where the source ends before its first frame.
   std::optional<InputFrame> Next(const GoOn& go_on) override;
 
@@ -96,7 +96,7 @@ class LiveInput : public FrameInput {
   void SayWhyMissing(const std::string& why);
 
   std::string name_;
-  LiveRange range_;
+  FrameSelection range_;
   Say say_;
   std::size_t next_ = 0;      // index of the frame that comes next
   std::size_t position_ = 0;  // number of the chosen frame that comes next

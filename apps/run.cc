@@ -86,12 +86,21 @@ CommandSyntax RunSyntax() {
        {"--quiet", "", "print nothing but errors"}}};
 }
 
+FrameSelection ReadRange(const CommandLine& line) {
+  FrameSelection range;
+  range.from = static_cast<std::size_t>(line.Count("--from", 0, {0, kMostFrames}));
+  range.stride = static_cast<std::size_t>(line.Count("--stride", 1, {1, kMostFrames}));
+  range.to = static_cast<std::size_t>(line.Count("--to", kMostFrames, {1, kMostFrames}));
+  return range;
+}
+
+// 0 where no filter is asked for.
+int ReadBlur(const CommandLine& line) { return line.Count("--blur", 0, {1, kWidestBlur}); }
+
 // The frames to process, by index in the data set.
 std::vector<std::size_t> ChooseFrames(const CommandLine& line, const Dataset& dataset) {
-  const auto from = static_cast<std::size_t>(line.Count("--from", 0, {0, kMostFrames}));
-  const auto stride = static_cast<std::size_t>(line.Count("--stride", 1, {1, kMostFrames}));
-  const auto to = std::min(
-      dataset.size(), static_cast<std::size_t>(line.Count("--to", kMostFrames, {1, kMostFrames})));
+  const auto [from, last, stride] = ReadRange(line);
+  const std::size_t to = std::min(dataset.size(), last);
   if (from >= to) {
     throw InputError(fmt::format(
         "--from {}: the sequence has {} frames, and --to is {}", from, dataset.size(), to));
@@ -120,19 +129,18 @@ struct RunSetup {
 // ends. What is as it would be without the argument is not told.
 std::string DescribeInput(const CommandLine& line) {
   std::vector<std::string> words;
-  const auto tell = [&](const char* option, int fallback, CountRange range) {
-    const int value = line.Count(option, fallback, range);
-    if (value != fallback) words.push_back(fmt::format("{} {}", option, value));
-  };
-  tell("--from", 0, {0, kMostFrames});
-  tell("--stride", 1, {1, kMostFrames});
-  tell("--blur", 1, {1, kWidestBlur});
+  const FrameSelection range = ReadRange(line);
+  const int blur = ReadBlur(line);
+  if (range.from > 0) words.push_back(fmt::format("--from {}", range.from));
+  if (range.stride > 1) words.push_back(fmt::format("--stride {}", range.stride));
+  if (blur > 1) words.push_back(fmt::format("--blur {}", blur));
   if (line.Has("--reverse")) words.emplace_back("--reverse");
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-// The same of the words of a checkpoint, which may tell what is as by default; words that are no
-// arguments stay as they are.
+// Describes the input that a checkpoint tells of in the same words as DescribeInput: checkpoints of
+// earlier versions also name arguments that change nothing. Words that are no arguments stay as
+// they are.
 std::string DescribeInputAgain(const std::string& words) {
   std::vector<std::string> arguments = {"PATH"};
   std::istringstream stream(words);
@@ -187,7 +195,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   CheckOptions(setup.options);
   setup.options_yaml = table.Dump();
   setup.folder = line.Value("--out").value_or("plumbline_run");
-  setup.blur = line.Count("--blur", 0, {1, kWidestBlur});
+  setup.blur = ReadBlur(line);
   setup.quiet = line.Has("--quiet");
   setup.view.access = ReadViewOptions(line, setup.quiet);
   if (const auto record = line.Value("--record")) setup.view.record = *record;
@@ -223,9 +231,7 @@ RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
   RunFrames input;
   input.blur = setup.blur;
   input.save_every_s = setup.save_every_s;
-  input.range.from = static_cast<std::size_t>(line.Count("--from", 0, {0, kMostFrames}));
-  input.range.stride = static_cast<std::size_t>(line.Count("--stride", 1, {1, kMostFrames}));
-  input.range.to = static_cast<std::size_t>(line.Count("--to", kMostFrames, {1, kMostFrames}));
+  input.range = ReadRange(line);
   if (input.range.from >= input.range.to) {
     throw InputError(fmt::format("--from {}: --to is {}", input.range.from, input.range.to));
   }

@@ -28,7 +28,7 @@ struct RunFrames {
   std::shared_ptr<const Dataset> dataset;  // of a live source: what is known of it, no frames
   std::vector<std::size_t> frames;         // by index in the data set
   std::shared_ptr<LiveSource> live;        // in place of a data set; may be null
-  LiveRange range;                         // of its frames
+  FrameSelection range;                    // of its frames
   int blur = 0;                            // box filter on every image; 0: none
   int save_every_s = 0;                    // map.plb into the part of the folder; 0: never
   std::size_t first = 0;  // position of the first frame that is new: those before are done

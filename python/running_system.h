@@ -35,7 +35,8 @@ class RunningSystem {
   FrameRecord Process(SensorFrame frame);
   // A frame without images.
   void Skip(std::int64_t stamp_ns, const std::string& reason);
-  // Of the frames that were tracked since the last call, in order, but for those of Process.
+  // Returns the records of the frames that were tracked since the last call, in order, without
+  // those that Process returned.
   std::vector<FrameRecord> TakeRecords();
   std::vector<std::string> Continue(SavedAtlas saved, bool read_only);
   // From now on views of some of these frames are kept, for the report.

@@ -20,7 +20,7 @@ struct ReportContext {
   ResourceUse resources;
   std::string date;  // shown as it is
   std::vector<SampleImage> samples;
-  // Of a run with more frames every n-th one is shown (ShownFrames).
+  // The page shows every n-th frame of a run that has more frames than this (ShownFrames).
   std::size_t most_frames = ShownFrames::kMost;
 };
 

@@ -192,7 +192,7 @@ class System {
   MapEvents events() const;
   // The part of events() that is known by now. To be called in the thread that tracks.
   MapEvents EventsSoFar() const;
-  // The same without what the caller knows, which counts as known then (MappingStage::EventsSince).
+  // The part of events() that the caller does not know yet, and that counts as known from then on.
   // To be called in the thread that tracks.
   MapEvents EventsSince(MapEventCounts& known) const;
 

@@ -44,7 +44,7 @@ class ListedSource : public LiveSource {
 
 // What is said of these frames.
 std::vector<std::string> SaidOf(std::vector<std::pair<std::string, std::string>> frames,
-                                const LiveRange& range = {0, 100, 1}) {
+                                const FrameSelection& range = {0, 100, 1}) {
   std::vector<std::string> said;
   LiveInput input(std::make_shared<ListedSource>(std::move(frames)),
                   range,

@@ -240,7 +240,7 @@ TEST(OpenDataset, APipeIsNotWaitedFor) {
   }
 }
 
-// By its name or as a video such a file would be called damaged.
+// Neither a bag of SQLite nor a folder of ros2 bag is damaged: the message says what to do with it.
 TEST(OpenDataset, SaysWhatToDoWithBagsOfRos2) {
   const ScratchFolder folder;
   const auto message = [&](const std::string& path) {

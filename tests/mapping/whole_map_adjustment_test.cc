@@ -245,6 +245,17 @@ void ForgetAfterFourKeyFrames(TrueMap& scene) {
   scene.map.Apply(edit);
 }
 
+// Adjusts the map and takes the correction over.
+void ExpectAdjustedPosesToBeBetter(const SyntheticWorld& world,
+                                   const MappingOptions& options,
+                                   TrueMap& scene) {
+  const Correction correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
+  ASSERT_FALSE(correction.empty());
+  const double before = WorstPose(scene.map, TruePoses());
+  scene.map.Apply(Rebased(correction, scene.map));
+  EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
+}
+
 // What counts is the time it takes, which is less where keyframes share landmarks with those near
 // them only.
 TEST(AdjustWholeMap, TakesLongPathsForTheSmallerMapsThatTakeAsLong) {
@@ -254,11 +265,7 @@ TEST(AdjustWholeMap, TakesLongPathsForTheSmallerMapsThatTakeAsLong) {
   TrueMap scene = MovedMap(world);
   EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
   ForgetAfterFourKeyFrames(scene);
-  const Correction correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
-  ASSERT_FALSE(correction.empty());
-  const double before = WorstPose(scene.map, TruePoses());
-  scene.map.Apply(Rebased(correction, scene.map));
-  EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
+  ExpectAdjustedPosesToBeBetter(world, options, scene);
   options.final_adjustment_keyframes = 4;
   EXPECT_TRUE(AdjustWholeMap(scene.map, world.Imaging(), {}, options).empty());
 }
@@ -270,11 +277,7 @@ TEST(AdjustWholeMap, LeavesOutLinesThatMakeItTakeTooLong) {
   options.final_adjustment_keyframes = 7;
   TrueMap scene = MovedMap(world);
   ForgetAfterFourKeyFrames(scene);
-  const Correction correction = AdjustWholeMap(scene.map, world.Imaging(), {}, options);
-  ASSERT_FALSE(correction.empty());
-  const double before = WorstPose(scene.map, TruePoses());
-  scene.map.Apply(Rebased(correction, scene.map));
-  EXPECT_LT(WorstPose(scene.map, TruePoses()), 0.8 * before);
+  ExpectAdjustedPosesToBeBetter(world, options, scene);
 }
 
 }  // namespace whole_map_adjustment_test

@@ -114,8 +114,8 @@ TEST(HtmlReport, HoldsTheWholeRun) {
   }
 }
 
-// Of a run that is longer than a page can show, frames are told by their rows, and figures are of
-// all frames.
+// Where a run is longer than a page can show, the page names frames by their rows, and its figures
+// count all frames.
 TEST(HtmlReport, ShowsEveryNthFrameOfALongRun) {
   const PosterRun run;
   ReportContext context = ContextOf(run);
