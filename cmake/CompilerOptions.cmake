@@ -26,7 +26,10 @@ if(PLUMBLINE_MARCH)
   target_compile_options(plumbline_flags INTERFACE $<BUILD_INTERFACE:-march=${PLUMBLINE_MARCH}>)
 endif()
 if(PLUMBLINE_SANITIZE)
+  # Checks of each access for null and for the object's size take half of the time of compiling, and find nothing
+  # that AddressSanitizer would miss; the check of dynamic types is for casts between classes, of which there are none.
   target_compile_options(plumbline_flags INTERFACE -fsanitize=${PLUMBLINE_SANITIZE}
+                         -fno-sanitize=null,object-size,vptr
                          -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(plumbline_flags INTERFACE -fsanitize=${PLUMBLINE_SANITIZE})
 endif()
