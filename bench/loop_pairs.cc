@@ -199,22 +199,26 @@ void CloseAll(SavedMap& saved,
       if (attempt.inconsistent) fmt::print("  {} inconsistent\n", query.value);
     }
     if (!closure) continue;
+    const Map before = saved.map;
     const auto before_apply = std::chrono::steady_clock::now();
     saved.map.Apply(closure->edit);
     const std::chrono::duration<double, std::milli> apply_ms =
         std::chrono::steady_clock::now() - before_apply;
     saved.map.CheckInvariants();
-    const LoopRecord& record = closure->record;
+    const LoopEdge& edge = closer.loops().back();
+    const Placement old_place = before.PlaceOf(query), new_place = saved.map.PlaceOf(query);
     fmt::print(
         "  {} with {}: drift chi2 {:.1f}, {} points and {} lines merged, moved {:.3f} m, "
         "scale {:.4f}, {:.0f} + {:.0f} ms; ATE {:.4f} m\n",
-        record.query.value,
-        record.candidate.value,
-        record.drift_chi2,
-        record.merged_points,
-        record.merged_lines,
-        record.largest_shift,
-        record.query_scale,
+        query.value,
+        edge.candidate.value,
+        closer.attempts().back().drift_chi2,
+        before.points().size() - saved.map.points().size(),
+        before.lines().size() - saved.map.lines().size(),
+        (Inverse(new_place.cam_from_world).translation -
+         Inverse(old_place.cam_from_world).translation)
+            .norm(),
+        new_place.unit / old_place.unit,
         ms.count(),
         apply_ms.count(),
         Ate(saved, truth));

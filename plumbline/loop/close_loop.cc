@@ -84,17 +84,6 @@ Correction CorrectionOf(const Map& map,
   return correction;
 }
 
-void Measure(const Correction& correction, KeyFrameId query, LoopCorrection& out) {
-  for (const auto& [id, place] : correction.keyframes) {
-    out.largest_shift =
-        std::max(out.largest_shift,
-                 (Inverse(place.after).translation - Inverse(place.before).translation).norm());
-    out.largest_turn =
-        std::max(out.largest_turn, AngularDistance(place.after.rotation, place.before.rotation));
-    if (id == query) out.query_scale = place.scale;
-  }
-}
-
 // Adds loops as edges of the graph. Returns the index of the edge for each loop, or -1.
 std::vector<int> AddLoops(const Map& map,
                           std::span<const LoopEdge> loops,
@@ -141,27 +130,19 @@ Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
   const PoseGraphResult solved = SolvePoseGraph(essential.graph);
   if (!solved.converged) return ClosingRefusal::kNotSolved;
   if (solved.weights[Index(newest_place)] < 0.5) return ClosingRefusal::kContradicted;
-  LoopCorrection out;
-  out.raised_chi2 = RaisedChi2(essential.graph, Index(newest_place), solved);
-  if (out.raised_chi2 > options.drift.max_chi2) return ClosingRefusal::kBendsOdometry;
-  for (std::size_t e = 0; e < odometry; ++e) {
-    out.worst_odometry_chi2 = std::max(out.worst_odometry_chi2, solved.chi2[e]);
-  }
-  if (out.worst_odometry_chi2 > options.closing.max_odometry_chi2) {
+  if (RaisedChi2(essential.graph, Index(newest_place), solved) > options.drift.max_chi2) {
     return ClosingRefusal::kBendsOdometry;
   }
+  for (std::size_t e = 0; e < odometry; ++e) {
+    if (solved.chi2[e] > options.closing.max_odometry_chi2) return ClosingRefusal::kBendsOdometry;
+  }
+  LoopCorrection out;
   for (const int place : earlier_places) {
     out.earlier_kept.push_back(place < 0 || solved.weights[Index(place)] >= 0.5);
   }
-  const Correction correction = CorrectionOf(map, essential, solved.poses);
-  Measure(correction, newest.query, out);
-  out.edit = Rebased(correction, map);
+  out.edit = Rebased(CorrectionOf(map, essential, solved.poses), map);
   const auto& motion = std::get<edit::MoveKeyFrames>(out.edit.front());
   const MapEdit fusion = FusePairs(map, newest.points, newest.lines, motion);
-  for (const MapChange& change : fusion) {
-    out.merged_points += std::holds_alternative<edit::MergePoints>(change);
-    out.merged_lines += std::holds_alternative<edit::MergeLines>(change);
-  }
   out.edit.insert(out.edit.end(), fusion.begin(), fusion.end());
   return out;
 }

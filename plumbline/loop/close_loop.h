@@ -37,13 +37,6 @@ constexpr auto EnumNames(std::type_identity<ClosingRefusal>) {
 struct LoopCorrection {
   MapEdit edit;                    // moves the keyframes, then fuses landmarks that are one
   std::vector<bool> earlier_kept;  // for each earlier edge: whether it agrees with the result
-  int merged_points = 0, merged_lines = 0;
-  double largest_shift = 0;  // largest shift of a keyframe, map units
-  double largest_turn = 0;   // largest turn of a keyframe, radians
-  double query_scale = 1;    // factor by which lengths around the query change
-  // The new loop raises chi2, summed over all edges of the graph, by this much.
-  double raised_chi2 = 0;
-  double worst_odometry_chi2 = 0;  // largest chi2 of an edge between keyframes
 };
 
 // Closes a loop of a map. The essential graph of the map (MakeEssentialGraph) is solved with all

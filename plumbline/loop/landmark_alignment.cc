@@ -319,9 +319,10 @@ std::optional<AlignmentResult> RefineAlignment(const AlignmentProblem& problem,
     step.head(size) = -factor.solve(equations.g.head(size));
     if (!step.allFinite() || std::abs(step(6)) > 2) return std::nullopt;
     const int degrees = std::max(1, equations.rows - size);
-    result.variance_factor = equations.chi2 / degrees;
+    // Mean squared whitened residual of the matches that agree.
+    const double variance_factor = equations.chi2 / degrees;
     result.covariance.topLeftCorner(size, size) =
-        std::max(1.0, result.variance_factor) * factor.solve(Eigen::MatrixXd::Identity(size, size));
+        std::max(1.0, variance_factor) * factor.solve(Eigen::MatrixXd::Identity(size, size));
     result.candidate_from_query = RetractLeft(result.candidate_from_query, step);
     result.candidate_from_query.rotation.normalize();
     if (step.norm() < kTolerance) break;

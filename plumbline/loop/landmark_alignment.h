@@ -18,7 +18,6 @@ struct AlignmentResult {
   // 1.
   Matrix7d covariance = Matrix7d::Zero();
   std::vector<bool> points, lines, sightings;  // whether each match agrees
-  double variance_factor = 1;  // mean squared whitened residual of the matches that agree
 };
 
 // Finds a relative pose from few good matches among bad ones, by LO-RANSAC (ransac.h) over samples

@@ -180,16 +180,6 @@ std::optional<LoopClosure> LoopCloser::Close(const Map& map,
   }
   LoopClosure closure;
   closure.edit = std::move(correction->edit);
-  LoopRecord& record = closure.record;
-  record.query = edge.query;
-  record.candidate = edge.candidate;
-  record.evidence = edge.evidence;
-  record.drift_chi2 = attempt.drift_chi2;
-  record.merged_points = correction->merged_points;
-  record.merged_lines = correction->merged_lines;
-  record.largest_shift = correction->largest_shift;
-  record.largest_turn = correction->largest_turn;
-  record.query_scale = correction->query_scale;
   closure.withdrawn = Take(edge, correction->earlier_kept);
   return closure;
 }
@@ -273,10 +263,6 @@ std::vector<LoopEdge> LoopCloser::Take(const LoopEdge& edge,
   loops_ = std::move(kept);
   waiting_.clear();
   return withdrawn;
-}
-
-void LoopCloser::Withdraw(std::size_t loop) {
-  loops_.erase(loops_.begin() + static_cast<std::ptrdiff_t>(loop));
 }
 
 }  // namespace plumbline

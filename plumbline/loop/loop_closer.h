@@ -17,20 +17,9 @@
 
 namespace plumbline {
 
-// What is reported of a closed loop.
-struct LoopRecord {
-  KeyFrameId query, candidate;
-  LoopEvidence evidence;
-  double drift_chi2 = 0;  // chi2 of the relative pose against that of odometry
-  int merged_points = 0, merged_lines = 0;
-  double largest_shift = 0;  // largest shift of a keyframe, map units
-  double largest_turn = 0;   // largest turn of a keyframe, radians
-  double query_scale = 1;    // factor by which lengths around the query change
-};
-
+// A closed loop, whose edge is the last of LoopCloser::loops().
 struct LoopClosure {
   MapEdit edit;  // applies to the map as it was given
-  LoopRecord record;
   // Earlier loops that the graph leaves out now. The closer has forgotten them; the caller unties
   // what they tie after the edit (OpenLoop).
   std::vector<LoopEdge> withdrawn;
@@ -79,10 +68,6 @@ class LoopCloser {
   const std::vector<LoopEdge>& loops() const { return loops_; }
   // The results of the last call of Try, one for each candidate that was looked at.
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
-
-  // Takes back a loop that proved wrong, so that it takes no part in later corrections. The caller
-  // unties what it ties in the map (OpenLoop). `loop` is its index in loops().
-  void Withdraw(std::size_t loop);
 
   // What the closer needs, beside the map, to go on. Another closer of the same options that gets
   // the state does what this one would do.

@@ -135,14 +135,14 @@ std::optional<KeyFrameId> PlaceRecognition::CloseLoop(Atlas& atlas,
   const std::optional<LoopClosure> closure = closer_.Try(map, id, candidates);
   for (const LoopAttempt& attempt : closer_.attempts()) Tell(atlas, attempt);
   if (!closure) return std::nullopt;
-  const LoopRecord& record = closure->record;
-  Recognition place = Describe(map, id, record.candidate, record.evidence);
+  const LoopEdge& edge = closer_.loops().back();
+  Recognition place = Describe(map, id, edge.candidate, edge.evidence);
   const Placement before = map.PlaceOf(id);
   map.Apply(closure->edit);
   for (const LoopEdge& wrong : closure->withdrawn) map.Apply(OpenLoop(map, wrong));
   DescribeMotion(before, map.PlaceOf(id), place);
   loops_.push_back(place);
-  return record.candidate;
+  return edge.candidate;
 }
 
 // Joins the active map with another one that shows the same place; the older map takes in the

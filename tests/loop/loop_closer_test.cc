@@ -11,6 +11,8 @@
 namespace plumbline {
 namespace loop_closer_test {
 
+using testing::CountOf;
+using testing::LargestShift;
 using testing::LoopScene;
 using testing::LoopSceneOptions;
 using testing::MakeLoopScene;
@@ -31,15 +33,16 @@ TEST(LoopCloser, ClosesALoopAndTellsOfIt) {
   const std::vector<KeyFrameId> candidates{KeyFrameId{20}, KeyFrameId{5}};
   const auto closure = closer.Try(scene.map, kQuery, candidates);
   ASSERT_TRUE(closure);
-  EXPECT_EQ(closure->record.query, kQuery);
-  EXPECT_EQ(closure->record.candidate, KeyFrameId{5});
-  EXPECT_GT(closure->record.merged_points, 100);
-  EXPECT_GT(closure->record.largest_shift, 0.1);
+  EXPECT_GT(CountOf<edit::MergePoints>(closure->edit), 100);
   ASSERT_EQ(closer.loops().size(), 1U);
+  EXPECT_EQ(closer.loops()[0].query, kQuery);
+  EXPECT_EQ(closer.loops()[0].candidate, KeyFrameId{5});
   ASSERT_EQ(closer.attempts().size(), 2U);
   EXPECT_TRUE(closer.attempts()[0].unverified);
+  const Map drifted = scene.map;
   scene.map.Apply(closure->edit);
   scene.map.CheckInvariants();
+  EXPECT_GT(LargestShift(drifted, scene.map), 0.1);
   EXPECT_LT(WorstPlace(scene), 0.3 * before);
 }
 
@@ -106,7 +109,10 @@ TEST(LoopCloser, WantsTwoWitnessesWhereTheScaleDriftedFar) {
   const std::vector<KeyFrameId> second{KeyFrameId{5}};
   const auto closure = closer.Try(scene.map, kQuery, second);
   ASSERT_TRUE(closure);
-  EXPECT_NEAR(std::log(closure->record.query_scale), -0.006 * 40, 0.03);
+  Map closed = scene.map;
+  closed.Apply(closure->edit);
+  const double scale = closed.PlaceOf(kQuery).unit / scene.map.PlaceOf(kQuery).unit;
+  EXPECT_NEAR(std::log(scale), -0.006 * 40, 0.03);
 
   LoopOptions as_a_rule;
   as_a_rule.drift.log_scale_per_turn = 0;
@@ -140,29 +146,24 @@ TEST(LoopCloser, DoesNotPauseForALoopOfAnotherMap) {
   EXPECT_EQ(closer.state().last_closed, kQuery);
 }
 
-TEST(LoopCloser, ForgetsWhatIsWithdrawn) {
+TEST(LoopCloser, ClosesAgainWhatItForgot) {
   const LoopScene scene = Drifted();
-  LoopCloser closer(scene.Imaging(), {});
-  const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
-  ASSERT_TRUE(closer.Try(scene.map, kQuery, candidates));
-  closer.Withdraw(0);
-  EXPECT_TRUE(closer.loops().empty());
-}
-
-TEST(LoopCloser, ClosesAgainWhatWasOpened) {
-  LoopScene scene = Drifted();
   LoopOptions options;
   options.closing.pause = 0;
   LoopCloser closer(scene.Imaging(), options);
   const std::vector<KeyFrameId> candidates{KeyFrameId{5}};
   const auto closure = closer.Try(scene.map, kQuery, candidates);
   ASSERT_TRUE(closure);
-  closer.Withdraw(0);
+  closer.SetState({});
   // The map as it was before: the same loop is found.
   const auto again = closer.Try(scene.map, kQuery, candidates);
   ASSERT_TRUE(again);
-  EXPECT_EQ(again->record.merged_points, closure->record.merged_points);
-  EXPECT_EQ(again->record.largest_shift, closure->record.largest_shift);
+  Map first = scene.map;
+  first.Apply(closure->edit);
+  Map second = scene.map;
+  second.Apply(again->edit);
+  EXPECT_EQ(LargestShift(first, second), 0);
+  EXPECT_EQ(CountOf<edit::MergePoints>(again->edit), CountOf<edit::MergePoints>(closure->edit));
 }
 
 }  // namespace loop_closer_test

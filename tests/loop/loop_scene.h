@@ -6,11 +6,13 @@
 #include "plumbline/map/map.h"
 
 #include "tests/support/synthetic_world.h"
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <numbers>
+#include <variant>
 #include <vector>
 
 namespace plumbline::testing {
@@ -173,6 +175,23 @@ inline double WorstPlace(const LoopScene& scene) {
                                     scene.truth[static_cast<std::size_t>(id.value)]));
   }
   return worst;
+}
+
+// The largest distance between the places of a keyframe in two maps that have the same keyframes.
+inline double LargestShift(const Map& a, const Map& b) {
+  double largest = 0;
+  for (const auto& [id, keyframe] : a.keyframes()) {
+    largest = std::max(largest, CentreDistance(keyframe.frame.cam_from_world, b.PoseOf(id)));
+  }
+  return largest;
+}
+
+// The number of changes of a kind in an edit.
+template <class Change>
+int CountOf(const MapEdit& edit) {
+  return static_cast<int>(std::count_if(edit.begin(), edit.end(), [](const MapChange& change) {
+    return std::holds_alternative<Change>(change);
+  }));
 }
 
 // Drift by a turn and a climb that grow with the keyframes.
