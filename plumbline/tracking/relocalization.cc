@@ -87,14 +87,6 @@ std::optional<Relocalized> Relocalizer::FindBeside(const PlaceToTry& place,
   return result;
 }
 
-std::optional<Relocalized> Relocalizer::Find(const Map& map,
-                                             const Frame& frame,
-                                             std::span<const KeyFrameId> candidates) const {
-  std::vector<PlaceToTry> places;
-  for (const KeyFrameId id : candidates) places.push_back({&map, id});
-  return Find(frame, places);
-}
-
 std::optional<Relocalized> Relocalizer::Find(const Frame& frame,
                                              std::span<const PlaceToTry> candidates) const {
   std::vector<PlaceFound> places;

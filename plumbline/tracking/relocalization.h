@@ -75,10 +75,6 @@ class Relocalizer {
   // passed over. The frame's pose and matches are not looked at. Two maps count as two places, even
   // where nobody knows yet that they show the same.
   std::optional<Relocalized> Find(const Frame& frame, std::span<const PlaceToTry> candidates) const;
-  // Finds the pose of a frame from candidates that are all of one map.
-  std::optional<Relocalized> Find(const Map& map,
-                                  const Frame& frame,
-                                  std::span<const KeyFrameId> candidates) const;
 
  private:
   std::optional<Relocalized> FindBeside(const PlaceToTry& place, const Frame& frame) const;

@@ -32,7 +32,9 @@ class Follower {
     map_ = MakeTrueMap(world_, poses, Sensor()).map;
     const Relocalizer relocalizer(world_.Imaging(), {}, {world_.camera, {}, {}});
     const Frame frame = MakeFrame(FrameId{0}, Rigid3{}, Sensed(kFirst));
-    const auto found = relocalizer.Find(map_, frame, KeyFramesOf(map_));
+    std::vector<PlaceToTry> places;
+    for (const KeyFrameId id : KeyFramesOf(map_)) places.push_back({&map_, id});
+    const auto found = relocalizer.Find(frame, places);
     centre_ = found->keyframe;
     tracker_.BeginLost({.next_keyframe = map_.NextKeyFrameId()});
     tracker_.FollowFrom(*found, *Snapshot());

@@ -32,8 +32,17 @@ Frame UnplacedFrame(const SyntheticWorld& world, int on_path, const SensorModel&
 
 std::optional<Relocalized> Find(const Relocalizer& relocalizer,
                                 const Map& map,
+                                const Frame& frame,
+                                const std::vector<KeyFrameId>& candidates) {
+  std::vector<PlaceToTry> places;
+  for (const KeyFrameId id : candidates) places.push_back({&map, id});
+  return relocalizer.Find(frame, places);
+}
+
+std::optional<Relocalized> Find(const Relocalizer& relocalizer,
+                                const Map& map,
                                 const Frame& frame) {
-  return relocalizer.Find(map, frame, MostAlikeOf(map, frame.features()));
+  return Find(relocalizer, map, frame, MostAlikeOf(map, frame.features()));
 }
 
 // A second room with copies of all keyframes and landmarks, some metres away; `looks` changes what
@@ -119,8 +128,8 @@ TEST(Relocalizer, FindsNothingInAnotherWorldOrAnEmptyMap) {
   for (auto& line : other.lines) line.descriptor = RandomDescriptor(rng);
   const TrueMap scene = MapOf(world, 6);
   const std::vector<KeyFrameId> all = KeyFramesOf(scene.map);
-  EXPECT_FALSE(MakeRelocalizer(world).Find(scene.map, UnplacedFrame(other, 10), all));
-  EXPECT_FALSE(MakeRelocalizer(world).Find(Map{}, UnplacedFrame(world, 10), all));
+  EXPECT_FALSE(Find(MakeRelocalizer(world), scene.map, UnplacedFrame(other, 10), all));
+  EXPECT_FALSE(Find(MakeRelocalizer(world), Map{}, UnplacedFrame(world, 10), all));
 }
 
 TEST(Relocalizer, TriesTheCandidatesAlone) {
@@ -128,9 +137,9 @@ TEST(Relocalizer, TriesTheCandidatesAlone) {
   const TrueMap scene = MapOf(world, 6);
   const Frame frame = UnplacedFrame(world, 12);
   const Relocalizer relocalizer = MakeRelocalizer(world);
-  EXPECT_FALSE(relocalizer.Find(scene.map, frame, {}));
-  EXPECT_FALSE(relocalizer.Find(scene.map, frame, std::vector{KeyFrameId{99}}));
-  const auto found = relocalizer.Find(scene.map, frame, std::vector{KeyFrameId{99}, KeyFrameId{2}});
+  EXPECT_FALSE(Find(relocalizer, scene.map, frame, {}));
+  EXPECT_FALSE(Find(relocalizer, scene.map, frame, {KeyFrameId{99}}));
+  const auto found = Find(relocalizer, scene.map, frame, {KeyFrameId{99}, KeyFrameId{2}});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->keyframe, KeyFrameId{2});
 }
@@ -147,7 +156,7 @@ TEST(Relocalizer, TriesCandidatesOfDifferentPlaces) {
     frame.indexed = IndexFeatures(world.camera, features);
   });
   candidates.push_back(KeyFrameId{3});
-  const auto found = MakeRelocalizer(world).Find(scene.map, UnplacedFrame(world, 18), candidates);
+  const auto found = Find(MakeRelocalizer(world), scene.map, UnplacedFrame(world, 18), candidates);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->keyframe, KeyFrameId{3});
 }
