@@ -104,8 +104,6 @@ std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& s
   return SigmasOf(problem, state, std::vector<Sums>(problem.poses.size()));
 }
 
-namespace {
-
 bool HoldLoosePoses(const std::vector<PoseSigma>& sigmas, double limit, BaProblem& problem) {
   bool any = false;
   for (std::size_t i = 0; i < sigmas.size(); ++i) {
@@ -142,6 +140,8 @@ bool HoldTornPoses(const BaResult& solution,
   return any;
 }
 
+namespace {
+
 bool Failed(const BaResult& result) {
   return result.termination == BaTermination::kNotFinite ||
          result.termination == BaTermination::kStopped;
@@ -173,14 +173,6 @@ Solution SolveHoldingLoosePoses(BaProblem& problem,
 }
 
 }  // namespace
-
-bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem) {
-  return HoldLoosePoses(SigmasOfFreePoses(problem, state), limit, problem);
-}
-
-bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem) {
-  return HoldTornPoses(solution, SigmasOfPoses(problem, solution), limits, problem);
-}
 
 std::optional<BaResult> SolveInOnePiece(BaProblem& problem,
                                         const LocalBaOptions& options,

@@ -34,10 +34,11 @@ PoseSigma SigmaOfPose(const Matrix6d& information, double scene_depth);
 // The function uses nothing of `state` but poses, points, lines and inliers.
 std::vector<PoseSigma> SigmasOfPoses(const BaProblem& problem, const BaResult& state);
 
-// Marks free poses as fixed that the observations in use do not fix to `limit`. Such a pose fits
-// its few observations almost anywhere, so that a solution would take it there. Returns whether
-// there were any. The caller has to solve again, from the problem's poses.
-bool HoldLoosePoses(const BaResult& state, double limit, BaProblem& problem);
+// Marks free poses as fixed that the observations in use do not fix to `limit`: `sigmas` are those
+// of the poses (SigmasOfPoses). Such a pose fits its few observations almost anywhere, so that a
+// solution would take it there. Returns whether there were any. The caller has to solve again, from
+// the problem's poses.
+bool HoldLoosePoses(const std::vector<PoseSigma>& sigmas, double limit, BaProblem& problem);
 
 // The limits within which a pose is adjusted.
 struct PoseLimits {
@@ -46,12 +47,15 @@ struct PoseLimits {
   double change = 0;
 };
 
-// Marks consecutive poses of the problem as fixed that the solution moves against one another by
-// more than `limits.change`. The landmarks of each fix its pose then, but what ties their parts of
-// the map leaves a direction open (lines along a road). Poses that are loose themselves are passed
-// over; a pose that does not follow (BaProblem::Pose) is not compared with those before it. Returns
-// whether there were any that were not fixed yet.
-bool HoldTornPoses(const BaResult& solution, const PoseLimits& limits, BaProblem& problem);
+// Marks consecutive poses of the problem as fixed that the solution, in which the poses are known
+// to `sigmas`, moves against one another by more than `limits.change`. The landmarks of each fix
+// its pose then, but what ties their parts of the map leaves a direction open (lines along a road).
+// Poses that are loose themselves are passed over; a pose that does not follow (BaProblem::Pose) is
+// not compared with those before it. Returns whether there were any that were not fixed yet.
+bool HoldTornPoses(const BaResult& solution,
+                   const std::vector<PoseSigma>& sigmas,
+                   const PoseLimits& limits,
+                   BaProblem& problem);
 
 // Returns the solution of `solve`, in which loose and torn poses are held (marked as fixed in the
 // problem). Poses are held that are loose before a solution, or by the observations that it

@@ -83,16 +83,24 @@ void AddPoseLikeTheSecond(BaProblem& problem) {
   }
 }
 
+bool HoldLoose(const BaResult& state, double limit, BaProblem& problem) {
+  return HoldLoosePoses(SigmasOfPoses(problem, state), limit, problem);
+}
+
+bool HoldTorn(const BaResult& solution, const PoseLimits& limits, BaProblem& problem) {
+  return HoldTornPoses(solution, SigmasOfPoses(problem, solution), limits, problem);
+}
+
 TEST(HoldLoosePoses, HoldsThePoseThatParallelLinesLeaveOpen) {
   BaProblem all = TwoViewsOfLines(24);
-  EXPECT_FALSE(HoldLoosePoses(InitialState(all), 0.01, all));
+  EXPECT_FALSE(HoldLoose(InitialState(all), 0.01, all));
   EXPECT_FALSE(all.poses[0].fixed || all.poses[1].fixed);
 
   BaProblem parallel = TwoViewsOfLines(8);
-  EXPECT_TRUE(HoldLoosePoses(InitialState(parallel), 0.01, parallel));
+  EXPECT_TRUE(HoldLoose(InitialState(parallel), 0.01, parallel));
   EXPECT_FALSE(parallel.poses[0].fixed);
   EXPECT_TRUE(parallel.poses[1].fixed);
-  EXPECT_FALSE(HoldLoosePoses(InitialState(parallel), 0.01, parallel)) << "held already";
+  EXPECT_FALSE(HoldLoose(InitialState(parallel), 0.01, parallel)) << "held already";
 }
 
 TEST(HoldLoosePoses, CountsInliersOnly) {
@@ -102,7 +110,7 @@ TEST(HoldLoosePoses, CountsInliersOnly) {
     const auto& o = problem.line_observations[k];
     if (o.pose == 1 && o.line >= 8) state.line_inliers[k] = false;
   }
-  EXPECT_TRUE(HoldLoosePoses(state, 0.01, problem));
+  EXPECT_TRUE(HoldLoose(state, 0.01, problem));
   EXPECT_TRUE(problem.poses[1].fixed);
 }
 
@@ -135,8 +143,8 @@ TEST(HoldTornPoses, HoldsBothSidesOfATear) {
     BaProblem copy = problem;
     BaResult solution = InitialState(problem);
     for (std::size_t i = 3; i < 5; ++i) solution.poses[i].translation.z() += slide;
-    const bool any = HoldTornPoses(solution, kLimits, copy);
-    EXPECT_EQ(HoldTornPoses(solution, kLimits, copy), false) << "held already";
+    const bool any = HoldTorn(solution, kLimits, copy);
+    EXPECT_EQ(HoldTorn(solution, kLimits, copy), false) << "held already";
     std::vector<int> fixed;
     for (std::size_t i = 0; i < 5; ++i) {
       if (copy.poses[i].fixed) fixed.push_back(static_cast<int>(i));
@@ -150,7 +158,7 @@ TEST(HoldTornPoses, HoldsBothSidesOfATear) {
   EXPECT_EQ(held(0.011 * depth), (std::vector<int>{2, 3}));
   BaResult turned = InitialState(problem);
   turned.poses[4] = ExpSe3((Vector6d() << 0, 0, 0.011, 0, 0, 0).finished()) * turned.poses[4];
-  EXPECT_TRUE(HoldTornPoses(turned, kLimits, problem));
+  EXPECT_TRUE(HoldTorn(turned, kLimits, problem));
   EXPECT_TRUE(problem.poses[3].fixed && problem.poses[4].fixed);
 }
 
@@ -159,13 +167,13 @@ TEST(HoldTornPoses, PassesOverLoosePoses) {
   BaProblem problem = TwoViewsOfLines(24);
   problem.poses.push_back(problem.poses[1]);
   AddPoseLikeTheSecond(problem);
-  ASSERT_TRUE(HoldLoosePoses(InitialState(problem), 0.01, problem));
+  ASSERT_TRUE(HoldLoose(InitialState(problem), 0.01, problem));
   ASSERT_TRUE(problem.poses[2].fixed);
   BaResult solution = InitialState(problem);
   for (const std::size_t i : {0UL, 1UL, 3UL}) solution.poses[i].translation.z() += 0.5;
-  EXPECT_FALSE(HoldTornPoses(solution, kLimits, problem));
+  EXPECT_FALSE(HoldTorn(solution, kLimits, problem));
   solution.poses[3].translation.z() += 0.5;
-  EXPECT_TRUE(HoldTornPoses(solution, kLimits, problem));
+  EXPECT_TRUE(HoldTorn(solution, kLimits, problem));
   EXPECT_TRUE(problem.poses[1].fixed && problem.poses[3].fixed) << "across the loose one";
   EXPECT_FALSE(problem.poses[0].fixed);
 }
@@ -223,9 +231,9 @@ TEST(HoldTornPoses, AsksOnlyThoseThatFollow) {
   BaResult solution = InitialState(problem);
   solution.poses[2].translation.z() += 0.5;
   problem.poses[2].follows = false;
-  EXPECT_FALSE(HoldTornPoses(solution, kLimits, problem));
+  EXPECT_FALSE(HoldTorn(solution, kLimits, problem));
   problem.poses[2].follows = true;
-  EXPECT_TRUE(HoldTornPoses(solution, kLimits, problem));
+  EXPECT_TRUE(HoldTorn(solution, kLimits, problem));
 }
 
 TEST(SigmasOfPoses, ShrinkWithTheNumberOfObservations) {
