@@ -16,8 +16,6 @@ namespace {
 constexpr double kCollinearRatio = 1e-6;
 
 struct Moments {
-  double weight = 0;
-  std::size_t used = 0;
   Eigen::Vector3d source_mean = Eigen::Vector3d::Zero();
   Eigen::Vector3d target_mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d source_covariance = Eigen::Matrix3d::Zero();
@@ -25,28 +23,18 @@ struct Moments {
   Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();  // target source^T
 };
 
-double WeightOf(std::span<const double> weights, std::size_t i) {
-  return weights.empty() ? 1.0 : weights[i];
-}
-
 Moments MomentsOf(std::span<const Eigen::Vector3d> source,
-                  std::span<const Eigen::Vector3d> target,
-                  std::span<const double> weights) {
+                  std::span<const Eigen::Vector3d> target) {
   Moments m;
   for (std::size_t i = 0; i < source.size(); ++i) {
-    const double w = WeightOf(weights, i);
-    if (w <= 0) continue;
-    m.weight += w;
-    ++m.used;
-    m.source_mean += w * source[i];
-    m.target_mean += w * target[i];
+    m.source_mean += source[i];
+    m.target_mean += target[i];
   }
-  if (m.used == 0) return m;
-  m.source_mean /= m.weight;
-  m.target_mean /= m.weight;
+  const auto count = static_cast<double>(source.size());
+  m.source_mean /= count;
+  m.target_mean /= count;
+  const double w = 1 / count;
   for (std::size_t i = 0; i < source.size(); ++i) {
-    const double w = WeightOf(weights, i) / m.weight;
-    if (w <= 0) continue;
     const Eigen::Vector3d s = source[i] - m.source_mean;
     const Eigen::Vector3d t = target[i] - m.target_mean;
     m.source_covariance += w * s * s.transpose();
@@ -71,12 +59,10 @@ std::optional<AlignmentFailure> DegeneracyOf(const Eigen::Matrix3d& covariance,
 
 Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3d> source,
                                                   std::span<const Eigen::Vector3d> target,
-                                                  AlignmentScale scale,
-                                                  std::span<const double> weights) {
+                                                  AlignmentScale scale) {
   PLUMBLINE_CHECK(source.size() == target.size(), "as many source as target points");
-  PLUMBLINE_CHECK(weights.empty() || weights.size() == source.size(), "a weight for each point");
-  const Moments m = MomentsOf(source, target, weights);
-  if (m.used < 3) return AlignmentFailure::kTooFewPoints;
+  if (source.size() < 3) return AlignmentFailure::kTooFewPoints;
+  const Moments m = MomentsOf(source, target);
   if (const auto failure = DegeneracyOf(m.source_covariance, m.source_mean)) return *failure;
   if (const auto failure = DegeneracyOf(m.target_covariance, m.target_mean)) return *failure;
 
@@ -98,9 +84,9 @@ Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3
       m.target_mean - similarity.scale * (similarity.rotation * m.source_mean);  // eq. 41
   double squared = 0;
   for (std::size_t i = 0; i < source.size(); ++i) {
-    squared += WeightOf(weights, i) * (target[i] - similarity * source[i]).squaredNorm();
+    squared += (target[i] - similarity * source[i]).squaredNorm();
   }
-  result.rmse = std::sqrt(squared / m.weight);
+  result.rmse = std::sqrt(squared / static_cast<double>(source.size()));
   return result;
 }
 

@@ -29,25 +29,22 @@ constexpr auto EnumNames(std::type_identity<AlignmentFailure>) {
 
 struct Alignment {
   Similarity3 target_from_source;
-  double rmse = 0;  // weighted root mean square distance after alignment, metres
+  double rmse = 0;  // root mean square distance after alignment, metres
 };
 
 enum class AlignmentScale { kFixed, kFree };
 
-// Returns the rigid motion (kFixed) or similarity (kFree) that minimises sum w |target - S
-// source|^2.
+// Returns the rigid motion (kFixed) or similarity (kFree) that minimises sum |target - S source|^2.
 //
 // Umeyama, Least-squares estimation of transformation parameters between two point patterns, PAMI
-// 1991, eq. 40-42, with weights.
+// 1991, eq. 40-42.
 //
 //   source, target  corresponding points, same length
-//   weights         empty (all 1) or as long as the points, >= 0
 //   fails           degenerate sets. A set counts as collinear when its second standard deviation
 //                   is below 1e-6 of its first: its rotation is then not determined
 //   cost            O(n)
 Expected<Alignment, AlignmentFailure> AlignPoints(std::span<const Eigen::Vector3d> source,
                                                   std::span<const Eigen::Vector3d> target,
-                                                  AlignmentScale scale,
-                                                  std::span<const double> weights = {});
+                                                  AlignmentScale scale);
 
 }  // namespace plumbline

@@ -76,17 +76,15 @@ TEST(AlignPoints, MinimisesTheSumOfSquares) {
   const Points source = RandomPoints(rng, 15);
   Points target = Moved(ToSimilarity(RandomRigid(rng)), source);
   for (Eigen::Vector3d& p : target) p += RandomVector<3>(rng, 0.2);
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < source.size(); ++i) weights.push_back(rng.Uniform(0.1, 2));
   using Cost = Eigen::Matrix<double, 1, 1>;
   for (const AlignmentScale scale : {AlignmentScale::kFixed, AlignmentScale::kFree}) {
-    const auto result = AlignPoints(source, target, scale, weights);
+    const auto result = AlignPoints(source, target, scale);
     ASSERT_TRUE(result);
     const auto cost = [&](const Vector7d& x) -> Cost {
       double sum = 0;
       const Similarity3 S = RetractLeft(result->target_from_source, x);
       for (std::size_t i = 0; i < source.size(); ++i) {
-        sum += weights[i] * (target[i] - S * source[i]).squaredNorm();
+        sum += (target[i] - S * source[i]).squaredNorm();
       }
       return Cost(sum);
     };
@@ -94,22 +92,8 @@ TEST(AlignPoints, MinimisesTheSumOfSquares) {
         NumericJacobian(cost, Vector7d(Vector7d::Zero()), 1e-4);
     const int free = scale == AlignmentScale::kFree ? 7 : 6;
     EXPECT_LT(gradient.head(free).norm(), 1e-6);
-    double weight_sum = 0;
-    for (const double w : weights) weight_sum += w;
-    EXPECT_NEAR(result->rmse, std::sqrt(cost(Vector7d::Zero())(0) / weight_sum), 1e-12);
+    EXPECT_NEAR(result->rmse, std::sqrt(cost(Vector7d::Zero())(0) / 15), 1e-12);
   }
-}
-
-TEST(AlignPoints, PointsOfNoWeightDoNotCount) {
-  Rng rng(5);
-  Points source = RandomPoints(rng, 6);
-  const Similarity3 truth = ToSimilarity(RandomRigid(rng));
-  Points target = Moved(truth, source);
-  target[2] += Eigen::Vector3d(100, 0, 0);
-  const std::vector<double> weights = {1, 1, 0, 1, 1, 1};
-  const auto result = AlignPoints(source, target, AlignmentScale::kFree, weights);
-  ASSERT_TRUE(result);
-  EXPECT_LT(Difference(result->target_from_source, truth), 1e-10);
 }
 
 TEST(AlignPoints, NamesDegenerateSets) {
