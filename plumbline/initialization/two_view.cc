@@ -160,11 +160,10 @@ TwoViewSolution SolveTwoViews(std::span<const RayMatch> matches, Rng& rng) {
   TwoViewSolution solution;
   solution.wait = InitializationWait::kTooFewMatches;
   if (matches.size() < kMinMatches) return solution;
-  const RansacBudget budget{.max_iterations = kSamples};
   const EightPointProblem essentials(matches);
   const HomographyProblem homographies(matches);
-  const auto E = Ransac<EightPointProblem>(essentials, budget, 1).Run({}, rng);
-  const auto H = Ransac<HomographyProblem>(homographies, budget, 1).Run({}, rng);
+  const auto E = Ransac<EightPointProblem>(essentials, kSamples, 1).Run({}, rng);
+  const auto H = Ransac<HomographyProblem>(homographies, kSamples, 1).Run({}, rng);
   if (E.empty() || H.empty()) return solution;
   const double epipolar = EpipolarScore(E.front().model, matches);
   const double transfer = TransferScore(H.front().model, matches);

@@ -292,7 +292,7 @@ std::optional<Similarity3> AlignByRansac(const AlignmentProblem& problem, std::u
   matches.sightings.clear();
   const MatchProblem ransac_problem(matches);
   Rng rng(seed, "loop_alignment");
-  const auto best = Ransac<MatchProblem>(ransac_problem, {0.999, 300}, 1).Run({}, rng);
+  const auto best = Ransac<MatchProblem>(ransac_problem, 300, 1).Run({}, rng);
   if (best.empty()) return std::nullopt;
   return best.front().model;
 }

@@ -168,11 +168,11 @@ std::optional<Rigid3> PoseFromPoints(const RectifiedCamera& camera,
                                      double max_error_px) {
   // Three points fix a pose, and any fourth one may agree by chance.
   constexpr std::size_t kMinPoints = 6;
-  constexpr RansacBudget kBudget{.confidence = 0.999, .max_iterations = 300};
+  constexpr int kMostSamples = 300;
   if (points.size() < kMinPoints) return std::nullopt;
   const PointsProblem problem(camera, points, max_error_px);
   Rng rng(0, "absolute_pose");
-  const auto found = Ransac<PointsProblem>(problem, kBudget, 1).Run({}, rng);
+  const auto found = Ransac<PointsProblem>(problem, kMostSamples, 1).Run({}, rng);
   if (found.empty() || problem.Inliers(found[0].model) < kMinPoints) return std::nullopt;
   return found[0].model;
 }

@@ -17,19 +17,14 @@
 
 namespace plumbline {
 
-struct RansacBudget {
-  double confidence = 0.999;  // probability of having drawn one sample without outliers
-  int max_iterations = 500;
-};
-
-// Returns the number of samples to draw for one of inliers alone, with the given confidence.
-inline int SamplesNeeded(double inlier_ratio, int sample_size, const RansacBudget& budget) {
+// Returns the number of samples to draw, `most` at most, for one of inliers alone.
+inline int SamplesNeeded(double inlier_ratio, int sample_size, int most) {
+  constexpr double kConfidence = 0.999;  // probability of having drawn such a sample
   const double good = math::Pow(std::clamp(inlier_ratio, 0.0, 1.0), sample_size);
   if (good >= 1) return 1;
-  if (good <= 1e-12) return budget.max_iterations;
-  const double needed = math::Log(1 - budget.confidence) / math::Log1p(-good);
-  return static_cast<int>(
-      std::clamp(std::ceil(needed), 1.0, static_cast<double>(budget.max_iterations)));
+  if (good <= 1e-12) return most;
+  const double needed = math::Log(1 - kConfidence) / math::Log1p(-good);
+  return static_cast<int>(std::clamp(std::ceil(needed), 1.0, static_cast<double>(most)));
 }
 
 // Returns `count` different indices below `size`, which must be at least as large.
@@ -73,8 +68,8 @@ class Ransac {
   using Model = typename Problem::Model;
   using Scored = ScoredModel<Model>;
 
-  Ransac(const Problem& problem, const RansacBudget& budget, double keep)
-      : problem_(problem), budget_(budget), keep_(keep) {}
+  Ransac(const Problem& problem, int most_samples, double keep)
+      : problem_(problem), most_samples_(most_samples), keep_(keep) {}
 
   std::vector<Scored> Run(std::span<const Model> guesses, Rng& rng) {
     for (const Model& guess : guesses) Consider(guess);
@@ -93,9 +88,9 @@ class Ransac {
   static constexpr std::size_t kMostKept = 4;
 
   int Needed() const {
-    if (kept_.empty()) return budget_.max_iterations;
+    if (kept_.empty()) return most_samples_;
     const double ratio = problem_.InlierRatio(kept_.front().model);
-    return SamplesNeeded(ratio, static_cast<int>(Problem::kSampleSize), budget_);
+    return SamplesNeeded(ratio, static_cast<int>(Problem::kSampleSize), most_samples_);
   }
 
   double Limit() const {
@@ -139,7 +134,7 @@ class Ransac {
   }
 
   const Problem& problem_;
-  RansacBudget budget_;
+  int most_samples_;
   double keep_;
   std::vector<Scored> kept_;
 };

@@ -136,9 +136,9 @@ void AddEssentials(std::span<const RayMatch> matches,
                    HypothesisList& list) {
   std::vector<Eigen::Matrix3d> models;
   for (const Rigid3& guess : guesses) models.push_back(EssentialMatrix(guess).normalized());
-  const RansacBudget budget{options.confidence, options.max_iterations};
   const Problem problem(matches);
-  for (const auto& scored : Ransac<Problem>(problem, budget, kRivalCost).Run(models, rng)) {
+  for (const auto& scored :
+       Ransac<Problem>(problem, options.max_iterations, kRivalCost).Run(models, rng)) {
     // Refinement keeps the rotation, and the epipolar distance is the same for both rotations. Only
     // the one with points in front is worth refining.
     const auto poses = RotationsOf(scored.model);
@@ -160,9 +160,9 @@ void AddHomographies(std::span<const RayMatch> matches,
                      const RelativePoseOptions& options,
                      Rng& rng,
                      HypothesisList& list) {
-  const RansacBudget budget{options.confidence, std::min(options.max_iterations, kMaxHomographies)};
+  const int most_samples = std::min(options.max_iterations, kMaxHomographies);
   const HomographyProblem problem(matches);
-  const auto best = Ransac<HomographyProblem>(problem, budget, 1).Run({}, rng);
+  const auto best = Ransac<HomographyProblem>(problem, most_samples, 1).Run({}, rng);
   if (best.empty() || problem.InlierRatio(best.front().model) < kPlanePart) return;
   for (const PlanarMotion& motion : MotionsFromHomography(best.front().model)) {
     const double length = motion.b_from_a.translation.norm();

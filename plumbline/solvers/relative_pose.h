@@ -43,8 +43,7 @@ constexpr auto EnumNames(std::type_identity<RelativePoseMethod>) {
 struct RelativePoseOptions {
   // The method; eight points, as in the paper, fail on planes.
   RelativePoseMethod method = RelativePoseMethod::kFivePoint;
-  double confidence = 0.999;  // probability of drawing a sample without outliers
-  int max_iterations = 500;   // most samples that are drawn
+  int max_iterations = 500;  // most samples that are drawn
 };
 
 // Returns all relative poses that explain the matches, the best first.

@@ -62,9 +62,9 @@ std::vector<double> TwoGroups() {
 }
 
 TEST(SamplesNeeded, LeaveOneInAThousandUndrawn) {
-  EXPECT_EQ(SamplesNeeded(1, 5, {}), 1);
-  EXPECT_EQ(SamplesNeeded(0, 5, {}), 500);
-  const int needed = SamplesNeeded(0.8, 5, {});
+  EXPECT_EQ(SamplesNeeded(1, 5, 500), 1);
+  EXPECT_EQ(SamplesNeeded(0, 5, 500), 500);
+  const int needed = SamplesNeeded(0.8, 5, 500);
   EXPECT_LE(std::pow(1 - std::pow(0.8, 5), needed), 0.001);
   EXPECT_GT(std::pow(1 - std::pow(0.8, 5), needed - 1), 0.001);
 }
@@ -82,10 +82,10 @@ TEST(DrawSample, HasDifferentIndices) {
 TEST(Ransac, FindsTheBestImprovedAndKeepsRivals) {
   const NearMost problem(TwoGroups());
   Rng rng(1);
-  const auto one = Ransac<NearMost>(problem, {}, 1).Run({}, rng);
+  const auto one = Ransac<NearMost>(problem, 500, 1).Run({}, rng);
   ASSERT_EQ(one.size(), 1U);
   EXPECT_NEAR(one.front().model, problem.Improve(10), 1e-12);
-  const auto both = Ransac<NearMost>(problem, {}, 1.6).Run({}, rng);
+  const auto both = Ransac<NearMost>(problem, 500, 1.6).Run({}, rng);
   ASSERT_EQ(both.size(), 2U);
   EXPECT_NEAR(both[0].model, 10, 0.1);
   EXPECT_NEAR(both[1].model, 20, 0.5);
@@ -96,16 +96,16 @@ TEST(Ransac, AGoodGuessSavesSamples) {
   const NearMost without(TwoGroups());
   const NearMost with(TwoGroups());
   Rng rng(1);
-  Ransac<NearMost>(without, {.max_iterations = 3}, 1).Run({}, rng);
+  Ransac<NearMost>(without, 3, 1).Run({}, rng);
   EXPECT_EQ(without.solved, 3);
-  const auto best = Ransac<NearMost>(with, {.max_iterations = 0}, 1).Run(std::array{10.2}, rng);
+  const auto best = Ransac<NearMost>(with, 0, 1).Run(std::array{10.2}, rng);
   EXPECT_NEAR(best.front().model, 10, 0.1);
 }
 
 TEST(Ransac, TooFewForASampleGivesNothing) {
   const NearMost problem({});
   Rng rng(1);
-  EXPECT_TRUE(Ransac<NearMost>(problem, {}, 1).Run({}, rng).empty());
+  EXPECT_TRUE(Ransac<NearMost>(problem, 500, 1).Run({}, rng).empty());
 }
 
 }  // namespace
