@@ -46,10 +46,9 @@ int PointGrid::CellX(double x) const { return CellOf(x, cell_px_, columns_); }
 
 int PointGrid::CellY(double y) const { return CellOf(y, cell_px_, rows_); }
 
-std::vector<int> PointGrid::InWindow(const Eigen::Vector2d& center,
-                                     const Eigen::Vector2d& radius) const {
+std::vector<int> PointGrid::InWindow(const Eigen::Vector2d& center, double radius) const {
   std::vector<int> result;
-  InWindow(center, radius, &result);
+  InWindow(center, {radius, radius}, &result);
   return result;
 }
 

@@ -17,13 +17,10 @@ class PointGrid {
   // Builds the index. It is best if `cell_px` is about the usual radius of a query. Cost: O(n).
   PointGrid(const std::vector<Eigen::Vector2d>& positions, int width, int height, int cell_px = 32);
 
-  // Returns the indices of the positions with |dx| <= radius.x and |dy| <= radius.y, in the order
-  // of the cells.
-  std::vector<int> InWindow(const Eigen::Vector2d& center, const Eigen::Vector2d& radius) const;
-  std::vector<int> InWindow(const Eigen::Vector2d& center, double radius) const {
-    return InWindow(center, Eigen::Vector2d(radius, radius));
-  }
-  // Writes the indices into a vector that is reused (cleared first) to save allocations.
+  // Returns the indices of the positions with |dx| and |dy| <= radius, in the order of the cells.
+  std::vector<int> InWindow(const Eigen::Vector2d& center, double radius) const;
+  // Writes the indices of the positions with |dx| <= radius.x and |dy| <= radius.y into a vector
+  // that is reused (cleared first) to save allocations.
   void InWindow(const Eigen::Vector2d& center,
                 const Eigen::Vector2d& radius,
                 std::vector<int>* out) const;
