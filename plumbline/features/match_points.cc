@@ -147,22 +147,14 @@ std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
   CandidateSearch in_b(b, options.radius_px);
   CandidateSearch in_a(a, options.radius_px);
   std::vector<PointMatch> matches;
-  std::vector<int> owner(b.size(), -1);  // index into matches
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Best best = in_b.Find(a[i], options);
     if (best.index < 0 || best.distance > options.max_distance) continue;
     if (options.ratio < 1 && best.distance >= options.ratio * best.second) continue;
     const auto j = static_cast<std::size_t>(best.index);
-    if (options.mutual && in_a.Find(b[j], options).index != static_cast<int>(i)) continue;
-    if (owner[j] >= 0) {  // possible only without the mutual test
-      PointMatch& earlier = matches[static_cast<std::size_t>(owner[j])];
-      if (best.distance >= earlier.distance) continue;
-      earlier.a = -1;
-    }
-    owner[j] = static_cast<int>(matches.size());
+    if (in_a.Find(b[j], options).index != static_cast<int>(i)) continue;
     matches.push_back({static_cast<int>(i), best.index, best.distance});
   }
-  std::erase_if(matches, [](const PointMatch& m) { return m.a < 0; });
   return matches;
 }
 

@@ -26,14 +26,13 @@ struct PointMatchOptions {
   int max_distance = 64;  // largest Hamming distance, of 256 bits
   // Limit for the ratio of the best to the second best distance; 1: no test.
   double ratio = 0.8;
-  bool mutual = true;  // whether a must also be the best match of b
   // Half width of the search window around the same position; 0: no window.
   double radius_px = 0;
   int max_octave_step = 8;   // largest difference of octaves
   double max_angle_deg = 0;  // largest difference of orientations; 0: no test
 };
 
-// Returns pairs of points with similar descriptors in two images, at most one pair for each point.
+// Returns pairs of points with similar descriptors in two images, each the best match of the other.
 // Ties go to the lower index; the result is ordered by `a`. Cost: O(|a| |b|) without a window.
 std::vector<PointMatch> MatchPoints(const std::vector<PointFeature>& a,
                                     const std::vector<PointFeature>& b,

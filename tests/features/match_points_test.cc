@@ -45,7 +45,7 @@ TEST(MatchPoints, FindsTheNearestOfAllAsPairByPair) {
   const auto a = RandomPoints(57);
   auto b = RandomPoints(61);
   for (std::size_t i = 0; i < b.size(); ++i) FlipBits(static_cast<int>(3 * i % 50), &b[i]);
-  const auto matches = MatchPoints(a, b, {.max_distance = 256, .ratio = 1, .mutual = false});
+  const auto matches = MatchPoints(a, b, {.max_distance = 256, .ratio = 1});
   for (const PointMatch& match : matches) {
     const auto& query = a[static_cast<std::size_t>(match.a)].descriptor;
     int best = 257;
@@ -113,13 +113,9 @@ TEST(MatchPoints, GivesAPointToItsNearerPartnerOnly) {
   a.push_back(a[0]);
   FlipBits(10, &a[0]);
   const std::vector<PointFeature> b = {a[1]};
-  for (const bool mutual : {true, false}) {
-    PointMatchOptions options;
-    options.mutual = mutual;
-    const auto matches = MatchPoints(a, b, options);
-    ASSERT_EQ(matches.size(), 1U);
-    EXPECT_EQ(matches[0].a, 1);
-  }
+  const auto matches = MatchPoints(a, b, {});
+  ASSERT_EQ(matches.size(), 1U);
+  EXPECT_EQ(matches[0].a, 1);
 }
 
 TEST(MatchPoints, OfNothingIsNothing) {
