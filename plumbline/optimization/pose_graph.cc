@@ -15,6 +15,12 @@
 namespace plumbline {
 namespace {
 
+constexpr int kMaxSteps = 20;  // Gauss-Newton steps in all
+// The solution ends when no component of a step is larger: radians, map units, log scale.
+constexpr double kStepTolerance = 1e-6;
+// An edge that may be wrong is right when its squared Mahalanobis norm is below this.
+constexpr double kRightChi2 = 24.3;
+
 // Returns the inverse of the left Jacobian of sim(3) for the residual of an edge. Near zero this is
 // the Bernoulli series in ad(x) up to its fourth power, which is exact to 1e-8 there.
 Matrix7d InverseLeftJacobian(const Vector7d& x) {
@@ -179,16 +185,16 @@ std::vector<double> Chi2(const PoseGraph& graph, const std::vector<Similarity3>&
 }
 
 // Returns the weight of a residual under the truncated squares made convex by mu (Yang et al.).
-double Weight(double chi2, double max_chi2, double mu) {
-  if (chi2 <= mu / (mu + 1) * max_chi2) return 1;
-  if (chi2 >= (mu + 1) / mu * max_chi2) return 0;
-  return std::sqrt(max_chi2 * mu * (mu + 1) / chi2) - mu;
+double Weight(double chi2, double mu) {
+  if (chi2 <= mu / (mu + 1) * kRightChi2) return 1;
+  if (chi2 >= (mu + 1) / mu * kRightChi2) return 0;
+  return std::sqrt(kRightChi2 * mu * (mu + 1) / chi2) - mu;
 }
 
 // The weights of the edges that may be wrong, for a loss that is less convex with each call.
 class Graduation {
  public:
-  Graduation(const PoseGraph& graph, double max_chi2) : graph_(graph), max_chi2_(max_chi2) {}
+  explicit Graduation(const PoseGraph& graph) : graph_(graph) {}
 
   // Updates the weights; returns false when they are final.
   bool Update(const std::vector<double>& chi2, std::vector<double>& weights) {
@@ -197,15 +203,15 @@ class Graduation {
       if (graph_.edges[e].may_be_wrong) largest = std::max(largest, chi2[e]);
     }
     if (mu_ == 0) {
-      if (largest <= max_chi2_) return false;
-      mu_ = max_chi2_ / (2 * largest - max_chi2_);
+      if (largest <= kRightChi2) return false;
+      mu_ = kRightChi2 / (2 * largest - kRightChi2);
     } else {
       mu_ *= kGrowth;
     }
     bool binary = true;
     for (std::size_t e = 0; e < chi2.size(); ++e) {
       if (!graph_.edges[e].may_be_wrong) continue;
-      weights[e] = Weight(chi2[e], max_chi2_, mu_);
+      weights[e] = Weight(chi2[e], mu_);
       binary = binary && (weights[e] == 0 || weights[e] == 1);
     }
     const bool done = binary && settled_;
@@ -217,23 +223,21 @@ class Graduation {
   static constexpr double kGrowth = 2;
 
   const PoseGraph& graph_;
-  double max_chi2_;
   double mu_ = 0;         // 0 before the first call
   bool settled_ = false;  // all weights were 0 or 1 after the last call
 };
 
 template <int kSize>
-PoseGraphResult Solve(const PoseGraph& graph, const PoseGraphOptions& options) {
+PoseGraphResult Solve(const PoseGraph& graph) {
   PoseGraphResult result;
   result.poses = graph.poses;
   result.weights.assign(graph.edges.size(), 1);
   System<kSize> system(graph);
-  Graduation graduation(graph, options.max_chi2);
-  while (result.iterations < options.max_iterations) {
-    ++result.iterations;
+  Graduation graduation(graph);
+  for (int i = 0; i < kMaxSteps; ++i) {
     const auto step = system.Step(result.weights, result.poses);
     if (!step) break;
-    if (*step > options.step_tolerance) continue;
+    if (*step > kStepTolerance) continue;
     result.converged = !graduation.Update(Chi2(graph, result.poses), result.weights);
     if (result.converged) break;
   }
@@ -249,10 +253,9 @@ Vector7d PoseGraphResidual(const PoseGraphEdge& edge,
   return LogSim3(to * Inverse(from) * Inverse(edge.to_from));
 }
 
-PoseGraphResult SolvePoseGraph(const PoseGraph& graph, const PoseGraphOptions& options) {
+PoseGraphResult SolvePoseGraph(const PoseGraph& graph) {
   PLUMBLINE_CHECK(graph.fixed.size() == graph.poses.size(), "a flag for each pose");
-  return graph.motion == PoseGraphMotion::kRigid ? Solve<6>(graph, options)
-                                                 : Solve<7>(graph, options);
+  return graph.motion == PoseGraphMotion::kRigid ? Solve<6>(graph) : Solve<7>(graph);
 }
 
 }  // namespace plumbline

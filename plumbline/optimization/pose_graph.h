@@ -31,22 +31,12 @@ struct PoseGraph {
   std::vector<PoseGraphEdge> edges;
 };
 
-struct PoseGraphOptions {
-  int max_iterations = 20;  // Gauss-Newton iterations in all
-  // The solution ends when no component of a step is larger: radians, map units, log scale.
-  double step_tolerance = 1e-6;
-  // An edge that may be wrong is right when its squared Mahalanobis norm is below this: by default
-  // the 99.9 % quantile of chi2 with seven degrees of freedom.
-  double max_chi2 = 24.3;
-};
-
 struct PoseGraphResult {
   std::vector<Similarity3> poses;
   // One weight per edge: 1, or for edges that may be wrong between 0 (wrong) and 1.
   std::vector<double> weights;
   // Squared Mahalanobis norm of the residual of each edge, without weight.
   std::vector<double> chi2;
-  int iterations = 0;
   bool converged = false;  // the last step was within the tolerance
 };
 
@@ -59,15 +49,16 @@ Vector7d PoseGraphResidual(const PoseGraphEdge& edge,
 // Returns the poses with which the edges agree best. Gauss-Newton with left perturbations; the
 // sparse system is solved front by front (multifrontal_cholesky.h).
 //
-// Edges that may be wrong have the truncated squares as their loss, c^2 = max_chi2, which is
-// approached by graduated non-convexity (Yang, Antonante, Tzoumas and Carlone, RA-L 2020). The
-// first solution trusts all of them; those that then disagree most lose weight first. A wrong edge
-// with more information than all edges that contradict it bends the rest instead. The sum of chi2
-// then shows that it does not belong: a right edge raises that sum by its degrees of freedom.
+// Edges that may be wrong have the truncated squares as their loss, c^2 = 24.3 (the 99.9 % quantile
+// of chi2 with seven degrees of freedom), which is approached by graduated non-convexity (Yang,
+// Antonante, Tzoumas and Carlone, RA-L 2020). The first solution trusts all of them; those that
+// then disagree most lose weight first. A wrong edge with more information than all edges that
+// contradict it bends the rest instead. The sum of chi2 then shows that it does not belong: a right
+// edge raises that sum by its degrees of freedom.
 //
 //   graph    poses are the initial ones; what no edge ties to a fixed pose stays where it is
 //   returns  always a result; judge it by `converged`, the weights and chi2
 //   cost     about 0.1 s an iteration for 3,000 poses with 10 neighbours each; mostly 4 or 5
-PoseGraphResult SolvePoseGraph(const PoseGraph& graph, const PoseGraphOptions& options = {});
+PoseGraphResult SolvePoseGraph(const PoseGraph& graph);
 
 }  // namespace plumbline
