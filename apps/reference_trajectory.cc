@@ -100,7 +100,6 @@ ReferenceTrajectory LoadReference(const fs::path& path, std::optional<ReferenceF
                      "(--reference-frame camera takes them as they are)");
   }
   reference.poses = OfCamera(reference.poses, ReadEurocSensor(sensor).body_from_camera);
-  reference.converted_from_body = true;
   return reference;
 }
 

@@ -24,7 +24,6 @@ constexpr auto EnumNames(std::type_identity<ReferenceFrame>) {
 struct ReferenceTrajectory {
   Trajectory poses;  // of the left camera
   TrajectoryFormat format = TrajectoryFormat::kTum;
-  bool converted_from_body = false;
   std::optional<std::size_t> frames;  // images of the sequence beside it, where they are listed
   std::filesystem::path path;         // the file that was read
 };
