@@ -13,7 +13,7 @@
 namespace plumbline {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = PlaybackSchedule::Clock;
 
 // Waits until it is `due`. Returns false where `go_on` says no before that.
 bool WaitUntil(Clock::time_point due, const FrameInput::GoOn& go_on) {
@@ -34,31 +34,23 @@ RecordedInput::RecordedInput(std::shared_ptr<const Dataset> dataset,
                              Say say)
     : dataset_(std::move(dataset)),
       frames_(std::move(frames)),
-      first_(first),
       position_(first),
       live_(mode == RunMode::kLive),
       say_(std::move(say)),
       reader_(dataset_) {}
 
-// When a frame is due. May be asked only after the first frame has been read, which sets the start.
-Clock::time_point RecordedInput::DueOf(std::size_t frame) const {
-  const std::int64_t since_first_ns =
-      dataset_->stamp_ns(frame) - dataset_->stamp_ns(frames_[first_]);
-  return *start_ + std::chrono::nanoseconds(since_first_ns);
-}
-
 std::optional<InputFrame> RecordedInput::Next(const GoOn& go_on) {
   if (position_ >= frames_.size() || !go_on()) return std::nullopt;
   const std::size_t position = position_++;
   const std::size_t k = frames_[position];
-  if (live_ && start_ && !WaitUntil(DueOf(k) - reading_.Enough(), go_on)) return std::nullopt;
+  const std::int64_t stamp_ns = dataset_->stamp_ns(k);
+  if (live_ && !WaitUntil(schedule_.ReadAt(stamp_ns), go_on)) return std::nullopt;
   const Clock::time_point begin = Clock::now();
   const auto read = reader_.Read(k, go_on);
   if (!read) return std::nullopt;
-  reading_.Add(Clock::now() - begin);
-  if (!start_) start_ = Clock::now();
-  if (!(live_ ? WaitUntil(DueOf(k), go_on) : go_on())) return std::nullopt;
-  InputFrame next{dataset_->stamp_ns(k), std::nullopt, ""};
+  const Clock::time_point due = schedule_.DueOnceRead(stamp_ns, begin, Clock::now());
+  if (!(live_ ? WaitUntil(due, go_on) : go_on())) return std::nullopt;
+  InputFrame next{stamp_ns, std::nullopt, ""};
   if (*read) {
     next.frame = **read;
     return next;

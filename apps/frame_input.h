@@ -6,7 +6,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/live/live_source.h"
 #include "plumbline/live/stamp_continuity.h"
-#include "plumbline/report/reading_time.h"
+#include "plumbline/report/playback_schedule.h"
 #include "plumbline/slam/options.h"
 
 #include "apps/frame_reader.h"
@@ -59,21 +59,15 @@ class RecordedInput : public FrameInput {
                 RunMode mode,
                 Say say);
   std::optional<InputFrame> Next(const GoOn& go_on) override;
-  void Delay(std::chrono::steady_clock::duration pause) override {
-    if (start_) *start_ += pause;
-  }
+  void Delay(std::chrono::steady_clock::duration pause) override { schedule_.Delay(pause); }
 
  private:
-  std::chrono::steady_clock::time_point DueOf(std::size_t frame) const;
-
   std::shared_ptr<const Dataset> dataset_;
   std::vector<std::size_t> frames_;
-  std::size_t first_, position_;
+  std::size_t position_;  // of the frame that comes next
   bool live_;
   Say say_;
-  // When the first one was due.
-  std::optional<std::chrono::steady_clock::time_point> start_;
-  ReadingTime reading_;
+  PlaybackSchedule schedule_;
   FrameReader reader_;
 };
 
