@@ -5,6 +5,7 @@
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/report/error_options.h"
+#include "plumbline/report/playback_schedule.h"
 
 #include "apps/command_line.h"
 #include "arrays.h"
@@ -12,6 +13,8 @@
 #include "frames.h"
 #include "iteration.h"
 #include "trajectories.h"
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -77,6 +80,14 @@ py::dict ErrorOptionsOf(const Dataset& dataset) {
   return dict;
 }
 
+// Times of Python's time.monotonic_ns(), as a schedule takes and gives them.
+PlaybackSchedule::Clock::time_point TimeOf(std::int64_t ns) {
+  return PlaybackSchedule::Clock::time_point(std::chrono::nanoseconds(ns));
+}
+std::int64_t NanosecondsOf(PlaybackSchedule::Clock::time_point time) {
+  return std::chrono::nanoseconds(time.time_since_epoch()).count();
+}
+
 py::array Right(const py::object& self) {
   return View(*self.cast<const PyFrame&>().images.right, self);
 }
@@ -109,10 +120,39 @@ void BindFrame(py::module_& module) {
           "the frame alive.");
 }
 
+void BindPlaybackSchedule(py::module_& module) {
+  py::class_<PlaybackSchedule>(
+      module,
+      "_PlaybackSchedule",
+      "When the frames of a recording that is played live are read and given out, in "
+      "time.monotonic_ns().")
+      .def(py::init<>())
+      .def(
+          "read_at",
+          [](const PlaybackSchedule& schedule, std::int64_t stamp_ns) {
+            return NanosecondsOf(schedule.ReadAt(stamp_ns));
+          },
+          py::arg("stamp_ns"),
+          "When to begin to read the frame of this stamp.")
+      .def(
+          "due_once_read",
+          [](PlaybackSchedule& schedule,
+             std::int64_t stamp_ns,
+             std::int64_t begin_ns,
+             std::int64_t end_ns) {
+            return NanosecondsOf(schedule.DueOnceRead(stamp_ns, TimeOf(begin_ns), TimeOf(end_ns)));
+          },
+          py::arg("stamp_ns"),
+          py::arg("begin_ns"),
+          py::arg("end_ns"),
+          "When the frame of this stamp is due, which was read between these times.");
+}
+
 }  // namespace
 
 void BindDatasets(py::module_& module) {
   BindFrame(module);
+  BindPlaybackSchedule(module);
   py::class_<Dataset, std::shared_ptr<Dataset>>(module, "Dataset", R"(A recorded sequence: frames in
 the order of time, read when they are asked for. len(), indices and iteration.)")
       .def("__len__", &Dataset::size)

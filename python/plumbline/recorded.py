@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from . import _plumbline
-from ._plumbline import Atlas, Dataset, FrameResult, InputError, Map, System, Trajectory
+from ._plumbline import Atlas, Dataset, Frame, FrameResult, InputError, Map, System, Trajectory
 
 if TYPE_CHECKING:
     from ._plumbline import _TrajectoryErrors  # known to the types alone
@@ -85,9 +85,19 @@ def _choose_frames(dataset: Dataset, start: int, stop: int | None, stride: int) 
     return list(range(first, end, _count("stride", stride, 1)))
 
 
-def _wait_until(due: float) -> None:
-    while (left := due - time.monotonic()) > 0:
-        time.sleep(left)
+def _wait_until(due_ns: int) -> None:
+    while (left := due_ns - time.monotonic_ns()) > 0:
+        time.sleep(1e-9 * left)
+
+
+def _read_live(dataset: Dataset, index: int, stamp_ns: int,
+               schedule: _plumbline._PlaybackSchedule) -> Frame | None:
+    """Reads a frame shortly before it is due, and returns when it is due."""
+    _wait_until(schedule.read_at(stamp_ns))
+    begin_ns = time.monotonic_ns()
+    frame = dataset._read(index)
+    _wait_until(schedule.due_once_read(stamp_ns, begin_ns, time.monotonic_ns()))
+    return frame
 
 
 class _Teller:
@@ -115,13 +125,15 @@ class _Teller:
 def _feed(system: System, dataset: Dataset, frames: list[int], teller: _Teller) -> None:
     live = system.options["slam"]["mode"] == "live"
     stamps = dataset.stamps_ns
-    begin = time.monotonic()
+    schedule = _plumbline._PlaybackSchedule()
     for index in frames:
-        frame = dataset._read(index)
+        stamp_ns = int(stamps[index])
         if live:
-            _wait_until(begin + 1e-9 * int(stamps[index] - stamps[frames[0]]))
+            frame = _read_live(dataset, index, stamp_ns, schedule)
+        else:
+            frame = dataset._read(index)
         if frame is None:
-            system.skip(int(stamps[index]), "image_unreadable")
+            system.skip(stamp_ns, "image_unreadable")
         else:
             system.feed(frame)
         teller.tell()

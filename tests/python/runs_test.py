@@ -5,11 +5,13 @@ import signal
 import subprocess
 import sys
 import textwrap
+import types
 
 import numpy as np
 import pytest
 
 import plumbline
+from plumbline import recorded
 
 # Files of a run that have nothing to do with the clock.
 SAME = ["trajectory.txt", "trajectory_causal.txt", "keyframes.txt", "frames.csv", "map.plb",
@@ -73,6 +75,33 @@ def test_a_map_has_the_same_bytes_whatever_the_data_are_called(sequence, finishe
 def test_a_live_run_follows_the_clock(dataset):
     run = plumbline.run(dataset, stop=4, slam={"mode": "live"})
     assert len(run.results) == 4
+
+
+def test_a_live_run_reads_each_frame_shortly_before_it_is_due(monkeypatch):
+    ms = 1_000_000
+    now, read, fed = 7 * ms, [], []
+
+    def sleep(seconds):
+        nonlocal now
+        now += round(1e9 * seconds)
+
+    def read_frame(index):
+        nonlocal now
+        read.append(now // ms)
+        now += 40 * ms
+        return None if index == 2 else index
+
+    told = types.SimpleNamespace(tell=lambda: None)
+    stamps = np.array([0, 100, 200, 2000]) * ms  # the last one behind a gap of the recording
+    dataset = types.SimpleNamespace(stamps_ns=stamps, _read=read_frame)
+    system = types.SimpleNamespace(options={"slam": {"mode": "live"}},
+                                   feed=lambda frame: fed.append(now // ms),
+                                   skip=lambda stamp_ns, reason: fed.append(now // ms))
+    monkeypatch.setattr(recorded, "time",
+                        types.SimpleNamespace(monotonic_ns=lambda: now, sleep=sleep))
+    recorded._feed(system, dataset, [0, 1, 2, 3], told)
+    assert read == [7, 97, 197, 1997]  # 50 ms before, since reading takes 40 ms
+    assert fed == [47, 147, 247, 2047]
 
 
 def test_results_come_in_order(dataset):
