@@ -300,21 +300,22 @@ nanoseconds, later than the frame before. The GIL is released meanwhile.)")
            py::arg("stamp_ns") = py::none(),
            R"(feed(images, stamp_ns=None)
 
-The same without waiting: with slam.mode lockstep tracking is up to two frames behind, with live
-frames may be dropped. What came of the frames is told by results().)")
+Takes a frame, images and stamp_ns as process() does, and does not wait until it is tracked: with
+slam.mode lockstep tracking is up to two frames behind, with live frames may be dropped. results()
+tells what came of the frames.)")
       .def("skip",
            &RunningSystem::Skip,
            py::arg("stamp_ns"),
            py::arg("reason"),
            py::call_guard<py::gil_scoped_release>(),
-           "skip(stamp_ns, reason)\n\nA frame that could not be read.")
+           "skip(stamp_ns, reason)\n\nTakes note of a frame that could not be read.")
       .def("results",
            &RunningSystem::TakeRecords,
            py::call_guard<py::gil_scoped_release>(),
            R"(results() -> list of FrameResult
 
-Of the frames that were tracked since the last call, in order, but for those that process()
-returned.)")
+What came of the frames that were tracked since the last call, in order. Those that process()
+returned are left out.)")
       .def("continue_in",
            &ContinueIn,
            py::arg("atlas"),
@@ -352,9 +353,9 @@ so much agreement between two places), "moved" (m), "turned_deg", "scale" (how t
 keyframe was corrected); joins "kept" and "gone" (ids of maps).)")
       .def("new_events", &NewEventsOf, R"(new_events() -> list of dict
 
-Of the events since the last call those that are known by now, without waiting: those of events(),
-each with its "kind": "loop", "join" or "relocalization". None is missing after finish(); how soon
-one is told depends on the machine's speed.)")
+The events since the last call that are known by now, without waiting for mapping. They are the
+dictionaries of events(), each with its "kind": "loop", "join" or "relocalization". None is missing
+after finish(); how soon one is told depends on the machine's speed.)")
       .def("trajectory",
            &TrajectoryIn<&System::FinalTrajectory>,
            map,
