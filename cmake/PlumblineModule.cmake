@@ -41,6 +41,27 @@ function(plumbline_module)
   add_library(plumbline::${ARG_NAME} ALIAS ${target})
 endfunction()
 
+# plumbline_page(REPORT_PAGE report_page.html a.css b.js ...)
+# Sets the variable to the text of an HTML page that needs no other file: {{STYLE}} in it is replaced by all
+# .css, {{SCRIPT}} by all other files, in the order given. CMake runs again when one of them changes.
+function(plumbline_page variable page)
+  set(style "")
+  set(script "")
+  foreach(name IN LISTS ARGN)
+    file(READ ${name} content)
+    if(name MATCHES "css$")
+      string(APPEND style "${content}")
+    else()
+      string(APPEND script "${content}")
+    endif()
+  endforeach()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page} ${ARGN})
+  file(READ ${page} text)
+  string(REPLACE "{{STYLE}}" "${style}" text "${text}")
+  string(REPLACE "{{SCRIPT}}" "${script}" text "${text}")
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
 # plumbline_tests(NAME geometry SOURCES se3_test.cc ... [LIBS lib ...] [LABELS unit] [TIMEOUT 120]
 #                 [REAL_DATA] [LONG] [ALONE se3_test.cc ...])
 # One test executable for one module; every TEST() becomes a CTest test. REAL_DATA: it looks for the
