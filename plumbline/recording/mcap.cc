@@ -23,17 +23,7 @@ constexpr std::uint64_t kChunkHeader = 32;
 constexpr std::uint64_t kMessageHeader = 22;
 constexpr std::uint64_t kLongestName = 1024;  // longest name of a compression
 
-enum Op : std::uint8_t {
-  kHeader = 1,
-  kFooter = 2,
-  kSchema = 3,
-  kChannel = 4,
-  kMessage = 5,
-  kChunk = 6,
-  kDataEnd = 15,
-  kFirstPrivate = 128
-};
-
+using enum mcap::Op;
 using ByteSpan = std::span<const std::uint8_t>;
 
 std::string_view AsText(ByteSpan bytes) {

@@ -15,6 +15,25 @@ namespace plumbline {
 // The bytes with which MCAP files begin and end.
 inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
+namespace mcap {
+
+// The kinds of records, by the byte that each begins with. Not all of those that exist.
+enum Op : std::uint8_t {
+  kHeader = 1,
+  kFooter = 2,
+  kSchema = 3,
+  kChannel = 4,
+  kMessage = 5,
+  kChunk = 6,
+  kMessageIndex = 7,
+  kChunkIndex = 8,
+  kStatistics = 11,
+  kDataEnd = 15,
+  kFirstPrivate = 128  // from here on other programs give them a meaning
+};
+
+}  // namespace mcap
+
 // Whether a file begins as an MCAP file does.
 bool BeginsAsMcap(std::span<const std::uint8_t> bytes);
 

@@ -28,18 +28,8 @@ namespace {
 constexpr std::string_view kMagic = kMcapMagic;
 constexpr int kZstdLevel = 1;
 
-enum Op : std::uint8_t {
-  kHeader = 1,
-  kFooter = 2,
-  kSchema = 3,
-  kChannel = 4,
-  kMessage = 5,
-  kChunk = 6,
-  kMessageIndex = 7,
-  kChunkIndex = 8,
-  kStatistics = 11,
-  kDataEnd = 15
-};
+using mcap::Op;
+using enum mcap::Op;
 
 // The fields of one record.
 class Fields {
