@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/io/checkpoint_io.h"
 
-#include "plumbline/base/byte_format.h"
 #include "plumbline/base/error.h"
 #include "plumbline/io/map_sections.h"
 #include "plumbline/io/section_file.h"
@@ -18,11 +17,9 @@
 namespace plumbline {
 namespace {
 
-constexpr std::string_view kMagic = kCheckpointMagic;
 // Has to be increased with every change of what System::Save writes, and with the version of map
 // files.
 constexpr std::uint32_t kVersion = 5;
-constexpr std::size_t kPreambleBytes = 12;  // magic and version
 
 // The sections after those of the maps: the input; the state, in as many sections as it needs; the
 // end.
@@ -30,35 +27,23 @@ enum SectionKind : std::uint32_t { kInput = kAfterMaps, kState = kAfterMaps + 1,
 
 constexpr std::size_t kSectionBytes = std::size_t{1} << 21;
 
-std::string Preamble() {
-  ByteWriter preamble;
-  for (const char c : kMagic) preamble(static_cast<std::uint8_t>(c));
-  preamble(kVersion);
-  return preamble.Take();
-}
-
 void CheckPreamble(const SectionReader& file) {
-  const std::string& preamble = file.preamble();
-  if (!preamble.starts_with(kMagic)) {
+  const auto version = VersionOf(file, kCheckpointMagic);
+  if (!version) {
     throw InputError(file.source() + ": expected a Plumbline checkpoint, found another file");
   }
-  ByteReader reader({reinterpret_cast<const std::uint8_t*>(preamble.data()), preamble.size()},
-                    file.source());
-  reader.Take(kMagic.size());
-  std::uint32_t version = 0;
-  reader(version);
-  if (version != kVersion) {
+  if (*version != kVersion) {
     throw InputError(fmt::format("{}: expected a checkpoint of version {}, found version {}",
                                  file.source(),
                                  kVersion,
-                                 version));
+                                 *version));
   }
 }
 
 }  // namespace
 
 void SaveCheckpoint(const std::filesystem::path& path, const SavedRun& run) {
-  SectionWriter file(path, Preamble());
+  SectionWriter file(path, VersionedPreamble(kCheckpointMagic, kVersion));
   WriteMapSections(run.maps.atlas, run.maps.context, MapId{}, file);
   file.Write(kInput, run.input);
   const std::string_view state = run.state;
@@ -70,7 +55,7 @@ void SaveCheckpoint(const std::filesystem::path& path, const SavedRun& run) {
 }
 
 SavedRun LoadCheckpoint(const std::filesystem::path& path) {
-  SectionReader file(path, kPreambleBytes);
+  SectionReader file(path, kVersionedPreambleBytes);
   CheckPreamble(file);
   SavedRun run;
   run.maps = ReadMapSections(file);

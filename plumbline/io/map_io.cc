@@ -23,9 +23,7 @@
 namespace plumbline {
 namespace {
 
-constexpr std::string_view kMagic = kMapMagic;
 constexpr std::uint32_t kVersion = 2;
-constexpr std::size_t kPreambleBytes = 12;  // magic and version
 
 // Sections come in this order: the context; for each map its record, keyframes, points and lines,
 // each kind in as many sections as it needs; the end.
@@ -76,13 +74,6 @@ auto DescriptorsIn(const Map& map) {
   return [&map](KeyFrameId keyframe, int feature) {
     return DescriptorOf(map, Landmark(), keyframe, feature);
   };
-}
-
-std::string Preamble() {
-  ByteWriter preamble;
-  for (const char c : kMagic) preamble(static_cast<std::uint8_t>(c));
-  preamble(kVersion);
-  return preamble.Take();
 }
 
 void WriteKeyFrames(const Map& map, SectionWriter& file) {
@@ -177,7 +168,7 @@ void WriteFile(const std::filesystem::path& path,
                const AtlasContext& context,
                MapId active) {
   for (const Map* map : maps) CheckIds(path, *map);
-  SectionWriter file(path, Preamble());
+  SectionWriter file(path, VersionedPreamble(kMapMagic, kVersion));
   WriteSections(maps, context, active, file);
   file.Commit();
 }
@@ -372,24 +363,20 @@ void SaveAtlas(const std::filesystem::path& path,
 }
 
 SavedAtlas LoadAtlas(const std::filesystem::path& path) {
-  SectionReader file(path, kPreambleBytes);
-  const std::string& preamble = file.preamble();
-  if (!preamble.starts_with(kMagic)) {
+  SectionReader file(path, kVersionedPreambleBytes);
+  const auto version = VersionOf(file, kMapMagic);
+  if (!version) {
     throw InputError(file.source() + ": expected a Plumbline map, found another file");
   }
-  ByteReader reader = ReaderOf(preamble, file.source());
-  reader.Take(kMagic.size());
-  std::uint32_t version = 0;
-  reader(version);
-  if (version == 1) {
+  if (*version == 1) {
     return LoadMapFileV1(
         path, [&](const AtlasContext& context) { CheckContext(context, file.source()); });
   }
-  if (version != kVersion) {
+  if (*version != kVersion) {
     throw InputError(fmt::format("{}: expected a map of version 1 or {}, found version {}",
                                  file.source(),
                                  kVersion,
-                                 version));
+                                 *version));
   }
   SavedAtlas saved = ReadMapSections(file);
   if (file.remaining() != 0) {

@@ -126,4 +126,21 @@ SectionReader::Section SectionReader::Next() {
   return section;
 }
 
+std::string VersionedPreamble(std::string_view magic, std::uint32_t version) {
+  ByteWriter preamble;
+  for (const char c : magic) preamble(static_cast<std::uint8_t>(c));
+  preamble(version);
+  return preamble.Take();
+}
+
+std::optional<std::uint32_t> VersionOf(const SectionReader& file, std::string_view magic) {
+  const std::string& preamble = file.preamble();
+  if (!preamble.starts_with(magic)) return std::nullopt;
+  ByteReader reader(BytesOf(preamble), file.source());
+  reader.Take(magic.size());
+  std::uint32_t version = 0;
+  reader(version);
+  return version;
+}
+
 }  // namespace plumbline

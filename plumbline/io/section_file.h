@@ -4,9 +4,11 @@
 
 #include "plumbline/io/atomic_file.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -66,5 +68,13 @@ class SectionReader {
   std::uint64_t remaining_ = 0;
   std::string preamble_;
 };
+
+// The preamble of files that have a version: eight bytes that tell what they are, and the version
+// in four, little-endian.
+inline constexpr std::size_t kVersionedPreambleBytes = 12;
+std::string VersionedPreamble(std::string_view magic, std::uint32_t version);
+// Returns the version of a file that was opened with a preamble of that size; nullopt where it does
+// not begin with `magic`. Throws InputError where the file ends before the version does.
+std::optional<std::uint32_t> VersionOf(const SectionReader& file, std::string_view magic);
 
 }  // namespace plumbline

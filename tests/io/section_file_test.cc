@@ -57,6 +57,17 @@ TEST(SectionFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(MessageOf([&] { file.Next(); }), file.source() + ": ends early");
 }
 
+TEST(SectionFile, TellsTheVersionInItsPreamble) {
+  const ScratchFolder folder;
+  const std::string preamble = VersionedPreamble("PLBTEST\n", 258);
+  EXPECT_EQ(preamble, std::string("PLBTEST\n\x02\x01\0\0", kVersionedPreambleBytes));
+  const SectionReader file(folder.Write("whole", preamble + "more"), kVersionedPreambleBytes);
+  EXPECT_EQ(VersionOf(file, "PLBTEST\n"), 258U);
+  EXPECT_EQ(VersionOf(file, "PLBOTHER"), std::nullopt);
+  const SectionReader cut(folder.Write("cut", preamble.substr(0, 10)), kVersionedPreambleBytes);
+  EXPECT_EQ(MessageOf([&] { VersionOf(cut, "PLBTEST\n"); }), cut.source() + ": ends early");
+}
+
 TEST(SectionFile, PacksWhatCanBePacked) {
   const ScratchFolder folder;
   EXPECT_LT(std::filesystem::file_size(WriteThree(folder)),
