@@ -12,6 +12,7 @@
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
+#include "plumbline/report/error_options.h"
 #include "plumbline/report/run_folder.h"
 #include "plumbline/version.h"
 
@@ -111,8 +112,10 @@ double ReadParallax(const CommandLine& line) {
 Trajectory ReadPoses(const std::filesystem::path& path, const Dataset& dataset) {
   Trajectory poses = ReadTrajectory(path).poses;
   const std::vector<std::int64_t>& stamps = dataset.info().stamps_ns;
+  const std::int64_t max_gap_ns =
+      ErrorOptionsFor(dataset.sensor(), dataset.info().format).max_gap_ns;
   const bool common = std::any_of(stamps.begin(), stamps.end(), [&](std::int64_t stamp_ns) {
-    return InterpolateAt(poses, stamp_ns, SequenceTruth::kMaxGapNs).has_value();
+    return InterpolateAt(poses, stamp_ns, max_gap_ns).has_value();
   });
   if (common || stamps.empty()) return poses;
   throw InputError(

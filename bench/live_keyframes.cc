@@ -16,6 +16,7 @@
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
+#include "plumbline/report/error_options.h"
 #include "plumbline/slam/system.h"
 
 #include "bench/replay_arguments.h"
@@ -154,10 +155,8 @@ class LiveKeyFrames {
   }
 
   std::optional<double> Error(const Trajectory& estimate) const {
-    TrajectoryErrorOptions options;
-    options.max_gap_ns = 250'000'000;
-    if (dataset_->sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
-    const auto error = CompareTrajectories(truth_, estimate, options);
+    const auto error = CompareTrajectories(
+        truth_, estimate, ErrorOptionsFor(dataset_->sensor(), dataset_->info().format));
     if (!error) return std::nullopt;
     return 1e3 * error->ate.rmse;
   }

@@ -15,6 +15,7 @@
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/map/snapshot.h"
+#include "plumbline/report/error_options.h"
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/system.h"
 #include "worlds/sensor.h"
@@ -221,10 +222,14 @@ class Rounds {
     return figures;
   }
 
+  TrajectoryErrorOptions ErrorOptions() const {
+    return ErrorOptionsFor(dataset_->sensor(), dataset_->info().format);
+  }
+
   // The pose that the camera had where a picture was taken, at the time of the visit.
   std::optional<StampedPose> TruthOf(std::size_t picture, std::int64_t stamp_ns) const {
-    constexpr std::int64_t kMaxGap = 250'000'000;
-    const auto pose = InterpolateAt(truth_, dataset_->stamp_ns(picture), kMaxGap);
+    const std::int64_t max_gap_ns = ErrorOptions().max_gap_ns;
+    const auto pose = InterpolateAt(truth_, dataset_->stamp_ns(picture), max_gap_ns);
     if (!pose) return std::nullopt;
     return StampedPose{stamp_ns, *pose};
   }
@@ -252,9 +257,8 @@ class Rounds {
     for (const auto& pose : truth_by_frame_) {
       if (pose && pose->stamp_ns >= from_ns) truth.push_back(*pose);
     }
-    TrajectoryErrorOptions options;
+    TrajectoryErrorOptions options = ErrorOptions();
     options.association = TrajectoryAssociation::kNearest;
-    if (dataset_->sensor() == SensorKind::kMono) options.alignment = TrajectoryAlignment::kSim3;
     const auto error = CompareTrajectories(truth, estimate, options);
     if (!error) return std::nullopt;
     return 1e3 * error->ate.rmse;

@@ -42,7 +42,7 @@ LAYERS = {
     "line_rivals": ["base", "geometry", "map", "association", "optimization"],
     "ceres_reference": ["base", "geometry", "optimization", "association", "line_rivals"],
     "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
-               "slam"],
+               "slam", "report"],
     "cutting_testbed": ["base", "geometry", "optimization", "cutting"],
     "experiments": ["base", "geometry", "image", "features", "map", "association", "initialization",
                     "optimization", "tracking", "io", "slam", "starts", "worlds", "eval", "report",

@@ -7,6 +7,7 @@
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/yaml_section.h"
+#include "plumbline/report/error_options.h"
 
 #include <algorithm>
 #include <utility>
@@ -38,7 +39,8 @@ SequenceTruth::SequenceTruth(const Dataset& mono,
                              const std::optional<Trajectory>& poses)
     : mono_(mono),
       camera_(rectifier.camera()),
-      rectified_from_raw_(rectifier.rectified_left_from_left()) {
+      rectified_from_raw_(rectifier.rectified_left_from_left()),
+      max_gap_ns_(ErrorOptionsFor(mono.sensor(), mono.info().format).max_gap_ns) {
   const DatasetInfo& info = mono.info();
   if (poses) {
     poses_ = *poses;
@@ -75,7 +77,7 @@ void SequenceTruth::OpenDepthImages(const fs::path& folder) {
 
 std::optional<Rigid3> SequenceTruth::WorldFromCamera(int frame) const {
   const std::int64_t stamp = mono_.stamp_ns(static_cast<std::size_t>(frame));
-  const auto world_from_raw = InterpolateAt(poses_, stamp, kMaxGapNs);
+  const auto world_from_raw = InterpolateAt(poses_, stamp, max_gap_ns_);
   if (!world_from_raw) return std::nullopt;
   return *world_from_raw * Rigid3{rectified_from_raw_.conjugate(), Eigen::Vector3d::Zero()};
 }

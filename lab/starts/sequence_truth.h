@@ -19,14 +19,12 @@ namespace plumbline {
 
 // The truth of a recorded or rendered sequence that is also read as monocular.
 //
-// Poses are those of the ground truth, or others where given, interpolated over gaps of at most
-// kMaxGapNs. Depth is the best there is: exact depth images of a rendered world (mav0/depth0),
-// those of an RGB-D sensor, or the points of the sequence's own stereo pairs, measured in each
-// frame by itself and known to 0.2 px at best.
+// Poses are those of the ground truth, or others where given, interpolated over gaps as wide as
+// ErrorOptionsFor allows for the data. Depth is the best there is: exact depth images of a rendered
+// world (mav0/depth0), those of an RGB-D sensor, or the points of the sequence's own stereo pairs,
+// measured in each frame by itself and known to 0.2 px at best.
 class SequenceTruth : public StartTruth {
  public:
-  static constexpr std::int64_t kMaxGapNs = 250'000'000;
-
   //   mono        the sequence as monocular; must outlive this. Frames are numbered as there
   //   rectifier   of its images
   //   camera      as DatasetOptions::camera
@@ -53,6 +51,7 @@ class SequenceTruth : public StartTruth {
   RectifiedCamera camera_;
   Eigen::Quaterniond rectified_from_raw_;
   Trajectory poses_;  // of the camera as delivered
+  std::int64_t max_gap_ns_;
   std::map<std::int64_t, std::filesystem::path> depth_images_;
   std::optional<double> depth_factor_;  // of depth_images_
   std::unique_ptr<Dataset> metric_;     // the sequence as RGB-D or stereo; null: neither

@@ -56,6 +56,17 @@ TEST(SequenceTruth, TakesOtherPosesInPlaceOfTheGroundTruth) {
   EXPECT_NEAR(AngularDistance(truth.WorldFromCamera(2)->rotation, ExpSo3({0, 0, 1})), 0, 1e-12);
 }
 
+// As a run is compared with its ground truth: over 0.1 s for data like these.
+TEST(SequenceTruth, FindsPosesOverGapsThatAreUsualInItsData) {
+  const ScratchFolder folder;
+  const Opened opened(WritePosterSequence(folder, 12));
+  Trajectory poses;
+  for (const int frame : {2, 4, 7}) poses.push_back({MovingPoster::StampNs(frame), {}});
+  const SequenceTruth truth(*opened.mono, opened.rectifier, std::nullopt, poses);
+  EXPECT_TRUE(truth.WorldFromCamera(3)) << "a gap of 0.1 s";
+  EXPECT_FALSE(truth.WorldFromCamera(5)) << "a gap of 0.15 s";
+}
+
 TEST(SequenceTruth, PrefersTheDepthImagesOfARenderedWorld) {
   const ScratchFolder folder;
   const auto path = WritePosterSequence(folder, 12);
