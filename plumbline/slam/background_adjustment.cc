@@ -30,16 +30,30 @@ void BackgroundAdjustment::Begin(const Map& map, std::int64_t due_frame, Compute
   job_->id = map.id();
   job_->due_frame = due_frame;
   if (worker_ == Worker::kCaller) return;
-  thread_ = std::jthread([low = worker_ == Worker::kThreadOfLowPriority, job = job_.get()] {
+  job_->thread = std::jthread([low = worker_ == Worker::kThreadOfLowPriority, job = job_.get()] {
     if (low) LowerPriority();
     Run(*job);
   });
 }
 
 void BackgroundAdjustment::GiveUp() {
-  if (job_ != nullptr) job_->stop = true;
-  if (thread_.joinable()) thread_.join();
-  job_.reset();
+  Reap();
+  if (job_ == nullptr) return;
+  job_->stop = true;
+  Park(std::move(job_));
+}
+
+// Keeps a job until its thread has ended.
+void BackgroundAdjustment::Park(std::unique_ptr<Job> job) {
+  if (job->thread.joinable()) parked_.push_back(std::move(job));
+}
+
+// Frees the jobs that were ready at the last call already. Their threads have had the time since
+// then to end, so that joining them does not wait.
+void BackgroundAdjustment::Reap() {
+  std::erase_if(parked_, [](const std::unique_ptr<Job>& job) {
+    return std::exchange(job->was_ready, job->ready.load());
+  });
 }
 
 std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeDue(std::int64_t frame) {
@@ -48,6 +62,7 @@ std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeDue(std::i
 }
 
 std::optional<BackgroundAdjustment::Result> BackgroundAdjustment::TakeReady() {
+  Reap();
   if (job_ == nullptr || !job_->ready) return std::nullopt;
   return Take();
 }
@@ -58,19 +73,25 @@ void BackgroundAdjustment::Run(Job& job) {
   } catch (...) {
     job.failure = std::current_exception();
   }
+  // What the copy shares with nobody any more may take long to free, and the job may stay parked.
+  job.map = Map();
   job.ready = true;
 }
 
+// Waits for the computation, which begins only now where it has no thread.
 void BackgroundAdjustment::Complete() {
-  if (thread_.joinable()) thread_.join();
+  if (job_->ready) return;
+  if (job_->thread.joinable()) job_->thread.join();
   if (!job_->ready) Run(*job_);
 }
 
 BackgroundAdjustment::Result BackgroundAdjustment::Take() {
   Complete();
-  const std::unique_ptr<Job> job = std::move(job_);
-  if (job->failure) std::rethrow_exception(job->failure);
-  return {job->id, std::move(job->correction)};
+  const std::exception_ptr failure = job_->failure;
+  Result result{job_->id, std::move(job_->correction)};
+  Park(std::move(job_));
+  if (failure) std::rethrow_exception(failure);
+  return result;
 }
 
 std::optional<BackgroundAdjustment::Pending> BackgroundAdjustment::Save() {

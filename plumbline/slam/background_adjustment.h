@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace plumbline {
 
@@ -22,7 +23,8 @@ namespace plumbline {
 // due, which depends on the size of the problem, and whoever takes the correction at that frame
 // waits for it. Only a live run takes it whenever it is ready. A correction that begins while
 // another one is computed replaces it, because the older one does not know what made the newer one
-// necessary.
+// necessary. The thread of the older one is told to stop, and nobody waits until it has: on a busy
+// machine a thread of low priority may take seconds to notice.
 //
 // All functions are for one thread. A failure of the computation is rethrown when the result is
 // taken.
@@ -38,7 +40,7 @@ class BackgroundAdjustment {
 
   // With Worker::kCaller the correction is computed in the caller's thread when it is taken.
   explicit BackgroundAdjustment(Worker worker) : worker_(worker) {}
-  // Gives up what is being computed, and waits until the computation has stopped.
+  // Gives up what is being computed, and waits until all computations have stopped.
   ~BackgroundAdjustment();
   BackgroundAdjustment(const BackgroundAdjustment&) = delete;
   BackgroundAdjustment& operator=(const BackgroundAdjustment&) = delete;
@@ -46,6 +48,7 @@ class BackgroundAdjustment {
   // Begins a correction of a copy of the map. Copying is cheap: map and copy share what the map
   // does not change meanwhile.
   void Begin(const Map& map, std::int64_t due_frame, Compute compute);
+  // Tells the computation to stop, without waiting for it.
   void GiveUp();
   bool Running() const { return job_ != nullptr; }
 
@@ -81,14 +84,19 @@ class BackgroundAdjustment {
     std::exception_ptr failure;
     std::atomic<bool> stop = false;
     std::atomic<bool> ready = false;
+    bool was_ready = false;  // at the last call of Reap
+    std::jthread thread;     // declared last, so that it ends before what it uses
   };
   static void Run(Job& job);
+  void Park(std::unique_ptr<Job> job);
+  void Reap();
   void Complete();
   Result Take();
 
   Worker worker_;
   std::unique_ptr<Job> job_;
-  std::jthread thread_;  // declared last, so that it ends before what it uses
+  // Jobs of which nothing is wanted any more, and whose threads may still run.
+  std::vector<std::unique_ptr<Job>> parked_;
 };
 
 // Returns after how many frames the adjustment of a whole map takes effect in runs that do not

@@ -8,7 +8,9 @@
 #include "plumbline/tracking/tracker.h"
 
 #include "tests/support/true_map.h"
-#include <chrono>
+#include <atomic>
+#include <future>
+#include <latch>
 #include <stdexcept>
 #include <thread>
 
@@ -83,6 +85,48 @@ TEST(BackgroundAdjustment, IsStoppedWhenItIsGivenUp) {
   adjustment.GiveUp();
   EXPECT_FALSE(adjustment.Running());
   EXPECT_FALSE(adjustment.TakeDue(0));
+}
+
+TEST(BackgroundAdjustment, DoesNotWaitForOneThatIsSlowToStop) {
+  for (const Worker worker : {Worker::kThread, Worker::kThreadOfLowPriority}) {
+    std::latch begun(1), may_end(1);
+    std::atomic<bool> ended = false;
+    const auto deaf = [&](const Map&, const StopCheck&) {
+      begun.count_down();
+      may_end.wait();
+      ended = true;
+      return Correction();
+    };
+    {
+      BackgroundAdjustment adjustment(worker);
+      adjustment.Begin(MapOf(2), 0, deaf);
+      begun.wait();
+      adjustment.Begin(MapOf(3), 10, CountKeyFrames);
+      EXPECT_EQ(Told(adjustment.TakeDue(10)), 3);
+      adjustment.Begin(MapOf(4), 20, CountKeyFrames);
+      adjustment.GiveUp();
+      EXPECT_FALSE(adjustment.Running());
+      adjustment.Begin(MapOf(5), 30, CountKeyFrames);
+      EXPECT_EQ(Told(adjustment.TakeDue(30)), 5);
+      EXPECT_FALSE(ended);
+      may_end.count_down();
+    }
+    EXPECT_TRUE(ended) << "what the computation uses may go after the adjustment";
+  }
+}
+
+TEST(BackgroundAdjustment, TellsOneThatGivesWayToStop) {
+  std::promise<void> stopped;
+  const auto until_stopped = [&](const Map&, const StopCheck& stop) {
+    while (!stop()) std::this_thread::yield();
+    stopped.set_value();
+    return Correction();
+  };
+  BackgroundAdjustment adjustment(Worker::kThread);
+  adjustment.Begin(MapOf(2), 0, until_stopped);
+  adjustment.Begin(MapOf(3), 10, CountKeyFrames);
+  stopped.get_future().wait();
+  EXPECT_EQ(Told(adjustment.TakeDue(10)), 3);
 }
 
 TEST(BackgroundAdjustment, IsTakenWhenItIsReady) {
