@@ -8,8 +8,8 @@
 #include "plumbline/mapping/unit_of_length.h"
 #include "plumbline/optimization/elimination_plan.h"
 #include "plumbline/optimization/pose_sigma.h"
+#include "plumbline/optimization/sharing_poses.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -28,16 +28,20 @@ constexpr LineMapOptions kAdjustedLines{.min_keyframes = 4,
                                         .min_mean_length_px = 0};
 
 // Makes a problem of the whole map with the lines that are well seen. Its world is the camera of
-// the first keyframe.
+// the first keyframe. When stopped, points are missing.
 MapProblem MakeWholeMap(const Map& map,
                         const ImagingModel& imaging,
                         const LineWeights& weights,
-                        const std::vector<WellSeenLine>& lines) {
+                        const std::vector<WellSeenLine>& lines,
+                        const StopCheck& stop) {
   MapProblem whole;
   const KeyFrameId first = map.keyframes().begin()->first;
   MapProblemBuilder builder(map, imaging, weights, first, whole);
   for (const auto& [id, keyframe] : map.keyframes()) builder.AddPose(id, id == first);
-  for (const auto& [id, point] : map.points()) builder.AddPoint(point);
+  for (const auto& [id, point] : map.points()) {
+    if (IsToStop(stop)) return whole;
+    builder.AddPoint(point);
+  }
   for (const WellSeenLine& line : lines) {
     const int index = builder.AddLine(line.line);
     for (const LineSupport& support : line.supports) {
@@ -48,38 +52,10 @@ MapProblem MakeWholeMap(const Map& map,
   return whole;
 }
 
-// Returns for each pose the earlier poses that share a landmark with it.
-BlockPattern SharingPoses(const BaProblem& problem) {
-  std::vector<std::vector<int>> of_point(problem.points.size()), of_line(problem.lines.size());
-  const auto add = [](int index, int pose, std::vector<std::vector<int>>& poses) {
-    poses[static_cast<std::size_t>(index)].push_back(pose);
-  };
-  for (const auto& o : problem.point_observations) add(o.point, o.pose, of_point);
-  for (const auto& o : problem.line_observations) add(o.line, o.pose, of_line);
-  std::vector<std::vector<bool>> share(problem.poses.size());
-  for (std::size_t i = 0; i < share.size(); ++i) share[i].resize(i);
-  for (const auto* landmarks : {&of_point, &of_line}) {
-    for (const std::vector<int>& poses : *landmarks) {
-      for (const int a : poses) {
-        for (const int b : poses) {
-          if (b < a) share[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = true;
-        }
-      }
-    }
-  }
-  BlockPattern pattern(share.size());
-  for (std::size_t i = 0; i < share.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (share[i][j]) pattern[i].push_back(static_cast<int>(j));
-    }
-  }
-  return pattern;
-}
-
 // Whether solving the problem would take longer than solving one of `limit` keyframes that all
 // share landmarks. Only a problem of more keyframes can.
-bool TakesTooLong(const MapProblem& whole, int limit) {
-  return FullSize(PlanElimination(SharingPoses(whole.problem))) > limit;
+bool TakesTooLong(const MapProblem& whole, int limit, const StopCheck& stop) {
+  return FullSize(PlanElimination(SharingPoses(whole.problem, stop), stop)) > limit;
 }
 
 // Adjusts poses and points, without lines, to a corrected lens. It starts from the places that were
@@ -177,13 +153,15 @@ Correction AdjustWholeMap(const Map& map,
   if (count < kMinKeyFrames || limit == 0 || IsToStop(stop)) return {};
   const bool large = count > static_cast<std::size_t>(limit);
   // The search for lines is spared where the points alone show that the map takes too long.
-  if (large && TakesTooLong(MakeWholeMap(map, imaging, lines.weights(), {}), limit)) return {};
+  const auto without_lines = [&] { return MakeWholeMap(map, imaging, lines.weights(), {}, stop); };
+  if (large && TakesTooLong(without_lines(), limit, stop)) return {};
   const std::vector<WellSeenLine> well_seen = FindWellSeenLines(map, imaging, kAdjustedLines, stop);
   if (IsToStop(stop)) return {};
-  MapProblem whole = MakeWholeMap(map, imaging, lines.weights(), well_seen);
+  MapProblem whole = MakeWholeMap(map, imaging, lines.weights(), well_seen, stop);
   // Long lines that are seen from far away can tie many keyframes together, so that solving would
   // take too long.
-  if (large && TakesTooLong(whole, limit)) whole = MakeWholeMap(map, imaging, lines.weights(), {});
+  if (large && TakesTooLong(whole, limit, stop)) whole = without_lines();
+  if (IsToStop(stop)) return {};
   const LearnedLens learned =
       options.lens_calibration ? LearnLens(whole.problem, map.correction().lens.border_px(), stop)
                                : LearnedLens{};
@@ -215,7 +193,8 @@ Correction AdjustToLens(const Map& map,
                         const MappingOptions& options,
                         const StopCheck& stop) {
   if (map.keyframes().empty() || IsToStop(stop)) return {};
-  MapProblem whole = MakeWholeMap(map, imaging, weights, {});
+  MapProblem whole = MakeWholeMap(map, imaging, weights, {}, stop);
+  if (IsToStop(stop)) return {};
   const LearnedLens learned = LearnLens(whole.problem, map.correction().lens.border_px(), stop);
   if (learned.poses.empty()) return {};
   return AdjustPointsToLens(map, learned, options, std::move(whole), stop);
@@ -230,7 +209,9 @@ Correction BringToLens(const Map& map,
   const double change = lens.border_px() - map.correction().lens.border_px();
   if (change == 0 || map.keyframes().empty()) return {};
   const LearnedLens known{{imaging.camera, change}, {}, {}};
-  return AdjustPointsToLens(map, known, options, MakeWholeMap(map, imaging, weights, {}), stop);
+  MapProblem whole = MakeWholeMap(map, imaging, weights, {}, stop);
+  if (IsToStop(stop)) return {};
+  return AdjustPointsToLens(map, known, options, std::move(whole), stop);
 }
 
 }  // namespace plumbline

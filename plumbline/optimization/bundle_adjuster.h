@@ -115,6 +115,7 @@ template <class LineKind>
 bool BundleAdjuster<LineKind>::ComputeStep(const HuberThresholds& huber, double lambda) {
   solver_.Reset();
   points_.Eliminate(poses_, huber, lambda, solver_);
+  if (IsToStop(stop_)) return false;
   lines_.Eliminate(poses_, huber, lambda, solver_);
   return solver_.Solve(lambda, stop_);
 }

@@ -56,8 +56,8 @@ std::vector<int> MinimumDegreeOrder(const BlockPattern& pattern) {
 }
 
 // Returns the columns of the factor for an order of elimination. `order` lists the rows by the time
-// of their elimination.
-Columns Fill(const BlockPattern& pattern, const std::vector<int>& order) {
+// of their elimination. When stopped, columns are missing.
+Columns Fill(const BlockPattern& pattern, const std::vector<int>& order, const StopCheck& stop) {
   std::vector<int> time(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) time[Index(order[k])] = static_cast<int>(k);
   Columns columns(order.size());
@@ -68,6 +68,7 @@ Columns Fill(const BlockPattern& pattern, const std::vector<int>& order) {
     }
   }
   for (std::vector<int>& column : columns) {
+    if (IsToStop(stop)) break;
     std::sort(column.begin(), column.end());
     column.erase(std::unique(column.begin(), column.end()), column.end());
     if (column.empty()) continue;
@@ -159,10 +160,11 @@ std::vector<Front> MakeFronts(const Columns& columns, const std::vector<int>& or
 
 }  // namespace
 
-EliminationPlan PlanElimination(const BlockPattern& pattern) {
-  if (pattern.empty()) return {};
+EliminationPlan PlanElimination(const BlockPattern& pattern, const StopCheck& stop) {
+  if (pattern.empty() || IsToStop(stop)) return {};
   const std::vector<int> order = MinimumDegreeOrder(pattern);
-  const Columns columns = Fill(pattern, order);
+  const Columns columns = Fill(pattern, order, stop);
+  if (IsToStop(stop)) return {};
   EliminationPlan plan{MakeFronts(columns, order), 0};
   for (const auto& column : columns) {
     plan.multiplications += Multiplications(1, static_cast<double>(column.size()));

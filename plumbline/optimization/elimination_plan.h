@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/base/stop_check.h"
+
 #include <vector>
 
 namespace plumbline {
@@ -30,10 +32,10 @@ struct EliminationPlan {
 // Plans a factorization in the approximate minimum degree order (Amestoy, Davis, Duff 1996, as in
 // Eigen), in which few of the zeros are lost. Where keyframes of a path meet again after a loop,
 // those places are eliminated last. Columns share a front where that saves work (Duff and Reid
-// 1983). Depends on the pattern alone.
+// 1983). Depends on the pattern alone. When stopped, the plan is empty.
 //
 //   cost   about O(blocks of the factor that are not zero)
-EliminationPlan PlanElimination(const BlockPattern& pattern);
+EliminationPlan PlanElimination(const BlockPattern& pattern, const StopCheck& stop = {});
 
 // Plans to eliminate all rows at once, in their order, as a dense factorization does.
 EliminationPlan PlanInOneFront(int rows);

@@ -3,6 +3,7 @@
 #include "plumbline/optimization/schur_solver.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -30,8 +31,10 @@ void SchurSolver::Reset() {
 
 bool SchurSolver::Solve(double lambda, const StopCheck& stop) {
   if (planned_blocks_ != complement_.count()) {
+    EliminationPlan plan = PlanElimination(complement_.Pattern(), stop);
+    if (IsToStop(stop)) return false;
     planned_blocks_ = complement_.count();
-    cholesky_ = MultifrontalCholesky(PlanElimination(complement_.Pattern()));
+    cholesky_ = MultifrontalCholesky(std::move(plan));
   }
   Fill(lambda);
   if (!cholesky_.Factor(stop)) return false;

@@ -67,6 +67,19 @@ TEST(EliminationPlan, HasEachBlockInTheFrontThatEliminatesIt) {
   }
 }
 
+TEST(EliminationPlan, IsEmptyWhenItIsStopped) {
+  const BlockPattern pattern = PathPattern(20, 3, 1000);
+  int questions = 0;
+  EXPECT_FALSE(PlanElimination(pattern, [&] { return ++questions < 0; }).fronts.empty());
+  EXPECT_GT(questions, 20) << "before every column";
+  for (int until = 0; until < questions; ++until) {
+    int asked = 0;
+    const EliminationPlan plan = PlanElimination(pattern, [&] { return asked++ >= until; });
+    EXPECT_TRUE(plan.fronts.empty()) << until;
+    EXPECT_LE(asked, until + 2);
+  }
+}
+
 TEST(EliminationPlan, CountsOneFrontAsFull) {
   EXPECT_NEAR(FullSize(PlanElimination(PathPattern(100, 100, 1000))), 100, 0.01);
   EXPECT_NEAR(FullSize(PlanInOneFront(100)), 100, 0.01);

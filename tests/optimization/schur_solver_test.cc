@@ -201,5 +201,20 @@ TEST(SchurSolver, ResetEmptiesTheEquations) {
   EXPECT_EQ(solver.step(1).norm(), 0);
 }
 
+// Of so many poses the elimination is planned first.
+TEST(SchurSolver, SolvesAfterItWasStopped) {
+  constexpr int kMany = 250;
+  SchurSolver solver(kMany);
+  for (int i = 0; i < kMany; ++i) {
+    solver.pose(i).H.setIdentity();
+    solver.pose(i).g.setConstant(i);
+  }
+  EXPECT_FALSE(solver.Solve(0, [] { return true; }));
+  ASSERT_TRUE(solver.Solve(0));
+  for (int i = 0; i < kMany; ++i) {
+    EXPECT_LT((solver.step(i) + Vector6d::Constant(i)).norm(), 1e-9) << i;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline

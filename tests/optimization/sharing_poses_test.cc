@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Plumbline authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plumbline/optimization/sharing_poses.h"
+
+#include "tests/optimization/block_patterns.h"
+#include <array>
+#include <cstddef>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace plumbline {
+namespace sharing_poses_test {
+
+// Points and lines that random poses show, some of them twice.
+BaProblem RandomSightings(unsigned seed, int poses, int landmarks, int observations) {
+  testing::Random random(seed);
+  BaProblem problem;
+  problem.poses.resize(static_cast<std::size_t>(poses));
+  problem.points.resize(static_cast<std::size_t>(landmarks));
+  problem.lines.resize(static_cast<std::size_t>(landmarks));
+  for (int i = 0; i < observations; ++i) {
+    const int pose = random.Index(poses);
+    problem.point_observations.push_back({pose, random.Index(landmarks), {}});
+  }
+  for (int i = 0; i < observations; ++i) {
+    const int pose = random.Index(poses);
+    problem.line_observations.push_back({pose, random.Index(landmarks), {}});
+  }
+  return problem;
+}
+
+// Compares all observations with each other.
+BlockPattern Expected(const BaProblem& problem) {
+  std::set<std::pair<int, int>> pairs;
+  for (const auto& a : problem.point_observations) {
+    for (const auto& b : problem.point_observations) {
+      if (a.point == b.point) pairs.insert({a.pose, b.pose});
+    }
+  }
+  for (const auto& a : problem.line_observations) {
+    for (const auto& b : problem.line_observations) {
+      if (a.line == b.line) pairs.insert({a.pose, b.pose});
+    }
+  }
+  return testing::PatternOf(static_cast<int>(problem.poses.size()), pairs);
+}
+
+TEST(SharingPoses, ListsEarlierPosesWithTheSameLandmark) {
+  for (const auto& [poses, landmarks, observations] :
+       {std::array{30, 40, 60}, std::array{30, 10, 100}, std::array{50, 400, 100}}) {
+    const BaProblem problem = RandomSightings(7, poses, landmarks, observations);
+    EXPECT_EQ(SharingPoses(problem), Expected(problem));
+  }
+  EXPECT_TRUE(SharingPoses(BaProblem()).empty());
+}
+
+TEST(SharingPoses, EndsWhenItIsStopped) {
+  const BaProblem problem = RandomSightings(8, 30, 10, 200);
+  int asked = 0;
+  const BlockPattern pattern = SharingPoses(problem, [&] { return asked++ >= 3; });
+  EXPECT_EQ(asked, 4);
+  EXPECT_EQ(pattern.size(), 30U);
+  EXPECT_TRUE(pattern.back().empty());
+}
+
+}  // namespace sharing_poses_test
+}  // namespace plumbline
