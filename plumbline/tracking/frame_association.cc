@@ -3,6 +3,7 @@
 #include "plumbline/tracking/frame_association.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -20,22 +21,59 @@ int CountMatches(const std::vector<int>& match_of_feature) {
       match_of_feature.begin(), match_of_feature.end(), [](int match) { return match >= 0; }));
 }
 
-// Projects the candidates, writes down which of them are visible, and returns those that have no
-// match yet.
-template <class Candidate, class Project>
-auto ProjectUnmatched(const std::vector<Candidate>& candidates,
-                      const std::vector<int>& match_of_feature,
-                      const Project& project,
-                      std::vector<int>& expected) {
-  std::vector<decltype(project(candidates[0].model))> projected(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    projected[i] = project(candidates[i].model);
-    if (projected[i]) expected.push_back(static_cast<int>(i));
-  }
+// Returns what `project` makes of each landmark; nullopt for those that are not visible.
+template <class Landmark, class Project>
+auto ProjectAll(const std::vector<Landmark>& landmarks, const Project& project) {
+  std::vector<decltype(project(landmarks[0]))> projected;
+  projected.reserve(landmarks.size());
+  for (const Landmark& landmark : landmarks) projected.push_back(project(landmark));
+  return projected;
+}
+
+template <class Projection>
+void LeaveOutMatched(const std::vector<int>& match_of_feature,
+                     std::vector<std::optional<Projection>>& projected) {
   for (const int match : match_of_feature) {
     if (match >= 0) projected[static_cast<std::size_t>(match)].reset();
   }
-  return projected;
+}
+
+template <class Landmark, class Projection>
+auto VisibleOf(const std::vector<Landmark>& landmarks,
+               const std::vector<std::optional<Projection>>& projected) {
+  std::vector<decltype(Landmark::id)> visible;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    if (projected[i]) visible.push_back(landmarks[i].id);
+  }
+  return visible;
+}
+
+// Leaves out the landmarks of the snapshot that features show already.
+template <class Landmark, class Candidate, class Projection>
+void LeaveOutFound(const MapSnapshot& snapshot,
+                   const std::vector<Landmark>& landmarks,
+                   const std::vector<Candidate>& candidates,
+                   const std::vector<int>& match_of_feature,
+                   std::vector<std::optional<Projection>>& projected) {
+  for (const int match : match_of_feature) {
+    if (match < 0) continue;
+    const auto id = candidates[static_cast<std::size_t>(match)].id;
+    const Landmark* landmark = id.valid() ? snapshot.Find(id) : nullptr;
+    if (landmark == nullptr) continue;
+    projected[static_cast<std::size_t>(landmark - landmarks.data())].reset();
+  }
+}
+
+template <class Landmark, class Candidate>
+void AddMatched(const std::vector<LandmarkMatch>& matches,
+                const std::vector<Landmark>& landmarks,
+                std::vector<Candidate>& candidates,
+                std::vector<int>& match_of_feature) {
+  for (const LandmarkMatch& match : matches) {
+    const Landmark& landmark = landmarks[static_cast<std::size_t>(match.landmark)];
+    match_of_feature[static_cast<std::size_t>(match.feature)] = static_cast<int>(candidates.size());
+    candidates.push_back({.id = landmark.id, .model = landmark});
+  }
 }
 
 void Record(const std::vector<LandmarkMatch>& matches, std::vector<int>& match_of_feature) {
@@ -117,26 +155,27 @@ std::vector<LandmarkId> IdsOfMatches(const std::vector<int>& match_of_feature,
   return ids;
 }
 
-// The candidates are sorted by id as far as they are in the map, so that each score is found beside
-// the one before.
-template <class Candidate, class LandmarkId>
-void CountSeenKind(const std::vector<int>& expected,
-                   const std::vector<int>& match_of_feature,
-                   const std::vector<Candidate>& candidates,
-                   std::map<LandmarkId, TrackingScore>& scores) {
-  std::vector<TrackingScore> seen(candidates.size(), TrackingScore{0, 0});
-  for (const int candidate : expected) ++seen[static_cast<std::size_t>(candidate)].visible;
-  for (const int candidate : match_of_feature) {
-    if (candidate >= 0) ++seen[static_cast<std::size_t>(candidate)].found;
-  }
+// Adds one to a count of the score of each landmark. The ids ascend, so that each score is found
+// beside the one before.
+template <class LandmarkId>
+void CountEach(const std::vector<LandmarkId>& ids,
+               int TrackingScore::*count,
+               std::map<LandmarkId, TrackingScore>& scores) {
   auto beside = scores.begin();
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!candidates[i].id.valid() || (seen[i].visible == 0 && seen[i].found == 0)) continue;
-    const auto score = scores.try_emplace(beside, candidates[i].id, TrackingScore{0, 0});
-    score->second.visible += seen[i].visible;
-    score->second.found += seen[i].found;
+  for (const LandmarkId id : ids) {
+    const auto score = scores.try_emplace(beside, id, TrackingScore{0, 0});
+    ++(score->second.*count);
     beside = std::next(score);
   }
+}
+
+template <class LandmarkId, class Candidate>
+std::vector<LandmarkId> FoundOfMap(const std::vector<int>& match_of_feature,
+                                   const std::vector<Candidate>& candidates) {
+  std::vector<LandmarkId> found = IdsOfMatches<LandmarkId>(match_of_feature, candidates);
+  std::erase_if(found, [](LandmarkId id) { return !id.valid(); });
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace
@@ -192,30 +231,60 @@ void CountSeen(const ExpectedLandmarks& expected,
                const FrameAssociation& association,
                TrackingScores& scores) {
   const FrameMatches& matches = association.matches;
-  CountSeenKind(expected.points, matches.point_of_feature, association.points, scores.points);
-  CountSeenKind(expected.lines, matches.line_of_feature, association.lines, scores.lines);
+  CountEach(expected.points, &TrackingScore::visible, scores.points);
+  CountEach(expected.lines, &TrackingScore::visible, scores.lines);
+  CountEach(FoundOfMap<PointId>(matches.point_of_feature, association.points),
+            &TrackingScore::found,
+            scores.points);
+  CountEach(FoundOfMap<LineId>(matches.line_of_feature, association.lines),
+            &TrackingScore::found,
+            scores.lines);
 }
 
-ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,
-                                  const IndexedFeatures& image,
-                                  const Rigid3& cam_from_world,
-                                  const ProjectionSearchOptions& options,
-                                  FrameAssociation& association) {
-  ExpectedLandmarks expected;
-  const auto points = ProjectUnmatched(
-      association.points,
-      association.matches.point_of_feature,
-      [&](const PointModel& m) { return ProjectPoint(imaging, cam_from_world, m); },
-      expected.points);
-  const auto lines = ProjectUnmatched(
-      association.lines,
-      association.matches.line_of_feature,
-      [&](const LineModel& m) { return ProjectLine(imaging, cam_from_world, m); },
-      expected.lines);
-  Record(MatchProjectedPoints(image, points, Taken(association.matches.point_of_feature), options),
-         association.matches.point_of_feature);
-  Record(MatchProjectedLines(image, lines, Taken(association.matches.line_of_feature), options),
-         association.matches.line_of_feature);
+void MatchCandidates(const ImagingModel& imaging,
+                     const IndexedFeatures& image,
+                     const Rigid3& cam_from_world,
+                     const ProjectionSearchOptions& options,
+                     FrameAssociation& association) {
+  FrameMatches& matches = association.matches;
+  auto points = ProjectAll(association.points, [&](const CandidatePoint& point) {
+    return ProjectPoint(imaging, cam_from_world, point.model);
+  });
+  auto lines = ProjectAll(association.lines, [&](const CandidateLine& line) {
+    return ProjectLine(imaging, cam_from_world, line.model);
+  });
+  LeaveOutMatched(matches.point_of_feature, points);
+  LeaveOutMatched(matches.line_of_feature, lines);
+  Record(MatchProjectedPoints(image, points, Taken(matches.point_of_feature), options),
+         matches.point_of_feature);
+  Record(MatchProjectedLines(image, lines, Taken(matches.line_of_feature), options),
+         matches.line_of_feature);
+}
+
+ExpectedLandmarks MatchSnapshot(const ImagingModel& imaging,
+                                const IndexedFeatures& image,
+                                const Rigid3& cam_from_world,
+                                const ProjectionSearchOptions& options,
+                                const MapSnapshot& snapshot,
+                                FrameAssociation& association) {
+  auto& [candidate_points, candidate_lines, matches] = association;
+  auto points = ProjectAll(snapshot.points, [&](const PointModel& point) {
+    return ProjectPoint(imaging, cam_from_world, point);
+  });
+  auto lines = ProjectAll(snapshot.lines, [&](const LineModel& line) {
+    return ProjectLine(imaging, cam_from_world, line);
+  });
+  ExpectedLandmarks expected{VisibleOf(snapshot.points, points), VisibleOf(snapshot.lines, lines)};
+  LeaveOutFound(snapshot, snapshot.points, candidate_points, matches.point_of_feature, points);
+  LeaveOutFound(snapshot, snapshot.lines, candidate_lines, matches.line_of_feature, lines);
+  AddMatched(MatchProjectedPoints(image, points, Taken(matches.point_of_feature), options),
+             snapshot.points,
+             candidate_points,
+             matches.point_of_feature);
+  AddMatched(MatchProjectedLines(image, lines, Taken(matches.line_of_feature), options),
+             snapshot.lines,
+             candidate_lines,
+             matches.line_of_feature);
   return expected;
 }
 

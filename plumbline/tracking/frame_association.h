@@ -74,10 +74,10 @@ void PutBack(const FrameMatches& from, FrameMatches& to);
 // Counts the features that have a match in both.
 int CommonMatches(const FrameMatches& a, const FrameMatches& b);
 
-// Indices of the candidates that were projected into the image, and so are expected to be seen.
+// The landmarks of the map that were projected into the image, and so are expected to be seen.
 struct ExpectedLandmarks {
-  std::vector<int> points;
-  std::vector<int> lines;
+  std::vector<PointId> points;  // ascending
+  std::vector<LineId> lines;    // ascending
 };
 
 // Writes into a frame which landmarks of the map its features show. Features without a match, or
@@ -91,11 +91,22 @@ void CountSeen(const ExpectedLandmarks& expected,
                TrackingScores& scores);
 
 // Projects the candidates with the given pose and matches those without a match with the features
-// without a match. Returns all candidates that should be visible, matched or not.
-ExpectedLandmarks MatchCandidates(const ImagingModel& imaging,
-                                  const IndexedFeatures& image,
-                                  const Rigid3& cam_from_world,
-                                  const ProjectionSearchOptions& options,
-                                  FrameAssociation& association);
+// without a match.
+void MatchCandidates(const ImagingModel& imaging,
+                     const IndexedFeatures& image,
+                     const Rigid3& cam_from_world,
+                     const ProjectionSearchOptions& options,
+                     FrameAssociation& association);
+
+// Projects the landmarks of the snapshot with the given pose and matches those without a match with
+// the features without a match. Only those that are matched become candidates, since a frame shows
+// few of the thousands of landmarks that a snapshot has. Returns all that should be visible,
+// matched or not.
+ExpectedLandmarks MatchSnapshot(const ImagingModel& imaging,
+                                const IndexedFeatures& image,
+                                const Rigid3& cam_from_world,
+                                const ProjectionSearchOptions& options,
+                                const MapSnapshot& snapshot,
+                                FrameAssociation& association);
 
 }  // namespace plumbline

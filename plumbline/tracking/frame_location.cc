@@ -5,18 +5,6 @@
 #include "plumbline/tracking/frame_association.h"
 
 namespace plumbline {
-namespace {
-
-FrameAssociation WithLandmarksOf(const MapSnapshot& snapshot, const Features& features) {
-  FrameAssociation association(features.points.size(), features.lines.size());
-  for (const SnapshotPoint& point : snapshot.points) {
-    association.points.push_back({point.id, point});
-  }
-  for (const SnapshotLine& line : snapshot.lines) association.lines.push_back({line.id, line});
-  return association;
-}
-
-}  // namespace
 
 std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const PoseEstimator& estimator,
@@ -25,7 +13,7 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
                                         const MapSnapshot& snapshot,
                                         double max_pose_sigma) {
   for (const double factor : {1.0, kWideFactor}) {
-    FrameAssociation association = WithLandmarksOf(snapshot, image.features);
+    FrameAssociation association(image.features.points.size(), image.features.lines.size());
     LocatedFrame located;
     const auto accepted = [&](const Rigid3& initial) {
       located.counts.matched_points = association.matches.Points();
@@ -36,10 +24,10 @@ std::optional<LocatedFrame> LocateFrame(const ImagingModel& imaging,
       located.counts.inlier_lines = pose.inlier_lines;
       return pose.Accepted(kFewestUnpredictedInliers, max_pose_sigma);
     };
-    MatchCandidates(imaging, image, predicted, FirstSearch(factor), association);
+    MatchSnapshot(imaging, image, predicted, FirstSearch(factor), snapshot, association);
     if (!accepted(predicted)) continue;
     const Rigid3 first = located.cam_from_world;
-    MatchCandidates(imaging, image, first, {}, association);
+    MatchSnapshot(imaging, image, first, {}, snapshot, association);
     if (accepted(first)) return located;
   }
   return std::nullopt;

@@ -26,20 +26,6 @@ constexpr double kWorstDepthSigma = 0.3;
 // Lines at a guessed depth are searched only where the pose is known less well than this.
 constexpr double kGuessPoseSigma = 0.01;
 
-// Adds the snapshot's landmarks that are not among the candidates yet.
-template <class Candidate, class Landmark>
-void AddRest(const std::vector<Landmark>& landmarks, std::vector<Candidate>& candidates) {
-  std::vector<decltype(Candidate::id)> known;
-  known.reserve(candidates.size());
-  for (const Candidate& candidate : candidates) known.push_back(candidate.id);
-  std::sort(known.begin(), known.end());
-  candidates.reserve(candidates.size() + landmarks.size());
-  for (const Landmark& landmark : landmarks) {
-    if (std::binary_search(known.begin(), known.end(), landmark.id)) continue;
-    candidates.push_back({.id = landmark.id, .model = landmark});
-  }
-}
-
 // Finds a landmark of the map; nullptr for an invalid id, and for a landmark that is not in the
 // snapshot or is so no longer.
 template <class Id>
@@ -301,10 +287,8 @@ PoseAttempt PoseSearch::WithLocalMap(const Frame& frame,
   PoseAttempt attempt{FrameAssociation(frame.points.size(), frame.lines.size()), {}, {}, {}};
   FrameAssociation& association = attempt.association;
   CopyMatches(found, true, association);
-  AddRest(snapshot.points, association.points);
-  AddRest(snapshot.lines, association.lines);
   attempt.expected =
-      MatchCandidates(imaging_, *frame.indexed, first.cam_from_world, windows, association);
+      MatchSnapshot(imaging_, *frame.indexed, first.cam_from_world, windows, snapshot, association);
   CopyMatches(found, false, association);
   attempt.counts = CountsOf(association.matches);
   attempt.pose = EstimateNotOutvoted(frame, first.cam_from_world, prior, snapshot, association);

@@ -4,6 +4,8 @@
 
 #include "tests/tracking/matched_frame.h"
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -100,18 +102,18 @@ TEST(TakeOutYoung, PartsMatchesByTheViewsOfTheirLandmarks) {
   EXPECT_EQ(established.line_of_feature, frame.association.matches.line_of_feature);
 }
 
-TEST(MatchCandidates, MatchesWhatIsFreeAndTellsWhatShouldBeSeen) {
+// Takes every second match out.
+void Halve(FrameMatches& matches) {
+  for (std::vector<int>* of_feature : {&matches.point_of_feature, &matches.line_of_feature}) {
+    for (std::size_t i = 0; i < of_feature->size(); i += 2) (*of_feature)[i] = -1;
+  }
+}
+
+TEST(MatchCandidates, MatchesWhatIsFree) {
   MatchedFrame frame(0);
   const FrameMatches all = frame.association.matches;
-  // Half of the matches known before, the others to be found.
-  for (std::size_t i = 0; i < all.point_of_feature.size(); i += 2) {
-    frame.association.matches.point_of_feature[i] = -1;
-  }
-  for (std::size_t i = 0; i < all.line_of_feature.size(); i += 2) {
-    frame.association.matches.line_of_feature[i] = -1;
-  }
-  const ExpectedLandmarks expected = MatchCandidates(
-      frame.world.Imaging(), *frame.sensed.indexed, frame.pose, {}, frame.association);
+  Halve(frame.association.matches);
+  MatchCandidates(frame.world.Imaging(), *frame.sensed.indexed, frame.pose, {}, frame.association);
   EXPECT_GT(frame.association.matches.Points(), all.Points() * 95 / 100);
   EXPECT_GT(frame.association.matches.Lines(), all.Lines() * 9 / 10);
   std::vector<int> matched;
@@ -128,9 +130,72 @@ TEST(MatchCandidates, MatchesWhatIsFreeAndTellsWhatShouldBeSeen) {
   }
   std::sort(matched.begin(), matched.end());
   EXPECT_EQ(std::adjacent_find(matched.begin(), matched.end()), matched.end());
-  // Expected to be seen: nearly those matched and the few that the sensor missed.
-  EXPECT_GE(static_cast<int>(expected.points.size()), frame.association.matches.Points());
-  EXPECT_LT(static_cast<int>(expected.points.size()), all.Points() * 12 / 10);
+}
+
+TEST(MatchSnapshot, MatchesAsIfAllItsLandmarksWereCandidates) {
+  MatchedFrame frame(0);
+  FrameAssociation& plain = frame.association;
+  const int all_points = plain.matches.Points();
+  MapSnapshot snapshot;
+  for (const auto& point : plain.points) snapshot.points.push_back({{point.model}, point.id, 2});
+  for (const auto& line : plain.lines) snapshot.lines.push_back({{line.model}, line.id, 2});
+  Halve(plain.matches);
+  FrameAssociation association(frame.sensed.point_truth.size(), frame.sensed.line_truth.size());
+  CopyMatches(plain, true, association);
+
+  const ImagingModel imaging = frame.world.Imaging();
+  MatchCandidates(imaging, *frame.sensed.indexed, frame.pose, {}, plain);
+  const ExpectedLandmarks expected =
+      MatchSnapshot(imaging, *frame.sensed.indexed, frame.pose, {}, snapshot, association);
+  Frame with_plain, with_snapshot;
+  SetLandmarks(plain, with_plain);
+  SetLandmarks(association, with_snapshot);
+  EXPECT_EQ(with_snapshot.points, with_plain.points);
+  EXPECT_EQ(with_snapshot.lines, with_plain.lines);
+  EXPECT_EQ(static_cast<int>(association.points.size()), association.matches.Points());
+  EXPECT_EQ(static_cast<int>(association.lines.size()), association.matches.Lines());
+  for (const CandidatePoint& point : association.points) {
+    EXPECT_EQ(point.model.position, snapshot.Find(point.id)->position);
+  }
+  for (const CandidateLine& line : association.lines) {
+    EXPECT_EQ(line.model.line.moment, snapshot.Find(line.id)->line.moment);
+  }
+
+  ExpectedLandmarks projected;
+  for (const SnapshotPoint& point : snapshot.points) {
+    if (ProjectPoint(imaging, frame.pose, point)) projected.points.push_back(point.id);
+  }
+  for (const SnapshotLine& line : snapshot.lines) {
+    if (ProjectLine(imaging, frame.pose, line)) projected.lines.push_back(line.id);
+  }
+  EXPECT_EQ(expected.points, projected.points);
+  EXPECT_EQ(expected.lines, projected.lines);
+  // Nearly only those that are matched, and the few that the sensor missed.
+  EXPECT_GE(static_cast<int>(expected.points.size()), association.matches.Points());
+  EXPECT_LT(static_cast<int>(expected.points.size()), all_points * 12 / 10);
+}
+
+TEST(CountSeen, AddsToTheScoresOfWhatIsExpectedAndOfWhatIsFound) {
+  FrameAssociation association(4, 1);
+  for (const int id : {7, 3, -1}) association.points.push_back({PointId{id}, {}});
+  association.lines.push_back({LineId{5}, {}});
+  association.matches.point_of_feature = {0, -1, 1, 2};  // the last was made on the spot
+  association.matches.line_of_feature = {0};
+  TrackingScores scores;
+  scores.points[PointId{3}] = {2, 1};
+  scores.points[PointId{4}] = {6, 5};
+  CountSeen({{PointId{1}, PointId{3}}, {LineId{5}}}, association, scores);
+  const auto expect = [](const TrackingScore& score, int visible, int found) {
+    EXPECT_EQ(score.visible, visible);
+    EXPECT_EQ(score.found, found);
+  };
+  ASSERT_EQ(scores.points.size(), 4U);
+  expect(scores.points.at(PointId{1}), 1, 0);
+  expect(scores.points.at(PointId{3}), 3, 2);
+  expect(scores.points.at(PointId{4}), 6, 5);
+  expect(scores.points.at(PointId{7}), 0, 1);
+  ASSERT_EQ(scores.lines.size(), 1U);
+  expect(scores.lines.at(LineId{5}), 1, 1);
 }
 
 }  // namespace
