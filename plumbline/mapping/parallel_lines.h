@@ -39,8 +39,8 @@ std::optional<LineDirection> DirectionOf(const PluckerLine& line,
 
 // Returns the directions that at least five of the lines known to 1 deg share, the most frequent
 // first. Each starts at the line with most others within 2 deg. It becomes the mean, weighted with
-// covariance and ParallelSigma(), of the lines that agree with it by chi2 at 95 %. O(lines
-// squared).
+// covariance and ParallelSigma(), of the lines that agree with it by chi2 at 95 %. Cost: each line
+// is compared with those that have about the same component along one axis, at worst with all.
 std::vector<CommonDirection> CommonDirections(const std::vector<LineDirection>& lines);
 
 // Returns the common directions, in the world, of the lines of a map that at least three keyframes

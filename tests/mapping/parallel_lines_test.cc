@@ -2,14 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/mapping/parallel_lines.h"
 
+#include "plumbline/base/chi2.h"
+#include "plumbline/base/elementary.h"
 #include "plumbline/base/random.h"
+#include "plumbline/geometry/basis_across.h"
 
 #include "tests/mapping/vertical_lines.h"
 #include "tests/support/true_map.h"
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -76,6 +83,94 @@ TEST(CommonDirections, FindsThreeAmongRandomLines) {
     EXPECT_LT(Angle(found[i].direction, truths[i]), 3 * found[i].sigma) << i;
     EXPECT_GT(found[i].sigma, sigma / std::sqrt(40.0)) << i;
     EXPECT_LT(found[i].sigma, 2 * sigma / std::sqrt(20.0)) << i;
+  }
+}
+
+// Returns the index of the first of the lines with most others within 2 deg; no value where all
+// have fewer than four others.
+std::optional<std::size_t> MostAmong(const std::vector<LineDirection>& lines) {
+  std::optional<std::size_t> most;
+  std::ptrdiff_t votes = 4;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto near = std::count_if(lines.begin(), lines.end(), [&](const LineDirection& line) {
+      return std::abs(lines[i].direction.dot(line.direction)) >= math::Cos(2 * kRadians);
+    });
+    if (near <= votes) continue;
+    votes = near;
+    most = i;
+  }
+  return most;
+}
+
+// Looks at all lines in every step.
+CommonDirection MeanOfAgreeing(const Eigen::Vector3d& start,
+                               const std::vector<LineDirection>& lines,
+                               std::vector<LineDirection>& others) {
+  CommonDirection mean{start, 0};
+  for (int step = 0; step < 4; ++step) {
+    const Eigen::Matrix<double, 3, 2> across = BasisAcross(mean.direction);
+    others.clear();
+    Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d g = Eigen::Vector2d::Zero();
+    for (const LineDirection& line : lines) {
+      const double cosine = mean.direction.dot(line.direction);
+      const Eigen::Vector2d angle = (cosine < 0 ? -1 : 1) * (across.transpose() * line.direction);
+      Eigen::Matrix2d covariance = across.transpose() * line.covariance * across;
+      covariance.diagonal().array() += ParallelSigma() * ParallelSigma();
+      const double chi2 = angle.dot(covariance.inverse() * angle);
+      if (!(std::abs(cosine) >= 0.9 && chi2 <= Chi2Limit95(2))) {
+        others.push_back(line);
+        continue;
+      }
+      const Eigen::Matrix2d weight = covariance.inverse();
+      H += weight;
+      g += weight * angle;
+    }
+    if (others.size() == lines.size()) break;
+    const Eigen::Matrix2d covariance = H.inverse();
+    mean.direction = (mean.direction + across * covariance * g).normalized();
+    mean.sigma = std::sqrt(covariance.trace());
+  }
+  return mean;
+}
+
+TEST(CommonDirections, AreThoseOfComparingAllLines) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Rng rng(seed, "all_pairs");
+    // The component by which lines are sorted is 0 around the third direction and 1 around the
+    // fourth.
+    std::vector<Eigen::Vector3d> truths{Eigen::Vector3d::UnitX(),
+                                        Eigen::Vector3d(0.02, 0.999, 0).normalized(),
+                                        Eigen::Vector3d(0.8, 0, -0.36).normalized(),
+                                        {0.36, 0.48, 0.8}};
+    for (int i = 0; i < 3; ++i) truths.push_back(RandomDirection(rng));
+    std::vector<LineDirection> lines;
+    for (int k = 0; k < 280; ++k) {
+      // Many pairs differ by about 2 deg, which decides whether they are near each other.
+      const double sigma = rng.Uniform(0.2, 0.7) * kRadians;
+      lines.push_back(Measured(rng, truths[rng.Index(truths.size())], sigma));
+    }
+    for (int k = 0; k < 120; ++k) {
+      lines.push_back(Measured(rng, RandomDirection(rng), 0.5 * kRadians));
+    }
+    const std::vector<CommonDirection> found = CommonDirections(lines);
+    EXPECT_GE(found.size(), 4U);
+    std::vector<LineDirection> left = lines;
+    std::size_t group = 0;
+    while (const auto seed_line = MostAmong(left)) {
+      std::vector<LineDirection> others;
+      const CommonDirection mean = MeanOfAgreeing(left[*seed_line].direction, left, others);
+      if (left.size() - others.size() < 5) {
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(*seed_line));
+        continue;
+      }
+      ASSERT_LT(group, found.size());
+      EXPECT_EQ(found[group].direction, mean.direction);
+      EXPECT_EQ(found[group].sigma, mean.sigma);
+      ++group;
+      left = std::move(others);
+    }
+    EXPECT_EQ(group, found.size());
   }
 }
 
