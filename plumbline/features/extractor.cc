@@ -109,7 +109,8 @@ void CheckInput(const RectifiedCamera& camera, const FeatureInput& input) {
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
                          const FeatureOptions& options,
-                         HelperThread* helper) {
+                         HelperThread* helper,
+                         ImagePyramid* left_pyramid) {
   CheckInput(camera, input);
   std::optional<HelperThread> made;
   if (!options.parallel) {
@@ -125,6 +126,7 @@ Features ExtractFeatures(const RectifiedCamera& camera,
   } else if (input.depth) {
     features.point_disparity = PointDisparities(camera, *input.depth, left.points, options.depth);
   }
+  if (left_pyramid != nullptr) *left_pyramid = std::move(left.pyramid);
   features.points = std::move(left.points);
   features.lines = std::move(left.lines);
   features.point_disparity.resize(features.points.size());

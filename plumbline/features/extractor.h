@@ -13,6 +13,7 @@
 #include "plumbline/features/valid_region.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/image/image.h"
+#include "plumbline/image/pyramid.h"
 
 #include <optional>
 #include <vector>
@@ -48,11 +49,13 @@ struct FeatureInput {
 // stereo and RGB-D the disparities of the points, all rounded to single precision. No line gets a
 // right line. Images must have the size of the camera (BugError otherwise). The same input gives
 // the same bytes. With options.parallel the work is shared with the helper, or with one that is
-// made for the call.
+// made for the call. `left_pyramid`, where it is given, becomes the pyramid of the left image that
+// the points were found in (BuildOrbPyramid); without points it is empty.
 Features ExtractFeatures(const RectifiedCamera& camera,
                          const FeatureInput& input,
                          const FeatureOptions& options,
-                         HelperThread* helper = nullptr);
+                         HelperThread* helper = nullptr,
+                         ImagePyramid* left_pyramid = nullptr);
 
 // Returns where the lines that ExtractFeatures found are in the right image, or would be by the
 // depth image (see Features::line_right), rounded to single precision; one entry for each line.

@@ -93,14 +93,14 @@ LocalMapper::LocalMapper(const ImagingModel& imaging,
 std::vector<MappingStep> LocalMapper::Add(Map& map,
                                           const KeyFrame& keyframe,
                                           const TrackingScores& scores,
-                                          const GrayImage* image) {
+                                          const ImagePyramid* pyramid) {
   const KeyFrameId id = keyframe.id;
   std::vector<MappingStep> times;
   ShownLandmarks refreshed;
   Timed("take_in", times, [&] { refreshed = TakeIn(map, keyframe, scores); });
   Timed("create", times, [&] { CreateLandmarks(map, id); });
   Timed("fuse", times, [&] { Fuse(map, id, refreshed); });
-  if (image != nullptr) Timed("align", times, [&] { AlignPoints(map, id, *image); });
+  if (pyramid != nullptr) Timed("align", times, [&] { AlignPoints(map, id, *pyramid); });
   Timed("adjust", times, [&] { Adjust(map, id); });
   if (options_.stereo_calibration) Timed("calibrate", times, [&] { CalibrateStereo(map, id); });
   Timed("clean_up", times, [&] {
@@ -257,8 +257,8 @@ void LocalMapper::Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed)
   Refresh(map, id, refreshed);
 }
 
-void LocalMapper::AlignPoints(Map& map, KeyFrameId id, const GrayImage& image) {
-  auto aligned = point_aligner_.Align(map, id, image);
+void LocalMapper::AlignPoints(Map& map, KeyFrameId id, const ImagePyramid& pyramid) {
+  auto aligned = point_aligner_.Align(map, id, pyramid);
   if (aligned != nullptr) map.Apply({edit::MoveFeatures{id, std::move(aligned)}});
 }
 

@@ -55,13 +55,13 @@ class LocalMapper {
   // Sets the options for all that is done from now on.
   void SetOptions(const MappingOptions& options) { options_ = options; }
 
-  // Takes in a keyframe, with the scores that tracking counted since the last one. Where its
-  // rectified left image is given, points are aligned (PointAligner). Returns the time of each
-  // step, in order.
+  // Takes in a keyframe, with the scores that tracking counted since the last one. Where the
+  // pyramid of its rectified left image is given (BuildOrbPyramid), points are aligned
+  // (PointAligner). Returns the time of each step, in order.
   std::vector<MappingStep> Add(Map& map,
                                const KeyFrame& keyframe,
                                const TrackingScores& scores,
-                               const GrayImage* image = nullptr);
+                               const ImagePyramid* pyramid = nullptr);
 
   // Begins a map with several keyframes, of which `newest` is the last, and their landmarks. `edit`
   // makes them from the empty map. All of the map is adjusted, then new landmarks of `newest` are
@@ -114,7 +114,7 @@ class LocalMapper {
   void CreateLandmarks(Map& map, KeyFrameId id);
   void Watch(MapId map, const MapEdit& edit);
   void Fuse(Map& map, KeyFrameId id, const ShownLandmarks& refreshed) const;
-  void AlignPoints(Map& map, KeyFrameId id, const GrayImage& image);
+  void AlignPoints(Map& map, KeyFrameId id, const ImagePyramid& pyramid);
   void Adjust(Map& map, KeyFrameId id);
   void CalibrateStereo(Map& map, KeyFrameId id);
 

@@ -4,7 +4,6 @@
 
 #include "plumbline/base/elementary.h"
 #include "plumbline/features/image_patch.h"
-#include "plumbline/features/orb.h"
 #include "plumbline/features/single_precision.h"
 
 #include <algorithm>
@@ -82,8 +81,7 @@ std::optional<ImagePatch> PatchOf(const KeyFramePatches& patches, std::size_t fe
 
 std::shared_ptr<const IndexedFeatures> PointAligner::Align(const Map& map,
                                                            KeyFrameId id,
-                                                           const GrayImage& image) {
-  const ImagePyramid pyramid = BuildOrbPyramid(image, {.scale_factor = octave_scale_});
+                                                           const ImagePyramid& pyramid) {
   const Frame& frame = map.Find(id)->frame;
   Features features = MeasuredFeatures(*frame.indexed);
   bool moved = false;

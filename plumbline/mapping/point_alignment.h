@@ -53,11 +53,12 @@ class PointAligner {
 
   // Returns the features of a keyframe of the map, with those points moved to where they align that
   // have patches in recent keyframes; nullptr where there is none. Remembers the patches of this
-  // keyframe, of which `image` is the rectified left image. Deviations stay as they are. Cost:
-  // about 5 microseconds a point that is looked for, 2 ms for the pyramid and the patches.
+  // keyframe. `pyramid` is that of its rectified left image with the given scale of octaves
+  // (BuildOrbPyramid). Deviations stay as they are. Cost: about 5 microseconds a point that is
+  // looked for, and the patches of all corners.
   std::shared_ptr<const IndexedFeatures> Align(const Map& map,
                                                KeyFrameId id,
-                                               const GrayImage& image);
+                                               const ImagePyramid& pyramid);
 
   // The patches of recent keyframes, the oldest keyframe first.
   const std::deque<KeyFramePatches>& recent() const { return recent_; }

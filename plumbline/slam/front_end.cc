@@ -56,9 +56,13 @@ MeasuredFrame FrontEnd::Measure(SensorFrame frame, StageClock clock, Shed shed) 
   measured.images = rectifier_.Apply(std::move(frame), helper_.get());
   clock.Done("rectify");
   const RectifiedCamera& camera = rectifier_.camera();
-  measured.indexed = IndexFeatures(
-      camera,
-      ExtractFeatures(camera, InputOf(measured.images), Lightened(options_, shed), helper_.get()));
+  ImagePyramid pyramid;
+  Features features = ExtractFeatures(
+      camera, InputOf(measured.images), Lightened(options_, shed), helper_.get(), &pyramid);
+  measured.indexed = IndexFeatures(camera, std::move(features));
+  if (camera.baseline == 0) {
+    measured.left_pyramid = std::make_shared<const ImagePyramid>(std::move(pyramid));
+  }
   clock.Done("features");
   measured.clock = std::move(clock);
   return measured;

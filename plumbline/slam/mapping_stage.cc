@@ -366,7 +366,7 @@ MappingStage::Done MappingStage::Do(const std::shared_ptr<const NewKeyFrame>& ad
   Map& map = atlas_.active();
   changed_.insert(map.id());
   Done done;
-  done.times = mapper_.Add(map, SettledIn(map, *added), added->scores, added->image.get());
+  done.times = mapper_.Add(map, SettledIn(map, *added), added->scores, added->left_pyramid.get());
   Recognize(added->keyframe.id, frame, done.times);
   LearnLens(added->keyframe.id, frame);
   done.snapshot = TakeSnapshotAround(atlas_.active(), added->keyframe.id);

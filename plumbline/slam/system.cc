@@ -126,7 +126,7 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   clock.Done(start ? "initialize" : "track");
   record.times = clock.Finish();
   view_ = {std::move(measured.images), result.frame};
-  if (!start) unfinished_ = {std::move(result), measured.shed};
+  if (!start) unfinished_ = {std::move(result), measured.shed, std::move(measured.left_pyramid)};
   return Keep(std::move(record));
 }
 
@@ -164,9 +164,7 @@ void System::Complete() {
   CompleteRightLines(unfinished, clock);
   if (result.keyframe) {
     result.keyframe->keyframe.session = session_id();
-    if (imaging_.camera.baseline == 0) {
-      result.keyframe->image = std::make_shared<const GrayImage>(view_.images.left);
-    }
+    result.keyframe->left_pyramid = std::move(unfinished.left_pyramid);
     const auto gone = mapping_.Submit(frame, std::move(*result.keyframe), result.starts_map);
     if (gone) Demote(*gone);
   }

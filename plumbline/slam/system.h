@@ -234,6 +234,7 @@ class System {
   struct Unfinished {
     TrackingResult result;
     Shed shed = Shed::kNothing;
+    std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;  // MeasuredFrame::left_pyramid
   };
   TrackingResult FollowMap(MeasuredFrame& measured, FrameRecord& record, StageClock& clock);
   void CompleteRightLines(Unfinished& unfinished, StageClock& clock);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumbline/image/image.h"
+#include "plumbline/image/pyramid.h"
 #include "plumbline/map/frame.h"
 #include "plumbline/map/placement.h"
 #include "plumbline/map/snapshot.h"
@@ -59,8 +59,9 @@ struct NewKeyFrame {
   KeyFrame keyframe;
   TrackingScores scores;
   RelativePose from_parent = {};  // used only where there is a parent
-  // The rectified left image, where mapping is to align points in it (PointAligner); else null.
-  std::shared_ptr<const GrayImage> image = nullptr;
+  // The pyramid of the rectified left image, where mapping is to align points in it (PointAligner);
+  // else null.
+  std::shared_ptr<const ImagePyramid> left_pyramid = nullptr;
 };
 
 // How a tracker uses a map that an earlier run made.

@@ -3,6 +3,7 @@
 #include "plumbline/mapping/point_alignment.h"
 
 #include "plumbline/base/random.h"
+#include "plumbline/features/orb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,10 @@ GrayImage View(double forward, double contrast = 1) {
     }
   }
   return image;
+}
+
+ImagePyramid PyramidOf(const GrayImage& image) {
+  return BuildOrbPyramid(image, {.scale_factor = 1.2});
 }
 
 // A map of the places, each keyframe with corners that are off by `errors` from where it shows
@@ -100,11 +105,11 @@ TEST(PointAligner, LaterCornersShowWhatTheFirstOnesShow) {
   const Eigen::Vector2d first(0.3, -0.2);
   WallMap wall;
   PointAligner aligner(OneCamera(), 1.2);
-  EXPECT_EQ(aligner.Align(wall.map, wall.Add(0, first, 0), View(0)), nullptr);
+  EXPECT_EQ(aligner.Align(wall.map, wall.Add(0, first, 0), PyramidOf(View(0))), nullptr);
   // Nearer, larger, darker; corners are found in the octave of their size, and off by its pixels.
   for (const auto& [forward, octave] : {std::pair{1.3, 1}, std::pair{3.0, 3}, std::pair{4.6, 5}}) {
     const KeyFrameId id = wall.Add(forward, {-0.7, 0.9}, octave);
-    const auto aligned = aligner.Align(wall.map, id, View(forward, 0.8));
+    const auto aligned = aligner.Align(wall.map, id, PyramidOf(View(forward, 0.8)));
     ASSERT_NE(aligned, nullptr);
     EXPECT_GT(LargestError(wall.map.Find(id)->frame.features(), first, forward), 1);
     EXPECT_LT(LargestError(aligned->features, first, forward), 0.15) << forward;
@@ -119,7 +124,7 @@ TEST(PointAligner, NoiseLeavesMoreToTheCorner) {
   for (const double noise : {0.0, 25.0}) {
     WallMap wall;
     PointAligner aligner(OneCamera(), 1.2);
-    aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), View(0));
+    aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), PyramidOf(View(0)));
     const KeyFrameId id = wall.Add(1, {0.8, 0}, 1);
     GrayImage image = View(1);
     Rng rng(7);
@@ -129,7 +134,7 @@ TEST(PointAligner, NoiseLeavesMoreToTheCorner) {
         image.at(x, y) = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
       }
     }
-    const auto aligned = aligner.Align(wall.map, id, image);
+    const auto aligned = aligner.Align(wall.map, id, PyramidOf(image));
     ASSERT_NE(aligned, nullptr);
     double sum = 0;
     for (std::size_t i = 0; i < kPlaces.size(); ++i) {
@@ -146,11 +151,12 @@ TEST(PointAligner, NoiseLeavesMoreToTheCorner) {
 TEST(PointAligner, GoesOnFromWhatItRemembers) {
   WallMap wall;
   PointAligner aligner(OneCamera(), 1.2), other(OneCamera(), 1.2);
-  aligner.Align(wall.map, wall.Add(0, {0.3, 0.1}, 0), View(0));
+  aligner.Align(wall.map, wall.Add(0, {0.3, 0.1}, 0), PyramidOf(View(0)));
   const KeyFrameId id = wall.Add(2, {0.6, 0.6}, 2);
-  EXPECT_EQ(other.Align(wall.map, id, View(2)), nullptr);
+  EXPECT_EQ(other.Align(wall.map, id, PyramidOf(View(2))), nullptr);
   other.SetRecent(aligner.recent());
-  const auto one = aligner.Align(wall.map, id, View(2)), two = other.Align(wall.map, id, View(2));
+  const auto one = aligner.Align(wall.map, id, PyramidOf(View(2))),
+             two = other.Align(wall.map, id, PyramidOf(View(2)));
   ASSERT_NE(one, nullptr);
   ASSERT_NE(two, nullptr);
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
@@ -161,9 +167,10 @@ TEST(PointAligner, GoesOnFromWhatItRemembers) {
 TEST(PointAligner, LeavesWhatDoesNotLookAlike) {
   WallMap wall;
   PointAligner aligner(OneCamera(), 1.2);
-  aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), View(0));
-  EXPECT_EQ(aligner.Align(wall.map, wall.Add(2, {0.5, 0}, 2), View(2, -0.9)), nullptr);
-  EXPECT_EQ(aligner.Align(wall.map, wall.Add(2, {0.5, 0}, 2), GrayImage(400, 300, 90)), nullptr);
+  aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), PyramidOf(View(0)));
+  EXPECT_EQ(aligner.Align(wall.map, wall.Add(2, {0.5, 0}, 2), PyramidOf(View(2, -0.9))), nullptr);
+  EXPECT_EQ(aligner.Align(wall.map, wall.Add(2, {0.5, 0}, 2), PyramidOf(GrayImage(400, 300, 90))),
+            nullptr);
 }
 
 TEST(PointAligner, ForgetsTheOldest) {
@@ -171,7 +178,7 @@ TEST(PointAligner, ForgetsTheOldest) {
   PointAligner aligner(OneCamera(), 1.2);
   const GrayImage image = View(0);
   for (std::size_t i = 0; i < PointAligner::kRecent + 3; ++i) {
-    aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), image);
+    aligner.Align(wall.map, wall.Add(0, {0, 0}, 0), PyramidOf(image));
   }
   EXPECT_EQ(aligner.recent().size(), PointAligner::kRecent);
   EXPECT_EQ(aligner.recent().front().keyframe, KeyFrameId{3});

@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/front_end.h"
 
+#include "plumbline/features/orb.h"
+
 #include "tests/support/moving_poster.h"
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <future>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -39,6 +44,30 @@ TEST(FrontEnd, FindsLinesInTheRightImageWhenAsked) {
   EXPECT_GT(found(*whole), 15);
   EXPECT_EQ(whole->features.points.size(), measured.indexed->features.points.size());
   EXPECT_EQ(front_end.WithRightLines(measured.images, measured.shed, whole), whole);
+}
+
+TEST(FrontEnd, KeepsThePyramidOfASingleCamera) {
+  Calibration calibration = MovingPoster::MakeCalibration();
+  EXPECT_EQ(FrontEnd(calibration, {}).Measure(MovingPoster().Frame(2)).left_pyramid, nullptr);
+  calibration.right.reset();
+  SensorFrame frame = MovingPoster().Frame(2);
+  frame.right.reset();
+  FeatureOptions options;
+  options.orb.scale_factor = 1.3;
+  const MeasuredFrame measured = FrontEnd(calibration, options).Measure(std::move(frame));
+  ASSERT_NE(measured.left_pyramid, nullptr);
+  const ImagePyramid anew = BuildOrbPyramid(measured.images.left, options.orb);
+  ASSERT_EQ(measured.left_pyramid->size(), anew.size());
+  for (std::size_t i = 0; i < anew.size(); ++i) {
+    const PyramidLevel& level = (*measured.left_pyramid)[i];
+    EXPECT_EQ(level.scale, anew[i].scale);
+    ASSERT_EQ(level.image.width(), anew[i].image.width());
+    ASSERT_EQ(level.image.height(), anew[i].image.height());
+    for (int y = 0; y < level.image.height(); ++y) {
+      const std::uint8_t* row = level.image.row(y);
+      EXPECT_TRUE(std::equal(row, row + level.image.width(), anew[i].image.row(y))) << y;
+    }
+  }
 }
 
 TEST(FrontEnd, GivesTheSameFeaturesInEveryThread) {
