@@ -183,6 +183,10 @@ class IdTable {
   std::uint64_t PageChanged(std::size_t page) const {
     return page < pages_.size() && pages_[page] ? std::max(pages_[page]->changed, copied_at_) : 0;
   }
+  // Returns which ids of a page are there: bit i is set for id n * kPage + i of page n.
+  std::uint64_t TakenOfPage(std::size_t page) const {
+    return page < pages_.size() && pages_[page] ? pages_[page]->taken : 0;
+  }
   // Calls take(id, entry) for all entries of a page, in the order of their ids.
   template <class Take>
   void ForEachOfPage(std::size_t page, const Take& take) const {

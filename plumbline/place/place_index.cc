@@ -147,6 +147,7 @@ PlaceIndex::Kind::Kind(std::size_t features) : signatures(features) {
 
 void PlaceIndex::Add(KeyFrameId id, const Features& features) {
   PLUMBLINE_CHECK(!Contains(id), "a keyframe twice in an index of places");
+  PLUMBLINE_CHECK(id.valid(), "a keyframe without an id in an index of places");
   if (free_slots_.empty()) {
     free_slots_.push_back(static_cast<std::uint32_t>(by_slot_.size()));
     by_slot_.emplace_back();
@@ -154,6 +155,7 @@ void PlaceIndex::Add(KeyFrameId id, const Features& features) {
   const std::uint32_t slot = free_slots_.back();
   free_slots_.pop_back();
   slots_.emplace(id, slot);
+  Mark(id, true);
   by_slot_[slot] = id;
   const auto signatures = SignaturesOf(features);
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
@@ -179,8 +181,17 @@ void PlaceIndex::Remove(KeyFrameId id) {
     kind.signatures.Set(slot, {});
   }
   slots_.erase(entry);
+  Mark(id, false);
   by_slot_[slot] = KeyFrameId{};
   free_slots_.push_back(slot);
+}
+
+void PlaceIndex::Mark(KeyFrameId id, bool taken) {
+  const auto place = static_cast<std::size_t>(id.value);
+  if (taken_.size() <= place / kPage) taken_.resize(place / kPage + 1, 0);
+  const std::uint64_t bit = std::uint64_t{1} << (place % kPage);
+  std::uint64_t& page = taken_[place / kPage];
+  page = taken ? page | bit : page & ~bit;
 }
 
 std::vector<KeyFrameId> PlaceIndex::Ids() const {
@@ -247,7 +258,8 @@ std::vector<PlaceCandidate> PlaceIndex::Query(
 std::size_t PlaceIndex::Memory() const {
   constexpr std::size_t kMapNode = 48;  // size of a node of a red-black tree
   std::size_t bytes = by_slot_.capacity() * sizeof(KeyFrameId) + slots_.size() * kMapNode +
-                      free_slots_.capacity() * sizeof(std::uint32_t);
+                      free_slots_.capacity() * sizeof(std::uint32_t) +
+                      taken_.capacity() * sizeof(std::uint64_t);
   for (const Kind& kind : kinds_) {
     bytes += kind.signatures.Memory();
     for (const SignatureTree& tree : kind.trees) bytes += tree.Memory();

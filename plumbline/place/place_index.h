@@ -53,16 +53,21 @@ class PlaceIndex {
   static constexpr int kPointReach = 24;
   static constexpr int kLineReach = 24;
 
-  // Adds a keyframe. Throws BugError where it is there already.
+  // Adds a keyframe. Throws BugError where it is there already, and for an invalid id.
   void Add(KeyFrameId id, const Features& features);
   // Removes a keyframe; does nothing where it is not there.
   void Remove(KeyFrameId id);
   bool Contains(KeyFrameId id) const { return slots_.contains(id); }
   std::size_t size() const { return slots_.size(); }
+  // Returns which ids of a page are there: bit i is set for id n * kPage + i of page n. Pages from
+  // page_count() on have none.
+  static constexpr std::size_t kPage = 64;
+  std::uint64_t TakenOfPage(std::size_t page) const {
+    return page < taken_.size() ? taken_[page] : 0;
+  }
+  std::size_t page_count() const { return taken_.size(); }
   // Returns the ids of all keyframes, ascending.
   std::vector<KeyFrameId> Ids() const;
-  // Returns the greatest id; an invalid one where the index is empty.
-  KeyFrameId Newest() const { return slots_.empty() ? KeyFrameId{} : slots_.rbegin()->first; }
 
   // Returns the `most` best keyframes of those that are allowed, the best first, the older of two
   // equal ones; keyframes without a vote are left out. Keyframes that are not allowed do not make
@@ -94,7 +99,10 @@ class PlaceIndex {
                                     std::size_t most,
                                     const std::function<bool(KeyFrameId)>& allowed) const;
 
+  void Mark(KeyFrameId id, bool taken);
+
   std::map<KeyFrameId, std::uint32_t> slots_;
+  std::vector<std::uint64_t> taken_;       // TakenOfPage, by page
   std::vector<KeyFrameId> by_slot_;        // keyframe of each slot; invalid: free
   std::vector<std::uint32_t> free_slots_;  // slots to be used again
   std::array<Kind, 2> kinds_ = {Kind(kPoints), Kind(kLines)};

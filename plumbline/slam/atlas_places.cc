@@ -2,21 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/slam/atlas_places.h"
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
 namespace plumbline {
 namespace {
 
-// Adds the keyframes after `newest`. Ids ascend over all maps of an atlas, so that a keyframe made
-// later has a greater id, whichever map it is in.
-void AddNew(const Map& map, KeyFrameId newest, PlaceIndex* index) {
-  for (auto it = map.keyframes().upper_bound(newest); it != map.keyframes().end(); ++it) {
-    index->Add(it->first, it->second.frame.features());
+using KeyFrames = IdTable<KeyFrameId, KeyFrame>;
+static_assert(KeyFrames::kPage == PlaceIndex::kPage);
+
+// Calls take(id) for each id of a page whose bit is set, ascending.
+template <class Take>
+void ForEachId(std::size_t page, std::uint64_t bits, const Take& take) {
+  for (; bits != 0; bits &= bits - 1) {
+    const std::size_t place = page * KeyFrames::kPage;
+    take(KeyFrameId{static_cast<std::int64_t>(place) + std::countr_zero(bits)});
   }
 }
 
-std::size_t KeyFramesOf(const Atlas& atlas) {
-  std::size_t count = 0;
-  for (const auto& [id, map] : atlas.maps()) count += map.keyframes().size();
-  return count;
+// Brings the ids of one page up to date.
+void FollowPage(const Atlas& atlas, std::size_t page, PlaceIndex* index) {
+  std::uint64_t there = 0;
+  for (const auto& [map_id, map] : atlas.maps()) there |= map.keyframes().TakenOfPage(page);
+  const std::uint64_t known = index->TakenOfPage(page);
+  if (there == known) return;
+  ForEachId(page, known & ~there, [&](KeyFrameId id) { index->Remove(id); });
+  for (const auto& entry : atlas.maps()) {
+    const Map& map = entry.second;
+    const std::uint64_t fresh = map.keyframes().TakenOfPage(page) & ~index->TakenOfPage(page);
+    ForEachId(page, fresh, [&](KeyFrameId id) { index->Add(id, map.Find(id)->frame.features()); });
+  }
 }
 
 }  // namespace
@@ -29,18 +45,9 @@ const Map* MapOf(const Atlas& atlas, KeyFrameId id) {
 }
 
 void Follow(const Atlas& atlas, PlaceIndex* index) {
-  const KeyFrameId newest = index->Newest();
-  for (const auto& [id, map] : atlas.maps()) AddNew(map, newest, index);
-  if (index->size() == KeyFramesOf(atlas)) return;
-  for (const KeyFrameId id : index->Ids()) {
-    if (MapOf(atlas, id) == nullptr) index->Remove(id);
-  }
-  if (index->size() == KeyFramesOf(atlas)) return;
-  for (const auto& [map_id, map] : atlas.maps()) {  // adopted maps have older ones
-    for (const auto& [id, keyframe] : map.keyframes()) {
-      if (!index->Contains(id)) index->Add(id, keyframe.frame.features());
-    }
-  }
+  std::size_t pages = index->page_count();
+  for (const auto& [id, map] : atlas.maps()) pages = std::max(pages, map.keyframes().page_count());
+  for (std::size_t page = 0; page < pages; ++page) FollowPage(atlas, page, index);
 }
 
 std::vector<KeyFrameId> MostAlike(const PlaceIndex& index,

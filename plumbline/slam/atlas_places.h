@@ -15,8 +15,8 @@ const Map* MapOf(const Atlas& atlas, KeyFrameId id);
 
 // Brings an index up to date: afterwards it holds exactly the keyframes that the maps of the atlas
 // hold. It then answers like an index that is built anew, for instance by a run that goes on from a
-// saved map. Cost: that of adding the new keyframes; where keyframes have left, some tenths of a
-// microsecond for each keyframe in the index.
+// saved map. Cost: that of adding and removing what has changed, and one comparison of bits in each
+// map for every 64 ids of keyframes.
 void Follow(const Atlas& atlas, PlaceIndex* index);
 
 // Returns the keyframes of a map that show what an image shows, the most alike first.

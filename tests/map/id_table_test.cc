@@ -173,6 +173,13 @@ TEST(IdTable, GoesThroughOnePage) {
   const std::vector<std::pair<std::int64_t, int>> expected{{1, 10}, {3, 30}, {63, 630}};
   EXPECT_EQ(found, expected);
   table.ForEachOfPage(2, [&](PointId, const int&) { FAIL(); });
+  EXPECT_EQ(table.TakenOfPage(0), std::uint64_t{1} << 63U | 0b1010U);
+  EXPECT_EQ(table.TakenOfPage(1), 1U);
+  EXPECT_EQ(table.TakenOfPage(2), 0U);
+  table.Erase(PointId{3});
+  table.Erase(PointId{64});
+  EXPECT_EQ(table.TakenOfPage(0), std::uint64_t{1} << 63U | 0b10U);
+  EXPECT_EQ(table.TakenOfPage(1), 0U);
 }
 
 }  // namespace

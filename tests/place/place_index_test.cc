@@ -218,6 +218,19 @@ TEST(PlaceIndex, FindsNothingForNothingAndInNothing) {
   EXPECT_EQ(index.size(), 0U);
 }
 
+TEST(PlaceIndex, TellsWhichIdsOfAPageAreThere) {
+  PlaceIndex index;
+  EXPECT_EQ(index.page_count(), 0U);
+  for (const int id : {1, 63, 64}) index.Add(KeyFrameId{id}, Features{});
+  EXPECT_EQ(index.TakenOfPage(0), std::uint64_t{1} << 63U | 0b10U);
+  EXPECT_EQ(index.TakenOfPage(1), 1U);
+  index.Remove(KeyFrameId{64});
+  index.Remove(KeyFrameId{65});
+  EXPECT_EQ(index.TakenOfPage(1), 0U);
+  EXPECT_EQ(index.TakenOfPage(index.page_count()), 0U);
+  EXPECT_THROW(index.Add(KeyFrameId{}, Features{}), BugError);
+}
+
 TEST(PlaceIndex, NeedsLessThanTwentyKilobytesAKeyFrame) {
   PlaceIndex index;
   for (std::int64_t i = 0; i < 100; ++i) {

@@ -4,6 +4,8 @@
 
 #include "tests/support/most_alike.h"
 #include "tests/support/true_map.h"
+#include <algorithm>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -87,6 +89,54 @@ TEST_F(AtlasPlaces, TakeInAdoptedMaps) {
   atlas_.Adopt(older);
   Follow(atlas_, &index_);
   EXPECT_THAT(index_.Ids(), ElementsAre(KeyFrameId{1}, KeyFrameId{3}));
+}
+
+TEST_F(AtlasPlaces, NoticeThatAsManyCameAsLeft) {
+  Map adopted(MapId{7});
+  for (const int step : {3, 5}) {
+    const KeyFrameId parent = step == 3 ? KeyFrameId{} : KeyFrameId{3};
+    adopted.Apply({edit::AddKeyFrame{{KeyFrameId{step}, parent, FrameAt(step)}}});
+  }
+  Map older(MapId{8});
+  older.Apply({edit::AddKeyFrame{{KeyFrameId{1}, KeyFrameId{}, FrameAt(1)}}});
+  atlas_.Adopt(adopted);
+  Follow(atlas_, &index_);
+  EXPECT_THAT(index_.Ids(), ElementsAre(KeyFrameId{3}, KeyFrameId{5}));
+  atlas_.Find(MapId{7})->Apply({edit::RemoveKeyFrame{KeyFrameId{5}}});
+  atlas_.Adopt(older);
+  Follow(atlas_, &index_);
+  EXPECT_THAT(index_.Ids(), ElementsAre(KeyFrameId{1}, KeyFrameId{3}));
+}
+
+// Over several pages of ids, in maps that begin, grow, shrink and are joined.
+TEST_F(AtlasPlaces, FollowWhateverChanges) {
+  Rng rng(8, "changes");
+  const auto nothing = IndexFeatures(world_.camera, {});
+  std::vector<KeyFrameId> there;
+  for (int round = 0; round < 60; ++round) {
+    if (round % 20 == 0) atlas_.Start();
+    for (int k = 0; k < 5; ++k) {
+      const KeyFrameId id = atlas_.NextKeyFrameId();
+      const auto& keyframes = atlas_.active().keyframes();
+      const KeyFrameId parent = keyframes.empty() ? KeyFrameId{} : keyframes.rbegin()->first;
+      const Frame frame{FrameId{id.value}, id.value, {}, nothing, {}, {}};
+      atlas_.active().Apply({edit::AddKeyFrame{{id, parent, frame}}});
+    }
+    for (int k = 0; k < 3 && !there.empty(); ++k) {
+      const KeyFrameId gone = there[rng.Index(there.size())];
+      const Map* map = MapOf(atlas_, gone);
+      if (map != nullptr) atlas_.Find(map->id())->Apply({edit::RemoveKeyFrame{gone}});
+    }
+    if (round == 50) atlas_.Join(MapId{0}, MapId{1}, {});
+    Follow(atlas_, &index_);
+    there.clear();
+    for (const auto& [id, map] : atlas_.maps()) {
+      for (const auto& [keyframe, content] : map.keyframes()) there.push_back(keyframe);
+    }
+    std::sort(there.begin(), there.end());
+    ASSERT_EQ(index_.Ids(), there) << round;
+  }
+  EXPECT_GT(there.size(), PlaceIndex::kPage);
 }
 
 TEST_F(AtlasPlaces, AnswerAsThoseOfARunThatGoesOn) {
