@@ -201,7 +201,8 @@ TEST(SchurSolver, ResetEmptiesTheEquations) {
   EXPECT_EQ(solver.step(1).norm(), 0);
 }
 
-// Of so many poses the elimination is planned first.
+// With 250 poses the solver plans the order of elimination before it factors, and both steps ask
+// whether they are to stop.
 TEST(SchurSolver, SolvesAfterItWasStopped) {
   constexpr int kMany = 250;
   SchurSolver solver(kMany);

@@ -56,7 +56,8 @@ TEST(SequenceTruth, TakesOtherPosesInPlaceOfTheGroundTruth) {
   EXPECT_NEAR(AngularDistance(truth.WorldFromCamera(2)->rotation, ExpSo3({0, 0, 1})), 0, 1e-12);
 }
 
-// As a run is compared with its ground truth: over 0.1 s for data like these.
+// `run` and `evaluate` interpolate the ground truth of data in EuRoC's form over gaps of at most
+// 0.1 s (ErrorOptionsFor), and the poses of a start are found in the truth by that limit, too.
 TEST(SequenceTruth, FindsPosesOverGapsThatAreUsualInItsData) {
   const ScratchFolder folder;
   const Opened opened(WritePosterSequence(folder, 12));
