@@ -85,6 +85,19 @@ void ParallelFor(int n, HelperThread* helper, const Function& fn) {
   calls.Rethrow();
 }
 
+// Calls fn(begin, end) for consecutive ranges that make up [0, n), each but the last of `length`
+// indices, in the caller's thread and in the helper's where it is free.
+template <class Function>
+void ParallelForRanges(std::size_t n,
+                       std::size_t length,
+                       HelperThread* helper,
+                       const Function& fn) {
+  ParallelFor(static_cast<int>((n + length - 1) / length), helper, [&](int i) {
+    const std::size_t begin = static_cast<std::size_t>(i) * length;
+    fn(begin, std::min(begin + length, n));
+  });
+}
+
 // Returns the results fn(0), ..., fn(n - 1) in this order. Their type needs a default value.
 template <class Result, class Function>
 std::vector<Result> ParallelMap(int n, int threads, const Function& fn) {

@@ -59,8 +59,9 @@ std::optional<Rank1Solution> Factorize(const Tracks& tracks, const Poses& poses)
 
 KltInitializer::KltInitializer(const RectifiedCamera& camera,
                                const InitializationOptions& options,
-                               std::uint64_t seed)
-    : camera_(camera), frame_count_(options.frames), seed_(seed) {}
+                               std::uint64_t seed,
+                               HelperThread* helper)
+    : camera_(camera), frame_count_(options.frames), seed_(seed), helper_(helper) {}
 
 void KltInitializer::Reset() {
   reference_.reset();
@@ -85,7 +86,7 @@ InitializationResult KltInitializer::Add(const InitializationFrame& frame) {
     Start(frame);
     return {.wait = kTooFewFrames};
   }
-  tracks_.Follow(frame.image);
+  tracks_.Follow(frame.image, helper_);
   InitializationResult result;
   if (tracks_.alive() < kMinTracks) {
     if (enough) Start(frame);

@@ -24,7 +24,8 @@ class KltInitializer : public Initializer {
  public:
   KltInitializer(const RectifiedCamera& camera,
                  const InitializationOptions& options,
-                 std::uint64_t seed);
+                 std::uint64_t seed,
+                 HelperThread* helper = nullptr);
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;
@@ -64,6 +65,7 @@ class KltInitializer : public Initializer {
   RectifiedCamera camera_;
   int frame_count_;  // number of frames that are factorized together
   std::uint64_t seed_;
+  HelperThread* helper_;
   std::optional<InitializationFrame> reference_;
   KltTracks tracks_;
   std::vector<Followed> frames_;

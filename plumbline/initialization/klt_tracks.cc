@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/initialization/klt_tracks.h"
 
+#include "plumbline/base/index.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/image/opencv_bridge.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -17,6 +20,16 @@ constexpr int kWindow = 21;
 constexpr int kLevels = 3;
 // Largest distance [px] between a point and where following it back leads.
 constexpr double kMaxReturnError = 1;
+constexpr std::size_t kPointsAtOnce = 32;  // points that a thread follows before it takes others
+
+// The levels of an image, each with its derivatives, as OpenCV's flow wants them.
+using FlowPyramid = std::vector<cv::Mat>;
+
+FlowPyramid FlowPyramidOf(const GrayImage& image) {
+  FlowPyramid pyramid;
+  cv::buildOpticalFlowPyramid(AsMat(image), pyramid, cv::Size(kWindow, kWindow), kLevels);
+  return pyramid;
+}
 
 struct Flow {
   std::vector<cv::Point2f> to;
@@ -25,14 +38,14 @@ struct Flow {
 
 // Computes the flow of the places `from` from image a to image b. `guess` are places to begin with
 // in b.
-Flow OpticalFlow(const GrayImage& a,
-                 const GrayImage& b,
+Flow OpticalFlow(const FlowPyramid& a,
+                 const FlowPyramid& b,
                  const std::vector<cv::Point2f>& from,
                  const std::vector<cv::Point2f>& guess) {
   Flow flow{guess, {}};
   std::vector<float> error;
-  cv::calcOpticalFlowPyrLK(AsMat(a),
-                           AsMat(b),
+  cv::calcOpticalFlowPyrLK(a,
+                           b,
                            from,
                            flow.to,
                            flow.found,
@@ -44,16 +57,18 @@ Flow OpticalFlow(const GrayImage& a,
   return flow;
 }
 
-TrackedPixels FollowThereAndBack(const GrayImage& a,
-                                 const GrayImage& b,
+// `size` is that of both images.
+TrackedPixels FollowThereAndBack(const FlowPyramid& a,
+                                 const FlowPyramid& b,
+                                 const cv::Size& size,
                                  const std::vector<cv::Point2f>& from) {
   const Flow there = OpticalFlow(a, b, from, from);
   const Flow back = OpticalFlow(b, a, there.to, from);
   TrackedPixels places(from.size());
   for (std::size_t j = 0; j < from.size(); ++j) {
     const cv::Point2f& to = there.to[j];
-    const bool inside = to.x >= 0 && to.y >= 0 && to.x <= static_cast<float>(b.width() - 1) &&
-                        to.y <= static_cast<float>(b.height() - 1);
+    const bool inside = to.x >= 0 && to.y >= 0 && to.x <= static_cast<float>(size.width - 1) &&
+                        to.y <= static_cast<float>(size.height - 1);
     if (there.found[j] == 0 || back.found[j] == 0 || !inside) continue;
     if (cv::norm(back.to[j] - from[j]) > kMaxReturnError) continue;
     places[j] = Eigen::Vector2d(to.x, to.y);
@@ -76,7 +91,7 @@ bool KltTracks::Fits(std::size_t points, int width, int height) const {
          image_->height() == height;
 }
 
-void KltTracks::Follow(std::shared_ptr<const GrayImage> image) {
+void KltTracks::Follow(std::shared_ptr<const GrayImage> image, HelperThread* helper) {
   std::vector<std::size_t> followed;
   std::vector<cv::Point2f> from;
   for (std::size_t k = 0; k < places_.size(); ++k) {
@@ -85,8 +100,15 @@ void KltTracks::Follow(std::shared_ptr<const GrayImage> image) {
     from.emplace_back(static_cast<float>(places_[k]->x()), static_cast<float>(places_[k]->y()));
   }
   if (!followed.empty()) {
-    const TrackedPixels to = FollowThereAndBack(*image_, *image, from);
-    for (std::size_t j = 0; j < followed.size(); ++j) places_[followed[j]] = to[j];
+    const std::array<const GrayImage*, 2> images{image_.get(), image.get()};
+    std::array<FlowPyramid, 2> pyramids;
+    ParallelFor(2, helper, [&](int i) { pyramids[Index(i)] = FlowPyramidOf(*images[Index(i)]); });
+    const cv::Size size(image->width(), image->height());
+    ParallelForRanges(from.size(), kPointsAtOnce, helper, [&](std::size_t begin, std::size_t end) {
+      const std::vector<cv::Point2f> some(from.data() + begin, from.data() + end);
+      const TrackedPixels to = FollowThereAndBack(pyramids[0], pyramids[1], size, some);
+      for (std::size_t j = begin; j < end; ++j) places_[followed[j]] = to[j - begin];
+    });
   }
   image_ = std::move(image);
 }

@@ -11,16 +11,17 @@ namespace plumbline {
 
 std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
                                              const InitializationOptions& options,
-                                             std::uint64_t seed) {
+                                             std::uint64_t seed,
+                                             HelperThread* helper) {
   switch (options.method) {
     case InitializationMethod::kRank1:
-      return std::make_unique<Rank1Initializer>(imaging, options, seed);
+      return std::make_unique<Rank1Initializer>(imaging, options, seed, helper);
     case InitializationMethod::kRank1Klt:
-      return std::make_unique<KltInitializer>(imaging.camera, options, seed);
+      return std::make_unique<KltInitializer>(imaging.camera, options, seed, helper);
     case InitializationMethod::kTwoView:
       return std::make_unique<TwoViewInitializer>(imaging.camera, seed);
     case InitializationMethod::kTwoViewImages:
-      return std::make_unique<TwoViewImagesInitializer>(imaging, seed);
+      return std::make_unique<TwoViewImagesInitializer>(imaging, seed, helper);
   }
   throw BugError("unknown initialization method");
 }

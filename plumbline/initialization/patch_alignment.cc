@@ -95,7 +95,7 @@ std::optional<Eigen::Vector2d> AlignAffine(const ImagePatch& patch,
 TrackedPixels AlignPatches(const GrayImage& reference_image,
                            std::span<const PointFeature> reference,
                            const GrayImage& image,
-                           const TrackedPixels& guesses,
+                           std::span<const std::optional<Eigen::Vector2d>> guesses,
                            const Eigen::Matrix2d& linear,
                            std::span<Eigen::Matrix2d> warps,
                            const PatchAlignmentOptions& options) {

@@ -6,6 +6,7 @@
 #include "plumbline/image/image.h"
 #include "plumbline/initialization/klt_tracks.h"
 
+#include <optional>
 #include <span>
 
 #include <Eigen/Core>
@@ -51,7 +52,7 @@ struct PatchAlignmentOptions {
 TrackedPixels AlignPatches(const GrayImage& reference_image,
                            std::span<const PointFeature> reference,
                            const GrayImage& image,
-                           const TrackedPixels& guesses,
+                           std::span<const std::optional<Eigen::Vector2d>> guesses,
                            const Eigen::Matrix2d& linear,
                            std::span<Eigen::Matrix2d> warps,
                            const PatchAlignmentOptions& options = {});

@@ -22,7 +22,8 @@ constexpr double kMaxInterpolationPx = 2;
 
 Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
                                    const InitializationOptions& options,
-                                   std::uint64_t seed)
+                                   std::uint64_t seed,
+                                   HelperThread* helper)
     : camera_(imaging.camera),
       frames_(options.frames),
       selection_{
@@ -33,7 +34,7 @@ Rank1Initializer::Rank1Initializer(const ImagingModel& imaging,
            .reweighting = options.reweighting},
           options.relative_pose},
       seed_(seed),
-      window_(imaging, options.matching) {}
+      window_(imaging, options.matching, helper) {}
 
 InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   InitializationResult result = window_.Offer(frame, frames_);

@@ -19,7 +19,8 @@ class Rank1Initializer : public Initializer {
  public:
   Rank1Initializer(const ImagingModel& imaging,
                    const InitializationOptions& options,
-                   std::uint64_t seed);
+                   std::uint64_t seed,
+                   HelperThread* helper = nullptr);
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override;

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/index.h"
+#include "plumbline/base/parallel.h"
 #include "plumbline/initialization/byte_format.h"
 #include "plumbline/initialization/patch_alignment.h"
 
@@ -26,6 +27,7 @@ constexpr std::size_t kMinFeatures = 60;
 // The matches that remain are more and more often wrong.
 constexpr int kFewestMatches = 12;
 constexpr double kMinShareOfMatches = 0.3;
+constexpr std::size_t kPatchesAtOnce = 32;  // patches that a thread aligns before it takes others
 
 // Takes features in order, but none that is nearer than `distance_px` to one that was taken. A
 // corner is often found in several octaves, and its errors are the same in all of them.
@@ -159,19 +161,13 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationF
                                                            const ReferenceMatches& matches) {
   PLUMBLINE_CHECK(frame.image != nullptr, "points are followed on images");
   const std::vector<PointFeature>& reference = reference_->indexed->features.points;
-  flow_.Follow(frame.image);
+  flow_.Follow(frame.image, helper_);
   TrackedPixels guesses = flow_.places();
   for (const PointMatch& match : matches.points) {
     auto& guess = guesses[Index(match.a)];
     if (!guess) guess = frame.indexed->features.points[Index(match.b)].px;
   }
-  const TrackedPixels aligned = AlignPatches(*reference_->image,
-                                             reference,
-                                             *frame.image,
-                                             guesses,
-                                             matches.motion.linear(),
-                                             warps_,
-                                             {.octave_scale = octave_scale_});
+  const TrackedPixels aligned = AlignWithReference(*frame.image, guesses, matches.motion.linear());
   std::vector<Place> places(reference.size());
   for (std::size_t k = 0; k < aligned.size(); ++k) {
     if (!aligned[k]) continue;
@@ -179,6 +175,27 @@ std::vector<FrameWindow::Place> FrameWindow::PlacesOnImage(const InitializationF
     places[k] = {*aligned[k], reference[k].sigma_px};
   }
   return places;
+}
+
+// Returns where the image looks as the reference does around its points (AlignPatches).
+TrackedPixels FrameWindow::AlignWithReference(const GrayImage& image,
+                                              const TrackedPixels& guesses,
+                                              const Eigen::Matrix2d& linear) {
+  const std::span reference(reference_->indexed->features.points);
+  TrackedPixels aligned(reference.size());
+  const auto align = [&](std::size_t begin, std::size_t end) {
+    const std::size_t count = end - begin;
+    const TrackedPixels some = AlignPatches(*reference_->image,
+                                            reference.subspan(begin, count),
+                                            image,
+                                            std::span(guesses).subspan(begin, count),
+                                            linear,
+                                            std::span(warps_).subspan(begin, count),
+                                            {.octave_scale = octave_scale_});
+    std::copy(some.begin(), some.end(), aligned.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  ParallelForRanges(reference.size(), kPatchesAtOnce, helper_, align);
+  return aligned;
 }
 
 void FrameWindow::MoveReference() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/association/projection_search.h"
+#include "plumbline/base/helper_thread.h"
 #include "plumbline/geometry/rectified_camera.h"
 #include "plumbline/geometry/segment.h"
 #include "plumbline/initialization/initializer.h"
@@ -88,8 +89,12 @@ std::vector<RayMatch> MatchesBetween(const TrackedPoints& reference, const Track
 // moves forward only when matches with it die out.
 class FrameWindow {
  public:
-  FrameWindow(const ImagingModel& imaging, InitialMatching matching)
-      : camera_(imaging.camera), octave_scale_(imaging.octave_scale), matching_(matching) {}
+  // The helper shares the work on images, with the same result; it has to outlive the window.
+  FrameWindow(const ImagingModel& imaging, InitialMatching matching, HelperThread* helper = nullptr)
+      : camera_(imaging.camera),
+        octave_scale_(imaging.octave_scale),
+        matching_(matching),
+        helper_(helper) {}
 
   void Reset();
   bool empty() const { return !reference_; }
@@ -170,12 +175,16 @@ class FrameWindow {
                                      const ReferenceMatches& matches) const;
   std::vector<Place> PlacesOnImage(const InitializationFrame& frame,
                                    const ReferenceMatches& matches);
+  TrackedPixels AlignWithReference(const GrayImage& image,
+                                   const TrackedPixels& guesses,
+                                   const Eigen::Matrix2d& linear);
   std::vector<std::size_t> SelectFeatures(const std::vector<int>& frames, int count) const;
   LineTracks CollectLineTracks(const std::vector<int>& frames) const;
 
   RectifiedCamera camera_;
   double octave_scale_;
   InitialMatching matching_;
+  HelperThread* helper_;
   std::optional<InitializationFrame> reference_;
   // Follows the reference's features, one point for each feature.
   KltTracks flow_;

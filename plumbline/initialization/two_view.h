@@ -86,8 +86,10 @@ class TwoViewInitializer : public Initializer {
 // of all frames (BugError otherwise).
 class TwoViewImagesInitializer : public Initializer {
  public:
-  TwoViewImagesInitializer(const ImagingModel& imaging, std::uint64_t seed)
-      : camera_(imaging.camera), seed_(seed), window_(imaging, InitialMatching::kImages) {}
+  TwoViewImagesInitializer(const ImagingModel& imaging,
+                           std::uint64_t seed,
+                           HelperThread* helper = nullptr)
+      : camera_(imaging.camera), seed_(seed), window_(imaging, InitialMatching::kImages, helper) {}
 
   InitializationResult Add(const InitializationFrame& frame) override;
   void Reset() override { window_.Reset(); }

@@ -50,12 +50,14 @@ class FrontEnd {
       const std::shared_ptr<const IndexedFeatures>& indexed) const;
 
   const Rectifier& rectifier() const { return rectifier_; }
+  // The thread that shares the work on images; null where features are measured in one thread.
+  HelperThread* helper() const { return helper_.get(); }
 
  private:
   FeatureInput InputOf(const RectifiedFrame& images) const;
 
   FeatureOptions options_;
-  std::unique_ptr<HelperThread> helper_;  // null where features are measured in one thread
+  std::unique_ptr<HelperThread> helper_;
   Rectifier rectifier_;
   ValidRegion left_valid_;
   ValidRegion right_valid_;

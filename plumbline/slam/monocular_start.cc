@@ -83,12 +83,15 @@ bool Belongs(const KeptFrame& frame, const Map* map) {
 
 }  // namespace
 
-MonocularStart::MonocularStart(const ImagingModel& imaging, const SlamOptions& options)
+MonocularStart::MonocularStart(const ImagingModel& imaging,
+                               const SlamOptions& options,
+                               HelperThread* helper)
     : imaging_(imaging),
       max_pose_sigma_(options.tracking.max_pose_sigma),
       estimator_(imaging.camera, options.lines, options.cutting),
       initializer_(MakeInitializer(
-          imaging, options.initialization, static_cast<std::uint64_t>(options.slam.seed))) {}
+          imaging, options.initialization, static_cast<std::uint64_t>(options.slam.seed), helper)) {
+}
 
 InitializationResult MonocularStart::Offer(FrameId id, const MeasuredFrame& frame) {
   waiting_.push_back({id, frame.stamp_ns, frame.indexed, {}, {}});

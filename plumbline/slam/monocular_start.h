@@ -42,7 +42,10 @@ class MonocularStart {
   static constexpr std::size_t kMostKept = 1200;  // of all maps, when another one begins
   static constexpr int kYoungKeyFrames = 5;
 
-  MonocularStart(const ImagingModel& imaging, const SlamOptions& options);
+  // The helper shares the initializer's work, and has to outlive this.
+  MonocularStart(const ImagingModel& imaging,
+                 const SlamOptions& options,
+                 HelperThread* helper = nullptr);
 
   InitializationResult Offer(FrameId id, const MeasuredFrame& frame);
   // Begins anew: the initializer and the frames that wait are forgotten.

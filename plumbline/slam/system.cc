@@ -58,7 +58,7 @@ System::System(const Calibration& calibration,
           "tracking.reference: last_frame needs a camera that measures depth (stereo or RGB-D); "
           "with one camera only local_map works");
     }
-    monocular_start_ = std::make_unique<MonocularStart>(imaging_, options_);
+    monocular_start_ = std::make_unique<MonocularStart>(imaging_, options_, front_end_.helper());
   }
 }
 

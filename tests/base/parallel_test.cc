@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/parallel.h"
 
+#include "plumbline/base/helper_thread.h"
+
+#include <algorithm>
+#include <cstddef>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -26,6 +30,20 @@ TEST(ParallelFor, OneThreadIsTheCallers) {
   std::set<std::thread::id> ids;
   ParallelFor(10, 1, [&](int) { ids.insert(std::this_thread::get_id()); });
   EXPECT_EQ(ids, std::set{std::this_thread::get_id()});
+}
+
+TEST(ParallelForRanges, MakesUpAllIndicesInOrder) {
+  HelperThread helper;
+  for (HelperThread* who : {static_cast<HelperThread*>(nullptr), &helper}) {
+    std::vector<int> seen(10, 0);
+    ParallelForRanges(seen.size(), 4, who, [&](std::size_t begin, std::size_t end) {
+      EXPECT_EQ(begin % 4, 0U);
+      EXPECT_EQ(end, std::min<std::size_t>(begin + 4, 10));
+      for (std::size_t i = begin; i < end; ++i) ++seen[i];
+    });
+    EXPECT_EQ(seen, std::vector<int>(10, 1));
+    ParallelForRanges(0, 4, who, [](std::size_t, std::size_t) { FAIL(); });
+  }
 }
 
 TEST(ParallelFor, HasNothingToDoForNoItems) {

@@ -38,6 +38,20 @@ TEST(KltTracks, FollowThePicture) {
   EXPECT_GT(right, 0.9 * tracks.alive());
 }
 
+TEST(KltTracks, AHelperChangesNothing) {
+  const MovingPoster poster;
+  HelperThread helper;
+  const std::vector<Eigen::Vector2d> start = Places();
+  KltTracks alone(ImageOf(poster, 0), {start.begin(), start.end()});
+  KltTracks helped = alone;
+  for (int i = 1; i <= 3; ++i) {
+    alone.Follow(ImageOf(poster, i));
+    helped.Follow(ImageOf(poster, i), &helper);
+    EXPECT_EQ(helped.places(), alone.places());
+  }
+  EXPECT_GT(alone.alive(), 0);
+}
+
 TEST(KltTracks, GoOnFromWhereTheyArePut) {
   const MovingPoster poster;
   const Eigen::Vector2d start(150, 150), other(180, 120);

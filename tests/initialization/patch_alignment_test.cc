@@ -48,8 +48,13 @@ std::optional<Eigen::Vector2d> Align(const Scene& reference,
   feature.px = from;
   feature.octave = octave;
   Eigen::Matrix2d warp = Eigen::Matrix2d::Identity();
-  return AlignPatches(
-             Picture(reference), {{feature}}, Picture(later), {to}, linear, {&warp, 1}, options)
+  return AlignPatches(Picture(reference),
+                      {{feature}},
+                      Picture(later),
+                      TrackedPixels{to},
+                      linear,
+                      {&warp, 1},
+                      options)
       .front();
 }
 
@@ -127,7 +132,7 @@ TEST(AlignPatches, GoesOnFromTheMapsOfTheFrameBefore) {
     return AlignPatches(reference,
                         {{feature}},
                         Picture(turned(part)),
-                        {kCentre},
+                        TrackedPixels{kCentre},
                         Eigen::Matrix2d::Identity(),
                         {&warp, 1})
         .front();

@@ -66,31 +66,38 @@ TEST(FrameWindow, TracksShowTheSamePoints) {
   for (const FeatureTrack& track : window.LineObservations(frames)) EXPECT_GE(track.size(), 2U);
 }
 
-// The poster moves before the camera; the frames have no features of their own.
-TEST(FrameWindow, FollowsPointsOnTheImages) {
-  const MovingPoster poster;
-  const RectifiedCamera camera = TestCamera();
+// Returns points all over the image, each found in two octaves.
+Features PointsInTwoOctaves() {
   Features features;
   for (int y = 40; y < 270; y += 15) {
     for (int x = 60; x < 380; x += 15) {
       features.points.push_back({});
       features.points.back().px = Eigen::Vector2d(x, y);
-      features.points.push_back(features.points.back());  // found in two octaves
+      features.points.push_back(features.points.back());
       features.points.back().octave = 1;
       features.points.back().sigma_px = 1.2;
     }
   }
-  const auto frame = [&](int i, Features seen) {
-    return InitializationFrame{FrameId{i},
-                               i,
-                               IndexFeatures(camera, std::move(seen)),
-                               std::make_shared<const GrayImage>(poster.Frame(i).left)};
-  };
+  return features;
+}
+
+InitializationFrame PosterFrame(const MovingPoster& poster, int i, Features features) {
+  return {FrameId{i},
+          i,
+          IndexFeatures(TestCamera(), std::move(features)),
+          std::make_shared<const GrayImage>(poster.Frame(i).left)};
+}
+
+// The poster moves before the camera; the frames have no features of their own.
+TEST(FrameWindow, FollowsPointsOnTheImages) {
+  const MovingPoster poster;
+  const RectifiedCamera camera = TestCamera();
+  Features features = PointsInTwoOctaves();
   FrameWindow window({camera}, InitialMatching::kImages);
   const auto number = static_cast<int>(features.points.size()) / 2;
-  window.Add(frame(0, std::move(features)));
+  window.Add(PosterFrame(poster, 0, std::move(features)));
   int seen = 0;
-  for (int i = 1; i <= 3; ++i) seen = window.Add(frame(i, {}));
+  for (int i = 1; i <= 3; ++i) seen = window.Add(PosterFrame(poster, i, {}));
   EXPECT_GT(seen, number / 4);
   EXPECT_LE(seen, number) << "of two octaves one is followed";
   const Tracks tracks = window.CollectTracks({2}, 1000);
@@ -99,6 +106,25 @@ TEST(FrameWindow, FollowsPointsOnTheImages) {
     const Eigen::Vector2d moved = tracks.views[0].points[k] - tracks.reference.points[k];
     EXPECT_NEAR(moved.x() * camera.fx, -3 * MovingPoster::kStepPx, 0.2);
     EXPECT_NEAR(moved.y() * camera.fy, 0, 0.2);
+  }
+}
+
+TEST(FrameWindow, AHelperChangesNothing) {
+  const MovingPoster poster;
+  HelperThread helper;
+  const auto tracks_with = [&](HelperThread* who) {
+    FrameWindow window({TestCamera()}, InitialMatching::kImages, who);
+    window.Add(PosterFrame(poster, 0, PointsInTwoOctaves()));
+    for (int i = 1; i <= 3; ++i) window.Add(PosterFrame(poster, i, {}));
+    return window.CollectTracks({0, 1, 2}, 1000);
+  };
+  const Tracks alone = tracks_with(nullptr);
+  const Tracks helped = tracks_with(&helper);
+  EXPECT_GT(alone.size(), 0U);
+  EXPECT_EQ(helped.features, alone.features);
+  for (std::size_t i = 0; i < alone.views.size(); ++i) {
+    EXPECT_EQ(helped.views[i].points, alone.views[i].points);
+    EXPECT_EQ(helped.views[i].sigmas, alone.views[i].sigmas);
   }
 }
 
