@@ -6,12 +6,14 @@
 #include "plumbline/map/frame.h"
 #include "plumbline/map/id_table.h"
 #include "plumbline/map/landmarks.h"
+#include "plumbline/map/map_identity.h"
 #include "plumbline/map/map_record.h"
 #include "plumbline/map/placement.h"
 #include "plumbline/map/removed_keyframes.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,6 +28,10 @@ class Map {
   explicit Map(MapId id = MapId{0}) : id_(id) {}
 
   MapId id() const { return id_; }
+  // Those who keep what they computed of a map hold this token, too. A map that has it is the one
+  // they looked at, and the pages of its tables tell what has changed since. Copies have tokens of
+  // their own; a map that was moved away has none (nullptr).
+  const std::shared_ptr<const char>& token() const { return identity_.token(); }
   // The tables, in the order of the ids. Their pages tell when they last changed, so that those who
   // show a large map need not compare all of it.
   const IdTable<KeyFrameId, KeyFrame>& keyframes() const { return keyframes_; }
@@ -97,6 +103,7 @@ class Map {
   friend class MapBuilder;
 
   MapId id_;
+  MapIdentity identity_;
   std::int64_t version_ = 0;
   std::int64_t keyframes_taken_in_ = 0;
   KeyFrameId next_keyframe_{0};

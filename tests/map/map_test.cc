@@ -8,6 +8,7 @@
 #include "tests/map/map_fixture.h"
 #include "tests/support/random_geometry.h"
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +28,27 @@ TEST(Map, StartsEmpty) {
   EXPECT_EQ(map.Find(kL0), nullptr);
   EXPECT_FALSE(map.Current(kP0).valid());
   EXPECT_NO_THROW(map.CheckInvariants());
+}
+
+TEST(Map, IsTheOnlyOneOfItsToken) {
+  Map map = ChainOfKeyFrames(2);
+  const auto token = map.token();
+  ASSERT_TRUE(token);
+  map.Apply({edit::AddPoint{PointSeenBy(0, {{kF0, 4}})}});
+  EXPECT_EQ(map.token(), token);
+  Map copy = map;
+  EXPECT_TRUE(copy.token());
+  EXPECT_NE(copy.token(), token);
+  Map moved = std::move(map);
+  EXPECT_EQ(moved.token(), token);
+  EXPECT_EQ(moved.keyframes().size(), 2U);
+  moved = copy;
+  EXPECT_TRUE(moved.token());
+  EXPECT_NE(moved.token(), token);
+  EXPECT_NE(moved.token(), copy.token());
+  const auto of_copy = copy.token();
+  moved = std::move(copy);
+  EXPECT_EQ(moved.token(), of_copy);
 }
 
 TEST(Map, LandmarksAndKeyFramesKnowOfEachOther) {
