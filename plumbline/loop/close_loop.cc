@@ -86,13 +86,14 @@ Correction CorrectionOf(const Map& map,
 
 // Adds loops as edges of the graph. Returns the index of the edge for each loop, or -1.
 std::vector<int> AddLoops(const Map& map,
+                          const EssentialGraph& essential,
                           std::span<const LoopEdge> loops,
-                          EssentialGraph& essential) {
+                          PoseGraph& graph) {
   std::vector<int> places;
   for (const LoopEdge& loop : loops) {
     const auto edge = LoopAsEdge(map, essential, loop);
-    places.push_back(edge ? static_cast<int>(essential.graph.edges.size()) : -1);
-    if (edge) essential.graph.edges.push_back(*edge);
+    places.push_back(edge ? static_cast<int>(graph.edges.size()) : -1);
+    if (edge) graph.edges.push_back(*edge);
   }
   return places;
 }
@@ -118,19 +119,20 @@ double RaisedChi2(const PoseGraph& graph, std::size_t loop, const PoseGraphResul
 }  // namespace
 
 Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
-                                                   EssentialGraph essential,
+                                                   const EssentialGraph& essential,
                                                    std::span<const LoopEdge> earlier,
                                                    const LoopEdge& newest,
                                                    const LoopOptions& options) {
-  ShareInformation(essential.graph);
-  const std::size_t odometry = essential.graph.edges.size();
-  const std::vector<int> earlier_places = AddLoops(map, earlier, essential);
-  const int newest_place = AddLoops(map, std::span(&newest, 1), essential).front();
+  PoseGraph graph = essential.WithAllEdges();
+  ShareInformation(graph);
+  const std::size_t odometry = graph.edges.size();
+  const std::vector<int> earlier_places = AddLoops(map, essential, earlier, graph);
+  const int newest_place = AddLoops(map, essential, std::span(&newest, 1), graph).front();
   if (newest_place < 0) return ClosingRefusal::kOutOfMap;
-  const PoseGraphResult solved = SolvePoseGraph(essential.graph);
+  const PoseGraphResult solved = SolvePoseGraph(graph);
   if (!solved.converged) return ClosingRefusal::kNotSolved;
   if (solved.weights[Index(newest_place)] < 0.5) return ClosingRefusal::kContradicted;
-  if (RaisedChi2(essential.graph, Index(newest_place), solved) > options.drift.max_chi2) {
+  if (RaisedChi2(graph, Index(newest_place), solved) > options.drift.max_chi2) {
     return ClosingRefusal::kBendsOdometry;
   }
   for (std::size_t e = 0; e < odometry; ++e) {

@@ -51,7 +51,7 @@ struct LoopCorrection {
 //
 // Cost: about 0.1 s for 3,000 keyframes.
 Expected<LoopCorrection, ClosingRefusal> CloseLoop(const Map& map,
-                                                   EssentialGraph essential,
+                                                   const EssentialGraph& essential,
                                                    std::span<const LoopEdge> earlier,
                                                    const LoopEdge& newest,
                                                    const LoopOptions& options);

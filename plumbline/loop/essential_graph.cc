@@ -77,9 +77,17 @@ class Ties {
   std::vector<std::pair<int, int>> ties_;
 };
 
-double Length(const PoseGraph& graph, const std::pair<int, int>& tie) {
-  return (graph.poses[Index(tie.first)] * Inverse(graph.poses[Index(tie.second)]))
-      .translation.norm();
+// Returns the mean distance of the poses that a tie joins.
+double UsualLength(const EssentialGraph& essential) {
+  std::vector<Similarity3> inverses;
+  inverses.reserve(essential.poses.size());
+  for (const Similarity3& pose : essential.poses) inverses.push_back(Inverse(pose));
+  const auto count = static_cast<double>(essential.ties.size());
+  double length = 0;
+  for (const auto& [to, from] : essential.ties) {
+    length += (essential.poses[Index(to)] * inverses[Index(from)]).translation.norm() / count;
+  }
+  return length;
 }
 
 // Returns the information of a relative pose that odometry has. `step` is the usual distance
@@ -125,6 +133,27 @@ int EssentialGraph::PoseOf(KeyFrameId id) const {
   return static_cast<int>(place - keyframes.begin());
 }
 
+PoseGraphEdge EssentialGraph::Edge(std::size_t tie) const {
+  PoseGraphEdge edge;
+  edge.to = ties[tie].first;
+  edge.from = ties[tie].second;
+  edge.to_from = poses[Index(edge.to)] * Inverse(poses[Index(edge.from)]);
+  edge.information =
+      DriftInformation(edge.to_from, std::max(usual_length, 1e-9), free_scale, drift);
+  return edge;
+}
+
+PoseGraph EssentialGraph::WithAllEdges() const {
+  PoseGraph graph;
+  graph.motion = free_scale ? PoseGraphMotion::kSimilarity : PoseGraphMotion::kRigid;
+  graph.poses = poses;
+  graph.fixed.assign(poses.size(), false);
+  if (!graph.fixed.empty()) graph.fixed.front() = true;
+  graph.edges.reserve(ties.size());
+  for (std::size_t tie = 0; tie < ties.size(); ++tie) graph.edges.push_back(Edge(tie));
+  return graph;
+}
+
 DriftOptions AsARule(DriftOptions drift) {
   drift.log_scale_per_turn = 0;
   return drift;
@@ -135,24 +164,14 @@ EssentialGraph MakeEssentialGraph(const Map& map,
                                   const DriftOptions& drift,
                                   int strong_covisibility) {
   EssentialGraph essential;
-  PoseGraph& graph = essential.graph;
-  graph.motion = free_scale ? PoseGraphMotion::kSimilarity : PoseGraphMotion::kRigid;
+  essential.free_scale = free_scale;
+  essential.drift = drift;
   for (const auto& [id, keyframe] : map.keyframes()) {
     essential.keyframes.push_back(id);
-    graph.poses.push_back(ToSimilarity(keyframe.frame.cam_from_world));
-    graph.fixed.push_back(graph.fixed.empty());
+    essential.poses.push_back(ToSimilarity(keyframe.frame.cam_from_world));
   }
-  const auto ties = Ties(map, essential.keyframes).Gather(essential.keyframes, strong_covisibility);
-  double step = 0;
-  for (const auto& tie : ties) step += Length(graph, tie) / static_cast<double>(ties.size());
-  for (const auto& [to, from] : ties) {
-    PoseGraphEdge edge;
-    edge.to = to;
-    edge.from = from;
-    edge.to_from = graph.poses[Index(to)] * Inverse(graph.poses[Index(from)]);
-    edge.information = DriftInformation(edge.to_from, std::max(step, 1e-9), free_scale, drift);
-    graph.edges.push_back(edge);
-  }
+  essential.ties = Ties(map, essential.keyframes).Gather(essential.keyframes, strong_covisibility);
+  essential.usual_length = UsualLength(essential);
   return essential;
 }
 
@@ -195,44 +214,46 @@ std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
   return edge;
 }
 
-OdometryWays::OdometryWays(const PoseGraph& graph) : graph_(graph), edges_of_(graph.poses.size()) {
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    edges_of_[Index(graph.edges[e].to)].push_back(static_cast<int>(e));
-    edges_of_[Index(graph.edges[e].from)].push_back(static_cast<int>(e));
+OdometryWays::OdometryWays(const EssentialGraph& essential)
+    : essential_(essential), ties_of_(essential.poses.size()) {
+  for (std::size_t tie = 0; tie < essential.ties.size(); ++tie) {
+    ties_of_[Index(essential.ties[tie].first)].push_back(static_cast<int>(tie));
+    ties_of_[Index(essential.ties[tie].second)].push_back(static_cast<int>(tie));
   }
 }
 
-// Returns for each pose the edge that leads to it on the way from pose `first`, or -1.
+// Returns for each pose the tie that leads to it on the way from pose `first`, or -1.
 const std::vector<int>& OdometryWays::WaysFrom(int first) {
-  const auto [entry, is_new] = ways_from_.try_emplace(first, graph_.poses.size(), -1);
-  std::vector<int>& edge_to = entry->second;
-  if (!is_new) return edge_to;
-  std::vector<bool> reached(graph_.poses.size(), false);
+  const std::size_t poses = essential_.poses.size();
+  const auto [entry, is_new] = ways_from_.try_emplace(first, poses, -1);
+  std::vector<int>& tie_to = entry->second;
+  if (!is_new) return tie_to;
+  std::vector<bool> reached(poses, false);
   std::queue<int> queue;
   queue.push(first);
   reached[Index(first)] = true;
   while (!queue.empty()) {
     const int pose = queue.front();
     queue.pop();
-    for (const int e : edges_of_[Index(pose)]) {
-      const PoseGraphEdge& edge = graph_.edges[Index(e)];
-      const int other = edge.to == pose ? edge.from : edge.to;
+    for (const int tie : ties_of_[Index(pose)]) {
+      const auto& [to, from] = essential_.ties[Index(tie)];
+      const int other = to == pose ? from : to;
       if (reached[Index(other)]) continue;
       reached[Index(other)] = true;
-      edge_to[Index(other)] = e;
+      tie_to[Index(other)] = tie;
       queue.push(other);
     }
   }
-  return edge_to;
+  return tie_to;
 }
 
 std::optional<UncertainPose> OdometryWays::Along(int to, int from) {
   if (to == from) return UncertainPose{};
-  const std::vector<int>& edge_to = WaysFrom(from);
-  if (edge_to[Index(to)] < 0) return std::nullopt;
+  const std::vector<int>& tie_to = WaysFrom(from);
+  if (tie_to[Index(to)] < 0) return std::nullopt;
   UncertainPose to_from;
   for (int pose = to; pose != from;) {
-    const PoseGraphEdge& edge = graph_.edges[Index(edge_to[Index(pose)])];
+    const PoseGraphEdge edge = essential_.Edge(Index(tie_to[Index(pose)]));
     const UncertainPose step{edge.to_from, CovarianceOf(edge)};
     to_from = Compose(to_from, edge.to == pose ? step : Inverse(step));
     pose = edge.to == pose ? edge.from : edge.to;

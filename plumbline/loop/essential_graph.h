@@ -8,8 +8,10 @@
 #include "plumbline/map/map.h"
 #include "plumbline/optimization/pose_graph.h"
 
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -19,15 +21,24 @@ namespace plumbline {
 KeyFrameId StandIn(const Map& map, KeyFrameId id);
 
 // The keyframes of a map and what ties them, without landmarks: the pose graph that a loop bends.
-// An edge joins a keyframe with its nearest ancestor that is in the map, and any two keyframes that
-// share many landmarks. The relative pose of an edge is that of the map. Its information says how
-// far odometry may have drifted from one keyframe to the other.
+// A tie joins a keyframe with its nearest ancestor that is in the map, and any two keyframes that
+// share many landmarks. Each tie is an edge of the pose graph. Its relative pose is that of the
+// map, and its information says how far odometry may have drifted from one keyframe to the other.
+// Edges are large, and few are needed to judge a loop, so that they are made when asked for.
 struct EssentialGraph {
-  std::vector<KeyFrameId> keyframes;  // the keyframe of each pose, ascending
-  PoseGraph graph;                    // the oldest keyframe is fixed
+  std::vector<KeyFrameId> keyframes;      // the keyframe of each pose, ascending
+  std::vector<Similarity3> poses;         // cam_from_world
+  std::vector<std::pair<int, int>> ties;  // indices of poses, the larger one first; ascending
+  double usual_length = 0;                // mean distance of the poses that a tie joins
+  bool free_scale = false;
+  DriftOptions drift;
 
   // Returns the index of a keyframe's pose; -1 where it is not in the map.
   int PoseOf(KeyFrameId id) const;
+  // Returns the edge of a tie, from its smaller index to the larger one.
+  PoseGraphEdge Edge(std::size_t tie) const;
+  // Returns the graph with the edges of all ties, in their order. The oldest keyframe is fixed.
+  PoseGraph WithAllEdges() const;
 };
 
 // Returns the usual drift of odometry, without what a single camera that turns may lose at worst.
@@ -59,18 +70,18 @@ std::optional<PoseGraphEdge> LoopAsEdge(const Map& map,
 // found. The graph must outlive this and stay as it is.
 class OdometryWays {
  public:
-  explicit OdometryWays(const PoseGraph& graph);
+  explicit OdometryWays(const EssentialGraph& essential);
 
-  // Returns nullopt where no edges lead from one pose to the other. O(edges) for the first call
-  // with a pose, then O(length of the way).
+  // Returns nullopt where no ties lead from one pose to the other. O(ties) for the first call with
+  // a pose, then O(length of the way).
   std::optional<UncertainPose> Along(int to, int from);
 
  private:
   const std::vector<int>& WaysFrom(int first);
 
-  const PoseGraph& graph_;
-  std::vector<std::vector<int>> edges_of_;  // the edges of each pose
-  // For each first pose: the edge that leads to each pose on the way.
+  const EssentialGraph& essential_;
+  std::vector<std::vector<int>> ties_of_;  // the ties of each pose, ascending
+  // For each first pose: the tie that leads to each pose on the way.
   std::map<int, std::vector<int>> ways_from_;
 };
 

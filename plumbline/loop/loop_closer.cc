@@ -192,7 +192,7 @@ bool LoopCloser::Supported(const Map& map, const EssentialGraph& essential, Loop
     attempt.unclosed = ClosingRefusal::kOutOfMap;
     return false;
   }
-  OdometryWays odometry(essential.graph);
+  OdometryWays odometry(essential);
   attempt.drift_chi2 = DriftChi2(odometry, *newest, edge);
   attempt.beyond_drift = attempt.drift_chi2 > options_.drift.max_chi2;
   if (attempt.beyond_drift) return false;

@@ -73,7 +73,7 @@ Parts Agreeing(const Map& map,
       map, free_scale, AsARule(options.drift), options.closing.strong_covisibility);
   std::vector<PoseGraphEdge> loops;
   for (const LoopEdge& edge : edges) loops.push_back(*LoopAsEdge(map, essential, edge));
-  OdometryWays odometry(essential.graph);
+  OdometryWays odometry(essential);
   std::vector<std::vector<bool>> agree(edges.size(), std::vector<bool>(edges.size(), true));
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/essential_graph.h"
 
+#include "plumbline/map/covisibility.h"
+
 #include "tests/loop/loop_scene.h"
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -29,19 +34,37 @@ TEST(EssentialGraph, TiesParentsAndStrongNeighbours) {
   const LoopScene scene = MakeLoopScene({});
   const EssentialGraph sparse = MakeEssentialGraph(scene.map, false, {}, 100000);
   ASSERT_EQ(sparse.keyframes.size(), 46U);
-  EXPECT_EQ(sparse.graph.edges.size(), 45U);
-  EXPECT_TRUE(sparse.graph.fixed.front());
-  EXPECT_FALSE(sparse.graph.fixed.back());
-  for (const PoseGraphEdge& edge : sparse.graph.edges) {
+  const PoseGraph graph = sparse.WithAllEdges();
+  ASSERT_EQ(graph.poses.size(), 46U);
+  EXPECT_EQ(graph.edges.size(), 45U);
+  EXPECT_TRUE(graph.fixed.front());
+  EXPECT_FALSE(graph.fixed.back());
+  for (const PoseGraphEdge& edge : graph.edges) {
     EXPECT_EQ(edge.to, edge.from + 1);
     EXPECT_LT(PoseGraphResidual(edge,
-                                sparse.graph.poses[static_cast<std::size_t>(edge.to)],
-                                sparse.graph.poses[static_cast<std::size_t>(edge.from)])
+                                graph.poses[static_cast<std::size_t>(edge.to)],
+                                graph.poses[static_cast<std::size_t>(edge.from)])
                   .norm(),
               1e-9);
   }
   const EssentialGraph dense = MakeEssentialGraph(scene.map, false, {}, 60);
-  EXPECT_GT(dense.graph.edges.size(), 60U);
+  EXPECT_GT(dense.WithAllEdges().edges.size(), 60U);
+}
+
+TEST(EssentialGraph, TiesAreInOrderEachOnce) {
+  LoopScene scene = MakeLoopScene({});
+  scene.map.Apply({edit::RemoveKeyFrame{KeyFrameId{20}}, edit::RemoveKeyFrame{KeyFrameId{21}}});
+  const EssentialGraph essential = MakeEssentialGraph(scene.map, false, {}, 60);
+  std::set<std::pair<int, int>> expected;
+  for (const auto& [id, keyframe] : scene.map.keyframes()) {
+    const int pose = essential.PoseOf(id);
+    const KeyFrameId parent = StandIn(scene.map, keyframe.parent);
+    if (parent.valid()) expected.emplace(pose, essential.PoseOf(parent));
+    for (const CovisibleKeyFrame& other : Covisible(scene.map, id, 60)) {
+      if (other.id < id) expected.emplace(pose, essential.PoseOf(other.id));
+    }
+  }
+  EXPECT_EQ(essential.ties, (std::vector<std::pair<int, int>>(expected.begin(), expected.end())));
 }
 
 TEST(EssentialGraph, PassesOverKeyFramesThatLeft) {
@@ -49,7 +72,7 @@ TEST(EssentialGraph, PassesOverKeyFramesThatLeft) {
   scene.map.Apply({edit::RemoveKeyFrame{KeyFrameId{20}}, edit::RemoveKeyFrame{KeyFrameId{21}}});
   const EssentialGraph essential = MakeEssentialGraph(scene.map, false, {}, 100000);
   EXPECT_EQ(essential.keyframes.size(), 44U);
-  EXPECT_EQ(essential.graph.edges.size(), 43U);
+  EXPECT_EQ(essential.ties.size(), 43U);
   EXPECT_EQ(essential.PoseOf(KeyFrameId{20}), -1);
   EXPECT_EQ(essential.keyframes[static_cast<std::size_t>(essential.PoseOf(KeyFrameId{22}))],
             KeyFrameId{22});
@@ -60,16 +83,16 @@ TEST(EssentialGraph, KnowsTheScaleWorseWhereTheCameraTurns) {
   const DriftOptions drift{.log_scale = 0.02, .log_scale_per_turn = 0.1};
   const EssentialGraph essential = MakeEssentialGraph(scene.map, true, drift, 100000);
   double most = 0;
-  for (const PoseGraphEdge& edge : essential.graph.edges) {
+  const PoseGraph graph = essential.WithAllEdges();
+  for (const PoseGraphEdge& edge : graph.edges) {
     const double angle = LogSo3(edge.to_from.rotation).norm();
     most = std::max(most, angle);
     EXPECT_NEAR(1 / edge.information(6, 6), 0.02 * 0.02 + 0.1 * 0.1 * angle * angle, 1e-12);
   }
   EXPECT_GT(most, 0.05);
-  for (const PoseGraphEdge& edge :
-       MakeEssentialGraph(scene.map, false, drift, 100000).graph.edges) {
-    EXPECT_EQ(edge.information(6, 6), 0);
-  }
+  const PoseGraph rigid = MakeEssentialGraph(scene.map, false, drift, 100000).WithAllEdges();
+  EXPECT_EQ(rigid.edges.size(), graph.edges.size());
+  for (const PoseGraphEdge& edge : rigid.edges) EXPECT_EQ(edge.information(6, 6), 0);
 }
 
 TEST(ShareInformation, MakesAPathWithShortcutsAsStiffAsOneWithout) {
@@ -104,8 +127,8 @@ TEST(LoopAsEdge, StandsForKeyFramesThatLeft) {
   EXPECT_EQ(edge->from, essential.PoseOf(KeyFrameId{43}));
   EXPECT_TRUE(edge->may_be_wrong);
   EXPECT_LT(PoseGraphResidual(*edge,
-                              essential.graph.poses[static_cast<std::size_t>(edge->to)],
-                              essential.graph.poses[static_cast<std::size_t>(edge->from)])
+                              essential.poses[static_cast<std::size_t>(edge->to)],
+                              essential.poses[static_cast<std::size_t>(edge->from)])
                 .norm(),
             1e-9);
 }
@@ -122,8 +145,8 @@ TEST(LoopAsEdge, FollowsUnits) {
   const auto edge = LoopAsEdge(scene.map, essential, loop);
   ASSERT_TRUE(edge);
   EXPECT_LT(PoseGraphResidual(*edge,
-                              essential.graph.poses[static_cast<std::size_t>(edge->to)],
-                              essential.graph.poses[static_cast<std::size_t>(edge->from)])
+                              essential.poses[static_cast<std::size_t>(edge->to)],
+                              essential.poses[static_cast<std::size_t>(edge->from)])
                 .norm(),
             1e-9);
 }
@@ -131,13 +154,13 @@ TEST(LoopAsEdge, FollowsUnits) {
 TEST(OdometryWays, IsThePoseOfTheMapWithDriftThatGrows) {
   const LoopScene scene = MakeLoopScene({});
   const EssentialGraph essential = MakeEssentialGraph(scene.map, false, {}, 100000);
-  OdometryWays odometry(essential.graph);
+  OdometryWays odometry(essential);
   double before = 0;
   for (const int other : {1, 5, 20, 40}) {
     const auto way = odometry.Along(0, other);
     ASSERT_TRUE(way);
     const Similarity3 direct =
-        essential.graph.poses[0] * Inverse(essential.graph.poses[static_cast<std::size_t>(other)]);
+        essential.poses[0] * Inverse(essential.poses[static_cast<std::size_t>(other)]);
     EXPECT_LT(LogSim3(way->pose * Inverse(direct)).norm(), 1e-9);
     const double drift = way->covariance.topLeftCorner<6, 6>().trace();
     EXPECT_GT(drift, before);
@@ -148,10 +171,10 @@ TEST(OdometryWays, IsThePoseOfTheMapWithDriftThatGrows) {
 }
 
 TEST(OdometryWays, IsNothingWhereNoEdgesLead) {
-  PoseGraph graph;
-  graph.poses.resize(2);
-  graph.fixed = {true, false};
-  OdometryWays odometry(graph);
+  EssentialGraph essential;
+  essential.keyframes = {KeyFrameId{0}, KeyFrameId{1}};
+  essential.poses.resize(2);
+  OdometryWays odometry(essential);
   EXPECT_FALSE(odometry.Along(0, 1));
   EXPECT_TRUE(odometry.Along(1, 1));
 }

@@ -37,13 +37,13 @@ TEST(CycleChi2, TellsLoopsThatContradictEachOther) {
     PoseGraphEdge edge;
     edge.to = candidate;
     edge.from = query;
-    edge.to_from = essential.graph.poses[static_cast<std::size_t>(candidate)] *
-                   Inverse(essential.graph.poses[static_cast<std::size_t>(query)]);
+    edge.to_from = essential.poses[static_cast<std::size_t>(candidate)] *
+                   Inverse(essential.poses[static_cast<std::size_t>(query)]);
     edge.to_from.translation.y() += error;
     edge.information.diagonal().head<6>().setConstant(1e4);
     return edge;
   };
-  OdometryWays odometry(essential.graph);
+  OdometryWays odometry(essential);
   EXPECT_LT(CycleChi2(odometry, loop(44, 4, 0), loop(42, 2, 0)), 1e-9);
   EXPECT_GT(CycleChi2(odometry, loop(44, 4, 1), loop(42, 2, 0)), 50);
   // Both wrong alike: they do not contradict each other.
