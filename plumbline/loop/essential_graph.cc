@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <iterator>
 #include <numbers>
 #include <queue>
 #include <utility>
@@ -17,65 +17,36 @@
 namespace plumbline {
 namespace {
 
-// Pairs of poses, each once, with the lesser index second.
-class Ties {
- public:
-  Ties(const Map& map, const std::vector<KeyFrameId>& keyframes) : map_(map) {
-    if (keyframes.empty()) return;
-    index_of_.assign(Index(static_cast<int>(keyframes.back().value)) + 1, -1);
-    for (std::size_t i = 0; i < keyframes.size(); ++i) {
-      index_of_[static_cast<std::size_t>(keyframes[i].value)] = static_cast<int>(i);
+// Returns the pairs of poses that are tied, each once, with the larger index first, ascending.
+std::vector<std::pair<int, int>> TiesOf(const Map& map,
+                                        const std::vector<KeyFrameId>& keyframes,
+                                        const StrongCovisibility& covisible) {
+  if (keyframes.empty()) return {};
+  std::vector<int> pose_of(static_cast<std::size_t>(keyframes.back().value) + 1, -1);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    pose_of[static_cast<std::size_t>(keyframes[i].value)] = static_cast<int>(i);
+  }
+  std::vector<std::pair<int, int>> strong, with_parents, ties;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const int pose = static_cast<int>(i);
+    for (const KeyFrameId earlier : covisible.EarlierOf(keyframes[i])) {
+      strong.emplace_back(pose, pose_of[static_cast<std::size_t>(earlier.value)]);
     }
+    const KeyFrameId parent = StandIn(map, map.Find(keyframes[i])->parent);
+    if (!parent.valid() || parent == keyframes[i]) continue;
+    const int other = pose_of[static_cast<std::size_t>(parent.value)];
+    with_parents.emplace_back(std::max(pose, other), std::min(pose, other));
   }
-
-  std::vector<std::pair<int, int>> Gather(const std::vector<KeyFrameId>& keyframes, int strong) {
-    for (std::size_t i = 0; i < keyframes.size(); ++i) {
-      const KeyFrame& keyframe = *map_.Find(keyframes[i]);
-      const KeyFrameId parent = StandIn(map_, keyframe.parent);
-      if (parent.valid()) Tie(static_cast<int>(i), PoseOf(parent));
-      TieCovisible(static_cast<int>(i), keyframe, strong);
-    }
-    std::sort(ties_.begin(), ties_.end());
-    ties_.erase(std::unique(ties_.begin(), ties_.end()), ties_.end());
-    return std::move(ties_);
-  }
-
- private:
-  int PoseOf(KeyFrameId id) const { return index_of_[static_cast<std::size_t>(id.value)]; }
-
-  void Tie(int a, int b) {
-    if (a != b) ties_.emplace_back(std::max(a, b), std::min(a, b));
-  }
-
-  template <class LandmarkId>
-  void CountEarlier(KeyFrameId id, const std::vector<LandmarkId>& matches) {
-    for (const LandmarkId match : matches) {
-      if (!match.valid()) continue;
-      for (const auto& [other, feature] : map_.Find(match)->observations) {
-        if (!(other < id)) break;
-        const int pose = PoseOf(other);
-        if (shared_[Index(pose)]++ == 0) touched_.push_back(pose);
-      }
-    }
-  }
-
-  void TieCovisible(int pose, const KeyFrame& keyframe, int strong) {
-    shared_.resize(index_of_.size(), 0);
-    touched_.clear();
-    CountEarlier(keyframe.id, keyframe.frame.points);
-    CountEarlier(keyframe.id, keyframe.frame.lines);
-    for (const int other : touched_) {
-      if (shared_[Index(other)] >= strong) Tie(pose, other);
-      shared_[Index(other)] = 0;
-    }
-  }
-
-  const Map& map_;
-  std::vector<int> index_of_;  // index of the pose of each id
-  std::vector<int> shared_;    // landmarks that each pose shares with the present keyframe
-  std::vector<int> touched_;   // poses whose entry in shared_ is not zero
-  std::vector<std::pair<int, int>> ties_;
-};
+  std::sort(with_parents.begin(), with_parents.end());
+  with_parents.erase(std::unique(with_parents.begin(), with_parents.end()), with_parents.end());
+  ties.reserve(strong.size() + with_parents.size());
+  std::set_union(strong.begin(),
+                 strong.end(),
+                 with_parents.begin(),
+                 with_parents.end(),
+                 std::back_inserter(ties));
+  return ties;
+}
 
 // Returns the mean distance of the poses that a tie joins.
 double UsualLength(const EssentialGraph& essential) {
@@ -160,9 +131,9 @@ DriftOptions AsARule(DriftOptions drift) {
 }
 
 EssentialGraph MakeEssentialGraph(const Map& map,
+                                  const StrongCovisibility& covisible,
                                   bool free_scale,
-                                  const DriftOptions& drift,
-                                  int strong_covisibility) {
+                                  const DriftOptions& drift) {
   EssentialGraph essential;
   essential.free_scale = free_scale;
   essential.drift = drift;
@@ -170,9 +141,18 @@ EssentialGraph MakeEssentialGraph(const Map& map,
     essential.keyframes.push_back(id);
     essential.poses.push_back(ToSimilarity(keyframe.frame.cam_from_world));
   }
-  essential.ties = Ties(map, essential.keyframes).Gather(essential.keyframes, strong_covisibility);
+  essential.ties = TiesOf(map, essential.keyframes, covisible);
   essential.usual_length = UsualLength(essential);
   return essential;
+}
+
+EssentialGraph MakeEssentialGraph(const Map& map,
+                                  bool free_scale,
+                                  const DriftOptions& drift,
+                                  int strong_covisibility) {
+  StrongCovisibility covisible(strong_covisibility);
+  covisible.Follow(map);
+  return MakeEssentialGraph(map, covisible, free_scale, drift);
 }
 
 void ShareInformation(PoseGraph& graph) {

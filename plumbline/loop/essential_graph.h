@@ -4,6 +4,7 @@
 
 #include "plumbline/loop/loop_edge.h"
 #include "plumbline/loop/options.h"
+#include "plumbline/loop/strong_covisibility.h"
 #include "plumbline/loop/uncertain_pose.h"
 #include "plumbline/map/map.h"
 #include "plumbline/optimization/pose_graph.h"
@@ -44,8 +45,13 @@ struct EssentialGraph {
 // Returns the usual drift of odometry, without what a single camera that turns may lose at worst.
 DriftOptions AsARule(DriftOptions drift);
 
-// Makes the essential graph of a map. free_scale: the map is that of a single camera.
-// O(observations).
+// Makes the essential graph of a map. free_scale: the map is that of a single camera. `covisible`
+// must have followed the map as it is. Cost: that of the product of two poses for each tie.
+EssentialGraph MakeEssentialGraph(const Map& map,
+                                  const StrongCovisibility& covisible,
+                                  bool free_scale,
+                                  const DriftOptions& drift);
+// Makes the essential graph of a map of which nothing is counted yet. O(observations).
 EssentialGraph MakeEssentialGraph(const Map& map,
                                   bool free_scale,
                                   const DriftOptions& drift,

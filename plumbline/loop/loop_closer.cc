@@ -83,30 +83,36 @@ bool IsRefusedByOdometry(const LoopAttempt& attempt) {
 // worst drift. Each graph is made when it is first asked for.
 class LoopCloser::Drifts {
  public:
-  Drifts(const Map& map, bool free_scale, const LoopOptions& options)
-      : map_(map), free_scale_(free_scale), options_(options) {}
+  Drifts(const Map& map, bool free_scale, const LoopOptions& options, StrongCovisibility& covisible)
+      : map_(map), free_scale_(free_scale), options_(options), covisible_(covisible) {}
 
   bool MayBeLarger() const { return free_scale_; }
 
-  const EssentialGraph& Usual() { return Made(AsARule(options_.drift), usual_); }
-  const EssentialGraph& Larger() { return Made(options_.drift, larger_); }
-
- private:
-  const EssentialGraph& Made(const DriftOptions& drift, std::optional<EssentialGraph>& graph) {
-    if (!graph) {
-      graph = MakeEssentialGraph(map_, free_scale_, drift, options_.closing.strong_covisibility);
+  const EssentialGraph& Usual() {
+    if (!usual_) {
+      covisible_.Follow(map_);
+      usual_ = MakeEssentialGraph(map_, covisible_, free_scale_, AsARule(options_.drift));
     }
-    return *graph;
+    return *usual_;
+  }
+  const EssentialGraph& Larger() {
+    if (!larger_) {
+      larger_ = Usual();
+      larger_->drift = options_.drift;
+    }
+    return *larger_;
   }
 
+ private:
   const Map& map_;
   bool free_scale_;
   const LoopOptions& options_;
+  StrongCovisibility& covisible_;
   std::optional<EssentialGraph> usual_, larger_;
 };
 
 LoopCloser::LoopCloser(const ImagingModel& imaging, const LoopOptions& options)
-    : imaging_(imaging), options_(options) {}
+    : imaging_(imaging), options_(options), covisible_(options.closing.strong_covisibility) {}
 
 std::vector<KeyFrameId> LoopCloser::WorthTrying(const Map& map,
                                                 KeyFrameId newest,
@@ -128,7 +134,7 @@ std::optional<LoopClosure> LoopCloser::Try(const Map& map,
   attempts_.clear();
   if (map.Find(newest) == nullptr) return std::nullopt;
   if (IsPausing(map, newest)) return std::nullopt;
-  Drifts drifts(map, imaging_.camera.baseline == 0, options_);
+  Drifts drifts(map, imaging_.camera.baseline == 0, options_, covisible_);
   std::vector<KeyFrameId> elsewhere;
   for (const KeyFrameId candidate : WorthTrying(map, newest, candidates)) {
     if (IsBesideAny(map, candidate, elsewhere)) continue;

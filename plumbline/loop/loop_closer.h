@@ -7,6 +7,7 @@
 #include "plumbline/loop/essential_graph.h"
 #include "plumbline/loop/loop_edge.h"
 #include "plumbline/loop/options.h"
+#include "plumbline/loop/strong_covisibility.h"
 #include "plumbline/loop/verify_loop.h"
 #include "plumbline/map/map.h"
 
@@ -47,7 +48,8 @@ struct LoopAttempt {
 // proposes, compares them with the drift of odometry and the loops there are, and makes a
 // correction.
 //
-// Its state is the loops that were closed, with their evidence. Deterministic; not thread-safe.
+// Its state is the loops that were closed, with their evidence. It also keeps which keyframes of
+// the last map share many landmarks, which follows from the map. Deterministic; not thread-safe.
 class LoopCloser {
  public:
   LoopCloser(const ImagingModel& imaging, const LoopOptions& options);
@@ -57,7 +59,9 @@ class LoopCloser {
   // the map, are passed over. The returned loop counts as closed at once, and the caller has to
   // apply the edit.
   //
-  //   cost  VerifyLoop for each candidate, CloseLoop for those that pass
+  //   cost  VerifyLoop for each candidate; for those that pass, the essential graph once, of which
+  //         only what has changed since the last time is counted (StrongCovisibility::Follow), and
+  //         CloseLoop where odometry and the other loops agree
   std::optional<LoopClosure> Try(const Map& map,
                                  KeyFrameId newest,
                                  std::span<const KeyFrameId> candidates);
@@ -86,6 +90,7 @@ class LoopCloser {
     loops_ = state.loops;
     waiting_ = state.waiting;
     last_closed_ = state.last_closed;
+    covisible_.Forget();
   }
 
  private:
@@ -117,6 +122,7 @@ class LoopCloser {
 
   ImagingModel imaging_;
   LoopOptions options_;
+  StrongCovisibility covisible_;
   std::vector<LoopEdge> loops_;
   std::vector<LoopEdge> waiting_;  // loops seen by one keyframe only, the newest last
   std::vector<LoopAttempt> attempts_;

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/loop/essential_graph.h"
 
+#include "plumbline/loop/pairwise_consistency.h"
 #include "plumbline/map/covisibility.h"
 
 #include "tests/loop/loop_scene.h"
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <utility>
 #include <vector>
@@ -76,6 +78,47 @@ TEST(EssentialGraph, PassesOverKeyFramesThatLeft) {
   EXPECT_EQ(essential.PoseOf(KeyFrameId{20}), -1);
   EXPECT_EQ(essential.keyframes[static_cast<std::size_t>(essential.PoseOf(KeyFrameId{22}))],
             KeyFrameId{22});
+}
+
+void ExpectSameBits(const UncertainPose& a, const UncertainPose& b) {
+  EXPECT_EQ(a.pose.scale, b.pose.scale);
+  EXPECT_EQ(a.pose.rotation.coeffs(), b.pose.rotation.coeffs());
+  EXPECT_EQ(a.pose.translation, b.pose.translation);
+  EXPECT_EQ(a.covariance, b.covariance);
+}
+
+TEST(EssentialGraph, HasTheBitsOfANewOneWhereTheMapWasFollowed) {
+  LoopSceneOptions options;
+  options.keyframes = 80;
+  options.drift = testing::GrowingDrift;
+  LoopScene scene = MakeLoopScene(options);
+  StrongCovisibility covisible(60);
+  covisible.Follow(scene.map);
+  const auto before = MakeEssentialGraph(scene.map, covisible, true, {}).ties;
+  edit::MoveKeyFrames motion;
+  for (int i = 0; i < 80; ++i) motion.new_from_old[KeyFrameId{i}] = testing::ShrinkingDrift(i);
+  MapEdit edit{edit::RemoveKeyFrame{KeyFrameId{20}}, edit::RemoveKeyFrame{KeyFrameId{70}}, motion};
+  for (std::int64_t i = 0; i < 30; ++i) {
+    edit.push_back(edit::MergePoints{PointId{i}, PointId{i + 200}});
+  }
+  scene.map.Apply(edit);
+  covisible.Follow(scene.map);
+  const EssentialGraph kept = MakeEssentialGraph(scene.map, covisible, true, {});
+  const EssentialGraph anew = MakeEssentialGraph(scene.map, true, {}, 60);
+  EXPECT_NE(kept.ties, before);
+  EXPECT_EQ(kept.ties, anew.ties);
+  EXPECT_EQ(kept.usual_length, anew.usual_length);
+  OdometryWays kept_ways(kept), ways(anew);
+  for (const int other : {0, 5, 30, 60}) {
+    const auto way = kept_ways.Along(77, other);
+    const auto expected = ways.Along(77, other);
+    ASSERT_TRUE(way && expected);
+    ExpectSameBits(*way, *expected);
+  }
+  const auto a = LoopAsEdge(scene.map, kept, TrueEdge(scene, 79, 3));
+  const auto b = LoopAsEdge(scene.map, kept, TrueEdge(scene, 45, 5));
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(CycleChi2(kept_ways, *a, *b), CycleChi2(ways, *a, *b));
 }
 
 TEST(EssentialGraph, KnowsTheScaleWorseWhereTheCameraTurns) {

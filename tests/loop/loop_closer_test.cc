@@ -4,6 +4,7 @@
 
 #include "tests/loop/loop_scene.h"
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -70,6 +71,40 @@ TEST(LoopCloser, TellsIdenticalRoomsApartByDrift) {
   EXPECT_EQ(closer.attempts().size(), 2U);
   const std::vector<KeyFrameId> right{KeyFrameId{5}};
   EXPECT_TRUE(closer.Try(scene.map, kQuery, right));
+}
+
+// What a closer has counted of the map in earlier searches changes nothing.
+TEST(LoopCloser, DoesWhatANewOneDoesWhenTheMapHasChanged) {
+  LoopSceneOptions options;
+  options.alike_sectors = 4;
+  options.drift = testing::GrowingDrift;
+  LoopScene scene = MakeLoopScene(options);
+  LoopCloser closer(scene.Imaging(), {});
+  const std::vector<KeyFrameId> alike{KeyFrameId{15}, KeyFrameId{25}};
+  EXPECT_FALSE(closer.Try(scene.map, kQuery, alike));
+  scene.map.Apply({edit::RemoveKeyFrame{KeyFrameId{35}}});
+  LoopCloser anew(scene.Imaging(), {});
+  EXPECT_FALSE(closer.Try(scene.map, kQuery, alike));
+  EXPECT_FALSE(anew.Try(scene.map, kQuery, alike));
+  ASSERT_EQ(closer.attempts().size(), 2U);
+  ASSERT_EQ(anew.attempts().size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(closer.attempts()[i].beyond_drift);
+    EXPECT_EQ(closer.attempts()[i].drift_chi2, anew.attempts()[i].drift_chi2);
+  }
+  const std::vector<KeyFrameId> right{KeyFrameId{5}};
+  const auto closure = closer.Try(scene.map, kQuery, right);
+  const auto expected = anew.Try(scene.map, kQuery, right);
+  ASSERT_TRUE(closure && expected);
+  Map closed = scene.map;
+  closed.Apply(closure->edit);
+  Map expected_map = scene.map;
+  expected_map.Apply(expected->edit);
+  for (const auto& [id, keyframe] : expected_map.keyframes()) {
+    const Rigid3& pose = closed.Find(id)->frame.cam_from_world;
+    EXPECT_EQ(keyframe.frame.cam_from_world.translation, pose.translation);
+    EXPECT_EQ(keyframe.frame.cam_from_world.rotation, pose.rotation);
+  }
 }
 
 // What sees the place from afar is right, too, but says little: a nearer view is waited for.
