@@ -250,7 +250,8 @@ void MappingStage::Finish(const StopCheck& stop) {
   dues_.clear();
   const std::lock_guard lock(mutex_);
   while (versions_.size() > 1) versions_.pop_front();
-  adjustment_.GiveUp();  // the adjustment below does more
+  adjustment_.GiveUp();                  // the adjustment below does more
+  mapper_.SetOptions(mapping_options_);  // those of the last task may be lightened
   for (const MapId id : std::exchange(changed_, {})) {
     const std::vector<MappingStep> times = mapper_.Finish(*atlas_.Find(id), stop);
     times_.insert(times_.end(), times.begin(), times.end());

@@ -330,6 +330,34 @@ TEST_F(MappingStageStepByStep, ASightingInAMapThatIsNotInUseAnyMoreChangesNothin
   EXPECT_EQ(stage_.SnapshotFor(4)->map, MapId{0});
 }
 
+// Returns how often the adjustment at the end of a live run asks whether to stop, which it does at
+// least once in each of its rounds. `shed` is what was shed of the last task before the end.
+int StepsAtTheEnd(Shed shed) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  SlamOptions options = WithLag(1, RunMode::kLive);
+  options.mapping.ba.rounds = 20;
+  options.mapping.ba.max_iterations = 1;
+  options.mapping.ba.rejection_tolerance = 0;  // no round is left out
+  MappingStage stage(world.Imaging(), options, {.threads = false});
+  for (std::int64_t k = 0; k < 4; ++k) {
+    stage.Submit(k, KeyFrameAt(world, k, k - 1), k == 0);
+    EXPECT_TRUE(stage.WorkOnce());
+  }
+  stage.Lighten(shed);
+  stage.Submit(4, Visit{[](const Atlas&, const LocalMapper&, const PlaceRecognition&) {}});
+  EXPECT_TRUE(stage.WorkOnce());
+  int steps = 0;
+  stage.Finish([&] {
+    ++steps;
+    return false;
+  });
+  return steps;
+}
+
+TEST(MappingStage, LiveNothingIsShedOfTheAdjustmentAtTheEnd) {
+  EXPECT_EQ(StepsAtTheEnd(Shed::kMapping), StepsAtTheEnd(Shed::kNothing));
+}
+
 // Poses of a run over the synthetic world, as first reported.
 std::vector<Rigid3> Poses(int lag, RunMode mode = RunMode::kInline) {
   SyntheticRun run(MakeSyntheticWorld(300, 60), WithLag(lag, mode));
