@@ -336,7 +336,9 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   begun_ = added != nullptr ? *added : nullptr;
   if (mode_ == RunMode::kLive) mapper_.SetOptions(Lightened(mapping_options_, shed_));
   lock.unlock();
-  TakeCorrection(task.frame);
+  // Where no other task follows, the end of the run gives the correction up; with a visit, too.
+  const bool changes_nothing = std::holds_alternative<Visit>(task.work);
+  if (mode_ == RunMode::kLive || !changes_nothing) TakeCorrection(task.frame);
   if (task.starts_map) {
     mapper_.StartNewMap(atlas_.Start());
     centres_.clear();

@@ -85,8 +85,9 @@ struct Visit {
 // A map whose shape has changed at large is adjusted as a whole beside mapping
 // (BackgroundAdjustment), and so is a map of one camera that has 16 keyframes or more and tells of
 // the lens. The correction is applied before the first task that was submitted at or after the
-// frame at which it is due; a live run applies it as soon as it is ready. It is applied to the map
-// as it is then (Rebased), and shows in that task's snapshot.
+// frame at which it is due and is no Visit, which changes no result; a live run applies it as soon
+// as it is ready. It is applied to the map as it is then (Rebased), and shows in that task's
+// snapshot.
 //
 // A young map of one camera whose unit of length runs away is withdrawn
 // (PlaceRecognition::Withdraws). Its snapshots say so from then on.

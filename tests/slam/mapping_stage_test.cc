@@ -138,6 +138,34 @@ TEST(MappingStage, ANewMapBeginsAfterTheOldOneIsComplete) {
   EXPECT_EQ(stage.maps().at(MapId{1}).keyframes().size(), 1U);
 }
 
+// A correction of the whole map is due, but no task came that would have applied it.
+TEST(MappingStage, ALookAtTheMapsDoesNotHastenACorrection) {
+  const SyntheticWorld world = MakeSyntheticWorld(200, 40);
+  MappingStage before(world.Imaging(), WithLag(1));
+  for (std::int64_t k = 0; k < 3; ++k) before.Submit(k, KeyFrameAt(world, k, k - 1), k == 0);
+  MappingStage::Checkpoint checkpoint = before.Save();
+  const KeyFrameId newest{2};
+  const Rigid3 uncorrected = before.maps().at(MapId{0}).PoseOf(newest);
+  const Rigid3 corrected{uncorrected.rotation, uncorrected.translation + Eigen::Vector3d(1, 0, 0)};
+  Correction correction;
+  correction.keyframes[newest] = {uncorrected, corrected, 1};
+  checkpoint.adjustment = BackgroundAdjustment::Pending{{MapId{0}, correction}, 5};
+
+  MappingStage stage(world.Imaging(), WithLag(1));
+  stage.Resume(before.atlas(), checkpoint);
+  std::optional<Rigid3> seen;
+  stage.Submit(6, Visit{[&](const Atlas& atlas, const LocalMapper&, const PlaceRecognition&) {
+                 seen = atlas.active().PoseOf(newest);
+               }});
+  stage.WaitUntilDone();
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->translation, uncorrected.translation);
+  stage.Submit(6, Sighting{MapId{0}, {}, {}});
+  stage.WaitUntilDone();
+  const Rigid3 moved = stage.maps().at(MapId{0}).PoseOf(newest);
+  EXPECT_LT((moved.translation - corrected.translation).norm(), 1e-9);
+}
+
 class MappingStageWithThread : public ::testing::TestWithParam<RunMode> {};
 INSTANTIATE_TEST_SUITE_P(Modes,
                          MappingStageWithThread,
