@@ -376,12 +376,16 @@ void System::LoseFramesNotMapped() {
 
 void System::CopyMaps(std::function<void(SavedAtlas)> take) {
   Complete();
+  const bool as_loaded = loaded_ && read_only_;  // as Context() has it
   mapping_.Submit(
       newest_.id.value,
-      Visit{[this, context = ContextWithoutMaps(), take = std::move(take)](
+      Visit{[this,
+             as_loaded,
+             context = as_loaded ? *loaded_ : ContextWithoutMaps(),
+             take = std::move(take)](
                 const Atlas& atlas, const LocalMapper& mapper, const PlaceRecognition&) {
         SavedAtlas copy{atlas, context};
-        AddMaps(atlas, mapper.state(), copy.context);
+        if (!as_loaded) AddMaps(atlas, mapper.state(), copy.context);
         mapping_.MoveFirstKeyFramesBack(copy.atlas);
         take(std::move(copy));
       }});

@@ -225,6 +225,20 @@ TEST(ContinuedMap, TellsWhatIsDifferentInTheFrontEnd) {
   EXPECT_THAT(notes[0], testing::HasSubstr("features.line_count"));
 }
 
+TEST(ContinuedMap, ThatIsOnlyReadIsCopiedWithWhatItWasMadeWith) {
+  const SavedAtlas saved = MappedPoster();
+  SlamOptions options = InMode(RunMode::kInline);
+  options.features.line_count = 100;
+  System system(MovingPoster::MakeCalibration(), options);
+  system.Continue(saved, true);
+  const MovingPoster poster;
+  for (int i = 5; i < 8; ++i) system.Process(poster.Frame(i));
+  const SavedAtlas copied = system.CopyMaps();
+  EXPECT_EQ(copied.context.options_yaml, saved.context.options_yaml);
+  EXPECT_EQ(copied.context.sessions.size(), 1U);
+  EXPECT_EQ(copied.atlas.active().version(), saved.atlas.active().version());
+}
+
 TEST(ContinuedMap, NamesTheSessionsThatMadeIt) {
   const SavedAtlas saved = MappedPoster();
   const auto read = GoOn(saved, true, 5, 10, RunMode::kInline);
