@@ -43,7 +43,7 @@ void List(const std::string& name) {
   } else {
     const WorldSource world = OpenWorld(name);
     std::cout << world.name << ": " << world.help << '\n';
-    if (!world.purpose.empty()) std::cout << "For " << world.purpose << ".\n";
+    if (!world.purpose.empty()) std::cout << "Purpose: " << world.purpose << ".\n";
     options = world.defaults;
     const World made = world.make(options.seed);
     const double seconds = made.path.duration / options.speed;

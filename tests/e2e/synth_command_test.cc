@@ -113,6 +113,7 @@ TEST(SynthCommand, ListsWorldsAndTheirOptions) {
   EXPECT_THAT(all.out, HasSubstr("shutter_ms: 0"));
   const Outcome room = RunProgram(folder, "synth room --list");
   EXPECT_EQ(room.code, 0);
+  EXPECT_THAT(room.out, HasSubstr("Purpose: small and rich, for demonstrations and tests."));
   EXPECT_THAT(room.out, HasSubstr("The whole path takes 10.0 s, 200 frames."));
 }
 
