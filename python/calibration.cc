@@ -167,8 +167,7 @@ by name.
           [](const Calibration& c) { return Rectifier(c).camera(); },
           R"(rectified_camera() -> RectifiedCamera
 
-The ideal camera that features and maps are about, with the default options of
-`rectification`.)")
+The ideal camera of the rectified images, which features, maps and the building blocks refer to.)")
       .def("to_yaml", &FormatCamera, "The text of a camera file; `parse` of it gives the same.")
       .def("__repr__", ShowCalibration);
   module.def("built_in_cameras", &BuiltInCameras, "Names that `Calibration.load` knows.");

@@ -110,7 +110,7 @@ of the defaults. Raises InputError with the program's message.)");
              R"(describe_options() -> str
 
 All options of a run with default, meaning, unit and range, as YAML
-(what `plumbline config` prints).)");
+(what `plumbline config --all` prints).)");
 }
 
 }  // namespace plumbline::python

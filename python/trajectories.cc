@@ -197,7 +197,10 @@ void BindComparison(py::module_& module) {
                      window_s=3.0, max_gap_s=0.1) -> dict
 
 Errors of an estimated trajectory, of the same camera, after the alignment that minimises the
-squared distances (Umeyama, PAMI 1991): alignment "none", "se3" or "sim3".
+squared distances (Umeyama, PAMI 1991): alignment "none", "se3" or "sim3". association: the
+reference is interpolated at the time of each pose, over gaps of at most max_gap_s ("interpolate"),
+or its pose nearest in time, at most 20 ms away, is taken ("nearest"). window_s: seconds between the
+two poses of a pair of rpe and roe. Raises InputError where no pose has a reference.
 
 "ate" [m], "rpe" [m/s], "roe" [rad/s]: dictionaries of count, rmse, mean, median, max (None where
 nothing spans the window); "scale", "scale_drift"; "reference_from_estimate" (4, 4);
