@@ -46,6 +46,7 @@ struct CameraFile {
 CameraFile ReadCameraFile(const std::filesystem::path& path, bool use_pair = true);
 
 // Reads the file at a path or, where there is none or a folder, the built-in camera of that name.
+// Throws InputError with the names of the built-in cameras where there is neither.
 CameraFile FindCamera(const std::string& path_or_name, bool use_pair = true);
 
 // Returns the camera file in a folder of images: camera.yaml or camchain.yaml, of any format.

@@ -50,7 +50,8 @@ struct GroundTruth {
   Frame frame = Frame::kCamera;
   std::filesystem::path path;  // the file from which the poses were read
 
-  // Returns the poses of the left camera, world_from_body * body_from_left.
+  // Returns the poses of the left camera, world_from_body * body_from_left. Throws BugError where
+  // `frame` is kBody and the calibration has no body_from_left, which OpenDataset rules out.
   Trajectory OfCamera(const Calibration& calibration) const;
 };
 

@@ -38,7 +38,8 @@ std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
 // Returns the brightest level of such a PNG file that is given as bytes, as a recording holds it.
 std::optional<int> BrightestOf16Bits(std::span<const std::uint8_t> bytes);
 
-// Decodes a 16-bit depth image to metres, value / factor; 0 stays 0 (no measurement).
+// Decodes a 16-bit depth image of one channel to metres, value / factor; 0 stays 0 (no
+// measurement). Fails for any other image. `factor` must be greater than 0 (BugError).
 Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& path,
                                                   double factor,
                                                   std::optional<ImageSize> wanted = std::nullopt);

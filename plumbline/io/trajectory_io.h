@@ -32,7 +32,8 @@ struct LoadedTrajectory {
 // 1e-3), times that do not increase, a file without rows, and any malformed row.
 LoadedTrajectory ReadTrajectory(const std::filesystem::path& path);
 
-// Reads the rows of a KITTI poses file, with one time stamp for each.
+// Reads the rows of a KITTI poses file, with one time stamp for each. Throws the errors of
+// ReadTrajectory, and InputError where there are more or fewer rows than stamps.
 Trajectory ReadKittiPoses(const std::filesystem::path& path,
                           const std::vector<std::int64_t>& stamps_ns);
 

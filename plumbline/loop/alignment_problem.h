@@ -21,6 +21,7 @@ struct CameraPoint {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
+// The matches between the landmarks and images of the two cameras.
 struct AlignmentProblem {
   struct PointPair {
     CameraPoint in_query, in_candidate;

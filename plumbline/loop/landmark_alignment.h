@@ -11,6 +11,7 @@
 
 namespace plumbline {
 
+// A relative pose, and the matches that agree with it.
 struct AlignmentResult {
   Similarity3 candidate_from_query;
   // Covariance of the left perturbation [rotation, translation, log scale]. Without free scale the

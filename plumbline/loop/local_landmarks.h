@@ -49,6 +49,7 @@ struct SearchedImage {
   int tested_points = 0, tested_lines = 0;   // number of landmarks in view
 };
 
+// Projects landmarks into an image and finds the features near their places that match them.
 SearchedImage SearchImage(const ImagingModel& imaging,
                           const LocalLandmarks& landmarks,
                           const Rigid3& cam_from_world,

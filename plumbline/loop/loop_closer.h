@@ -33,6 +33,7 @@ struct LoopAttempt {
   // The measured edge, where it is the same place.
   std::optional<LoopEdge> edge;
   double drift_chi2 = 0;  // chi2 of the edge against odometry
+  // Why the verified loop is not closed.
   std::optional<ClosingRefusal> unclosed;
   bool beyond_drift = false;  // odometry cannot have drifted so far
   // The usual drift contradicts the edge, but one camera that turned may have drifted so far.
@@ -40,7 +41,7 @@ struct LoopAttempt {
   // The edge is not accurate enough: a nearer view is expected.
   bool uncertain = false;
   bool inconsistent = false;  // the other loops contradict it
-  // It waits for another keyframe that confirms it.
+  // The loop waits for another keyframe that confirms it.
   bool waits = false;
 };
 

@@ -43,6 +43,7 @@ struct LoopEvidence {
   }
 };
 
+// A landmark around the query and a landmark around the candidate that are one in the world.
 template <class LandmarkId>
 struct LandmarkPair {
   LandmarkId in_query, in_candidate;

@@ -16,6 +16,7 @@ struct UncertainPose {
 // Returns c_from_b * b_from_a; the estimates count as independent, to first order.
 UncertainPose Compose(const UncertainPose& c_from_b, const UncertainPose& b_from_a);
 
+// Returns a_from_b with the covariance that follows from that of b_from_a, to first order.
 UncertainPose Inverse(const UncertainPose& b_from_a);
 
 // Returns the squared Mahalanobis norm of Log(pose): how far a chain of relative poses that comes

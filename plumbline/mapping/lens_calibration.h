@@ -17,6 +17,15 @@ namespace plumbline {
 // deviations alike.
 void Correct(const LensCorrection& correction, BaProblem& problem);
 
+// What LearnLens found.
+struct LearnedLens {
+  LensCorrection correction;
+  // Poses and points adjusted to that correction, by their index in the problem; empty where there
+  // is no change.
+  std::vector<Rigid3> poses;
+  std::vector<Eigen::Vector3d> points;
+};
+
 // Learns the lens correction from the points of a map of one camera. A little distortion changes
 // the scale wherever the camera turns, because what passes through the middle of the image was at
 // its side before.
@@ -30,20 +39,13 @@ void Correct(const LensCorrection& correction, BaProblem& problem);
 // nothing tells of the distortion. Where measurements have had a correction already, the same is
 // asked of the whole correction: it is changed to what the points say now, and taken back where
 // they speak as clearly against it. There is no change where lengths are measured (a pair), where
-// it is smaller than 2e-4 of the image's width, or when `stop` says so.
+// it would be smaller than 2e-4 of the image's width, or when `stop` says so.
 //
 //   problem   of a whole map: poses with their gauge held, points with all observations
 //   known_px  border_px of the correction that the measurements have had
 //   returns   the correction that is to be made in addition
 //   cost      that of three adjustments of the points alone, of up to ten where there may be a
 //             correction
-struct LearnedLens {
-  LensCorrection correction;
-  // Poses and points adjusted to that correction, by their index in the problem; empty where there
-  // is no change.
-  std::vector<Rigid3> poses;
-  std::vector<Eigen::Vector3d> points;
-};
 LearnedLens LearnLens(const BaProblem& problem, double known_px = 0, const StopCheck& stop = {});
 
 }  // namespace plumbline

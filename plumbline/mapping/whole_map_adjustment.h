@@ -32,9 +32,9 @@ namespace plumbline {
 //
 // Returns an empty correction for a map of less than three keyframes, and for one whose equations
 // take longer to solve than those of mapping.final_adjustment_keyframes keyframes that all share
-// landmarks (FullSize); if only the lines make it so large, it is adjusted without them. Also empty
-// when `stop` says so before the end. Cost: FindWellSeenLines, and bundle adjustment of the whole
-// map, with the time of SchurSolver::Solve.
+// landmarks (FullSize); if only the lines make it so large, it is adjusted without them. The
+// correction is also empty when `stop` says so before the end. Cost: FindWellSeenLines, and bundle
+// adjustment of the whole map, with the time of SchurSolver::Solve.
 Correction AdjustWholeMap(const Map& map,
                           const ImagingModel& imaging,
                           const LineOptions& lines,

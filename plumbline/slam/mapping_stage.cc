@@ -355,7 +355,7 @@ void MappingStage::DoNext(std::unique_lock<std::mutex>& lock) {
   if (done.snapshot == nullptr) done.snapshot = versions_.back().snapshot;
   versions_.push_back({task.number, std::move(done.snapshot)});
   times_.insert(times_.end(), done.times.begin(), done.times.end());
-  // Both lists only grow; a long one is not copied again for each task.
+  // Both lists only grow, so that only what is new is copied.
   const auto take_over = [](auto& events, const auto& all) {
     events.insert(events.end(), all.begin() + std::ssize(events), all.end());
   };

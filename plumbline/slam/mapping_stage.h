@@ -44,9 +44,10 @@ struct DemotedKeyFrame {
 struct RelocalizationRequest {
   Frame frame;
 };
+// What came of a RelocalizationRequest.
 struct RelocalizationOutcome {
-  std::optional<Relocalized> found;
-  // Around the keyframe from which the place was found.
+  std::optional<Relocalized> found;  // nullopt where the place was not found
+  // The map around the keyframe from which the place was found.
   std::shared_ptr<const MapSnapshot> snapshot;
 };
 
@@ -292,10 +293,10 @@ class MappingStage {
   // Tasks whose results later frames are to see; in a live run only those that start maps.
   std::deque<Due> dues_;
   std::int64_t map_begins_ = 0;  // task that began the map in use
-  // live: earlier snapshots, the newest first
+  // Earlier snapshots of a live run, the newest first.
   std::deque<std::shared_ptr<const MapSnapshot>> kept_;
   std::size_t next_kept_ = 0;
-  // Live: the newest snapshot, the same with the keyframes ahead of it, and those keyframes.
+  // In a live run: the newest snapshot, that snapshot with the keyframes ahead of it, and these.
   std::shared_ptr<const MapSnapshot> base_, with_ahead_;
   std::vector<std::shared_ptr<const NewKeyFrame>> ahead_;
   // State of the worker. Other threads touch it only while no task is being done.
@@ -331,6 +332,7 @@ class MappingStage {
   std::jthread worker_;
 };
 
+// All that the stage keeps beside the maps, as a checkpoint holds it.
 struct MappingStage::Checkpoint {
   LocalMapper::State mapper;
   std::int64_t submitted = 0;

@@ -24,7 +24,8 @@ namespace plumbline {
 //
 //   inline    Feed does everything, in the caller's thread.
 //   lockstep  Feed measures features in the caller's thread and leaves tracking to another one,
-//             which is at most two frames behind; when it is, Feed waits. Same bytes as inline.
+//             which is at most two frames behind; when it is, Feed waits. The bytes
+//             are those of inline.
 //   live      Feed only hands the frame over. Two frames may wait; one more, and the oldest of
 //             them is left out (FrameStatus::kSkipped, reason kDropped). Where frames have to wait,
 //             less is done for them (LoadShedding), which their records tell. Not reproducible.

@@ -9,6 +9,7 @@
 
 namespace plumbline {
 
+// How long one stage took for a frame.
 struct StageTime {
   std::string stage;
   double milliseconds = 0;

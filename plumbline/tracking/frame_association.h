@@ -22,6 +22,7 @@ struct CandidatePoint {
   // its covariance in its model.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
+// A line that a frame may show, with a valid or an invalid id as CandidatePoint.
 struct CandidateLine {
   LineId id;
   LineModel model;
@@ -42,6 +43,7 @@ struct FrameMatches {
   int All() const { return Points() + Lines(); }
 };
 
+// Landmarks that a frame may show, and which of them its features show.
 struct FrameAssociation {
   std::vector<CandidatePoint> points;
   std::vector<CandidateLine> lines;

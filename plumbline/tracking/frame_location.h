@@ -11,6 +11,7 @@
 
 namespace plumbline {
 
+// The pose of a frame in a map, and the matches that it was found by.
 struct LocatedFrame {
   Rigid3 cam_from_world;
   FrameCounts counts;

@@ -9,6 +9,7 @@
 
 namespace plumbline {
 
+// How soon and how late keyframes follow each other.
 struct KeyFramePolicyOptions {
   int max_frames = 20;  // a keyframe is made at the latest after so many frames
   int min_frames = 2;   // no keyframe is made sooner, unless tracking is about to fail
@@ -33,7 +34,14 @@ constexpr auto FixedOptions(std::type_identity<KeyFramePolicyOptions>) {
                     FixedOption{"min_new_close", "70"}};
 }
 
-enum class KeyFrameReason { kNone, kFewLandmarks, kAlmostLost, kNeedsClosePoints, kLongAgo };
+// Why a frame becomes a keyframe.
+enum class KeyFrameReason {
+  kNone,              // it does not
+  kFewLandmarks,      // it shows too few landmarks of the last keyframe
+  kAlmostLost,        // it shows so few of them that tracking is about to fail
+  kNeedsClosePoints,  // it tracks too few near points, and sees near points that the map lacks
+  kLongAgo            // max_frames have passed since the last keyframe
+};
 
 // What the decision about a keyframe depends on: how the frame that was just tracked compares with
 // the last keyframe.

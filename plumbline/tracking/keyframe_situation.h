@@ -12,8 +12,9 @@ namespace plumbline {
 // Returns what the decision about a keyframe depends on for a frame that was tracked against a
 // snapshot: how much the frame shows of what the snapshot's keyframe shows, and how many near
 // points it has.
+//
 //   association    the matches that the frame was tracked by
-// feature_share  share of the usual number of features that the frame was measured with
+//   feature_share  share of the usual number of features that the frame was measured with
 //   monocular      no depth is measured
 KeyFrameSituation SituationOf(const Frame& frame,
                               const FrameAssociation& association,

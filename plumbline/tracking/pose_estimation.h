@@ -11,6 +11,7 @@
 
 namespace plumbline {
 
+// The pose of a frame, how well it is known, and how many matches agree with it.
 struct PoseEstimate {
   Rigid3 cam_from_world;
   // Information of the inliers and the prior about the left perturbation [rotation, translation].

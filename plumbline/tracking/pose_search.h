@@ -26,6 +26,7 @@ struct LastFrame {
   }
 };
 
+// How many landmarks a frame was matched with, and how many of these agree with its pose.
 struct FrameCounts {
   int matched_points = 0, matched_lines = 0;
   int inlier_points = 0, inlier_lines = 0;
@@ -58,8 +59,8 @@ ProjectionSearchOptions FirstSearch(double factor = 1);
 bool MoreThanChance(int agreeing, int matches);
 
 // Finds what a frame shows and its pose from it: first the landmarks of the last frame near where a
-// prediction puts them, or without one by descriptor, then the rest of the local map. Keeps nothing
-// from frame to frame.
+// prediction puts them, or by descriptor where there is no prediction, then the rest of the local
+// map. Nothing is kept from frame to frame.
 class PoseSearch {
  public:
   PoseSearch(const ImagingModel& imaging,

@@ -17,6 +17,7 @@
 
 namespace plumbline {
 
+// Whether, and for how long, a lost camera is looked for in its map.
 struct RelocalizationOptions {
   bool enabled = true;
   // Lost frames in a map of an earlier run after which a new map starts.

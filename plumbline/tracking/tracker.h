@@ -23,6 +23,7 @@
 
 namespace plumbline {
 
+// Whether the tracker has no map yet, follows the camera, or has lost it.
 enum class TrackerState { kInitializing, kTracking, kLost };
 constexpr auto EnumNames(std::type_identity<TrackerState>) {
   return std::array{std::pair{TrackerState::kInitializing, "initializing"},
@@ -80,6 +81,7 @@ struct LiveConditions {
   double feature_share = 1;
 };
 
+// What Tracker::Track made of a frame.
 struct TrackingResult {
   TrackerState state = TrackerState::kInitializing;  // state after this frame
   TrackingFailure failure = TrackingFailure::kNone;
@@ -195,7 +197,7 @@ class Tracker {
 
   // A pose, or why there is none.
   struct Finding {
-    // Its counts of matches are those in `counts`.
+    // The counts in this attempt are those in `counts`.
     std::optional<PoseAttempt> attempt;
     TrackingFailure failure = TrackingFailure::kNone;
     FrameCounts counts;
