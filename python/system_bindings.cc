@@ -349,8 +349,8 @@ What changed maps at large so far, when mapping has done what was handed over; a
 lists of dictionaries, in order: "loops" that were closed, maps that were joined ("joins"),
 "relocalizations" of a lost camera. All have "frame" (index), "keyframe" (id), "points" and "lines"
 (numbers that agree); loops and joins "older" (the keyframe that shows the same), "log10_chance" (of
-so much agreement between two places), "moved" (m), "turned_deg", "scale" (how the map around the
-keyframe was corrected); joins "kept" and "gone" (ids of maps).)")
+so much agreement by chance), "moved" (metres, with one camera the map's unit), "turned_deg" and
+"scale" (how the map around the keyframe was corrected); joins "kept" and "gone" (ids of maps).)")
       .def("new_events", &NewEventsOf, R"(new_events() -> list of dict
 
 The events since the last call that are known by now, without waiting for mapping. They are the
