@@ -254,7 +254,11 @@ Similarity3 AlignPoses(std::span<const EvaluatedPose> poses) {
       add(pose, -kLever * Eigen::Vector3d::Unit(axis));
     }
   }
-  return AlignPoints(source, target, AlignmentScale::kFixed)->target_from_source;
+  const auto aligned = AlignPoints(source, target, AlignmentScale::kFixed);
+  if (aligned) return aligned->target_from_source;
+  // Beside a straight path of thousands of kilometres, or of metres that are written as
+  // millimetres, the levers are too short to count.
+  return AlignByOrientations(poses, false);
 }
 
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera) {

@@ -365,6 +365,22 @@ TEST(AlignPoses, FindsTheMotionOfAPathThatPositionsDoNotTell) {
   EXPECT_LT((AlignPoses({poses.data(), 1}).Matrix() - motion.Matrix()).norm(), 1e-12);
 }
 
+// A straight path in millimetres is so long that the levers of a metre have no spread beside it.
+TEST(AlignPoses, TakesAPathBesideWhichTheLeversAreShort) {
+  const Rigid3 motion{ExpSo3({0.3, -0.2, 0.5}), {1, 2, 3}};
+  std::vector<EvaluatedPose> poses(5);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i].reference = {ExpSo3({0, 0, 0.1}), {1e7 * static_cast<double>(i), 0, 0}};
+    poses[i].estimate = Inverse(motion) * poses[i].reference;
+  }
+  const Similarity3 found = AlignPoses(poses);
+  EXPECT_EQ(found.scale, 1);
+  EXPECT_LT(AngularDistance(found.rotation, motion.rotation), 1e-5);
+  for (const EvaluatedPose& pose : poses) {
+    EXPECT_LT((found * pose.estimate.translation - pose.reference.translation).norm(), 1);
+  }
+}
+
 TEST(TrajectoryFigure, ShowsTheTwoAxesOfMotionInRange) {
   Trajectory reference;
   for (int i = 0; i < 50; ++i) {
