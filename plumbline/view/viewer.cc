@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <exception>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -259,7 +260,8 @@ void Viewer::LookAtMaps(const Atlas& atlas, const MapEvents& events) {
     mail_.events.push_back(EventOf(events.joins[joins_].place, ViewedEvent::Kind::kJoin));
   }
   mail_.changes.push_back(std::move(changes));
-  mail_.answers = std::move(answers);
+  // The viewer's thread may not have taken those before yet.
+  std::move(answers.begin(), answers.end(), std::back_inserter(mail_.answers));
   looking_ = false;
   map_is_to_be_seen_ = map_is_to_be_seen_ || comparison_.HasMore();
   next_look_ = Clock::now() + kRestAfterLook * (Clock::now() - start);

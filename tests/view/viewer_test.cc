@@ -11,6 +11,8 @@
 #include <atomic>
 #include <cstddef>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <set>
@@ -62,13 +64,13 @@ class Shown : public testing::Test {
     atlas_.Activate(MapId{0});
   }
 
-  void Open(ViewerOptions options = {}) {
+  void Open(ViewerOptions options = {}, const std::function<SharedBytes(ShownId)>& picture = {}) {
     if (!options.access) options.access = WebAccess();
     ViewedRun run;
     run.name = "made up";
     run.camera = TestCamera();
     run.can_pause = true;
-    viewer_ = std::make_unique<Viewer>(options, run, SessionId{0});
+    viewer_ = std::make_unique<Viewer>(options, run, SessionId{0}, picture);
     const std::string url = viewer_->url();
     port_ = static_cast<std::uint16_t>(std::stoi(url.substr(url.find(':', 5) + 1)));
   }
@@ -352,6 +354,41 @@ TEST_F(Shown, AnswersWhoSeesALandmark) {
     if (!message->binary && json::parse(message->bytes)["op"] == "serviceCallFailure") return;
   }
   FAIL() << "no failure was told";
+}
+
+// The maps may be looked at twice while the thread of the viewer has something else to do.
+TEST_F(Shown, AnswersThatTheServerHasNotTakenYetAreKept) {
+  std::promise<void> busy, go_on;
+  Open({}, [&busy, released = go_on.get_future().share()](ShownId) {
+    busy.set_value();
+    released.wait();
+    return SharedBytes();
+  });
+  WebSocketClient client(port_);
+  Call(client, 1, R"({"point": 3})");
+  bool asked = false;
+  for (int i = 0; i < 1000 && !asked; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    asked = viewer_->WantsMaps(false);
+  }
+  ASSERT_TRUE(asked);
+  Call(client, 1, R"({"point": 4})");
+  Call(client, 9, "{}");  // there is no such service, which is told behind the question
+  std::optional<WebSocketClient::Message> text = client.Receive();
+  while (text && json::parse(text->bytes)["op"] != "serviceCallFailure") text = client.Receive();
+  ASSERT_TRUE(text.has_value());
+  TestSocket socket(port_);
+  socket.Send("GET /keyframe/12345 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  ASSERT_EQ(busy.get_future().wait_for(std::chrono::seconds(10)), std::future_status::ready);
+  viewer_->LookAtMaps(atlas_, {});
+  viewer_->LookAtMaps(atlas_,
+                      {});  // as a question asks for that comes while the maps are looked at
+  go_on.set_value();
+  for (const int point : {3, 4}) {
+    const auto answer = NextData(client);
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_EQ(json::parse(answer->substr(17))["point"], point);
+  }
 }
 
 TEST_F(Shown, KeyframesAreKeptWithTheirImages) {
