@@ -30,7 +30,10 @@ cv::Mat DecodeWebp(std::span<const std::uint8_t> bytes);
 // Returns the bytes of a file, compressed for speed rather than size.
 std::string EncodePng(const cv::Mat& image);
 
-// Returns the bytes of a file. quality: 1 to 100. For CV_8UC1.
+// Most pixels that a side of a JPEG file may have.
+inline constexpr int kLongestJpegSide = 65'500;
+
+// Returns the bytes of a file. quality: 1 to 100. For CV_8UC1, of sides up to kLongestJpegSide.
 std::string EncodeJpeg(const cv::Mat& image, int quality);
 
 }  // namespace plumbline

@@ -5,6 +5,8 @@
 #include "plumbline/image/image_codecs.h"
 #include "plumbline/image/opencv_bridge.h"
 
+#include <algorithm>
+
 #include <opencv2/imgproc.hpp>
 
 namespace plumbline {
@@ -15,10 +17,14 @@ constexpr int kJpegQuality = 80;
 
 std::string SmallJpegOf(const GrayImage& image) {
   cv::Mat pixels = AsMat(image);
-  if (pixels.cols > kMaxWidth) {
-    const double scale = static_cast<double>(kMaxWidth) / pixels.cols;
+  const double scale = std::min(static_cast<double>(kMaxWidth) / pixels.cols,
+                                static_cast<double>(kLongestJpegSide) / pixels.rows);
+  if (scale < 1) {
+    // A very flat image keeps one row.
+    const bool flat = cvRound(scale * pixels.rows) == 0;
     cv::Mat smaller;
-    cv::resize(pixels, smaller, {}, scale, scale, cv::INTER_AREA);
+    cv::resize(
+        pixels, smaller, flat ? cv::Size(kMaxWidth, 1) : cv::Size(), scale, scale, cv::INTER_AREA);
     pixels = smaller;
   }
   return EncodeJpeg(pixels, kJpegQuality);

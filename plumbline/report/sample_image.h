@@ -17,7 +17,7 @@ struct SampleImage {
   FrameId frame;
   std::string file;           // name of the overlay image that shows the same frame
   int width = 0, height = 0;  // size of the image; positions are in its pixels
-  std::string jpeg;           // the image, grey, made smaller where it is very wide
+  std::string jpeg;           // the image, grey, made smaller where it is very wide or high
   std::vector<Eigen::Vector2d> matched_points, other_points;
   std::vector<Segment2> matched_lines, other_lines;
 };

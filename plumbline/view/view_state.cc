@@ -106,7 +106,7 @@ SharedBytes ViewState::NextOfFrame(Stream stream, ViewCursor& cursor) {
   cursor.frame[index] = serial_;
   const bool needs_pose = stream == Stream::kPose || stream == Stream::kTransform;
   if (needs_pose && !shown_.is_tracked()) return nullptr;
-  if (stream == Stream::kImage && shown_.image.empty()) return nullptr;
+  if (stream == Stream::kImage && Jpeg().empty()) return nullptr;
   if (!made_[index]) made_[index] = Share(EncodeOfFrame(stream));
   return made_[index];
 }

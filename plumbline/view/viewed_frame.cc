@@ -7,6 +7,7 @@
 #include "plumbline/image/opencv_bridge.h"
 #include "plumbline/slam/load_shedding.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace plumbline {
@@ -78,7 +79,7 @@ ViewedFrame ViewedFrameOf(const KeyFrame& keyframe) {
 }
 
 std::string JpegOf(const GrayImage& image) {
-  if (image.empty()) return {};
+  if (image.empty() || std::max(image.width(), image.height()) > kLongestJpegSide) return {};
   return EncodeJpeg(AsMat(image), kJpegQuality);
 }
 

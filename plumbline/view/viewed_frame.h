@@ -29,7 +29,8 @@ ViewedFrame ViewedFrameOf(const FrameRecord& record, const FrameView& view);
 // Returns a keyframe of a saved map, which has no image.
 ViewedFrame ViewedFrameOf(const KeyFrame& keyframe);
 
-// Returns the image as a JPEG file, some 2 ms for 752 x 480; empty where there is no image.
+// Returns the image as a JPEG file, some 2 ms for 752 x 480; empty where there is no image, or one
+// with a side longer than kLongestJpegSide.
 std::string JpegOf(const GrayImage& image);
 
 // Returns matched points, other points, matched lines and other lines, in the colours of the

@@ -4,13 +4,18 @@
 
 #include "plumbline/base/base64.h"
 #include "plumbline/base/options_io.h"
+#include "plumbline/io/image_header.h"
+#include "plumbline/report/sample_image.h"
 #include "plumbline/slam/atlas_context.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/report/poster_run.h"
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <regex>
+#include <span>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -248,6 +253,23 @@ TEST(HtmlReport, ShowsSampleImagesWithTheirFeatures) {
   for (const float x : matched) {
     EXPECT_GE(x, 0);
     EXPECT_LE(x, MovingPoster::kWidth);
+  }
+}
+
+TEST(HtmlReport, HasSamplesOfImagesThatAreVeryFlatOrVeryHigh) {
+  struct Sizes {
+    ImageSize image, sample;
+  };
+  for (const Sizes& sizes : {Sizes{{4000, 1}, {1280, 1}}, Sizes{{2, 66'000}, {2, 65'500}}}) {
+    FrameView view;
+    view.images.left = GrayImage(sizes.image.width, sizes.image.height, 77);
+    view.frame.indexed = std::make_shared<const IndexedFeatures>();
+    const SampleImage sample = MakeSampleImage(view, "overlay_000000.png");
+    EXPECT_EQ(sample.width, sizes.image.width);
+    EXPECT_EQ(sample.height, sizes.image.height);
+    const std::span jpeg(reinterpret_cast<const std::uint8_t*>(sample.jpeg.data()),
+                         sample.jpeg.size());
+    EXPECT_TRUE(SizeInHeader(jpeg) == sizes.sample);
   }
 }
 

@@ -449,6 +449,22 @@ TEST_F(Shown, ARecordingHasEveryFrame) {
   EXPECT_GE(counts["/plumbline/updates"], kFrames);
 }
 
+// JPEG files have sides of at most 65500 pixels.
+TEST(ViewState, ShowsFramesWhoseImageIsTooLongWithoutIt) {
+  EXPECT_NE(JpegOf(GrayImage(65'500, 1)), "");
+  EXPECT_EQ(JpegOf(GrayImage(65'501, 1)), "");
+  EXPECT_EQ(JpegOf(GrayImage(1, 65'501)), "");
+  ViewedFrame frame;
+  frame.record.id = FrameId{0};
+  frame.record.keyframe = true;
+  frame.image = GrayImage(65'501, 1);
+  ViewState state{ViewedRun{}};
+  state.Take(std::move(frame));
+  ViewCursor cursor;
+  EXPECT_EQ(state.Next(Stream::kImage, cursor, 0), nullptr);
+  EXPECT_NE(state.Next(Stream::kUpdates, cursor, 0), nullptr);
+}
+
 TEST_F(Shown, ARecordingThatCannotBeWrittenIsBadInput) {
   ViewerOptions options;
   options.record = "/no/such/folder/run.mcap";
