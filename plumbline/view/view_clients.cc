@@ -107,7 +107,8 @@ void ViewClients::Do(WebClient& client, const ServiceCall& message) {
   if (message.service == kLandmarkService) {
     const auto question = ParseMapQuestion(message.json);
     if (!question) return fail(R"(expected {"point": ID} or {"line": ID})");
-    return actions_.ask(id, *question);
+    if (!actions_.ask(id, *question)) fail("too many questions wait for an answer");
+    return;
   }
   if (!can_pause_ || message.service > kStepService || message.service == 0) {
     return fail("no such service");

@@ -28,7 +28,8 @@ struct CallId {
 struct ViewActions {
   std::function<void(bool paused)> pause;
   std::function<void()> step;  // shows one frame while the run is paused
-  std::function<void(CallId, const MapQuestion&)> ask;
+  // Returns false where too many questions wait already.
+  std::function<bool(CallId, const MapQuestion&)> ask;
   // Asks that ServeAll be called at a time.
   std::function<void(std::chrono::steady_clock::time_point)> wake_at;
 };

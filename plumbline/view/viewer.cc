@@ -111,7 +111,9 @@ ViewActions Viewer::Actions() {
   };
   actions.ask = [this](CallId id, const MapQuestion& question) {
     const std::lock_guard lock(mutex_);
-    if (questions_.size() < kMostQuestions) questions_.emplace_back(id, question);
+    if (questions_.size() >= kMostQuestions) return false;
+    questions_.emplace_back(id, question);
+    return true;
   };
   actions.wake_at = [this](Clock::time_point time) {
     if (wake_at_) return;

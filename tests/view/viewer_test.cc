@@ -391,6 +391,16 @@ TEST_F(Shown, AnswersThatTheServerHasNotTakenYetAreKept) {
   }
 }
 
+TEST_F(Shown, MoreQuestionsThanCanWaitAreRefused) {
+  Open();
+  WebSocketClient client(port_);
+  for (int point = 0; point < 65; ++point) Call(client, 1, R"({"point": 3})");
+  std::optional<WebSocketClient::Message> text = client.Receive();
+  while (text && json::parse(text->bytes)["op"] != "serviceCallFailure") text = client.Receive();
+  ASSERT_TRUE(text.has_value());
+  EXPECT_THAT(text->bytes, HasSubstr("too many questions"));
+}
+
 TEST_F(Shown, KeyframesAreKeptWithTheirImages) {
   Open();
   Spectator watcher(port_, kUpdates);
