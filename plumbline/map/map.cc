@@ -317,12 +317,22 @@ void MoveEntries(IdTable<Id, T>& from, IdTable<Id, T>& to) {
 
 }  // namespace
 
+void Map::ShiftNumbers(std::int64_t shift) {
+  keyframes_.ForEach([&](KeyFrameId, KeyFrame& keyframe) { keyframe.number += shift; });
+  removed_keyframes_.ShiftNumbers(shift);
+}
+
 void Map::Absorb(Map other, const Similarity3& this_from_other) {
   edit::MoveKeyFrames motion;
-  other.keyframes_.ForEach([&](KeyFrameId id, KeyFrame& keyframe) {
+  for (const auto& [id, keyframe] : other.keyframes()) {
     motion.new_from_old.emplace(id, this_from_other);
-    keyframe.number += keyframes_taken_in_;
-  });
+  }
+  // Numbers tell how many keyframes ago something was: the map that grows has the largest ones.
+  if (next_keyframe_ > other.next_keyframe_) {
+    ShiftNumbers(other.keyframes_taken_in_);
+  } else {
+    other.ShiftNumbers(keyframes_taken_in_);
+  }
   FeatureCorrection joined = correction_;
   if (joined.lens.border_px() == 0) joined.lens = other.correction_.lens;
   if (!(joined == correction_)) Apply({edit::CorrectFeatures{joined}});
@@ -330,7 +340,7 @@ void Map::Absorb(Map other, const Similarity3& this_from_other) {
   MoveEntries(other.keyframes_, keyframes_);
   MoveEntries(other.points_, points_);
   MoveEntries(other.lines_, lines_);
-  removed_keyframes_.Absorb(std::move(other.removed_keyframes_), keyframes_taken_in_);
+  removed_keyframes_.Absorb(std::move(other.removed_keyframes_));
   for (const auto& [gone, kept] : other.merged_points_) merged_points_.Insert(gone, kept);
   for (const auto& [gone, kept] : other.merged_lines_) merged_lines_.Insert(gone, kept);
   keyframes_taken_in_ += other.keyframes_taken_in_;

@@ -88,10 +88,11 @@ class Map {
   void Apply(const MapEdit& edit);
 
   // Takes in all of another map of the same atlas, which uses none of this map's ids. The other map
-  // is moved by `this_from_other` (from world to world; scale 1 where depth is measured). Its
-  // keyframes count as taken in after those of this map, and their features get this map's
-  // correction; where it has no lens correction, both get that of the other map. Landmarks that
-  // both maps have are there twice until they are fused. O(size of the other map).
+  // is moved by `this_from_other` (from world to world; scale 1 where depth is measured). The
+  // keyframes of the map that took in the newest one count as taken in after those of the other.
+  // Features of the other map get this map's correction; where it has no lens correction, both get
+  // that of the other map. Landmarks that both maps have are there twice until they are fused.
+  // O(size of both maps).
   void Absorb(Map other, const Similarity3& this_from_other);
 
   // Throws BugError when observations and matches disagree or a landmark has none.
@@ -101,6 +102,8 @@ class Map {
   // Has one overload for each kind of change; points and lines share the templates behind them.
   friend struct MapChanger;
   friend class MapBuilder;
+
+  void ShiftNumbers(std::int64_t shift);
 
   MapId id_;
   MapIdentity identity_;

@@ -45,8 +45,11 @@ void RemovedKeyFrames::Add(KeyFrameId id, const RemovedKeyFrame& entry) {
   entries_[id] = entry;
 }
 
-void RemovedKeyFrames::Absorb(RemovedKeyFrames other, std::int64_t shift) {
-  for (auto& [id, entry] : other.entries_) entry.number += shift;
+void RemovedKeyFrames::ShiftNumbers(std::int64_t shift) {
+  for (auto& [id, entry] : entries_) entry.number += shift;
+}
+
+void RemovedKeyFrames::Absorb(RemovedKeyFrames other) {
   entries_.merge(other.entries_);
   hanging_.merge(other.hanging_);
 }

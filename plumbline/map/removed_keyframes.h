@@ -37,8 +37,10 @@ class RemovedKeyFrames {
   // Adds a keyframe that leaves the map; its parent must be in the map. Cost: that of the entries
   // that refer to it.
   void Add(KeyFrameId id, const RemovedKeyFrame& entry);
-  // Takes in the entries of another map, which uses other ids; their numbers grow by `shift`.
-  void Absorb(RemovedKeyFrames other, std::int64_t shift);
+  // Adds to the numbers of all entries.
+  void ShiftNumbers(std::int64_t shift);
+  // Takes in the entries of another map, which uses other ids.
+  void Absorb(RemovedKeyFrames other);
 
  private:
   std::map<KeyFrameId, RemovedKeyFrame> entries_;

@@ -62,7 +62,8 @@ TEST(RemovedKeyFrames, TakeInThoseOfAnotherMap) {
   RemovedKeyFrames removed, other;
   removed.Add(kLast, Beside(kFirst, 1, 1, 2, rng));
   other.Add(KeyFrameId{12}, Beside(KeyFrameId{11}, 1, 1, 3, rng));
-  removed.Absorb(other, 10);
+  other.ShiftNumbers(10);
+  removed.Absorb(other);
   EXPECT_EQ(removed.entries().size(), 2U);
   EXPECT_EQ(removed.Find(kLast)->number, 2);
   EXPECT_EQ(removed.Find(KeyFrameId{12})->number, 13);

@@ -64,6 +64,21 @@ std::vector<double> Reprojections(const Map& map, const RectifiedCamera& camera)
   return numbers;
 }
 
+// A camera that returns to a map goes on in it, with new ids, and may then find that the map which
+// it left in between shows the same place.
+TEST(Renumbered, AbsorbedComesBeforeWhatTheGrowingMapHas) {
+  const Map left = MapOf({0, 2, 4}, 1);
+  const Map growing = Renumbered(MapOf({1, 3, 5, 7}, 2), Behind(left));
+  Map together = growing;
+  together.Absorb(left, kMotion);
+  for (const auto& [id, keyframe] : left.keyframes()) {
+    EXPECT_EQ(together.NumberOf(id), keyframe.number);
+  }
+  for (const auto& [id, keyframe] : growing.keyframes()) {
+    EXPECT_EQ(together.NumberOf(id), keyframe.number + left.Record().keyframes_taken_in);
+  }
+}
+
 TEST(Renumbered, AbsorbedKeepsAllReprojectionsOfBoth) {
   const Map first = MapOf({0, 10, 20}, 1), second = MapOf({30, 40}, 2);
   ASSERT_GT(second.lines().size(), 5U);
