@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/sim3.h"
+#include "plumbline/io/atomic_file.h"
 #include "plumbline/io/map_io.h"
 #include "plumbline/io/text_rows.h"
 
@@ -85,6 +86,7 @@ MergeRequest ReadMergeRequest(const CommandLine& line) {
     request.first_from_second = ParseTransform(*transform);
   }
   CheckMapOutput("--out", *out, std::array{request.first, request.second}, {"a map", kMapMagic});
+  CheckWritable(*out);
   return request;
 }
 

@@ -292,7 +292,7 @@ void CheckPlaceOfCheckpoint(const RunSetup& setup) {
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
     throw InputError("cannot write " + setup.checkpoint->string() + ": no such folder");
   }
-  CheckReplaceable(*setup.checkpoint);
+  CheckWritable(*setup.checkpoint);
 }
 
 // Goes on from the checkpoint, whose frames must be the first of the input.

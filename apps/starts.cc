@@ -232,6 +232,7 @@ void RefuseFilesOfOthers(const std::filesystem::path& folder) {
 // known as those of this command even where it is killed.
 void PrepareFolder(const Setup& setup, bool draws) {
   MakeFolder(setup.folder);
+  for (const char* file : {kRecords, kSummary}) CheckWritable(setup.folder / file);
   if (!draws || HasStarts(setup.folder)) return;
   WriteFileAtomically(setup.folder / kRecords, FormatStarts({}));
 }

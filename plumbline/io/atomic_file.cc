@@ -101,6 +101,8 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
   file.Commit();
 }
 
+void CheckWritable(const std::filesystem::path& path) { const AtomicFileWriter begun(path); }
+
 namespace {
 
 // The name under which the process of this number fills a folder.

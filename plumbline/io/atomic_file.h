@@ -41,6 +41,10 @@ void CheckReplaceable(const std::filesystem::path& path);
 // then.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view contents);
 
+// Throws WriteError where WriteFileAtomically cannot begin to write: asked before work that takes
+// hours, it saves its result. Makes the temporary file and removes it; what is at `path` stays.
+void CheckWritable(const std::filesystem::path& path);
+
 // Whether a file must be on the disk, and not only with the operating system, before it takes its
 // name. With kPower even a power failure leaves the old file or the new one. Costs some
 // milliseconds.

@@ -171,6 +171,9 @@ TEST(CheckpointOfRun, IsRefusedForAnotherRunAndNothingIsTouched) {
   expect_refused("--map " + Quoted(run.checkpoint()), "expected a Plumbline map");
   expect_refused("--checkpoint " + Quoted(run.folder / "none/c"), "no such folder");
   expect_refused("--checkpoint " + Quoted(run.folder.path()), "Is a directory");
+  // Where nobody may make a file, and under a name that has no room for that of its beginnings.
+  expect_refused("--checkpoint /proc/plumbline.plbrun", "cannot write /proc/plumbline.plbrun: ");
+  expect_refused("--checkpoint " + Quoted(run.folder / std::string(250, 'c')), "name too long");
   expect_refused("--checkpoint " + Quoted(run.folder / "out/map.plb"), "expected another name");
   expect_refused("--record " + Quoted(run.folder.path()), "Is a directory");
   expect_refused("--record " + Quoted(run.folder / "out/map.plb"), "expected another name");

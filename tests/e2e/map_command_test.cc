@@ -134,6 +134,14 @@ TEST(MapMerge, FindsWhatBothMapsShow) {
   EXPECT_TRUE(Contents(both) == Contents(folder / "again.plb"));
 }
 
+// It takes a while, and says what came of it.
+TEST(MapMerge, ItsPlaceIsCheckedBeforeTheWork) {
+  const ScratchFolder folder;
+  const std::string map = Quoted(Posters().map);
+  ExpectRefusal(RunProgram(folder, "map merge " + map + " " + map + " --out /proc/plumbline.plb"),
+                "cannot write /proc/plumbline.plb: ");
+}
+
 TEST(MapMerge, WritesNothingWhereNoPlaceIsShownByBoth) {
   const ScratchFolder folder;
   SavedAtlas other = LoadAtlas(Posters().map);

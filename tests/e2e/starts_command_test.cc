@@ -140,6 +140,21 @@ TEST(StartsCommand, ReplacesOnlyWhatItWroteItself) {
   EXPECT_EQ(Contents(folder / "out/diary.txt"), "dear");
 }
 
+// What cannot be written in the end is known before the work, and nothing is replaced.
+TEST(StartsCommand, ItsPlaceIsCheckedBeforeTheWork) {
+  const ScratchFolder folder;
+  WritePosterSequence(folder, 12);
+  ASSERT_EQ(RunStarts(folder, "--start 0").code, 0);
+  const std::string starts = Contents(folder / "out/starts.csv");
+  fs::remove(folder / "out/summary.json");
+  fs::create_directories(folder / "out/summary.json");
+  const Outcome outcome = RunStarts(folder, "--start 3");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("summary.json: Is a directory"));
+  EXPECT_EQ(Lines(outcome.err), 1) << outcome.err;
+  EXPECT_EQ(Contents(folder / "out/starts.csv"), starts);
+}
+
 TEST(StartsCommand, PosesOfAnotherTimeAreAnError) {
   const ScratchFolder folder;
   WritePosterSequence(folder, 12);

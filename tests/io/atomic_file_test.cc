@@ -45,6 +45,20 @@ TEST(WriteFileAtomically, NamesTheFileAndTheReason) {
   EXPECT_EQ(FileCount(folder.path()), 2);
 }
 
+TEST(CheckWritable, ChangesNothing) {
+  const ScratchFolder folder;
+  folder.Write("a.txt", "old");
+  CheckWritable(folder / "a.txt");
+  CheckWritable(folder / "b.txt");
+  EXPECT_EQ(Contents(folder / "a.txt"), "old");
+  EXPECT_EQ(FileCount(folder.path()), 1);
+  EXPECT_THAT(MessageOf([&] { CheckWritable(folder / "none/a.txt"); }),
+              HasSubstr("none/a.txt: No such file or directory"));
+  EXPECT_THAT(MessageOf([&] { CheckWritable(folder.path()); }), HasSubstr("Is a directory"));
+  EXPECT_THAT(MessageOf([&] { CheckWritable(folder / std::string(300, 'x')); }),
+              HasSubstr("File name too long"));
+}
+
 TEST(AtomicFile, LeavesTheOldFileWithoutCommit) {
   const ScratchFolder folder;
   folder.Write("a.png", "old");
