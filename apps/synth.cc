@@ -82,7 +82,7 @@ int SynthCommand(std::span<const std::string> arguments) {
   const auto folder = line.Value("--out");
   if (!folder) throw InputError("synth: expected --out DIR");
   if (!world.text.empty()) CheckApart(*folder, std::array{RunInput{name}});
-  PrepareSequenceFolder(*folder);
+  CheckSequenceFolder(*folder);
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const SyntheticSequence sequence(world, options, threads);
   Countdown progress("frames", static_cast<std::size_t>(sequence.size()));

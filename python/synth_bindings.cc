@@ -73,7 +73,7 @@ int WriteWorld(const std::string& world,
   if (!OpenWorld(world).text.empty()) CheckApart(folder, std::array{RunInput{world}});
   int frames = 0;
   RunInterruptibly([&](const StopCheck& stop) {
-    PrepareSequenceFolder(folder);
+    CheckSequenceFolder(folder);
     const SyntheticSequence sequence(world, options, Threads());
     frames = sequence.size();
     try {

@@ -92,10 +92,11 @@ std::optional<fs::path> ForeignFile(const fs::path& folder) {
   return foreign;
 }
 
-// Takes away what an earlier call left, whole or not; refuses to touch anything else.
-void ClearFolder(const fs::path& folder) {
+// Whether an earlier call left a sequence in a folder, whole or not. Throws InputError where there
+// is anything else that would be in the way.
+bool HasSequence(const fs::path& folder) {
   std::error_code error;
-  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
+  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return false;
   if (!fs::is_directory(folder, error)) {
     throw InputError(folder.string() + ": expected a folder, found a file");
   }
@@ -109,6 +110,13 @@ void ClearFolder(const fs::path& folder) {
                      ": not of a rendered sequence, and would be removed with the one in this "
                      "folder; move it away or choose another folder");
   }
+  return true;
+}
+
+// Takes away what an earlier call left; refuses to touch anything else.
+void ClearFolder(const fs::path& folder) {
+  if (!HasSequence(folder)) return;
+  std::error_code error;
   for (const char* name : kNames) {
     fs::remove_all(folder / name, error);
     if (error)
@@ -143,6 +151,12 @@ std::string ImuCsv(const SyntheticSequence& sequence, const std::vector<ImuSampl
          << ',' << w.z() << ',' << a.x() << ',' << a.y() << ',' << a.z() << '\n';
   }
   return text.str();
+}
+
+void CheckSequenceFolder(const fs::path& folder) {
+  (void)HasSequence(folder);
+  MakeFolder(folder);
+  CheckWritable(folder / kPartFile);
 }
 
 void PrepareSequenceFolder(const fs::path& folder) {

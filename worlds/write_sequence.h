@@ -23,10 +23,14 @@ constexpr auto EnumNames(std::type_identity<SequenceFormat>) {
                     std::pair{SequenceFormat::kTum, "tum"}};
 }
 
-// Makes a folder ready to be written to: it is made where it is missing, a rendered sequence in it,
-// whole or not, is removed. Throws InputError when it holds anything else, or such a file lies in
-// the folders of the sequence, or it cannot be written to.
-// WriteSequence does this first; called before the work of preparing a sequence, it saves the wait.
+// Makes sure that a folder may be written to, and can be: it is made where it is missing. A
+// rendered sequence in it, whole or not, stays. Throws InputError when it holds anything else, or
+// such a file lies in the folders of the sequence, or it cannot be written to. WriteSequence does
+// this, too; called before the work of preparing a sequence, it saves the wait.
+void CheckSequenceFolder(const std::filesystem::path& folder);
+
+// Makes a folder ready to be written to, as WriteSequence does first: a rendered sequence in it is
+// removed. Throws as CheckSequenceFolder.
 void PrepareSequenceFolder(const std::filesystem::path& folder);
 
 // Writes a sequence as the folder of a data set. Beside what the format has: `lines.csv` (the true

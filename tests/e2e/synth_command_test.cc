@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,22 @@ TEST(SynthCommand, TheWorldThatIsReadIsNotRemoved) {
   EXPECT_THAT(outcome.err, HasSubstr("described_world.yaml, which is read"));
   EXPECT_EQ(Contents(described), text);
   EXPECT_TRUE(fs::exists(out / "world.yaml"));
+}
+
+TEST(SynthCommand, KeepsTheSequenceWhereAnotherCannotBeMade) {
+  const ScratchFolder folder;
+  const fs::path out = folder / "out";
+  const std::string few = "synth room --set frames=1 --out " + Quoted(out) + kSmall;
+  ASSERT_EQ(RunProgram(folder, few).code, 0);
+  const std::set<std::string> before = FilesOf(out);
+  const fs::path image = out / "mav0/cam0/data/1500000000000000000.png";
+  ASSERT_TRUE(fs::exists(image));
+  for (const char* bad : {" --set shutter_ms=40 --set readout_ms=20", " --set camera=kitti"}) {
+    const Outcome outcome = RunProgram(folder, few + bad);
+    EXPECT_EQ(outcome.code, 2) << bad;
+    EXPECT_EQ(FilesOf(out), before) << bad;
+    EXPECT_TRUE(fs::exists(image)) << bad;
+  }
 }
 
 TEST(SynthCommand, TellsWhenThereIsNoRoomLeft) {

@@ -260,6 +260,23 @@ TEST(WriteSequence, WhatACallLeftThatEndedAtOnceIsReplaced) {
   EXPECT_TRUE(fs::exists(folder / "room/world.yaml.part"));
 }
 
+// The next one may turn out to be impossible.
+TEST(WriteSequence, AFolderIsCheckedWithoutLossOfTheSequenceInIt) {
+  const ScratchFolder folder;
+  CheckSequenceFolder(folder / "room");
+  EXPECT_TRUE(fs::is_empty(folder / "room"));
+  SynthOptions options = Small();
+  options.frames = 1;
+  WriteSequence(SyntheticSequence("room", options, 1), SequenceFormat::kTum, folder / "room", 1);
+  const auto before = AllFiles(folder / "room");
+  CheckSequenceFolder(folder / "room");
+  EXPECT_EQ(AllFiles(folder / "room"), before);
+  folder.Write("diary/diary.txt", "dear");
+  EXPECT_THAT(MessageOf([&] { CheckSequenceFolder(folder / "diary"); }),
+              testing::HasSubstr("diary: expected an empty folder or one with a rendered"));
+  EXPECT_EQ(AllFiles(folder / "diary").size(), 1U);
+}
+
 TEST(SyntheticSequence, RefusesWhatCannotBe) {
   EXPECT_THROW(SyntheticSequence("atlantis", Small(), 1), InputError);
   SynthOptions options = Small();
