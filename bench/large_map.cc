@@ -4,10 +4,14 @@
 // CPU time of what grows with the map, on generated drives: large_map straight|chain|hub|rounds
 // KEYFRAMES... For each the steps of mapping a keyframe at the end of the drive and a snapshot,
 // which are not to grow, also while there is a copy of the map; the copy, which holds mapping up;
-// the change of its stereo correction; writing and reading its file; the
+// the change of its stereo correction; the essential graph that judges a loop, anew and after one
+// keyframe; writing and reading its file; the
 // common directions of lines, the search for well seen lines, and the
 // adjustment that ends a run (--steps: not these), which may; the largest memory so far.
 #include "plumbline/io/map_io.h"
+#include "plumbline/loop/essential_graph.h"
+#include "plumbline/loop/options.h"
+#include "plumbline/loop/strong_covisibility.h"
 #include "plumbline/map/snapshot.h"
 #include "plumbline/mapping/line_map.h"
 #include "plumbline/mapping/local_mapper.h"
@@ -163,6 +167,40 @@ void MeasureStereoChange(const LongDrive& drive) {
              1000 * longest);
 }
 
+// The essential graph of the map: when nothing is counted yet, when one keyframe has changed since,
+// and when nothing has; then what a loop needs of it to be judged, and what it needs to be closed.
+void MeasureEssentialGraph(const LongDrive& drive) {
+  Map map = Unshared(drive.map);
+  const LoopOptions options;
+  StrongCovisibility covisible(options.closing.strong_covisibility);
+  EssentialGraph graph;
+  const auto make = [&] {
+    covisible.Follow(map);
+    graph = MakeEssentialGraph(map, covisible, false, options.drift);
+  };
+  const double anew = Measure(make);
+  const KeyFrame& newest = map.keyframes().rbegin()->second;
+  edit::MoveKeyFrames motion;
+  motion.new_from_old.emplace(newest.id, Similarity3());
+  map.Apply({std::move(motion)});
+  const double after_one = Measure(make);
+  const double unchanged = Measure(make);
+  const double ways = Measure([&] {
+    OdometryWays odometry(graph);
+    odometry.Along(static_cast<int>(graph.poses.size()) - 1, 0);
+  });
+  const double edges = Measure([&] { graph.WithAllEdges(); });
+  fmt::print(
+      "  essential graph of {} ties {:.1f} ms, after one keyframe {:.1f} ms, unchanged "
+      "{:.1f} ms; the way of a loop {:.1f} ms; all edges {:.1f} ms\n",
+      graph.ties.size(),
+      1000 * anew,
+      1000 * after_one,
+      1000 * unchanged,
+      1000 * ways,
+      1000 * edges);
+}
+
 // Seconds and bytes of a map file.
 void MeasureFile(const LongDrive& drive) {
   const std::filesystem::path path =
@@ -195,6 +233,7 @@ void Run(std::string_view name, DriveShape shape, int keyframes, bool steps_only
   MeasureSteps(drive, true);
   MeasureCopy(drive);
   MeasureStereoChange(drive);
+  MeasureEssentialGraph(drive);
   MeasureFile(drive);
   if (steps_only) return;
   std::size_t directions = 0, lines = 0;
