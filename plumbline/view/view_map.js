@@ -157,9 +157,9 @@ class LiveMap {
     return [vertices, 7, vertices.length];
   }
 
-  // The keyframes in the order of their frames, without those of other runs between.
+  // The keyframes in the order in which they were made, which is that of their ids.
   path() {
-    return [...this.keyframes.values()].sort((a, b) => a.frame - b.frame);
+    return [...this.keyframes].sort(([a], [b]) => a - b).map(([, keyframe]) => keyframe);
   }
 
   uploadKeyframes() {
@@ -168,7 +168,11 @@ class LiveMap {
     const path = this.path();
     view.place("keyframes", ...this.segments(path.flatMap((k) => view.frustum(k))));
     const steps = [];
-    for (let i = 1; i < path.length; ++i) steps.push([path[i - 1].place, path[i].place]);
+    for (let i = 1; i < path.length; ++i) {
+      // Frames count from zero again where another run begins, which may be anywhere in the map.
+      if (path[i].frame < path[i - 1].frame) continue;
+      steps.push([path[i - 1].place, path[i].place]);
+    }
     view.place("trajectory", ...this.segments(steps));
     view.place("edges", ...this.segments(this.between(this.edges.values())));
     view.place("loops", ...this.segments(this.between(this.loops)));

@@ -131,6 +131,30 @@ def check_slow_connection(browser):
     browser.delete_network_conditions()
 
 
+# Draws keyframes of an earlier run (0, 1), of one that has a map of several runs with them (5 to 7), and
+# of one that came later (8, 9); returns how many steps from keyframe to keyframe are drawn.
+STEPS_OF_RUNS = """
+    const {map} = window.plumbline, drawn = map.keyframes, ofAnotherRun = 0xFFFFFFFF;
+    const frames = [[7, 4], [0, ofAnotherRun], [1, ofAnotherRun], [5, 0], [6, 2], [8, 1], [9, 3]];
+    map.keyframes = new Map(frames.map(
+        ([id, frame]) => [id, {place: [id, 0, 0], turn: [0, 0, 0, 1], frame}]));
+    let floats = 0;
+    map.view.place = (name, data, size, count) => {
+      if (name === "trajectory") floats = count;
+    };
+    map.uploadKeyframes();
+    delete map.view.place;
+    map.keyframes = drawn;
+    map.uploadKeyframes();
+    return floats / map.segments([[[0, 0, 0], [1, 0, 0]]])[2];
+"""
+
+
+def check_runs_apart(browser):
+    steps = browser.execute_script(STEPS_OF_RUNS)
+    assert steps == 4, f"expected steps 0-1, 5-6, 6-7 and 8-9, found {steps} steps"
+
+
 def main(program, sequence, folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -155,6 +179,7 @@ def main(program, sequence, folder):
              lambda: browser.execute_script(STATE)["session"] not in (None, session)
              and browser.execute_script(STATE)["keyframes"] > 2)
         shot("again")
+        check_runs_apart(browser)
         errors = [entry for entry in browser.get_log("browser")
                   if entry["level"] == "SEVERE" and "WebSocket" not in entry["message"]]
         assert not errors, errors
