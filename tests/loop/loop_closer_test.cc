@@ -47,6 +47,19 @@ TEST(LoopCloser, ClosesALoopAndTellsOfIt) {
   EXPECT_LT(WorstPlace(scene), 0.3 * before);
 }
 
+// Both edits give each keyframe of the map the same pose, as it is stored.
+void ExpectSamePoses(const Map& map, const MapEdit& expected, const MapEdit& edit) {
+  Map first = map;
+  first.Apply(expected);
+  Map second = map;
+  second.Apply(edit);
+  for (const auto& [id, keyframe] : first.keyframes()) {
+    const Rigid3& pose = second.Find(id)->frame.cam_from_world;
+    EXPECT_EQ(keyframe.frame.cam_from_world.translation, pose.translation);
+    EXPECT_EQ(keyframe.frame.cam_from_world.rotation, pose.rotation);
+  }
+}
+
 TEST(LoopCloser, PassesOverWhatIsCovisibleOrGone) {
   const LoopScene scene = Drifted();
   LoopCloser closer(scene.Imaging(), {});
@@ -96,15 +109,7 @@ TEST(LoopCloser, DoesWhatANewOneDoesWhenTheMapHasChanged) {
   const auto closure = closer.Try(scene.map, kQuery, right);
   const auto expected = anew.Try(scene.map, kQuery, right);
   ASSERT_TRUE(closure && expected);
-  Map closed = scene.map;
-  closed.Apply(closure->edit);
-  Map expected_map = scene.map;
-  expected_map.Apply(expected->edit);
-  for (const auto& [id, keyframe] : expected_map.keyframes()) {
-    const Rigid3& pose = closed.Find(id)->frame.cam_from_world;
-    EXPECT_EQ(keyframe.frame.cam_from_world.translation, pose.translation);
-    EXPECT_EQ(keyframe.frame.cam_from_world.rotation, pose.rotation);
-  }
+  ExpectSamePoses(scene.map, expected->edit, closure->edit);
 }
 
 // What sees the place from afar is right, too, but says little: a nearer view is waited for.
@@ -193,15 +198,7 @@ TEST(LoopCloser, ClosesAgainWhatItForgot) {
   // The map as it was before: the same loop is found.
   const auto again = closer.Try(scene.map, kQuery, candidates);
   ASSERT_TRUE(again);
-  Map first = scene.map;
-  first.Apply(closure->edit);
-  Map second = scene.map;
-  second.Apply(again->edit);
-  for (const auto& [id, keyframe] : first.keyframes()) {
-    const Rigid3& pose = second.Find(id)->frame.cam_from_world;
-    EXPECT_EQ(keyframe.frame.cam_from_world.translation, pose.translation);
-    EXPECT_EQ(keyframe.frame.cam_from_world.rotation, pose.rotation);
-  }
+  ExpectSamePoses(scene.map, closure->edit, again->edit);
   EXPECT_EQ(CountOf<edit::MergePoints>(again->edit), CountOf<edit::MergePoints>(closure->edit));
 }
 
