@@ -33,7 +33,7 @@ class CMakeBuild(build_ext):
         else:
             configure = ["cmake", "--preset", "release", "-DPLUMBLINE_TESTS=OFF",
                          "-DPLUMBLINE_WERROR=OFF"]
-        subprocess.run([*configure, "-DPLUMBLINE_PYTHON=ON"], cwd=ROOT, check=True,
+        subprocess.run([*configure, "-DPLUMBLINE_PYTHON=ON", "-DPLUMBLINE_WORLDS=ON"], cwd=ROOT, check=True,
                        stdout=subprocess.DEVNULL)
         subprocess.run(["cmake", "--build", BUILD, "--target", "plumbline_python"], cwd=ROOT,
                        check=True)

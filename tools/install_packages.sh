@@ -2,15 +2,20 @@
 # Installs the Debian packages that are missing of those Plumbline needs; asks nothing, uses sudo when
 # not run by root, does nothing when all are there.
 #
-#   tools/install_packages.sh                        to build and run (apt_packages.txt)
+#   tools/install_packages.sh                        to build and run (apt_packages.txt, apt_packages_worlds.txt)
+#   tools/install_packages.sh --product              the same without the renderer (apt_packages.txt)
 #   tools/install_packages.sh --python               the package for Python as well (apt_packages_python.txt)
 #   tools/install_packages.sh --ros                  the node of ROS 1 as well (apt_packages_ros.txt)
 #   tools/install_packages.sh --tests [PACKAGE]...   to test as well (apt_packages_test.txt), and others
 set -euo pipefail
 cd "$(dirname "$0")"
 
-lists=(apt_packages.txt)
+lists=(apt_packages.txt apt_packages_worlds.txt)
 case ${1:-} in
+  --product)
+    lists=(apt_packages.txt)
+    shift
+    ;;
   --python)
     lists+=(apt_packages_python.txt)
     shift

@@ -9,11 +9,9 @@
 # is missing and does that part not. Exit status: 0 all that could be done passed, 1 a failure.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-readonly here suite=bookworm
-
-Skip() { printf 'test_packages: %s; skipped\n' "$*" >&2; }
-Fail() { printf 'test_packages: %s\n' "$*" >&2; exit 1; }
-Step() { printf '== %s\n' "$*"; }
+readonly here name=test_packages
+# shellcheck source=tools/bare_system.sh
+source "$here/tools/bare_system.sh"
 
 # MakePackages BUILD FOLDER
 MakePackages() {
@@ -39,33 +37,12 @@ CheckByLintian() {
     "$1"/*.deb || Fail "lintian found something"
 }
 
-# InRoot ROOT COMMAND...: with an environment that knows nothing of this machine.
-InRoot() {
-  local root=$1
-  shift
-  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-    DEBIAN_FRONTEND=noninteractive "$@"
-}
-
 # InstallInRoot ROOT PACKAGE...
 InstallInRoot() {
   local root=$1
   shift
   InRoot "$root" apt-get -qq install -y --no-install-recommends "$@" > "$root/tmp/apt.log" 2>&1 ||
     { tail -20 "$root/tmp/apt.log" >&2; Fail "$* cannot be installed"; }
-}
-
-# MakeRoot ROOT MIRROR
-MakeRoot() {
-  Step "a bare system"
-  debootstrap --variant=minbase "$suite" "$1" "$2" > "$1.log" 2>&1 || { tail -5 "$1.log" >&2; return 1; }
-  # Packages come from where they come from here.
-  rm -f "$1/etc/apt/sources.list"
-  cp -a /etc/apt/sources.list* "$1/etc/apt/"
-  cp -aL /etc/resolv.conf "$1/etc/resolv.conf" 2> /dev/null || true
-  cp -a /etc/apt/apt.conf.d/. "$1/etc/apt/apt.conf.d/"
-  mount -t proc proc "$1/proc"
-  InRoot "$1" apt-get -qq update
 }
 
 # UseProgram ROOT
@@ -113,36 +90,23 @@ PurgeAll() {
 
 # UseInBareSystem FOLDER
 UseInBareSystem() {
-  local mirror root=$1/root
-  mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' "Codename: $suite" 2> /dev/null | head -1)
-  if [[ $(id -u) != 0 ]]; then
-    Skip "installing them in a bare system needs root"
-  elif ! command -v debootstrap > /dev/null; then
-    Skip "debootstrap is not installed, so the packages are installed nowhere"
-  elif [[ -z $mirror ]]; then
-    Skip "apt has no packages of $suite here, so the packages are installed nowhere"
-  elif ! MakeRoot "$root" "$mirror"; then
-    Skip "debootstrap cannot make a bare system here"
-  else
-    mkdir "$root/packages"
-    for package in "$1"/*.deb; do
-      cp "$package" "$root/packages/$(dpkg-deb --field "$package" Package).deb"
-    done
-    UseProgram "$root"
-    UseLibrary "$root"
-    UsePython "$root"
-    PurgeAll "$root"
-  fi
+  local root=$1/root
+  MakeBareSystem "$root" || return 0
+  mkdir "$root/packages"
+  for package in "$1"/*.deb; do
+    cp "$package" "$root/packages/$(dpkg-deb --field "$package" Package).deb"
+  done
+  UseProgram "$root"
+  UseLibrary "$root"
+  UsePython "$root"
+  PurgeAll "$root"
 }
 
 Main() {
   [[ $# -eq 1 && -e $1/CPackConfig.cmake ]] || { echo "usage: tools/test_packages.sh BUILD" >&2; exit 2; }
   local build folder
   build=$(realpath "$1")
-  # Mounts of the bare system are private to this process, and end with it.
-  if [[ $(id -u) == 0 && -z ${PLUMBLINE_OWN_MOUNTS:-} ]]; then
-    PLUMBLINE_OWN_MOUNTS=1 exec unshare --mount --propagation private "${BASH_SOURCE[0]}" "$build"
-  fi
+  OwnMounts "${BASH_SOURCE[0]}" "$build"
   folder=$(mktemp -d "${TMPDIR:-/tmp}/plumbline_packages.XXXXXX")
   # shellcheck disable=SC2064  # the folder of now
   trap "umount '$folder/root/proc' 2> /dev/null; rm -rf --one-file-system '$folder'" EXIT
