@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/base/options_io.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/preset.h"
 #include "plumbline/slam/user_options.h"
 
 #include "apps/command_line.h"
@@ -20,6 +21,7 @@ CommandSyntax ConfigSyntax() {
           "values, units and ranges. The output is a valid config file.",
           {},
           {{"--all", "", "all options, also those of the methods, whose defaults are measured"},
+           {"--preset", "NAME", "begin with the options of a paper: rippl, good-line-cutting"},
            {"--config", "FILE", "read options from a YAML file; may be repeated, later files win"},
            {"--set", "KEY=VALUE", "set one option, after all files; may be repeated"}}};
 }
@@ -34,6 +36,7 @@ int ConfigCommand(std::span<const std::string> arguments) {
   }
   SlamOptions options;
   OptionTable table(options);
+  if (const auto name = line.Value("--preset")) LoadPreset(*name, table);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& setting : line.Values("--set")) table.Set(setting);
   if (line.Has("--all")) {

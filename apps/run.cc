@@ -13,6 +13,7 @@
 #include "plumbline/live/open_live_source.h"
 #include "plumbline/recording/mcap_file_writer.h"
 #include "plumbline/report/run_folder.h"
+#include "plumbline/slam/preset.h"
 #include "plumbline/slam/system.h"
 #include "plumbline/version.h"
 #include "plumbline/view/viewer.h"
@@ -63,6 +64,7 @@ CommandSyntax RunSyntax() {
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated (left, right, depth)"},
        {"--side-by-side", "", "live: each image is a left and a right half"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
+       {"--preset", "NAME", "the system of a paper: rippl, good-line-cutting"},
        {"--config", "FILE", "options from a YAML file; may be repeated"},
        {"--set", "KEY=VALUE", "one option; may be repeated"},
        {"--from", "N", "first frame (default 0)"},
@@ -187,6 +189,7 @@ RunSetup ReadSetup(const CommandLine& line) {
   if (IsLiveByDefault(line.Positional(0))) setup.options.slam.mode = RunMode::kLive;
   OptionTable table(setup.options);
   ReadCheckpoint(line, setup, table);
+  if (const auto preset = line.Value("--preset")) LoadPreset(*preset, table);
   for (const std::string& file : line.Values("--config")) table.LoadFile(file);
   for (const std::string& assignment : line.Values("--set")) table.Set(assignment);
   if (const auto mode = line.Value("--mode")) table.Set("slam.mode=" + *mode);
@@ -210,11 +213,24 @@ RunSetup ReadSetup(const CommandLine& line) {
   return setup;
 }
 
+// The sensor that is asked for: by --sensor, or by the preset, which is made for one.
+std::optional<SensorKind> ReadSensor(const CommandLine& line) {
+  std::optional<SensorKind> sensor;
+  if (const auto name = line.Value("--sensor")) sensor = ParseChoice<SensorKind>("--sensor", *name);
+  const auto preset = line.Value("--preset");
+  if (!preset) return sensor;
+  const SensorKind needed =
+      FindPreset(*preset).needs_stereo ? SensorKind::kStereo : SensorKind::kMono;
+  if (sensor && *sensor != needed) {
+    throw InputError(fmt::format(
+        "--preset {}: expected --sensor {}, found {}", *preset, NameOf(needed), NameOf(*sensor)));
+  }
+  return needed;
+}
+
 DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   DatasetOptions options;
-  if (const auto sensor = line.Value("--sensor")) {
-    options.sensor = ParseChoice<SensorKind>("--sensor", *sensor);
-  }
+  options.sensor = ReadSensor(line);
   const auto format = line.Value("--format");
   if (format && *format != "auto") options.format = ParseChoice<DatasetFormat>("--format", *format);
   options.camera = line.Value("--camera");

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/slam/options.h"
+#include "plumbline/slam/preset.h"
 #include "worlds/world.h"
 
 #include "arrays.h"
@@ -73,9 +74,7 @@ py::dict GroupOf(py::dict values, const std::string& key) {
 }
 
 py::dict OptionsOfRun(const py::kwargs& given) {
-  SlamOptions options;
-  SetOptions(given, options);
-  CheckOptions(options);
+  SlamOptions options = ReadSlamOptions(given);
   return ValuesOf(OptionTable(options));
 }
 
@@ -87,6 +86,25 @@ std::string HelpOfOptions() {
 }  // namespace
 
 void SetInTable(const py::dict& given, OptionTable& table) { SetAll(given, "", 0, table); }
+
+SlamOptions ReadSlamOptions(const py::kwargs& given) {
+  SlamOptions options;
+  OptionTable table(options);
+  py::dict others;
+  for (const auto& [name, value] : given) others[name] = value;
+  if (others.contains("preset")) {
+    const py::object preset = others.attr("pop")("preset");
+    if (!preset.is_none()) {
+      if (!py::isinstance<py::str>(preset)) {
+        throw InputError("preset: expected a name, found " + Describe(preset));
+      }
+      LoadPreset(preset.cast<std::string>(), table);
+    }
+  }
+  SetInTable(others, table);
+  CheckOptions(options);
+  return options;
+}
 
 py::dict ValuesOf(const OptionTable& table) {
   py::dict values;
@@ -104,7 +122,12 @@ void BindOptions(py::module_& module) {
 
 All options of a run in groups, as `System` and `run` take them:
 options()["features"]["line_count"]. Options that are given are checked and take the place
-of the defaults. Raises InputError with the program's message.)");
+of the defaults; preset="rippl" or "good-line-cutting" takes those of a paper first. Raises
+InputError with the program's message.)");
+  module.def(
+      "_preset_sensor",
+      [](const std::string& name) { return FindPreset(name).needs_stereo ? "stereo" : "mono"; },
+      "The sensor that a preset is made for.");
   module.def("describe_options",
              HelpOfOptions,
              R"(describe_options() -> str

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/options_io.h"
+#include "plumbline/slam/options.h"
 
 #include <pybind11/pybind11.h>
 
@@ -16,6 +17,10 @@ void SetOptions(const pybind11::dict& given, T& options) {
   OptionTable table(options);
   SetInTable(given, table);
 }
+
+// Returns the options of a run: those of the argument `preset`, where it is given, and then the
+// others. Throws InputError as SetInTable, FindPreset and CheckOptions do.
+SlamOptions ReadSlamOptions(const pybind11::kwargs& given);
 
 // The values of all options, in groups.
 pybind11::dict ValuesOf(const OptionTable& table);

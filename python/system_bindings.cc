@@ -30,9 +30,7 @@ namespace plumbline::python {
 namespace {
 
 std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration, const py::kwargs& given) {
-  SlamOptions options;
-  SetOptions(given, options);
-  CheckOptions(options);
+  const SlamOptions options = ReadSlamOptions(given);
   const py::gil_scoped_release release;
   return std::make_unique<RunningSystem>(calibration, options);
 }

@@ -144,7 +144,7 @@ def _check_callable(name: str, value: object) -> None:
         raise InputError(f"{name}: expected a function, found {type(value).__name__}")
 
 
-def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None = None,
+def run(path: Path | Dataset, *, preset: str | None = None, sensor: str | None = None, camera: str | None = None,
         format: str | None = None, topics: Sequence[str] = (), start: int = 0,
         stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
         localize: bool = False, out: Path | None = None,
@@ -153,7 +153,8 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     """Tracks the camera through a recorded sequence and maps what it sees, as `plumbline run`; the
     trajectory has the same bytes.
 
-    path, sensor, camera, format, topics: as for open(), or path is a Dataset. start, stop, stride:
+    preset: the system of a paper, "rippl" or "good-line-cutting", to which options are added. path,
+    sensor, camera, format, topics: as for open(), or path is a Dataset. start, stop, stride:
     which frames. map: a file or an Atlas to go on in; localize: only find the camera in it. out: a
     folder for the files of the run. on_frame: called with the FrameResult of each frame, in order;
     on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
@@ -164,19 +165,22 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     `out` the frames so far are finished and written first, as they are before an exception of
     on_frame or on_event is raised again. Raises InputError.
     """
+    needed = None if preset is None else _plumbline._preset_sensor(preset)
     if isinstance(path, Dataset):
         if (sensor, camera, format, tuple(topics)) != (None, None, None, ()):
             raise InputError(
                 "sensor, camera, format, topics: expected none beside a Dataset, found some")
         dataset = path
     else:
-        dataset = _plumbline.open(path, sensor=sensor, camera=camera, format=format, topics=topics)
+        dataset = _plumbline.open(path, sensor=sensor or needed, camera=camera, format=format, topics=topics)
     _check_callable("on_frame", on_frame)
     _check_callable("on_event", on_event)
+    if needed is not None and dataset.sensor != needed:
+        raise InputError(f"preset {preset}: expected a dataset opened as {needed}, found {dataset.sensor}")
     if localize and map is None:
         raise InputError("localize: expected map as well")
     frames = _choose_frames(dataset, start, stop, stride)
-    system = System(dataset.calibration, **options)
+    system = System(dataset.calibration, preset=preset, **options)
     atlas = map if map is None or isinstance(map, Atlas) else _plumbline.load_map(map)
     folder = None
     if out is not None:

@@ -395,6 +395,9 @@ TEST(BadInput, MoreThanOneCommandKnows) {
                 "nothing: expected a EuRoC",
                 "info");
   ExpectRefused(RunProgram(folder, "rum"), "unknown command 'rum'; did you mean 'run'?", "rum");
+  ExpectRefused(RunProgram(folder, "config --preset riple"),
+                "preset: expected good-line-cutting or rippl, found 'riple'",
+                "config");
   ExpectRefused(RunProgram(folder, "config --set features.pionts=false"),
                 "did you mean 'features.points'?",
                 "config");
