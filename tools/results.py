@@ -21,28 +21,32 @@ A table stands in a document of docs/ between two lines of comment:
   <!-- ratios NAME METRIC... -->
   <!-- end -->
 
-One row for each variant, one column for each metric: the ratio over all sequences with its 95 % interval. The line
-below the table names command, commit and date.
+One row for each variant, one column for each metric: the ratio over all places with its 95 % interval by Student's t.
+The lines below the table say how many comparisons would seem certain by chance alone, and name command, commit and
+date.
 
   <!-- starts NAME -->
   <!-- end -->
 
 One row for each variant: right starts in time of the possible ones (where those are known) and wrong ones by sequence,
-and by how many percent points more starts are right than with the first variant: mean over the sequences, with the 95 %
-interval of 2000 resamples of these.
+and by how many percent points more starts are right than with the first variant: mean over the sequences, with its 95 %
+interval by Student's t.
 """
 import argparse
 import datetime
 import json
 import pathlib
-import random
 import re
 import shlex
+import statistics
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"<!-- (ratios|starts) (\S+)((?: \S+)*) -->\n(.*?)<!-- end -->", re.DOTALL)
+# The 97.5 % quantile of Student's t for 1, 2, ... degrees of freedom; beyond the list that of many.
+STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
+           2.120, 2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042)
 COUNTS = ("starts", "possible", "success", "late", "wrong")  # of the starts of a sequence
 
 
@@ -95,6 +99,8 @@ def make(program, data, out, earlier, names):
 def cell(entry):
     if entry is None or entry["ratio"] is None:
         return "-"
+    if entry["low"] is None:
+        return f"{entry['ratio']:.3f}"
     return f"{entry['ratio']:.3f} ({entry['low']:.3f}-{entry['high']:.3f})"
 
 
@@ -112,12 +118,21 @@ def table_of_ratios(name, metrics):
     unknown = [m for m in metrics if m not in {metric for metric, _ in whole}]
     if unknown or not metrics:
         sys.exit(f"results: docs/results/{name}.json has no ratios of {', '.join(unknown)}")
-    lines = ["| variant | " + " | ".join(metrics) + " | pairs |", "|---" * (len(metrics) + 2) + "|"]
+    lines = ["| variant | " + " | ".join(metrics) + " | pairs | places |", "|---" * (len(metrics) + 3) + "|"]
     for variant in variants:
         cells = [cell(whole.get((metric, variant))) for metric in metrics]
-        pairs = whole.get((metrics[0], variant), {}).get("pairs", 0)
-        lines.append(f"| {variant} | " + " | ".join(cells) + f" | {pairs} |")
+        entry = whole.get((metrics[0], variant), {})
+        lines.append(f"| {variant} | " + " | ".join(cells) + f" | {entry.get('pairs', 0)} | {entry.get('places', 0)} |")
+    certain = [e for (metric, _), e in whole.items() if metric in metrics and e["low"] is not None and e["low"] < e["high"]]
+    lines += ["", f"Of {len(certain)} comparisons {0.05 * len(certain):.1f} would seem certain by chance alone."]
     return lines, kept
+
+
+# Half of the 95 % interval of the mean of at least two values.
+def half_width_of_mean(values):
+    freedom = len(values) - 1
+    quantile = STUDENT[freedom - 1] if freedom <= len(STUDENT) else 1.96
+    return quantile * statistics.stdev(values) / len(values) ** 0.5
 
 
 # Percent points that the share of right starts is above that of the reference, by sequence.
@@ -129,10 +144,11 @@ def gains(by_place, sequences, variant, reference):
 def gain_with_interval(differences):
     if not differences:
         return "-"
-    chance = random.Random(0)
-    count = len(differences)
-    means = sorted(sum(chance.choices(differences, k=count)) / count for _ in range(2000))
-    return f"{sum(differences) / count:+.1f} ({means[50]:+.1f} to {means[1949]:+.1f})"
+    mean = sum(differences) / len(differences)
+    if len(differences) < 2:
+        return f"{mean:+.1f}"
+    half = half_width_of_mean(differences)
+    return f"{mean:+.1f} ({mean - half:+.1f} to {mean + half:+.1f})"
 
 
 def starts_cell(row):

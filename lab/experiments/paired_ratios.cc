@@ -4,32 +4,43 @@
 
 #include "lab/experiments/mean.h"
 #include "plumbline/base/elementary.h"
-#include "plumbline/base/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <string_view>
 #include <utility>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace plumbline {
 namespace {
 
-constexpr int kSamples = 2000;
 constexpr double kCoverageGap = 1;  // percent
+constexpr double kConfidence = 0.95;
+
+// Places that several sequences show: the beginning of their names.
+constexpr std::array<std::string_view, 6> kPlaces = {
+    "worlds/vicon", "euroc/V1", "euroc/V2", "euroc/MH", "icl/living_room", "icl/office"};
+
+struct RunResult {
+  const JobResult* job = nullptr;
+  const std::vector<StartRecord>* starts = nullptr;  // null: of another kind of experiment
+};
 
 // Results by sequence, run and variant.
-using Runs = std::map<std::pair<std::size_t, int>, std::map<std::size_t, const JobResult*>>;
+using Runs = std::map<std::pair<std::size_t, int>, std::map<std::size_t, RunResult>>;
 
-Runs RunsOf(const Plan& plan, const std::vector<JobResult>& results) {
+Runs RunsOf(const Plan& plan, const std::vector<JobResult>& results, const StartsByJob& starts) {
   Runs runs;
   for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
     const Job& job = plan.jobs[i];
-    runs[{job.sequence, job.run}][job.variant] = &results[i];
+    runs[{job.sequence, job.run}][job.variant] = {&results[i],
+                                                  starts.empty() ? nullptr : &starts[i]};
   }
   return runs;
 }
@@ -55,37 +66,45 @@ std::optional<double> LogRatio(const JobResult& variant,
   return math::Log(*a / *b);
 }
 
-// The mean over sequences of the means over their pairs.
-double MeanOfMeans(const std::vector<std::vector<double>>& sequences) {
-  std::vector<double> means;
-  for (const auto& pairs : sequences) means.push_back(Mean(pairs));
-  return Mean(means);
-}
-
-template <class T>
-std::vector<T> Resample(const std::vector<T>& values, Rng& rng) {
-  std::vector<T> sample;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    sample.push_back(values[rng.Index(values.size())]);
-  return sample;
-}
-
-// Sets ratio and interval from the logarithms of each sequence.
-void SetRatio(const std::vector<std::vector<double>>& logs,
-              const std::string& stream,
-              PairedRatio& out) {
+// Sets ratio and interval from logarithms that are independent of each other.
+void SetRatio(const std::vector<double>& logs, PairedRatio& out) {
   if (logs.empty()) return;
-  out.ratio = math::Exp(MeanOfMeans(logs));
-  std::vector<double> samples;
-  for (int i = 0; i < kSamples; ++i) {
-    Rng rng(0, stream, static_cast<std::uint64_t>(i));
-    std::vector<std::vector<double>> sample = Resample(logs, rng);
-    for (auto& pairs : sample) pairs = Resample(pairs, rng);
-    samples.push_back(math::Exp(MeanOfMeans(sample)));
+  const double mean = Mean(logs);
+  out.ratio = math::Exp(mean);
+  if (const auto half = HalfWidthOfMean(logs)) {
+    out.low = math::Exp(mean - *half);
+    out.high = math::Exp(mean + *half);
   }
-  std::sort(samples.begin(), samples.end());
-  out.low = samples[kSamples * 25 / 1000];
-  out.high = samples[kSamples * 975 / 1000 - 1];
+}
+
+// An error of the map of one start; nullopt where it is not known, or the metric is not of this
+// kind.
+std::optional<double> StartError(const StartRecord& start, std::string_view metric) {
+  if (!start.map) return std::nullopt;
+  const StartErrors& errors = start.map->errors;
+  if (metric == "rotation_error") return errors.rotation_deg;
+  if (metric == "direction_error") return errors.direction_deg;
+  if (metric == "depth_error") return errors.depth;
+  if (metric == "map_seconds") return start.map->seconds;
+  return std::nullopt;
+}
+
+// Adds the logarithms of the ratios of starts at the same first frame that have both errors.
+void AddStartLogs(const std::vector<StartRecord>& variant,
+                  const std::vector<StartRecord>& reference,
+                  std::string_view metric,
+                  std::vector<double>& logs) {
+  std::map<int, double> errors;
+  for (const StartRecord& start : reference) {
+    if (const auto error = StartError(start, metric)) errors.emplace(start.frame, *error);
+  }
+  for (const StartRecord& start : variant) {
+    const auto other = errors.find(start.frame);
+    const auto mine = StartError(start, metric);
+    if (!mine || other == errors.end()) continue;
+    const double ratio = *mine / other->second;
+    if (ratio > 0 && std::isfinite(ratio)) logs.push_back(math::Log(ratio));
+  }
 }
 
 // The pairs of one variant on one sequence.
@@ -106,17 +125,23 @@ SequencePairs PairsOf(const Runs& runs,
     if (key.first != sequence) continue;
     const auto mine = by_variant.find(variant);
     if (mine == by_variant.end()) continue;
-    const bool another_holds = std::any_of(by_variant.begin(),
-                                           by_variant.end(),
-                                           [](const auto& other) { return !Lost(*other.second); });
-    if (another_holds && Lost(*mine->second)) ++out.lost_alone;
+    const bool another_holds =
+        std::any_of(by_variant.begin(), by_variant.end(), [](const auto& other) {
+          return !Lost(*other.second.job);
+        });
+    if (another_holds && Lost(*mine->second.job)) ++out.lost_alone;
     const auto other = by_variant.find(reference);
     if (other == by_variant.end()) continue;
-    const auto log = LogRatio(*mine->second, *other->second, metric);
+    if (mine->second.starts != nullptr) {
+      AddStartLogs(*mine->second.starts, *other->second.starts, metric, out.logs);
+      continue;
+    }
+    const JobResult& a = *mine->second.job;
+    const JobResult& b = *other->second.job;
+    const auto log = LogRatio(a, b, metric);
     if (!log) {
       ++out.left_out;
-    } else if (seen.insert({mine->second->figures->trajectory, other->second->figures->trajectory})
-                   .second) {
+    } else if (seen.insert({a.figures->trajectory, b.figures->trajectory}).second) {
       out.logs.push_back(*log);
     }
   }
@@ -134,7 +159,7 @@ std::vector<PairedRatio> RatiosOf(const Plan& plan,
     PairedRatio all;
     all.variant = v;
     all.metric = metric;
-    std::vector<std::vector<double>> logs;
+    std::map<std::string, std::vector<double>> places;  // mean logarithms of the sequences
     for (std::size_t s = 0; s < plan.sequences.size(); ++s) {
       const SequencePairs pairs = PairsOf(runs, s, v, reference, metric);
       PairedRatio one{s, v, static_cast<int>(pairs.logs.size()), pairs.left_out};
@@ -144,12 +169,15 @@ std::vector<PairedRatio> RatiosOf(const Plan& plan,
       all.left_out += one.left_out;
       all.lost_alone += one.lost_alone;
       if (!pairs.logs.empty()) {
-        SetRatio({pairs.logs}, plan.sequences[s].name + "/" + variants[v].name, one);
-        logs.push_back(pairs.logs);
+        SetRatio(pairs.logs, one);
+        places[PlaceOf(plan.sequences[s].name)].push_back(Mean(pairs.logs));
       }
       if (one.pairs + one.left_out + one.lost_alone > 0) ratios.push_back(one);
     }
-    SetRatio(logs, variants[v].name, all);
+    std::vector<double> means;
+    for (const auto& [place, logs] : places) means.push_back(Mean(logs));
+    SetRatio(means, all);
+    all.places = static_cast<int>(means.size());
     if (all.pairs + all.left_out + all.lost_alone > 0) ratios.push_back(all);
   }
   return ratios;
@@ -157,7 +185,28 @@ std::vector<PairedRatio> RatiosOf(const Plan& plan,
 
 }  // namespace
 
-std::vector<PairedRatio> PairedRatios(const Plan& plan, const std::vector<JobResult>& results) {
+std::string PlaceOf(const std::string& sequence) {
+  for (const std::string_view place : kPlaces) {
+    if (sequence.starts_with(place)) return std::string(place);
+  }
+  std::string name = sequence.substr(0, sequence.find('@'));
+  return name.substr(0, name.find("_first"));
+}
+
+std::optional<double> HalfWidthOfMean(const std::vector<double>& values) {
+  if (values.size() < 2) return std::nullopt;
+  const auto n = static_cast<double>(values.size());
+  const double mean = Mean(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const boost::math::students_t distribution(n - 1);
+  return boost::math::quantile(distribution, 0.5 * (1 + kConfidence)) *
+         std::sqrt(squares / (n - 1) / n);
+}
+
+std::vector<PairedRatio> PairedRatios(const Plan& plan,
+                                      const std::vector<JobResult>& results,
+                                      const StartsByJob& starts) {
   const auto& variants = plan.experiment.variants;
   const auto named = std::find_if(variants.begin(), variants.end(), [&](const Variant& v) {
     return v.name == plan.experiment.reference;
@@ -169,7 +218,7 @@ std::vector<PairedRatio> PairedRatios(const Plan& plan, const std::vector<JobRes
       })) {
     return {};
   }
-  const Runs runs = RunsOf(plan, results);
+  const Runs runs = RunsOf(plan, results, starts);
   std::vector<PairedRatio> ratios;
   for (const std::string& metric : plan.experiment.ratios) {
     const std::vector<PairedRatio> of_metric = RatiosOf(plan, runs, reference, metric);
@@ -193,7 +242,27 @@ std::string RatioTitle(const Plan& plan, const std::string& metric) {
 
 std::string RatioText(const PairedRatio& ratio) {
   if (ratio.pairs == 0) return "-";
-  return fmt::format("{:.3f} ({:.3f}-{:.3f})", ratio.ratio, ratio.low, ratio.high);
+  if (!ratio.low) return fmt::format("{:.3f}", ratio.ratio);
+  return fmt::format("{:.3f} ({:.3f}-{:.3f})", ratio.ratio, *ratio.low, *ratio.high);
+}
+
+std::string VerdictText(const PairedRatio& ratio) {
+  if (!ratio.low) return "-";
+  if (*ratio.high < 1) return "better";
+  if (*ratio.low > 1) return "worse";
+  return fmt::format(
+      "not told apart; below {:.2f} and above {:.2f} excluded", *ratio.low, *ratio.high);
+}
+
+std::string ChanceText(const Plan& plan, const std::vector<PairedRatio>& of_metric) {
+  const auto comparisons = std::count_if(of_metric.begin(), of_metric.end(), [&](const auto& r) {
+    return !r.sequence && r.low &&
+           plan.experiment.variants[r.variant].name != plan.experiment.reference;
+  });
+  return fmt::format(
+      "Of {} comparisons over all places, {:.1f} would seem certain by chance alone.",
+      comparisons,
+      (1 - kConfidence) * static_cast<double>(comparisons));
 }
 
 std::string FormatRatioList(const Plan& plan, const std::vector<PairedRatio>& ratios) {
@@ -205,12 +274,14 @@ std::string FormatRatioList(const Plan& plan, const std::vector<PairedRatio>& ra
     entry["sequence"] = nullptr;
     if (r.sequence) entry["sequence"] = plan.sequences[*r.sequence].name;
     entry["pairs"] = r.pairs;
+    if (!r.sequence) entry["places"] = r.places;
     entry["left_out"] = r.left_out;
     entry["lost_alone"] = r.lost_alone;
+    const std::optional<double> ratio = r.pairs > 0 ? std::optional(r.ratio) : std::nullopt;
     for (const auto& [name, value] :
-         {std::pair{"ratio", r.ratio}, std::pair{"low", r.low}, std::pair{"high", r.high}}) {
+         {std::pair{"ratio", ratio}, std::pair{"low", r.low}, std::pair{"high", r.high}}) {
       entry[name] = nullptr;
-      if (r.pairs > 0) entry[name] = std::round(value * 1e4) / 1e4;
+      if (value) entry[name] = std::round(*value * 1e4) / 1e4;
     }
     list.push_back(entry);
   }
@@ -222,19 +293,21 @@ std::string FormatRatios(const Plan& plan, const std::vector<PairedRatio>& ratio
   for (const std::vector<PairedRatio>& of_metric : ByMetric(ratios)) {
     text += fmt::format(
         "\n## {}\n\nGeometric mean over runs of the error divided by that of {} in the same run of "
-        "the same sequence, with 95 % bootstrap intervals; over all sequences each counts the "
-        "same. "
-        "Lost alone: runs with lost frames where another variant lost none.\n\n"
-        "| variant | sequence | pairs | ratio | left out | lost alone "
-        "|\n|---|---|---|---|---|---|\n",
+        "the same sequence, with 95 % intervals by Student's t; over all, each place counts the "
+        "same. {} Lost alone: runs with lost frames where another variant lost none.\n\n"
+        "| variant | sequence | pairs | ratio | | left out | lost alone "
+        "|\n|---|---|---|---|---|---|---|\n",
         RatioTitle(plan, of_metric.front().metric),
-        plan.experiment.reference);
+        plan.experiment.reference,
+        ChanceText(plan, of_metric));
     for (const PairedRatio& r : of_metric) {
-      text += fmt::format("| {} | {} | {} | {} | {} | {} |\n",
+      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n",
                           plan.experiment.variants[r.variant].name,
-                          r.sequence ? plan.sequences[*r.sequence].name : "**all**",
+                          r.sequence ? plan.sequences[*r.sequence].name
+                                     : fmt::format("**all {} places**", r.places),
                           r.pairs,
                           RatioText(r),
+                          VerdictText(r),
                           r.left_out,
                           r.lost_alone);
     }

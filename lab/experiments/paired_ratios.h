@@ -4,6 +4,7 @@
 
 #include "lab/experiments/job_runner.h"
 #include "lab/experiments/plan.h"
+#include "lab/experiments/start_pools.h"
 
 #include <cstddef>
 #include <optional>
@@ -12,32 +13,55 @@
 
 namespace plumbline {
 
-// The errors of one variant divided by those of the reference variant, run by run.
+// The errors of one variant divided by those of the reference variant, pair by pair.
 struct PairedRatio {
-  std::optional<std::size_t>
-      sequence;  // in the plan; nullopt: all sequences, each with equal weight
+  std::optional<std::size_t> sequence;  // in the plan; nullopt: all places, each with equal weight
   std::size_t variant = 0;
-  int pairs = 0;     // runs that count
+  int pairs = 0;     // pairs that count
   int left_out = 0;  // runs without both errors, or whose coverages differ by more than one percent
   double ratio = 1;  // geometric mean
-  double low = 1, high = 1;  // 95 % of the bootstrap samples lie between
+  // 95 % interval of the ratio; nullopt where there is one pair, or one place, which has no spread.
+  std::optional<double> low = std::nullopt, high = std::nullopt;
+  int places = 0;  // over all: independent places (PlaceOf) with a pair
   // Runs in which this variant lost frames or failed while another variant did not.
   int lost_alone = 0;
   std::string metric = "ate";  // of metrics.h
 };
 
+// Returns the place that a sequence shows: sequences of one place are not independent of each
+// other. It is the name without @label and _firstN, and without the part that tells flights through
+// one room apart: worlds/vicon_easy and worlds/vicon_medium are worlds/vicon, euroc/V1_01_easy and
+// euroc/V1_03_difficult are euroc/V1.
+std::string PlaceOf(const std::string& sequence);
+
 // The errors that plan.experiment.ratios names, of each variant against plan.experiment.reference:
 // one metric after the other, by sequence and over all. Empty without a reference, or where the
 // plan leaves it out.
 //
-// Paired: the same run of the same sequence. Pairs whose two trajectories have both been seen
-// before count once. The intervals come from 2000 bootstrap samples: of the pairs of a sequence;
-// over all, of the sequences first, then of the pairs of each. One pair, or one sequence, has no
-// spread of its own: the interval then says less than it seems to.
-std::vector<PairedRatio> PairedRatios(const Plan& plan, const std::vector<JobResult>& results);
+// Paired: the same run of the same sequence, or, where `starts` are given (RunCommandKind::kStarts)
+// and the metric is an error of one start, the same first frame of the same run. Pairs of runs
+// whose two trajectories have both been seen before count once.
+//
+// The intervals are those of Student's t for the mean of the logarithms: by sequence of its pairs,
+// over all of the places (the mean of a place is that of its sequences, that of a sequence is that
+// of its pairs).
+std::vector<PairedRatio> PairedRatios(const Plan& plan,
+                                      const std::vector<JobResult>& results,
+                                      const StartsByJob& starts = {});
 
-// "0.97 (0.93-1.02)"; "-" without a pair.
+// The half width of the 95 % interval of the mean of values by Student's t; nullopt for fewer than
+// two.
+std::optional<double> HalfWidthOfMean(const std::vector<double>& values);
+
+// "0.970 (0.930-1.020)"; without the parentheses where there is no interval; "-" without a pair.
 std::string RatioText(const PairedRatio& ratio);
+
+// What the interval of a ratio tells: "better", "worse", or "not told apart; below 0.93 and
+// above 1.02 excluded".
+std::string VerdictText(const PairedRatio& ratio);
+
+// A sentence: how many of the comparisons over all would seem certain by chance alone.
+std::string ChanceText(const Plan& plan, const std::vector<PairedRatio>& of_metric);
 
 // The ratios of one metric after the other, as they come.
 std::vector<std::vector<PairedRatio>> ByMetric(const std::vector<PairedRatio>& ratios);
@@ -45,8 +69,9 @@ std::vector<std::vector<PairedRatio>> ByMetric(const std::vector<PairedRatio>& r
 // "ATE against plucker": the heading of the ratios of a metric.
 std::string RatioTitle(const Plan& plan, const std::string& metric);
 
-// A JSON list of {"metric", "variant", "sequence" (null: all), "pairs", "left_out", "lost_alone",
-// "ratio", "low", "high"}; the last three are null without a pair.
+// A JSON list of {"metric", "variant", "sequence" (null: all), "pairs", "places" (over all),
+// "left_out", "lost_alone", "ratio", "low", "high"}; ratio is null without a pair, low and high
+// without an interval.
 std::string FormatRatioList(const Plan& plan, const std::vector<PairedRatio>& ratios);
 
 // A section of a Markdown document for each metric; empty for no ratios.

@@ -73,23 +73,26 @@ std::string Table(const Plan& plan, const ResultTable& table) {
 
 std::string RatiosOfMetric(const Plan& plan, const std::vector<PairedRatio>& ratios) {
   std::string html = fmt::format(
-      "<h2>{}</h2>\n<p class=\"note\">Geometric mean over the runs, with 95 % "
-      "bootstrap "
-      "intervals; over all sequences each counts the same. Lost alone: runs with lost frames where "
-      "another variant lost none.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>variant</th>"
-      "<th>sequence</th><th>pairs</th><th>ratio</th><th>left out</th><th>lost alone</th></tr>"
-      "</thead>\n<tbody>\n",
-      EscapeHtml(RatioTitle(plan, ratios.front().metric)));
+      "<h2>{}</h2>\n<p class=\"note\">Geometric mean over the runs, with 95 % intervals by "
+      "Student's t; over all, each place counts the same. {} Lost alone: runs with lost frames "
+      "where another variant lost none.</p>\n<div class=\"scroll\"><table>\n<thead><tr>"
+      "<th>variant</th><th>sequence</th><th>pairs</th><th>ratio</th><th></th><th>left out</th>"
+      "<th>lost alone</th></tr></thead>\n<tbody>\n",
+      EscapeHtml(RatioTitle(plan, ratios.front().metric)),
+      ChanceText(plan, ratios));
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     const PairedRatio& r = ratios[i];
     const bool first = i == 0 || ratios[i - 1].variant != r.variant;
     html += fmt::format(
-        "<tr{}><th>{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        "<tr{}><th>{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></"
+        "tr>\n",
         first ? " class=\"first\"" : "",
         first ? EscapeHtml(plan.experiment.variants[r.variant].name) : "",
-        r.sequence ? EscapeHtml(plan.sequences[*r.sequence].name) : "<b>all</b>",
+        r.sequence ? EscapeHtml(plan.sequences[*r.sequence].name)
+                   : fmt::format("<b>all {} places</b>", r.places),
         r.pairs,
         RatioText(r),
+        VerdictText(r),
         r.left_out,
         r.lost_alone);
   }

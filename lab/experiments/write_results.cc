@@ -45,10 +45,10 @@ std::vector<PagePlot> MakePlots(const Plan& plan, const std::vector<ResultTable>
 
 void WriteTables(const Plan& plan,
                  const std::vector<JobResult>& results,
+                 const std::vector<PairedRatio>& ratios,
                  const std::vector<PagePlot>& more_plots) {
   MakeFolder(plan.out / "plots");
   RemovePlots(plan.out / "plots");
-  const std::vector<PairedRatio> ratios = PairedRatios(plan, results);
   std::vector<ResultTable> tables;
   PaperComparison comparison;
   for (const MetricKind kind : {MetricKind::kRepeatable, MetricKind::kTiming}) {
@@ -85,12 +85,14 @@ void WriteTables(const Plan& plan,
 void WriteResults(const Plan& plan, const std::vector<JobResult>& results) {
   if (plan.experiment.command == RunCommandKind::kComputed) return;
   if (plan.experiment.command != RunCommandKind::kStarts) {
-    WriteTables(plan, results, {});
+    WriteTables(plan, results, PairedRatios(plan, results), {});
     return;
   }
   const StartsByJob starts = ReadStartsByJob(plan, results);
   const PooledResults pooled = WithPools(plan, results, starts);
-  WriteTables(pooled.plan, pooled.results, StartPlots(plan, starts));
+  // Pools are rows of tables and no sequences: ratios are those of the plan without them.
+  const std::vector<PairedRatio> ratios = PairedRatios(plan, results, starts);
+  WriteTables(pooled.plan, pooled.results, ratios, StartPlots(plan, starts));
   WriteFileAtomically(plan.out / "starts.csv", FormatStartsByJob(plan, starts));
 }
 

@@ -51,12 +51,15 @@ TEST(PairedRatios, AreGeometricMeansOverTheRuns) {
   const PairedRatio& a = Find(ratios, 0, 1);
   EXPECT_EQ(a.pairs, 2);
   EXPECT_NEAR(a.ratio, std::sqrt(2.0), 1e-12);  // of 2 and 1
-  EXPECT_NEAR(a.low, 1, 1e-12);
-  EXPECT_NEAR(a.high, 2, 1e-12);
+  // Two logarithms, log 2 and 0: Student's t with one degree of freedom, 12.706, times log(2) / 2.
+  ASSERT_TRUE(a.low && a.high);
+  EXPECT_NEAR(std::log(*a.high / a.ratio), 12.7062 * 0.5 * std::log(2.0), 1e-3);
+  EXPECT_NEAR(*a.low * *a.high, a.ratio * a.ratio, 1e-9);
   EXPECT_NEAR(Find(ratios, 1, 1).ratio, 4, 1e-12);  // of 8 and 2
   const PairedRatio& all = Find(ratios, std::nullopt, 1);
   EXPECT_NEAR(all.ratio, std::pow(2.0, 1.25), 1e-12);
   EXPECT_EQ(all.pairs, 4);
+  EXPECT_EQ(all.places, 2);
   EXPECT_LT(all.low, all.ratio);
   EXPECT_GT(all.high, all.ratio);
   EXPECT_NEAR(Find(ratios, std::nullopt, 0).ratio, 1, 1e-12);  // the reference against itself
@@ -78,7 +81,7 @@ TEST(PairedRatios, IntervalsHaveTheWidthOfTheMeansSpread) {
   }
   const auto ratios = PairedRatios(plan, results);
   const PairedRatio& r = Find(ratios, 0, 1);
-  const double half_width = 0.5 * std::log(r.high / r.low);
+  const double half_width = 0.5 * std::log(*r.high / *r.low);
   EXPECT_NEAR(half_width, 1.96 * 0.5 / std::sqrt(100.0), 0.02);
 }
 
@@ -116,7 +119,89 @@ TEST(PairedRatios, SamePairsCountOnce) {
                                     NoResult("x"),
                                     NoResult("x")});
   EXPECT_EQ(Find(ratios, 0, 1).pairs, 1);
-  EXPECT_EQ(RatioText(Find(ratios, 0, 1)), "1.500 (1.500-1.500)");
+  EXPECT_EQ(RatioText(Find(ratios, 0, 1)), "1.500");
+}
+
+TEST(PairedRatios, SequencesOfOnePlaceCountAsOne) {
+  EXPECT_EQ(PlaceOf("worlds/vicon_easy@blurred"), PlaceOf("worlds/vicon_difficult"));
+  EXPECT_EQ(PlaceOf("euroc/V1_01_easy"), PlaceOf("euroc/V1_03_difficult@blurred"));
+  EXPECT_NE(PlaceOf("euroc/V1_01_easy"), PlaceOf("euroc/V2_01_easy"));
+  EXPECT_EQ(PlaceOf("worlds/lowtexture@blurred"), "worlds/lowtexture");
+  EXPECT_EQ(PlaceOf("kitti/06_first51"), PlaceOf("kitti/06"));
+  EXPECT_NE(PlaceOf("kitti/06"), PlaceOf("kitti/07"));
+  const ScratchFolder folder;
+  Plan plan = PlanWithReference(folder);
+  plan.sequences[0].name = "worlds/vicon_easy";
+  plan.sequences[1].name = "worlds/vicon_medium";
+  const auto ratios = PairedRatios(plan,
+                                   {Success(1, "a"),
+                                    Success(1, "b"),
+                                    Success(2, "c"),
+                                    Success(2, "d"),
+                                    Success(1, "e"),
+                                    Success(1, "f"),
+                                    Success(8, "g"),
+                                    Success(8, "h")});
+  const PairedRatio& all = Find(ratios, std::nullopt, 1);
+  EXPECT_EQ(all.places, 1);
+  EXPECT_NEAR(all.ratio, 4, 1e-12);  // of 2 and 8
+  EXPECT_FALSE(all.low.has_value());
+  EXPECT_EQ(VerdictText(all), "-");
+}
+
+// The interval covers the true mean as often as it says, also of five values, of which a percentile
+// bootstrap covers 85 of 100.
+TEST(PairedRatios, IntervalsOfFewValuesCoverTheTruth) {
+  Rng rng(3);
+  int covered = 0;
+  constexpr int kTrials = 2000;
+  for (int i = 0; i < kTrials; ++i) {
+    std::vector<double> values;
+    for (int k = 0; k < 5; ++k) values.push_back(rng.Normal(1));
+    double mean = 0;
+    for (const double value : values) mean += value / 5;
+    covered += std::abs(mean) <= HalfWidthOfMean(values).value();
+  }
+  EXPECT_NEAR(covered, 0.95 * kTrials, 30);
+}
+
+TEST(PairedRatios, StartsArePairedByTheirFirstFrame) {
+  const ScratchFolder folder;
+  Plan plan = PlanWithReference(folder);
+  plan.experiment.ratios = {"rotation_error"};
+  const auto start = [](int frame, double error) {
+    StartRecord record;
+    record.frame = frame;
+    record.map.emplace();
+    record.map->errors.rotation_deg = error;
+    return record;
+  };
+  StartRecord waiting;
+  waiting.frame = 20;
+  // The second variant starts later and looks exact: its median is that of other starts.
+  StartsByJob starts(plan.jobs.size());
+  starts[0] = {start(0, 1), start(10, 2), start(20, 50)};
+  starts[2] = {start(0, 2), start(10, 4), waiting};
+  std::vector<JobResult> results(plan.jobs.size(), Success(1, "a"));
+  const auto ratios = PairedRatios(plan, results, starts);
+  const PairedRatio& a = Find(ratios, 0, 1);
+  EXPECT_EQ(a.pairs, 2);
+  EXPECT_NEAR(a.ratio, 2, 1e-12);
+}
+
+TEST(PairedRatios, TellWhatTheyExcludeAndWhatChanceWouldGive) {
+  PairedRatio ratio;
+  ratio.pairs = 3;
+  ratio.ratio = 1;
+  ratio.low = 0.9;
+  ratio.high = 1.1;
+  EXPECT_EQ(VerdictText(ratio), "not told apart; below 0.90 and above 1.10 excluded");
+  ratio.high = 0.98;
+  EXPECT_EQ(VerdictText(ratio), "better");
+  const ScratchFolder folder;
+  ratio.variant = 1;
+  EXPECT_EQ(ChanceText(PlanWithReference(folder), {ratio, ratio}),
+            "Of 2 comparisons over all places, 0.1 would seem certain by chance alone.");
 }
 
 TEST(PairedRatios, AreThereForEveryErrorThatTheExperimentNames) {
