@@ -39,7 +39,7 @@ LAYERS = {
     "report": ["base", "geometry", "image", "features", "map", "io", "slam", "eval"],
     "view": ["base", "geometry", "image", "features", "map", "slam", "recording", "foxglove"],
     "worlds": ["base", "geometry", "image", "io"],
-    "line_rivals": ["base", "geometry", "map", "association", "optimization"],
+    "line_rivals": ["base", "geometry", "map", "association", "optimization", "tracking"],
     "ceres_reference": ["base", "geometry", "optimization", "association", "line_rivals"],
     "starts": ["base", "geometry", "image", "features", "map", "association", "initialization", "io",
                "slam", "report"],
@@ -57,7 +57,7 @@ LABORATORY = {"line_rivals", "ceres_reference", "starts", "cutting_testbed", "ex
 THIRD_PARTY = {
     "CLI/": None,
     "benchmark/": None,
-    "boost/": r"view/web_server\.cc",
+    "boost/": r"view/web_server\.cc|lab/experiments/paired_ratios\.cc",
     "ceres/": r"lab/ceres_reference/ceres_\w+\.(h|cc)",
     "coin/": r"lab/cutting_testbed/ipopt_\w+\.cc",
     "embree3/": r"worlds/\w+\.cc",

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lab/line_rivals/ba_rival_lines.h"
-#include "lab/line_rivals/projected_ends.h"
+#include "plumbline/tracking/projected_ends.h"
 
 #include <array>
 

@@ -3,7 +3,7 @@
 #include "lab/line_rivals/rival_method.h"
 
 #include "lab/line_rivals/line_ends.h"
-#include "lab/line_rivals/projected_matches.h"
+#include "plumbline/tracking/projected_matches.h"
 #include "lab/line_rivals/rival_ba.h"
 
 #include <cstddef>
@@ -57,9 +57,8 @@ std::optional<MapLine> LineFromTwoViews(const Map& map,
 }  // namespace
 
 LineMethod MethodFor(const LineOptions& options) {
-  LineMethod method;
+  LineMethod method = ProductLineMethod(options);
   method.parametrization = options.parametrization;
-  method.residual = options.residual;
   method.reconstruction = options.reconstruction;
   if (options.reconstruction == LineReconstruction::kTwoView) {
     method.line_from_views = LineFromTwoViews;
@@ -69,10 +68,6 @@ LineMethod MethodFor(const LineOptions& options) {
   if (options.residual != LineResidualKind::kProjectedEnds) return method;
   method.complete_window = WeighProjectedEnds;
   method.adjust_window = SolverFor<LineResidualKind::kProjectedEnds>(options.parametrization);
-  method.weigh_match = WeighProjectedMatch;
-  method.solve_pose = SolvePoseByProjectedEnds;
-  method.match_chi2 = ProjectedMatchChi2;
-  method.measure_piece = nullptr;
   return method;
 }
 

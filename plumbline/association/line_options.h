@@ -35,8 +35,8 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
   visit("residual",
         o.residual,
         "observed_ends: distances of the measured end points from the projected line; "
-        "projected_ends (in builds with the laboratory): of the projected end points from the "
-        "measured line");
+        "projected_ends: of the projected end points from the measured line (with "
+        "tracking.reference last_frame; with a map in builds with the laboratory)");
   visit("reconstruction",
         o.reconstruction,
         "of a line from several keyframes: n_view (all closest ones together, pairs where they "

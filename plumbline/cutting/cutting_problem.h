@@ -83,8 +83,8 @@ void VisitFields(Visitor&& visit, CuttingOptions& o) {
   visit("ends",
         o.ends,
         "how well the ends of a line are known: landmark (as its information says), inverse_depth "
-        "(end_sigma in image and inverse depth of the present camera, all alike, as the second "
-        "paper assumes)");
+        "(end_sigma in image and inverse depth of the camera that made the line, all alike, as the "
+        "second paper assumes)");
   visit("end_sigma",
         o.end_sigma,
         "deviation with inverse_depth: of the inverse depth [1/m], of column and row in units of "

@@ -63,7 +63,7 @@ struct SlamOptions {
 // Throws InputError for a value out of its range, and where options contradict each other: neither
 // points nor lines, a least value that is not below the greatest (depths, frames between
 // keyframes), or a kind of line that this build does not have
-// (docs/adr/0031-one-method-of-lines.md).
+// (docs/adr/0031-one-method-of-lines.md). Projected ends are there for odometry in every build.
 void CheckOptions(const SlamOptions& options);
 
 template <class Visitor>

@@ -7,6 +7,7 @@
 #include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/slam/atlas_context.h"
+#include "plumbline/tracking/projected_matches.h"
 
 #include <map>
 #include <string>
@@ -36,12 +37,22 @@ Vector6d LastVelocity(const InitialMap& initial) {
   return LogSe3(last.cam_from_world * Inverse(before.cam_from_world)) / seconds;
 }
 
+// Has odometry compare lines with images as its options say, where the caller left that to the
+// product.
+SlamOptions WithLineMethod(SlamOptions options) {
+  if (options.tracking.reference == TrackingReference::kLastFrame &&
+      options.lines.method.residual != options.lines.residual) {
+    options.lines.method = ProductLineMethod(options.lines);
+  }
+  return options;
+}
+
 }  // namespace
 
 System::System(const Calibration& calibration,
                const SlamOptions& options,
                const Execution& execution)
-    : options_(options),
+    : options_(WithLineMethod(options)),
       execution_(execution),
       front_end_(calibration, options.features),
       imaging_{front_end_.rectifier().camera(), options.features.orb.scale_factor},

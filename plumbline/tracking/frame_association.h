@@ -9,6 +9,7 @@
 #include "plumbline/map/snapshot.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace plumbline {
@@ -48,6 +49,9 @@ struct FrameAssociation {
   std::vector<CandidatePoint> points;
   std::vector<CandidateLine> lines;
   FrameMatches matches;  // their indices refer to these points and lines
+  // Pose of the frame whose depths made the landmarks that are not of the map; nullopt where none
+  // were made.
+  std::optional<Rigid3> made_from;
 
   FrameAssociation() = default;
   // An association without candidates and matches.

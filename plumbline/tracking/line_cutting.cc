@@ -42,14 +42,24 @@ Eigen::Matrix3d CovarianceAt(const Rigid3& cam_from_world,
   return R * covariance * R.transpose();
 }
 
-// Covariances of the ends when column, row and inverse depth of both are known equally well in the
-// present camera.
-EndCovariances AlikeInInverseDepth(const RectifiedCamera& camera,
-                                   const Segment3& in_cam,
-                                   double sigma) {
-  const double sigma_px = sigma * 0.5 * (camera.fx + camera.fy);
-  return {CovarianceFromInverseDepth(camera, in_cam.start, sigma_px, sigma),
-          CovarianceFromInverseDepth(camera, in_cam.end, sigma_px, sigma)};
+// Returns the covariances of the ends of the visible part of a line; nullopt where they are
+// unknown.
+std::optional<EndCovariances> EndCovariancesFor(const PoseProblem& problem,
+                                                const CutCandidate& candidate,
+                                                const LineInterval& interval,
+                                                const Segment3& in_world,
+                                                const CuttingOptions& cutting) {
+  if (cutting.ends != CuttingEnds::kInverseDepth) {
+    return CovariancesOfEnds(problem.cam_from_world, *candidate.model, interval);
+  }
+  const Rigid3& made_from = candidate.made_from ? *candidate.made_from : problem.cam_from_world;
+  const auto of_end = [&](const Eigen::Vector3d& end) {
+    return CarriedInverseDepthCovariance(
+        problem.camera, made_from, problem.cam_from_world, end, cutting.end_sigma);
+  };
+  const auto start = of_end(in_world.start), end = of_end(in_world.end);
+  if (!start || !end) return std::nullopt;
+  return EndCovariances{*start, *end};
 }
 
 std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
@@ -68,12 +78,10 @@ std::optional<Cuttable> MakeCuttable(const PoseProblem& problem,
                              problem.cam_from_world * out.in_world.end};
   const Segment3& in_cam = out.line.segment_in_cam;
   if (!(in_cam.start.z() > kMinDepth && in_cam.end.z() > kMinDepth)) return std::nullopt;
-  const EndCovariances ends = cutting.ends == CuttingEnds::kInverseDepth
-                                  ? AlikeInInverseDepth(problem.camera, in_cam, cutting.end_sigma)
-                                  : CovariancesOfEnds(problem.cam_from_world, model, *interval);
-  if (!ends.start.allFinite() || !ends.end.allFinite()) return std::nullopt;
-  out.line.start_covariance = ends.start;
-  out.line.end_covariance = ends.end;
+  const auto ends = EndCovariancesFor(problem, candidate, *interval, out.in_world, cutting);
+  if (!ends || !ends->start.allFinite() || !ends->end.allFinite()) return std::nullopt;
+  out.line.start_covariance = ends->start;
+  out.line.end_covariance = ends->end;
   out.line.image_line = LineThrough(seen);
   out.line.sigma_px = candidate.sigma_px;
   return out;
@@ -139,6 +147,19 @@ void UsePiece(const RectifiedCamera& camera,
 }
 
 }  // namespace
+
+std::optional<Eigen::Matrix3d> CarriedInverseDepthCovariance(const RectifiedCamera& camera,
+                                                             const Rigid3& made_from,
+                                                             const Rigid3& cam_from_world,
+                                                             const Eigen::Vector3d& in_world,
+                                                             double sigma) {
+  const Eigen::Vector3d in_maker = made_from * in_world;
+  if (!(in_maker.z() > kMinDepth)) return std::nullopt;
+  const double sigma_px = sigma * 0.5 * (camera.fx + camera.fy);
+  const Eigen::Matrix3d R =
+      (cam_from_world.rotation * made_from.rotation.conjugate()).toRotationMatrix();
+  return R * CovarianceFromInverseDepth(camera, in_maker, sigma_px, sigma) * R.transpose();
+}
 
 EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
                                  const LineModel& line,

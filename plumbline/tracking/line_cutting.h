@@ -9,6 +9,7 @@
 #include "plumbline/optimization/problem.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,11 +28,24 @@ EndCovariances CovariancesOfEnds(const Rigid3& cam_from_world,
                                  const LineModel& line,
                                  const LineInterval& interval);
 
+// Returns the covariance (3 x 3, present camera frame, map unit^2) of a point whose column, row
+// (both in units of the focal length) and inverse depth (1/map unit) are known to `sigma`, all
+// three alike, in the camera that made it (CovarianceFromInverseDepth), turned into the present
+// camera. Nullopt where the point is not in front of its maker.
+//   made_from, cam_from_world  poses of the two cameras
+std::optional<Eigen::Matrix3d> CarriedInverseDepthCovariance(const RectifiedCamera& camera,
+                                                             const Rigid3& made_from,
+                                                             const Rigid3& cam_from_world,
+                                                             const Eigen::Vector3d& in_world,
+                                                             double sigma);
+
 // What cutting needs to know of a line match in addition to the problem: its landmark, and the
 // deviation of the measured segment alone (sigma_px of the feature), which is greater than 0.
 struct CutCandidate {
   const LineModel* model = nullptr;
   double sigma_px = 1;
+  // Pose of the camera whose depths made the line, where it was made from one frame.
+  std::optional<Rigid3> made_from = std::nullopt;
 };
 
 // A pose problem whose lines are cut (second paper, section 4; cut_lines.h), ready for SolvePose.
@@ -41,9 +55,11 @@ struct CutCandidate {
 // problem's pose (first paper, eq. 26-30). The end covariances come from the landmark's
 // information: for a line made from one stereo or RGB-D frame that of its measured disparities, for
 // a line of the map that of all its observations. With cutting.ends=inverse_depth all ends are
-// known equally well instead. The errors of the two ends count as independent, as in the paper. The
-// points of the problem are the constant part of the objective (eq. 7), wrong matches included. The
-// right image has no part in the choice.
+// known equally well instead, in image and inverse depth of the camera that made the line (the last
+// frame's in odometry; otherwise the present one), carried into the present camera by the rotation
+// between the two. The errors of the two ends count as independent, as in the paper. The points of
+// the problem are the constant part of the objective (eq. 7), wrong matches included. The right
+// image has no part in the choice.
 //
 // The pieces are used in both images: a match gets them for its ends, and the ends of its measured
 // segment move to where they show, not beyond them (lines.method.measure_piece). Weights of the

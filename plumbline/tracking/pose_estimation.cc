@@ -37,12 +37,13 @@ void AddLine(const LineModel& line,
              double sigma_px,
              std::size_t feature,
              const LineOptions& options,
+             const std::optional<Rigid3>& made_from,
              MatchedProblem& out) {
   PoseProblem::LineMatch match{line.line, measurement, static_cast<int>(feature)};
   options.method.weigh_match(out.problem, line, options.weights(), match);
   out.problem.lines.push_back(match);
   out.line_feature.push_back(feature);
-  out.cut_candidates.push_back({&line, sigma_px});
+  out.cut_candidates.push_back({&line, sigma_px, made_from});
 }
 
 void AddLines(const Features& features,
@@ -52,11 +53,15 @@ void AddLines(const Features& features,
   for (std::size_t i = 0; i < association.matches.line_of_feature.size(); ++i) {
     const int match = association.matches.line_of_feature[i];
     if (match < 0) continue;
-    const LineModel& line = association.lines[static_cast<std::size_t>(match)].model;
+    const CandidateLine& candidate = association.lines[static_cast<std::size_t>(match)];
+    const LineModel& line = candidate.model;
+    const std::optional<Rigid3> made_from =
+        candidate.id.valid() ? std::nullopt : association.made_from;
     const double sigma_px = features.lines[i].sigma_px;
-    AddLine(line, MeasureLeftLine(features, i, lines.weights()), sigma_px, i, lines, out);
+    AddLine(
+        line, MeasureLeftLine(features, i, lines.weights()), sigma_px, i, lines, made_from, out);
     if (const auto right = MeasureRightLine(features, i, lines.weights())) {
-      AddLine(line, *right, features.line_right[i]->sigma_px, i, lines, out);
+      AddLine(line, *right, features.line_right[i]->sigma_px, i, lines, made_from, out);
     }
   }
 }

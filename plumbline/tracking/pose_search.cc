@@ -94,6 +94,7 @@ FrameAssociation PoseSearch::LastLandmarks(const LastFrame& last,
   const double point_sigma = known_only ? kMaxDepthSigma : kWorstDepthSigma;
   const double line_sigma = known_only ? kMaxLineDepthSigma : kWorstDepthSigma;
   FrameAssociation result(frame.points.size(), frame.lines.size());
+  result.made_from = last.frame.cam_from_world;
   const FrameAssociation& before = last.association;
   for (std::size_t i = 0; i < last.frame.points.size(); ++i) {
     const auto* known = InSnapshot(before.points, before.matches.point_of_feature[i], snapshot);
@@ -231,6 +232,7 @@ std::optional<PoseEstimate> PoseSearch::FromAppearance(const Frame& frame,
     estimator_.DropDisagreeing(frame.features(), initial, kGate, association);
   }
   if (association.matches.All() < kFewestUnpredictedInliers) return std::nullopt;
+  if (IsOdometry()) association.made_from = last.frame.cam_from_world;
   const PoseEstimate estimate = estimator_.Estimate(frame.features(), initial, {}, association);
   if (!estimate.Accepted(kFewestUnpredictedInliers, options_.max_pose_sigma)) return std::nullopt;
   return estimate;

@@ -59,6 +59,34 @@ TEST(CovariancesOfEnds, AreThoseOfRandomLinesWithThatInformation) {
   EXPECT_LT(start.trace(), 0.1 * end.trace());  // as the scene says
 }
 
+TEST(CarriedInverseDepthCovariance, IsThatOfRandomPointsOfTheCameraThatMadeThem) {
+  RectifiedCamera camera;
+  camera.fx = 400;
+  camera.fy = 420;
+  const Rigid3 maker{ExpSo3({0.05, 0.6, -0.1}), {0.3, 0.1, 0.2}};
+  const Rigid3 present{ExpSo3({-0.2, 0.1, 0.3}), {-0.4, 0.2, 0.5}};
+  const Eigen::Vector3d in_world = Inverse(maker) * Eigen::Vector3d(0.4, -0.2, 3);
+  constexpr double kSigma = 1e-3;
+  const auto found = CarriedInverseDepthCovariance(camera, maker, present, in_world, kSigma);
+  ASSERT_TRUE(found.has_value());
+  Rng rng(4, "carried");
+  Eigen::Matrix3d sampled = Eigen::Matrix3d::Zero();
+  constexpr int kSamples = 20000;
+  const double mean_focal = 0.5 * (camera.fx + camera.fy);
+  for (int i = 0; i < kSamples; ++i) {
+    const Eigen::Vector3d p = maker * in_world;
+    const double rho = 1 / p.z() + kSigma * rng.Normal();
+    const double u = p.x() / p.z() + kSigma * mean_focal / camera.fx * rng.Normal();
+    const double v = p.y() / p.z() + kSigma * mean_focal / camera.fy * rng.Normal();
+    const Eigen::Vector3d moved = Inverse(maker) * (Eigen::Vector3d(u, v, 1) / rho);
+    const Eigen::Vector3d error = present * moved - present * in_world;
+    sampled += error * error.transpose() / kSamples;
+  }
+  EXPECT_LT((*found - sampled).norm(), 0.05 * sampled.norm());
+  EXPECT_FALSE(CarriedInverseDepthCovariance(
+      camera, maker, present, Inverse(maker) * Eigen::Vector3d(0, 0, -1), kSigma));
+}
+
 TEST(WithCutLines, KeepsThePoseOfExactMeasurements) { testing::ExpectPoseOfCutLines({}); }
 
 TEST(WithCutLines, CutsTowardsTheEndThatIsKnown) {

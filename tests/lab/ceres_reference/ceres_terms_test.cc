@@ -3,7 +3,7 @@
 #include "lab/ceres_reference/ceres_terms.h"
 
 #include "lab/ceres_reference/ceres_manifolds.h"
-#include "lab/line_rivals/projected_ends.h"
+#include "plumbline/tracking/projected_ends.h"
 
 #include "tests/lab/ceres_reference/ceres_numbers.h"
 #include "tests/optimization/random_scene.h"

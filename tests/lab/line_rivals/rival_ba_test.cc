@@ -3,7 +3,7 @@
 #include "lab/line_rivals/rival_ba.h"
 
 #include "lab/line_rivals/line_ends.h"
-#include "lab/line_rivals/projected_ends.h"
+#include "plumbline/tracking/projected_ends.h"
 #include "plumbline/base/error.h"
 #include "plumbline/optimization/local_ba.h"
 

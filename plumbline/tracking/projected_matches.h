@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/association/line_options.h"
 #include "plumbline/association/measurements.h"
 #include "plumbline/map/landmarks.h"
 #include "plumbline/optimization/pose_only.h"
@@ -11,7 +12,13 @@
 
 namespace plumbline {
 
-// Tracking by the residual LineResidualKind::kProjectedEnds: members of a LineMethod.
+// Tracking by the residual LineResidualKind::kProjectedEnds (second paper, eq. 1): members of a
+// LineMethod.
+
+// Returns the method of the product for these options: that of observed ends or, for poses, of
+// projected ends. Bundle adjustment is by observed ends, so that projected ends serve odometry
+// against the last frame (TrackingReference::kLastFrame), where nothing is adjusted (CheckOptions).
+LineMethod ProductLineMethod(const LineOptions& options);
 
 // A line and two points on it, in the world.
 struct LineAndEnds {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/line_rivals/projected_matches.h"
+#include "plumbline/tracking/projected_matches.h"
 
-#include "lab/line_rivals/projected_ends.h"
 #include "plumbline/association/projection_search.h"
 #include "plumbline/association/uncertain_line.h"
 #include "plumbline/geometry/trimming.h"
 #include "plumbline/optimization/pose_solver.h"
+#include "plumbline/tracking/projected_ends.h"
 
 #include <limits>
 #include <utility>
@@ -60,6 +60,17 @@ Segment3 VisibleEnds(const PoseProblem& problem, const LineModel& line) {
 }
 
 }  // namespace
+
+LineMethod ProductLineMethod(const LineOptions& options) {
+  LineMethod method;
+  if (options.residual != LineResidualKind::kProjectedEnds) return method;
+  method.residual = LineResidualKind::kProjectedEnds;
+  method.weigh_match = WeighProjectedMatch;
+  method.solve_pose = SolvePoseByProjectedEnds;
+  method.match_chi2 = ProjectedMatchChi2;
+  method.measure_piece = nullptr;
+  return method;
+}
 
 void UseProjectedEnds(const RectifiedCamera& camera,
                       const Rigid3& cam_from_world,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/line_rivals/projected_ends.h"
+#include "plumbline/tracking/projected_ends.h"
 
 #include "tests/optimization/random_scene.h"
 

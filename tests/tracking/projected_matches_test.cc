@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/line_rivals/projected_matches.h"
+#include "plumbline/tracking/projected_matches.h"
 
 #include "lab/line_rivals/rival_method.h"
 #include "plumbline/association/line_information.h"
