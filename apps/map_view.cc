@@ -56,6 +56,7 @@ int MapViewCommand(std::span<const std::string> arguments) {
   ViewedRun run;
   run.name = std::filesystem::path(path).filename().string();
   run.camera = saved.context.camera;
+  run.saved_map = true;
   Viewer viewer(options, run, std::nullopt, [&](ShownId id) { return PictureOf(saved.atlas, id); });
   std::cerr << "plumbline: view at " << viewer.url() << " (Ctrl-C ends it)\n";
   CatchStopSignals();

@@ -40,6 +40,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr auto kLookStep = std::chrono::milliseconds(20);
 constexpr int kLongestPause = 1'000'000;  // seconds
 constexpr int kWidestBlur = 1001;         // pixels; nothing is left to see by then
 
@@ -83,6 +85,7 @@ CommandSyntax RunSyntax() {
        {"--resume", "FILE", "go on with the next frame of the run that wrote this --checkpoint"},
        {"--out", "DIR", "folder for the results (default: plumbline_run)"},
        {"--view", "[HOST:]PORT", "show it in browsers, and in Foxglove"},
+       {"--stay", "", "with --view: show the finished run until Ctrl-C"},
        {"--view-origin", "URL", "another page that may connect to --view; may be repeated"},
        {"--record", "FILE.mcap", "write what viewers are sent into a file"},
        {"--quiet", "", "print nothing but errors"}}};
@@ -201,6 +204,9 @@ RunSetup ReadSetup(const CommandLine& line) {
   setup.blur = ReadBlur(line);
   setup.quiet = line.Has("--quiet");
   setup.view.access = ReadViewOptions(line, setup.quiet);
+  if (line.Has("--stay") && !setup.view.access) {
+    throw InputError("--stay: expected --view [HOST:]PORT as well");
+  }
   if (const auto record = line.Value("--record")) setup.view.record = *record;
   setup.view.record_all = setup.options.slam.mode != RunMode::kLive;
   if (const auto map = line.Value("--map")) setup.map = *map;
@@ -425,6 +431,17 @@ void Print(const System& system, const Dataset& dataset, const RunSetup& setup) 
   if (!std::cout.flush() && errno == EPIPE) std::cout.clear();
 }
 
+// Shows the finished run until a signal comes, and answers what is asked about its maps. A run that
+// a signal has ended is shown no longer.
+void KeepShowing(const CommandLine& line, const System& system, Viewer& viewer, bool quiet) {
+  if (!line.Has("--stay") || FirstStopSignal()) return;
+  if (!quiet) std::cerr << "plumbline: the view stays at " << viewer.url() << " (Ctrl-C ends it)\n";
+  while (!StopRequested() && !viewer.TakeFailure()) {
+    if (viewer.WantsMaps(false)) viewer.LookAtMaps(system.atlas(), system.events());
+    std::this_thread::sleep_for(kLookStep);
+  }
+}
+
 // In one line, whatever went wrong.
 void RethrowFailures(const Processed& processed, const std::optional<std::string>& not_written) {
   std::string failures = not_written.value_or("");
@@ -482,6 +499,7 @@ int RunCommand(std::span<const std::string> arguments) {
       {system, dataset, views, std::move(description), processed.first_pose_seconds, start},
       folder);
   if (!setup.quiet) Print(system, dataset, setup);
+  if (input.viewer) KeepShowing(line, system, *input.viewer, setup.quiet);
   RethrowFailures(processed, written.failure);
   return written.interrupted ? written.interrupted->exit_code : 0;
 }

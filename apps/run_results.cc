@@ -156,16 +156,21 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
                               : std::string());
   if (counts.shed_mapping + counts.shed_lines + counts.shed_points + counts.demoted > 0) {
     std::cout << fmt::format(
-        "behind the camera: {} frames with less mapping, {} with fewer lines too, {} with fewer "
-        "lines and points too; {} keyframes without time for mapping\n",
+        "load was reduced to keep up with the camera: in {} frames less mapping, in {} fewer lines "
+        "as "
+        "well, in {} fewer lines and points as well; {} keyframes were left out\n",
         counts.shed_mapping,
         counts.shed_lines,
         counts.shed_points,
         counts.demoted);
   }
+  const auto made = std::count_if(system.frames().begin(),
+                                  system.frames().end(),
+                                  [](const FrameRecord& frame) { return frame.keyframe; });
   std::cout << fmt::format(
-      "map: {} keyframes, {} points, {} lines{}\n",
+      "map: {} keyframes{}, {} points, {} lines{}\n",
       counts.keyframes,
+      made > counts.keyframes ? fmt::format(" (of {} made)", made) : std::string(),
       counts.points,
       counts.lines,
       counts.maps > 1 ? fmt::format(" (largest of {} maps)", counts.maps) : std::string());

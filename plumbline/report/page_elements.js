@@ -105,13 +105,15 @@ function makeChoice(label, entries, value, onChange) {
 
 // Buttons each of which is pressed or not, at first pressed: [{text, value}].
 function makeToggles(label, entries, onChange) {
-  const buttons = entries.map(({text, value}) => {
+  const buttons = entries.map(({text, value, off, title}) => {
     const press = (event) => {
       const pressed = event.target.getAttribute("aria-pressed") !== "true";
       event.target.setAttribute("aria-pressed", String(pressed));
       onChange(value, pressed);
     };
-    return make("button", {type: "button", "aria-pressed": "true", onclick: press}, text);
+    const attributes = {type: "button", "aria-pressed": String(!off), onclick: press};
+    if (title) attributes.title = title;
+    return make("button", attributes, text);
   });
   return make("div", {class: "choice", role: "group", "aria-label": label}, buttons);
 }

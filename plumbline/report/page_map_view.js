@@ -142,6 +142,7 @@ class MapView {
     this.visible = {
       points: true,
       lines: true,
+      otherLines: false,
       keyframes: true,
       trajectory: true,
       loops: true,
@@ -390,6 +391,7 @@ class MapView {
       this.drawPoints("seen", matrix, 5 * ratio, Array(3).fill("matched-point"));
     }
     if (this.visible.lines) this.drawLines("lines", matrix, "lines", 1.6 * ratio);
+    if (this.visible.otherLines) this.drawLines("otherLines", matrix, "lines", 0.8 * ratio);
     if (this.visible.edges) this.drawLines("edges", matrix, "edge", 0.8 * ratio);
     if (this.visible.reference) this.drawLines("reference", matrix, "reference", 4 * ratio);
     if (this.visible.trajectory) {

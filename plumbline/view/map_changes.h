@@ -15,7 +15,15 @@ namespace plumbline {
 using ShownId = std::uint32_t;
 
 using ShownPoint = std::array<float, 3>;  // place in the world
-using ShownLine = std::array<float, 6>;   // both ends in the world
+
+// A line as it is shown.
+struct ShownLine {
+  std::array<float, 6> ends{};  // both ends in the world
+  // Whether at least four keyframes see it, as many as a line of the line map needs.
+  bool established = false;
+
+  friend bool operator==(const ShownLine&, const ShownLine&) = default;
+};
 
 // A keyframe as it is shown.
 struct ShownKeyFrame {

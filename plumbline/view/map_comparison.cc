@@ -10,6 +10,8 @@
 namespace plumbline {
 namespace {
 
+// Keyframes that see an established line; as mapping.line_map.min_keyframes has it unless set.
+constexpr std::size_t kEstablished = 4;
 constexpr float kSmallestMove = 1.0F / 2000;  // relative to the distance from the newest keyframe
 
 ShownPoint PointOf(const Eigen::Vector3d& p) {
@@ -23,7 +25,7 @@ ShownPoint ShownOf(const MapPoint& point, const ShownSession&) { return PointOf(
 ShownLine ShownOf(const MapLine& line, const ShownSession&) {
   const Segment3 interval = line.Interval();
   const ShownPoint a = PointOf(interval.start), b = PointOf(interval.end);
-  return {a[0], a[1], a[2], b[0], b[1], b[2]};
+  return {{a[0], a[1], a[2], b[0], b[1], b[2]}, line.observations.size() >= kEstablished};
 }
 
 ShownKeyFrame ShownOf(const KeyFrame& keyframe, const ShownSession& session) {
@@ -52,6 +54,10 @@ bool HasMoved(const std::array<float, kSize>& before,
     if (moved > kSmallestMove * kSmallestMove * distance) return true;
   }
   return false;
+}
+
+bool HasMoved(const ShownLine& before, const ShownLine& now, const ShownPoint& eye) {
+  return before.established != now.established || HasMoved(before.ends, now.ends, eye);
 }
 
 bool HasMoved(const ShownKeyFrame& before, const ShownKeyFrame& now, const ShownPoint&) {

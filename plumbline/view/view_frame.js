@@ -12,7 +12,7 @@ class FrameView {
     this.map = map;
     this.host = host;
     this.canvas = make("canvas", {role: "img", "aria-label": "Camera image with features"});
-    this.empty = make("div", {class: "empty"}, "no image yet");
+    this.empty = make("div", {class: "empty"}, "waiting for the first image");
     host.append(this.canvas, this.empty);
     this.visible = {points: true, lines: true, matches: true, others: true};
     new ResizeObserver(() => this.draw()).observe(host);

@@ -77,7 +77,8 @@ class LiveMap {
 
   clear() {
     this.points = new Slots(3);
-    this.lines = new Slots(42);
+    this.lines = new Slots(42);       // those that enough keyframes see
+    this.otherLines = new Slots(42);  // the rest
     this.lineEnds = new Map();
     this.keyframes = new Map();  // id -> {place, turn, frame}
     this.edges = new Map();      // "newer older" -> [newer, older]
@@ -99,11 +100,14 @@ class LiveMap {
     delta.lineIds.forEach((id, i) => {
       const ends = [vectorAt(delta.lineEnds, 2 * i), vectorAt(delta.lineEnds, 2 * i + 1)];
       this.lineEnds.set(id, ends);
-      this.lines.set(id, segmentVertices([ends]));
+      const established = delta.lineEstablished[i];
+      (established ? this.otherLines : this.lines).remove(id);
+      (established ? this.lines : this.otherLines).set(id, segmentVertices([ends]));
     });
     for (const id of delta.goneLines) {
       this.lineEnds.delete(id);
       this.lines.remove(id);
+      this.otherLines.remove(id);
     }
     delta.keyframeIds.forEach((id, i) => {
       const pose = Array.from(delta.keyframePoses.subarray(7 * i, 7 * i + 7));
@@ -133,7 +137,7 @@ class LiveMap {
 
   // Anew when the map has grown by half; the viewer's own turn stays.
   fit() {
-    const landmarks = this.points.count + this.lines.count;
+    const landmarks = this.points.count + this.lineEnds.size;
     if (landmarks < 1.5 * this.measured || landmarks === 0 || this.keyframes.size === 0) return;
     const first = this.measured === 0;
     this.measured = landmarks;
@@ -191,12 +195,13 @@ class LiveMap {
   upload(withKeyframes) {
     this.points.upload(this.view, "points", 3);
     this.lines.upload(this.view, "lines", 7);
+    this.otherLines.upload(this.view, "otherLines", 7);
     if (withKeyframes) this.uploadKeyframes();
   }
 
   // When the graphics card has lost everything.
   refill() {
-    for (const slots of [this.points, this.lines]) {
+    for (const slots of [this.points, this.lines, this.otherLines]) {
       slots.from = 0;
       slots.to = slots.count * slots.size;
     }
@@ -245,6 +250,7 @@ class LiveMap {
       offer(vectorAt(this.points.data, i), {point: this.points.ids[i]}, 0);
     }
     for (const [line, [a, b]] of this.lineEnds) {
+      if (!view.visible[this.lines.slotOf.has(line) ? "lines" : "otherLines"]) continue;
       const p = view.project(a, matrix), q = view.project(b, matrix);
       if (!p || !q) continue;
       const dx = q.x - p.x, dy = q.y - p.y;

@@ -35,10 +35,12 @@ function setState(text, kind) {
 
 function showState() {
   const {run, frame} = shown;
-  if (!connection.open) return setState("not connected", "");
+  if (run && run.savedMap) return setState(connection.open ? "saved map" : "closed", "finished");
+  // The last state of a run stays when its program has ended.
   if (run && run.finished) return setState("finished", "finished");
+  if (!connection.open) return setState("not connected", "");
   if (run && run.paused && frame) return setState("paused", "initializing");
-  if (!frame) return map.map === null ? setState("waiting") : setState("saved map", "finished");
+  if (!frame) return setState("waiting");
   const reason = frame.reason ? `: ${frame.reason.replaceAll("_", " ")}` : "";
   setState(frame.status + reason, frame.status);
 }
@@ -50,18 +52,19 @@ function figure(name, value, bad) {
 function showFigures() {
   const run = shown.run || {}, frame = shown.frame;
   const of = run.framesExpected ? ` of ${whole(run.framesExpected)}` : "";
-  const figures = [
+  const figures = run.savedMap ? [] : [
     figure("frames", whole(run.frames || 0) + of),
     figure("frames/s", digits(run.framesPerSecond || 0)),
     figure("dropped", whole(run.dropped || 0), run.dropped > 0),
-    figure("lost", whole(run.lost || 0), run.lost > 0),
-    figure("keyframes", whole(map.keyframes.size)), figure("points", whole(map.points.count)),
-    figure("lines", whole(map.lines.count))
+    figure("lost", whole(run.lost || 0), run.lost > 0)
   ];
+  figures.push(
+      figure("keyframes", whole(map.keyframes.size)), figure("points", whole(map.points.count)),
+      figure("lines in the map", whole(map.lineEnds.size)));
   if (frame && frame.status === "tracked") {
     const {inlierPoints = 0, inlierLines = 0} = frame;
-    figures.push(figure("", `${plural(inlierPoints, "point")}, ${plural(inlierLines, "line")}`));
-    figures[figures.length - 1].append("matched");
+    const used = `${plural(inlierPoints, "point")}, ${plural(inlierLines, "line")}`;
+    figures.push(figure("used for this pose", used));
   }
   if (frame && frame.shed) figures.push(figure("left out: " + frame.shed, "behind,", true));
   element("figures").replaceChildren(...figures);
@@ -311,7 +314,9 @@ element("controls")
 element("map").querySelector(".bar").append(
     togglesOf(
         [
-          {text: "Points", value: "points"}, {text: "Lines", value: "lines"},
+          {text: "Points", value: "points"},
+          {text: "Lines", value: "lines", title: "lines that at least 4 keyframes see"},
+          {text: "Other lines", value: "otherLines", off: true, title: "lines that fewer keyframes see"},
           {text: "Keyframes", value: "keyframes"}, {text: "Covisibility", value: "edges"},
           {text: "Trajectory", value: "trajectory"}, {text: "Loops", value: "loops"},
           {text: "Grid", value: "grid"}
@@ -336,6 +341,8 @@ function takeRun(run) {
   pauseButton.textContent = run.paused ? "Resume" : "Pause";
   stepButton.disabled = !run.paused;
   if (!first) return;
+  // Of a saved map there are neither images nor times.
+  document.querySelector("main").classList.toggle("only-map", Boolean(run.savedMap));
   element("name").textContent = run.name || "";
   document.title = `${run.name || "run"} - Plumbline`;
   camera.setCamera(run.camera);

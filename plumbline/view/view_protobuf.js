@@ -64,7 +64,8 @@ const UPDATE = {
           5: ["cx", "double"],
           6: ["cy", "double"]
         }
-      ]
+      ],
+      11: ["savedMap", "number"]
     }
   ],
   3: ["frame", FRAME],
@@ -83,7 +84,8 @@ const UPDATE = {
       11: ["keyframeFrames", "uint32[]"],
       12: ["keyframePoses", "float[]"],
       13: ["goneKeyframes", "uint32[]"],
-      14: ["edges", "uint32[]"]
+      14: ["edges", "uint32[]"],
+      15: ["lineEstablished", "uint32[]"]
     }
   ],
   5: [

@@ -172,7 +172,8 @@ ProtobufWriter ViewState::RunMessage() const {
       .Varint(7, paused_)
       .Varint(8, run_.can_pause)
       .Varint(9, finished_)
-      .Message(10, camera);
+      .Message(10, camera)
+      .Varint(11, run_.saved_map);
   return message;
 }
 

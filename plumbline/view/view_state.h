@@ -24,6 +24,7 @@ struct ViewedRun {
   RectifiedCamera camera;                      // camera of the left images that are shown
   std::optional<std::size_t> frames_expected;  // nullopt: unknown
   bool can_pause = false;
+  bool saved_map = false;  // a map file is shown, and no frame comes
 };
 
 // The progress of the run.

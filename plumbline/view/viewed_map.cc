@@ -20,10 +20,13 @@ void Apply(const ShownChanges<T>& changes, std::uint64_t version, VersionedTable
 struct Columns {
   std::vector<ShownId> ids, gone;
   std::vector<float> numbers;
-  std::vector<std::uint32_t> frames;
+  std::vector<std::uint32_t> frames, flags;
 
   void Add(const ShownPoint& point) { numbers.insert(numbers.end(), point.begin(), point.end()); }
-  void Add(const ShownLine& line) { numbers.insert(numbers.end(), line.begin(), line.end()); }
+  void Add(const ShownLine& line) {
+    numbers.insert(numbers.end(), line.ends.begin(), line.ends.end());
+    flags.push_back(line.established ? 1 : 0);
+  }
   void Add(const ShownKeyFrame& keyframe) {
     numbers.insert(numbers.end(), keyframe.pose.begin(), keyframe.pose.end());
     frames.push_back(keyframe.frame);
@@ -104,7 +107,8 @@ ProtobufWriter ViewedMap::DeltaSince(std::uint64_t from) const {
       .Packed<std::uint32_t>(11, keyframes.frames)
       .Packed<float>(12, keyframes.numbers)
       .Packed<std::uint32_t>(13, keyframes.gone)
-      .Packed<std::uint32_t>(14, edges);
+      .Packed<std::uint32_t>(14, edges)
+      .Packed<std::uint32_t>(15, lines.flags);
   return delta;
 }
 
@@ -124,7 +128,7 @@ ViewedMap::Tiles ViewedMap::TilesSince(std::uint64_t from) const {
     LineEntity entity{fmt::format("{},{},{}", key[0], key[1], key[2]), {}};
     for (const ShownId id : tile.lines) {
       const ShownLine& line = *lines_.Find(id);
-      entity.ends.insert(entity.ends.end(), line.begin(), line.end());
+      entity.ends.insert(entity.ends.end(), line.ends.begin(), line.ends.end());
     }
     tiles.entities.push_back(std::move(entity));
   }
@@ -135,7 +139,7 @@ ViewedMap::TileKey ViewedMap::KeyOf(const ShownLine& line) const {
   constexpr float kFarthest = 1e6F;  // in tiles; also used where a coordinate is no number
   TileKey key{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float middle = 0.5F * (line[axis] + line[axis + 3]) / tile_size_;
+    const float middle = 0.5F * (line.ends[axis] + line.ends[axis + 3]) / tile_size_;
     key[axis] = std::isfinite(middle)
                     ? static_cast<int>(std::floor(std::clamp(middle, -kFarthest, kFarthest)))
                     : 0;

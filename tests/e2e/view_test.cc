@@ -191,6 +191,36 @@ TEST(View, ASavedMapIsShown) {
   EXPECT_EQ(ExitCodeOf(child), 0);
 }
 
+// The view of a finished run stays until somebody ends it, which is no interruption of the run.
+TEST(View, AFinishedRunIsShownUntilItIsEnded) {
+  const ScratchFolder folder;
+  const std::uint16_t port = FreePort();
+  const std::filesystem::path out = folder / "out";
+  const pid_t child = StartProgram({"run",
+                                    Posters().sequence.string(),
+                                    "--view",
+                                    std::to_string(port),
+                                    "--stay",
+                                    "--out",
+                                    out.string()});
+  ASSERT_TRUE(WaitForFile(out / "report.html"));
+  for (int i = 0; i < 2; ++i) {  // for whoever comes later, too
+    auto client = ConnectTo(port);
+    ASSERT_TRUE(client.has_value());
+    SubscribeToAll(*client);
+    std::size_t largest = 0;
+    for (int k = 0; k < 20 && largest < 10'000; ++k) {
+      const auto message = client->Receive();
+      ASSERT_TRUE(message.has_value());
+      if (message->binary) largest = std::max(largest, message->bytes.size());
+    }
+    EXPECT_GE(largest, 10'000U);
+  }
+  ::kill(child, SIGINT);
+  EXPECT_EQ(ExitCodeOf(child), 0);
+  ExpectSameResults(Posters().out, out);
+}
+
 struct BadOptions {
   std::string arguments, message;
 };
@@ -202,6 +232,7 @@ TEST(View, BadOptionsAreNamed) {
       {"--view 0.0.0.0:0 --quiet", "would not tell the address with its token"},
       {"--view 192.0.2.1:80", "cannot listen there"},
       {"--view-origin https://a", "--view-origin: expected --view"},
+      {"--stay", "--stay: expected --view"},
       {"--view 0 --view-origin a", "--view-origin: expected the origin of a page"},
       {"--record /no/such/folder/a.mcap",
        "/no/such/folder/a.mcap.part: No such file or directory"}};

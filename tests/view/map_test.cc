@@ -270,9 +270,9 @@ TEST(ViewedMap, LinesFarApartShareTilesInTheEnd) {
   changes.map = MapId{0};
   for (ShownId id = 0; id < 1000; ++id) {
     const float x = 10.0F * static_cast<float>(id);
-    changes.lines.set.push_back({id, {x, 0, 0, x + 1, 0, 0}});
+    changes.lines.set.push_back({id, {{x, 0, 0, x + 1, 0, 0}, false}});
   }
-  changes.lines.set.push_back({1000, {NAN, 0, 0, INFINITY, 0, 0}});
+  changes.lines.set.push_back({1000, {{NAN, 0, 0, INFINITY, 0, 0}, false}});
   ViewedMap viewed;
   viewed.Take(changes);
   EXPECT_LE(viewed.TilesSince(0).entities.size(), 256U);

@@ -30,8 +30,8 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def start(program, sequence, port, out):
-    return subprocess.Popen([program, "run", sequence, "--view", str(port), "--out", str(out)],
+def start(program, sequence, port, out, *more):
+    return subprocess.Popen([program, "run", sequence, "--view", str(port), "--out", str(out), *more],
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
@@ -72,7 +72,7 @@ STATE = """
 const s = window.plumbline;
 return {updates: s.updates, session: s.session, frame: s.frame && (s.frame.number || 0),
         pose: s.frame && s.frame.pose && s.frame.pose.position, points: s.map.points.count,
-        lines: s.map.lines.count, keyframes: s.map.keyframes.size, paused: Boolean(s.run && s.run.paused),
+        lines: s.map.lineEnds.size, keyframes: s.map.keyframes.size, paused: Boolean(s.run && s.run.paused),
         state: document.getElementById("state").textContent};
 """
 
@@ -155,6 +155,41 @@ def check_runs_apart(browser):
     assert steps == 4, f"expected steps 0-1, 5-6, 6-7 and 8-9, found {steps} steps"
 
 
+# A run that is shown after its end, and its last state when the program is gone; then its saved map.
+def check_end(browser, program, sequence, folder, shot):
+    state = lambda: browser.execute_script(STATE)["state"]
+    open_page = lambda port: (wait("somebody listens", lambda: not socket.socket().connect_ex(("127.0.0.1", port))),
+                              browser.get(f"http://127.0.0.1:{port}/"))
+    out, port = folder / "finished", free_port()
+    run = start(program, sequence, port, out, "--to", "40", "--stay")
+    try:
+        open_page(port)
+        wait("the run is finished", lambda: state() == "finished")
+        wait("the results are there", (out / "summary.json").exists)
+        assert run.poll() is None, "expected the view to stay, found the program ended"
+        run.terminate()
+        assert run.wait(PATIENCE) == 0, run.returncode
+        time.sleep(1)
+        assert state() == "finished", state()
+        shot("finished")
+    finally:
+        run.kill()
+        run.wait()
+    port = free_port()
+    saved = subprocess.Popen([program, "map", "view", str(out / "map.plb"), "--view", str(port)],
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        open_page(port)
+        wait("the saved map is there", lambda: browser.execute_script(STATE)["keyframes"] > 2)
+        assert state() == "saved map", state()
+        assert not browser.find_element("id", "camera").is_displayed()
+        assert "frames/s" not in browser.find_element("id", "figures").text
+        shot("saved_map")
+    finally:
+        saved.kill()
+        saved.wait()
+
+
 def main(program, sequence, folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -180,6 +215,7 @@ def main(program, sequence, folder):
              and browser.execute_script(STATE)["keyframes"] > 2)
         shot("again")
         check_runs_apart(browser)
+        check_end(browser, program, sequence, folder, shot)
         errors = [entry for entry in browser.get_log("browser")
                   if entry["level"] == "SEVERE" and "WebSocket" not in entry["message"]]
         assert not errors, errors
