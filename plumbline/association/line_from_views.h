@@ -28,4 +28,12 @@ std::optional<MapLine> LineFromViews(const Map& map,
                                      const RectifiedCamera& camera,
                                      const std::vector<LineViewOf>& views);
 
+// The same with the tests of the first paper (section 3.3): the ends of every left segment are
+// within one pixel of the line, and where there are two keyframes, both ends of the line pass the
+// tests of a point as in ORB-SLAM: in front of both cameras, with at least 1.15 degrees between
+// their rays.
+std::optional<MapLine> CheckedLineFromViews(const Map& map,
+                                            const RectifiedCamera& camera,
+                                            const std::vector<LineViewOf>& views);
+
 }  // namespace plumbline

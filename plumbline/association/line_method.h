@@ -46,10 +46,15 @@ constexpr auto EnumNames(std::type_identity<LineResidualKind>) {
 }
 
 // The views from which a line is made where several keyframes show it.
-enum class LineReconstruction { kNView, kTwoView };
+enum class LineReconstruction {
+  kNView,
+  kCheckedNView,  // with the tests of the first paper (CheckedLineFromViews)
+  kTwoView,
+};
 
 constexpr auto EnumNames(std::type_identity<LineReconstruction>) {
   return std::array{std::pair{LineReconstruction::kNView, "n_view"},
+                    std::pair{LineReconstruction::kCheckedNView, "n_view_checked"},
                     std::pair{LineReconstruction::kTwoView, "two_view"}};
 }
 

@@ -37,10 +37,12 @@ void VisitFields(Visitor&& visit, LineOptions& o) {
         "observed_ends: distances of the measured end points from the projected line; "
         "projected_ends: of the projected end points from the measured line (with "
         "tracking.reference last_frame; with a map in builds with the laboratory)");
-  visit("reconstruction",
-        o.reconstruction,
-        "of a line from several keyframes: n_view (all closest ones together, pairs where they "
-        "disagree), two_view (the closest pair that agrees; in builds with the laboratory)");
+  visit(
+      "reconstruction",
+      o.reconstruction,
+      "of a line from several keyframes: n_view (all closest ones together, pairs where they "
+      "disagree), n_view_checked (with the first paper's tests of reprojection and of the ends of "
+      "pairs), two_view (the closest pair that agrees; in builds with the laboratory)");
   visit("weighting",
         o.weighting,
         "of the two residuals of a line: none (constant_sigma_px each), scalar (their mean "

@@ -33,6 +33,16 @@ constexpr auto EnumNames(std::type_identity<InitializationWait>) {
                     std::pair{InitializationWait::kInaccurate, "inaccurate"}};
 }
 
+// How often each step of starts was done, whichever map came of it.
+struct InitializationCounts {
+  int aligned_images = 0;    // images on which the reference's points were followed and aligned
+  int model_selections = 0;  // decisions between models over several frames (SelectModel)
+  int pairwise_poses = 0;    // poses of single frames (EstimatePairwisePose)
+  int pairwise_factorizations = 0;  // factorizations of such poses (FactorizePairwise)
+  int interpolated_places = 0;      // places that these interpolated
+  int two_view_solutions = 0;       // decisions between a homography and an essential matrix
+};
+
 struct InitializationResult {
   InitializationWait wait = InitializationWait::kNone;  // kNone when there is a map
   int matches = 0;                                      // points matched with the reference frame
@@ -54,6 +64,12 @@ class Initializer {
   // the same options. Load throws InputError for bytes that no initializer can have written.
   virtual void Save(StateWriter& archive) const = 0;
   virtual void Load(StateReader& archive) = 0;
+
+  // What has been done so far; counts from zero again after Load.
+  const InitializationCounts& counts() const { return counts_; }
+
+ protected:
+  InitializationCounts counts_;
 };
 
 }  // namespace plumbline

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/initialization/klt_initializer.h"
+#include "plumbline/initialization/pairwise_initializer.h"
 #include "plumbline/initialization/rank1_initializer.h"
 #include "plumbline/initialization/two_view.h"
 
@@ -16,6 +17,8 @@ std::unique_ptr<Initializer> MakeInitializer(const ImagingModel& imaging,
   switch (options.method) {
     case InitializationMethod::kRank1:
       return std::make_unique<Rank1Initializer>(imaging, options, seed, helper);
+    case InitializationMethod::kRank1Pairwise:
+      return std::make_unique<PairwiseInitializer>(imaging, options, seed);
     case InitializationMethod::kRank1Klt:
       return std::make_unique<KltInitializer>(imaging.camera, options, seed, helper);
     case InitializationMethod::kTwoView:

@@ -11,9 +11,10 @@
 
 namespace plumbline {
 
-enum class InitializationMethod { kRank1, kRank1Klt, kTwoView, kTwoViewImages };
+enum class InitializationMethod { kRank1, kRank1Pairwise, kRank1Klt, kTwoView, kTwoViewImages };
 constexpr auto EnumNames(std::type_identity<InitializationMethod>) {
   return std::array{std::pair{InitializationMethod::kRank1, "rank1"},
+                    std::pair{InitializationMethod::kRank1Pairwise, "rank1_pairwise"},
                     std::pair{InitializationMethod::kRank1Klt, "rank1_klt"},
                     std::pair{InitializationMethod::kTwoView, "two_view"},
                     std::pair{InitializationMethod::kTwoViewImages, "two_view_images"}};
@@ -26,6 +27,35 @@ constexpr auto EnumNames(std::type_identity<InitialMatching>) {
                     std::pair{InitialMatching::kDescriptors, "descriptors"}};
 }
 
+// What becomes of points that some of the frames do not show.
+enum class MissingPlaces {
+  kInterpolate,  // their places are interpolated (first paper, section 2.2)
+  kLeaveOut,     // the entries of the matrix that they would have given weigh nothing
+  kTriangulate,  // they take no part in the factorization, and are triangulated from its poses
+};
+constexpr auto EnumNames(std::type_identity<MissingPlaces>) {
+  return std::array{std::pair{MissingPlaces::kInterpolate, "interpolate"},
+                    std::pair{MissingPlaces::kLeaveOut, "leave_out"},
+                    std::pair{MissingPlaces::kTriangulate, "triangulate"}};
+}
+
+// Settings of the first paper's own start, rank1_pairwise.
+struct PairwiseOptions {
+  MissingPlaces missing = MissingPlaces::kInterpolate;
+  bool reject_outliers = true;
+};
+
+template <class Visitor>
+void VisitFields(Visitor&& visit, PairwiseOptions& o) {
+  visit("missing",
+        o.missing,
+        "points that some frames do not show: interpolate (as the paper), leave_out (of the "
+        "matrix), triangulate (from the poses found)");
+  visit("reject_outliers",
+        o.reject_outliers,
+        "matches far from their epipolar lines are left out before anything is completed");
+}
+
 struct InitializationOptions {
   InitializationMethod method = InitializationMethod::kRank1;
   // Frames after the reference that are solved together: m of the first paper.
@@ -36,6 +66,7 @@ struct InitializationOptions {
   double min_line_angle_deg = 0;
   int reweighting = 5;
   InitialMatching matching = InitialMatching::kImages;
+  PairwiseOptions pairwise;
 };
 
 template <class Visitor>
@@ -43,7 +74,9 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
   visit("method",
         o.method,
         "of a monocular start: rank1 (factorization of several frames, completed by geometric "
-        "interpolation), rank1_klt (of tracks alive in all frames), two_view (homography or "
+        "interpolation), rank1_pairwise (the same as the first paper has it: each frame's pose by "
+        "itself, and a start at once), rank1_klt (of tracks alive in all frames), two_view "
+        "(homography or "
         "essential matrix of two frames, points matched by descriptor), two_view_images (the same "
         "from the matches and with the patience of rank1)");
   visit("frames", o.frames, "frames after the reference that are solved together", Range{2, 30});
@@ -53,7 +86,8 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
   visit("factorize",
         o.factorize,
         "rank1: solve for cameras and points by factorization; false: points from the first and "
-        "the newest frame, poses of the frames between from these, all points from all poses");
+        "the newest frame, poses of the frames between from these, all points from all poses; "
+        "rank1_pairwise: false: translations get their lengths from frame to frame");
   visit("interpolate",
         o.interpolate,
         "rank1: complete tracks by geometric interpolation; false: factorize complete tracks only");
@@ -70,6 +104,7 @@ void VisitFields(Visitor&& visit, InitializationOptions& o) {
         o.matching,
         "rank1: of points with the reference: images (followed, and shifted until the image looks "
         "as in the reference), descriptors (as the paper)");
+  visit("pairwise", o.pairwise, "of rank1_pairwise: controls of what the first paper proposes");
 }
 
 constexpr auto FixedOptions(std::type_identity<InitializationOptions>) {

@@ -43,6 +43,8 @@ InitializationResult Rank1Initializer::Add(const InitializationFrame& frame) {
   if (result.wait != InitializationWait::kNone) return result;
   const std::vector<int> frames = window_.SelectFrames(frames_);
   const Tracks tracks = window_.CollectTracks(frames, kMaxTracks);
+  ++counts_.model_selections;
+  counts_.aligned_images += window_.FollowsImages() ? 1 : 0;
   Rng rng(seed_, "initialization", static_cast<std::uint64_t>(frame.id.value));
   const ModelSelection selection = SelectModel(tracks, selection_, prior_, rng);
   result.wait = selection.wait;

@@ -189,7 +189,71 @@ std::vector<TrackedPoints> InterpolateMissing(const Tracks& tracks,
   return completed;
 }
 
+int CountPlaces(const std::vector<TrackedPoints>& views) {
+  std::size_t places = 0;
+  for (const TrackedPoints& view : views) places += view.CountSeen();
+  return static_cast<int>(places);
+}
+
+// Returns the inverse distances of all points from the reference and one view with a translation of
+// length one.
+std::vector<double> InverseDistancesOfPair(const Tracks& tracks,
+                                           const TrackedPoints& view,
+                                           const Rigid3& pose) {
+  Tracks pair;
+  pair.reference = tracks.reference;
+  pair.views = {view};
+  return InverseDistances(pair, {pose});
+}
+
+// Gives each translation its length, that of the first being one: the points that a frame and the
+// one before it both show have one distance, which the pairs of both frames with the reference tell
+// in units of their translations. Returns nullopt where two frames have no such point in common.
+std::optional<std::vector<Rigid3>> ChainLengths(const Tracks& tracks, std::vector<Rigid3> poses) {
+  std::vector<double> before = InverseDistancesOfPair(tracks, tracks.views[0], poses[0]);
+  double length = 1;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const std::vector<double> now = InverseDistancesOfPair(tracks, tracks.views[i], poses[i]);
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      if (before[k] > 0 && now[k] > 0) ratios.push_back(now[k] / before[k]);
+    }
+    if (ratios.empty()) return std::nullopt;
+    length *= UpperMedian(std::move(ratios));
+    poses[i].translation *= length;
+    before = now;
+  }
+  return poses;
+}
+
 }  // namespace
+
+std::optional<PairwiseReconstruction> FactorizePairwise(const Tracks& tracks,
+                                                        const std::vector<Rigid3>& poses,
+                                                        MissingPlaces missing,
+                                                        const FactorizationOptions& options) {
+  const auto triangulated = [&](const std::vector<Rigid3>& scaled) {
+    return PairwiseReconstruction{
+        ToReconstruction(tracks, InverseDistances(tracks, scaled), scaled)};
+  };
+  if (!options.factorize) {
+    const auto scaled = ChainLengths(tracks, poses);
+    return scaled ? std::optional(triangulated(*scaled)) : std::nullopt;
+  }
+  if (missing == MissingPlaces::kLeaveOut) {
+    auto all = Factorize(tracks, tracks.views, poses, options);
+    return all ? std::optional(PairwiseReconstruction{*std::move(all)}) : std::nullopt;
+  }
+  auto first = Factorize(tracks, CompleteTracks(tracks), poses, options);
+  if (!first) first = Factorize(tracks, tracks.views, poses, options);
+  if (!first) return std::nullopt;
+  if (missing == MissingPlaces::kTriangulate) return triangulated(first->cam_from_reference);
+  const std::vector<TrackedPoints> completed = InterpolateMissing(tracks, *first, options);
+  auto all = Factorize(tracks, completed, first->cam_from_reference, options);
+  if (!all) return std::nullopt;
+  return PairwiseReconstruction{*std::move(all),
+                                CountPlaces(completed) - CountPlaces(tracks.views)};
+}
 
 std::optional<Rigid3> ResectNewest(const Tracks& tracks, const MotionHypothesis& hypothesis) {
   const Rigid3& guess = hypothesis.newest_from_reference;

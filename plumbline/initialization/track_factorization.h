@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/geometry/se3.h"
+#include "plumbline/initialization/options.h"
 #include "plumbline/initialization/rank1_factorization.h"
 #include "plumbline/initialization/reconstruction.h"
 
@@ -54,5 +55,28 @@ Rank1View Rank1ViewOf(const TrackedPoints& seen, const Rigid3& pose);
 std::optional<Reconstruction> FactorizeTracks(const Tracks& tracks,
                                               const MotionHypothesis& hypothesis,
                                               const FactorizationOptions& options);
+
+// A reconstruction, and how many places were interpolated for it.
+struct PairwiseReconstruction {
+  Reconstruction reconstruction;
+  int interpolated = 0;
+};
+
+// Finds motion and structure from poses that were found frame by frame, so that each translation
+// has length one (first paper, section 2). Rank-1 factorization finds the lengths; without
+// `options.factorize` they are chained from frame to frame by the depths of common points, and all
+// points are triangulated.
+//
+// Interpolation needs the ratios of the translations: with unit lengths places are 15 px off in the
+// median. Points that all frames show are therefore factorized first, or, where these are too few,
+// all with their missing entries left out; then places are interpolated, and all points are
+// factorized.
+//
+//   poses    view_from_reference of each view of the tracks
+//   returns  nullopt where too few points are left, or most lie behind the cameras
+std::optional<PairwiseReconstruction> FactorizePairwise(const Tracks& tracks,
+                                                        const std::vector<Rigid3>& poses,
+                                                        MissingPlaces missing,
+                                                        const FactorizationOptions& options);
 
 }  // namespace plumbline

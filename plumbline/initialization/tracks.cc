@@ -231,6 +231,12 @@ std::vector<int> FrameWindow::SelectFrames(int count) const {
   return frames;
 }
 
+std::vector<int> FrameWindow::NewestFrames(int count) const {
+  std::vector<int> frames;
+  for (int i = std::max(0, size() - count); i < size(); ++i) frames.push_back(i);
+  return frames;
+}
+
 // Returns at most `count` of the reference's features. In each round every cell of the image gives
 // its best remaining feature. Features that the newest frame shows come first, then those that most
 // frames show, then those with the least noise.

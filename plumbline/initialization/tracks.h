@@ -122,6 +122,11 @@ class FrameWindow {
   // Returns at most `count` frames spread evenly since the reference, the newest last. The first
   // paper takes the frames that follow the reference, which at video rate have not moved yet.
   std::vector<int> SelectFrames(int count) const;
+  // Returns the `count` newest frames, which follow each other, the newest last: those of the first
+  // paper.
+  std::vector<int> NewestFrames(int count) const;
+  // Whether points are followed and aligned on images.
+  bool FollowsImages() const { return matching_ == InitialMatching::kImages; }
 
   // Returns the places of the reference's points in the frames. At most `max_points` points, spread
   // over the image, are taken: first those that the newest frame shows, then those that most frames

@@ -206,6 +206,7 @@ InitializationResult TwoViewInitializer::Add(const InitializationFrame& frame) {
   motion_ = matches.motion;
   Rng rng(seed_, "two_view", static_cast<std::uint64_t>(frame.id.value));
   const auto rays = RayMatchesOf(camera_, before, features, matches.points);
+  ++counts_.two_view_solutions;
   const TwoViewSolution solution = SolveTwoViews(rays, rng);
   result.parallax_deg = solution.parallax_deg;
   result.wait = solution.wait;
@@ -239,6 +240,8 @@ InitializationResult TwoViewImagesInitializer::Add(const InitializationFrame& fr
   const std::vector<int> newest{window_.size() - 1};
   const Tracks tracks = window_.CollectTracks(newest, std::numeric_limits<int>::max());
   Rng rng(seed_, "two_view", static_cast<std::uint64_t>(frame.id.value));
+  ++counts_.aligned_images;
+  ++counts_.two_view_solutions;
   const TwoViewSolution solution =
       SolveTwoViews(MatchesBetween(tracks.reference, tracks.views.front()), rng);
   result.parallax_deg = solution.parallax_deg;

@@ -8,6 +8,7 @@
 
 #include <ctime>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <sstream>
 
@@ -202,6 +203,25 @@ void AddEvents(const MapEvents& events, Json& json) {
   }
 }
 
+// Adds how often each stage ran: the frames or keyframes with a time of it, and the steps of starts
+// and of line cutting.
+void AddStages(const System& system, Json& json) {
+  std::map<std::string, std::int64_t> stages;
+  for (std::size_t i = 0; i < system.frames().size(); ++i) {
+    for (const StageTime& time : system.frames()[i].times) ++stages[time.stage];
+  }
+  stages["cut_lines"] = system.cut_lines();
+  if (const auto start = system.initialization_counts()) {
+    stages["start_aligned_images"] = start->aligned_images;
+    stages["start_model_selections"] = start->model_selections;
+    stages["start_pairwise_poses"] = start->pairwise_poses;
+    stages["start_pairwise_factorizations"] = start->pairwise_factorizations;
+    stages["start_interpolated_places"] = start->interpolated_places;
+    stages["start_two_view_solutions"] = start->two_view_solutions;
+  }
+  json["stages"] = stages;
+}
+
 }  // namespace
 
 std::string FormatSummary(const RunDescription& description,
@@ -242,6 +262,7 @@ std::string FormatSummary(const RunDescription& description,
   json["accuracy_causal"] =
       causal ? Accuracy(*causal, dataset.sensor(), counts.frames) : Json(nullptr);
   json["timing"] = Timing(system.frames());
+  AddStages(system, json);
   json["first_pose_seconds"] = OrNull(resources.first_pose_seconds);
   json["wall_seconds"] = resources.wall_seconds;
   json["cpu_seconds"] = resources.cpu_seconds;

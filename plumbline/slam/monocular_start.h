@@ -48,6 +48,8 @@ class MonocularStart {
                  HelperThread* helper = nullptr);
 
   InitializationResult Offer(FrameId id, const MeasuredFrame& frame);
+  // What the initializer has done so far.
+  const InitializationCounts& counts() const { return initializer_->counts(); }
   // Begins anew: the initializer and the frames that wait are forgotten.
   void Restart();
   // Tells of a frame that was tracked. Only frames of a young map are kept.

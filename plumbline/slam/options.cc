@@ -51,7 +51,9 @@ void CheckOptions(const SlamOptions& options) {
   if (options.tracking.reference != TrackingReference::kLastFrame) {
     CheckLineMethod("residual", lines.residual, lines.method.residual);
   }
-  CheckLineMethod("reconstruction", lines.reconstruction, lines.method.reconstruction);
+  if (lines.reconstruction != LineReconstruction::kCheckedNView) {
+    CheckLineMethod("reconstruction", lines.reconstruction, lines.method.reconstruction);
+  }
 }
 
 }  // namespace plumbline

@@ -37,13 +37,13 @@ Vector6d LastVelocity(const InitialMap& initial) {
   return LogSe3(last.cam_from_world * Inverse(before.cam_from_world)) / seconds;
 }
 
-// Has odometry compare lines with images as its options say, where the caller left that to the
-// product.
+// Has lines done as the options say, where the caller left that to the product.
 SlamOptions WithLineMethod(SlamOptions options) {
-  if (options.tracking.reference == TrackingReference::kLastFrame &&
-      options.lines.method.residual != options.lines.residual) {
-    options.lines.method = ProductLineMethod(options.lines);
-  }
+  const LineMethod& method = options.lines.method;
+  const bool is_default = method.residual == LineResidualKind::kObservedEnds &&
+                          method.reconstruction == LineReconstruction::kNView &&
+                          method.parametrization == LineParametrization::kPlucker;
+  if (is_default) options.lines.method = ProductLineMethod(options.lines);
   return options;
 }
 
@@ -74,6 +74,11 @@ System::System(const Calibration& calibration,
 }
 
 System::~System() = default;
+
+std::optional<InitializationCounts> System::initialization_counts() const {
+  if (!monocular_start_) return std::nullopt;
+  return monocular_start_->counts();
+}
 
 void System::CheckStamp(std::int64_t stamp_ns) const {
   if (frames_.empty() || stamp_ns > newest_.stamp_ns) return;
@@ -347,8 +352,9 @@ FrameStatus System::StatusWithoutPose() const {
   return map_.valid() ? FrameStatus::kLost : FrameStatus::kInitializing;
 }
 
-void System::RecordTracking(const TrackingResult& result, FrameRecord& record) const {
+void System::RecordTracking(const TrackingResult& result, FrameRecord& record) {
   record.counts = result.counts;
+  cut_lines_ += result.counts.cut_lines;
   if (!result.cam_from_world) {
     record.status = StatusWithoutPose();
     record.reason = NameOf(result.failure);

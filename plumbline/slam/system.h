@@ -182,6 +182,11 @@ class System {
   const RectifiedCamera& camera() const { return rectifier().camera(); }
   // Makes rectified images of those delivered.
   const Rectifier& rectifier() const { return front_end_.rectifier(); }
+  // What the starts of maps from one camera have done in this run; nullopt with other sensors.
+  std::optional<InitializationCounts> initialization_counts() const;
+  // Lines of which only a piece took part in the pose of a frame, over all frames of this run
+  // (CuttingOptions).
+  std::int64_t cut_lines() const { return cut_lines_; }
   // The last processed frame.
   const FrameView& view() const { return view_; }
 
@@ -244,13 +249,14 @@ class System {
   TrackingResult StartFrom(const InitialMap& initial, FrameRecord& record);
   void Demote(const DemotedKeyFrame& gone);
   FrameStatus StatusWithoutPose() const;
-  void RecordTracking(const TrackingResult& result, FrameRecord& record) const;
+  void RecordTracking(const TrackingResult& result, FrameRecord& record);
   const Map& MapOf(MapId id) const;              // throws InputError where there is none
   void CheckStamp(std::int64_t stamp_ns) const;  // throws InputError unless later than the last
   const FrameRecord& Keep(FrameRecord record);
   void LoseFramesNotMapped();
 
   SlamOptions options_;
+  std::int64_t cut_lines_ = 0;
   Execution execution_;
   FrontEnd front_end_;
   ImagingModel imaging_;

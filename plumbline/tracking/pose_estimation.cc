@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace plumbline {
@@ -92,13 +94,29 @@ void Keep(const std::vector<bool>& points,
   }
 }
 
+// Counts the matches whose ends are no longer those of the whole line.
+int CountPieces(const PoseProblem& whole, const PoseProblem& cut) {
+  std::map<std::pair<int, int>, const Segment3*> ends;  // by line and image
+  for (const auto& match : whole.lines) {
+    ends[{match.group, match.measurement.camera}] = &match.ends;
+  }
+  return static_cast<int>(
+      std::count_if(cut.lines.begin(), cut.lines.end(), [&](const PoseProblem::LineMatch& match) {
+        const Segment3& before = *ends.at({match.group, match.measurement.camera});
+        return match.ends.start != before.start || match.ends.end != before.end;
+      }));
+}
+
 // Solves with cut lines and chosen features. Inliers are all points and whole lines that fit the
 // solution.
+//   cut_lines  set to the number of matches of which a piece took part
 PoseOnlyResult SolveWithCutLines(const MatchedProblem& matched,
                                  const LineOptions& lines,
-                                 const CuttingOptions& cutting) {
-  PoseOnlyResult result = lines.method.solve_pose(
-      WithCutLines(matched.problem, matched.cut_candidates, lines, cutting), {});
+                                 const CuttingOptions& cutting,
+                                 int& cut_lines) {
+  const PoseProblem cut = WithCutLines(matched.problem, matched.cut_candidates, lines, cutting);
+  cut_lines = CountPieces(matched.problem, cut);
+  PoseOnlyResult result = lines.method.solve_pose(cut, {});
   const Rigid3& pose = result.cam_from_world;
   result.point_inliers = PointsThatFit(matched.problem, pose, 1);
   result.inlier_points =
@@ -137,8 +155,9 @@ PoseEstimate PoseEstimator::Estimate(const Features& features,
   MatchedProblem matched = MakeProblem(camera_, features, initial, lines_, association);
   matched.problem.prior = prior;
   const bool all_whole = cutting_.method == CuttingMethod::kNone && cutting_.budget == 0;
+  int cut_lines = 0;
   const PoseOnlyResult result = all_whole ? lines_.method.solve_pose(matched.problem, {})
-                                          : SolveWithCutLines(matched, lines_, cutting_);
+                                          : SolveWithCutLines(matched, lines_, cutting_, cut_lines);
   Keep(result.point_inliers, result.line_inliers, matched, association);
   const double depth = SceneDepth(association, result.cam_from_world);
   return {result.cam_from_world,
@@ -147,7 +166,8 @@ PoseEstimate PoseEstimator::Estimate(const Features& features,
           SigmaOfPose(result.information, depth),
           result.inlier_points,
           result.inlier_line_groups,
-          result.converged};
+          result.converged,
+          cut_lines};
 }
 
 void PoseEstimator::DropDisagreeing(const Features& features,

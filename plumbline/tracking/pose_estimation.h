@@ -22,6 +22,7 @@ struct PoseEstimate {
   int inlier_points = 0;
   int inlier_lines = 0;
   bool converged = false;
+  int cut_lines = 0;  // lines of which only a piece took part, in any image
 
   int Inliers() const { return inlier_points + inlier_lines; }
   // Whether there are enough inliers, and these and the prior fix all six degrees of freedom.

@@ -30,6 +30,7 @@ struct LastFrame {
 struct FrameCounts {
   int matched_points = 0, matched_lines = 0;
   int inlier_points = 0, inlier_lines = 0;
+  int cut_lines = 0;  // of the pose that was accepted (PoseEstimate::cut_lines)
 };
 
 // A pose that was found for a frame, with the matches that it was found by.

@@ -63,6 +63,10 @@ Segment3 VisibleEnds(const PoseProblem& problem, const LineModel& line) {
 
 LineMethod ProductLineMethod(const LineOptions& options) {
   LineMethod method;
+  if (options.reconstruction == LineReconstruction::kCheckedNView) {
+    method.reconstruction = LineReconstruction::kCheckedNView;
+    method.line_from_views = CheckedLineFromViews;
+  }
   if (options.residual != LineResidualKind::kProjectedEnds) return method;
   method.residual = LineResidualKind::kProjectedEnds;
   method.weigh_match = WeighProjectedMatch;

@@ -16,8 +16,9 @@ namespace plumbline {
 // LineMethod.
 
 // Returns the method of the product for these options: that of observed ends or, for poses, of
-// projected ends. Bundle adjustment is by observed ends, so that projected ends serve odometry
-// against the last frame (TrackingReference::kLastFrame), where nothing is adjusted (CheckOptions).
+// projected ends; lines from several keyframes with or without the tests of the first paper. Bundle
+// adjustment is by observed ends, so that projected ends serve odometry against the last frame
+// (TrackingReference::kLastFrame), where nothing is adjusted (CheckOptions).
 LineMethod ProductLineMethod(const LineOptions& options);
 
 // A line and two points on it, in the world.

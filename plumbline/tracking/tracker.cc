@@ -189,6 +189,7 @@ Tracker::Finding Tracker::Judge(std::optional<PoseAttempt> attempt,
   FrameCounts counts = attempt->counts;
   counts.inlier_points = pose.inlier_points;
   counts.inlier_lines = pose.inlier_lines;
+  counts.cut_lines = pose.cut_lines;
   TrackingFailure failure = TrackingFailure::kNone;
   if (pose.Inliers() < kFewestInliers || !search_.Agreed(pose, counts)) {
     failure = TrackingFailure::kTooFewInliers;
