@@ -277,6 +277,9 @@ int EvaluateCommand(std::span<const std::string> arguments) {
   }
   Evaluation evaluation;
   evaluation.reference = LoadReference(line.Positional(0), frame);
+  for (const std::string& note : evaluation.reference.notes) {
+    std::cerr << "plumbline: " << Printable(note, kLongestMessage) << '\n';
+  }
   if (line.Has("--mirror-y")) evaluation.reference.poses = MirroredY(evaluation.reference.poses);
   const std::filesystem::path estimate_file = EstimateFile(line.Positional(1));
   CheckOutputs(line, FilesRead(line, evaluation.reference, estimate_file));

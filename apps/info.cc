@@ -34,6 +34,7 @@ CommandSyntax InfoSyntax() {
        {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "how the data is stored (auto)"},
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
        {"--camera", "FILE", "camera file or name of a built-in camera"},
+       {"--ground-truth", "FILE|none", "poses to look at in place of those with the data"},
        {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
@@ -100,7 +101,8 @@ void PrintCalibration(const DatasetInfo& info) {
 
 void PrintGroundTruth(const DatasetInfo& info) {
   if (!info.ground_truth) {
-    Row("ground truth", "none");
+    const auto& fault = info.ground_truth_fault;
+    Row("ground truth", fault ? "cannot be used: " + *fault : "none");
     return;
   }
   const std::int64_t max_gap_ns = ErrorOptionsFor(info.sensor, info.format).max_gap_ns;
@@ -153,6 +155,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   DatasetOptions options;
   options.allow_missing_camera = true;
   options.camera = line.Value("--camera");
+  options.ground_truth = line.Value("--ground-truth");
   options.topics = line.Values("--topic");
   if (const auto text = line.Value("--sensor")) {
     options.sensor = ParseChoice<SensorKind>("--sensor", *text);

@@ -63,6 +63,7 @@ CommandSyntax RunSyntax() {
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated (left, right, depth)"},
        {"--side-by-side", "", "live: each image is a left and a right half"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
+       {"--ground-truth", "FILE|none", "poses to compare with (default: those with the data)"},
        {"--config", "FILE", "options from a YAML file; may be repeated"},
        {"--set", "KEY=VALUE", "one option; may be repeated"},
        {"--from", "N", "first frame (default 0)"},
@@ -218,12 +219,14 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   const auto format = line.Value("--format");
   if (format && *format != "auto") options.format = ParseChoice<DatasetFormat>("--format", *format);
   options.camera = line.Value("--camera");
+  options.ground_truth = line.Value("--ground-truth");
   options.topics = line.Values("--topic");
   return options;
 }
 
 RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
-  for (const char* option : {"--format", "--topic", "--reverse", "--checkpoint", "--resume"}) {
+  for (const char* option :
+       {"--format", "--topic", "--ground-truth", "--reverse", "--checkpoint", "--resume"}) {
     if (line.Has(option)) {
       throw InputError(std::string(option) + ": expected a recording, found a live source");
     }
@@ -384,6 +387,7 @@ void SayBefore(const Dataset& dataset,
   for (const std::string& note : map_notes) Say(note);
   if (quiet) return;
   for (const std::string& note : dataset.info().notes) Say(note);
+  if (const auto& fault = dataset.info().ground_truth_fault) Say("no errors: " + *fault);
 }
 
 // What came of a live source, when it is known.

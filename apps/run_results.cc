@@ -178,9 +178,8 @@ void PrintResult(const System& system, const Dataset& dataset, const std::string
         mono ? fmt::format(" (scale {:.4g})", scale) : std::string(),
         error->poses.size(),
         100.0 * static_cast<double>(error->estimated) / std::max(counts.frames, 1));
-  } else if (counts.tracked > 0) {
-    std::cout << (dataset.info().ground_truth ? "no errors: the ground truth covers no pose\n"
-                                              : "no errors: no ground truth with the data\n");
+  } else if (counts.tracked > 0 && !dataset.info().ground_truth_fault) {  // told at the start
+    std::cout << "no errors: " << WhyNoErrors(dataset.info()) << '\n';
   }
   std::cout << "results in " << Printable(folder, kLongestMessage) << '\n';
 }

@@ -250,7 +250,8 @@ int StartsCommand(std::span<const std::string> arguments) {
   const auto dataset =
       OpenDataset(line.Positional(0), {.sensor = SensorKind::kMono, .camera = setup.camera});
   if (!dataset->info().ground_truth && !line.Has("--poses")) {
-    throw InputError(dataset->info().path.string() + ": expected ground truth, found none");
+    throw InputError(dataset->info().ground_truth_fault.value_or(
+        dataset->info().path.string() + ": expected ground truth, found none"));
   }
   StartPlan plan = ReadPlan(line, *dataset);
   CheckApart(setup.folder, CommandInputs(line, *dataset));

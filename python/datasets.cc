@@ -32,8 +32,10 @@ std::shared_ptr<Dataset> Open(const std::filesystem::path& path,
                               const std::optional<std::string>& sensor,
                               const std::optional<std::string>& camera,
                               const std::optional<std::string>& format,
-                              const std::vector<std::string>& topics) {
+                              const std::vector<std::string>& topics,
+                              const std::optional<std::filesystem::path>& ground_truth) {
   DatasetOptions options;
+  if (ground_truth) options.ground_truth = ground_truth->string();
   options.topics = topics;
   if (sensor) options.sensor = ParseChoice<SensorKind>("sensor", *sensor);
   if (format) options.format = ParseChoice<DatasetFormat>("format", *format);
@@ -148,6 +150,26 @@ void BindPlaybackSchedule(py::module_& module) {
           "When the frame of this stamp is due, which was read between these times.");
 }
 
+void BindOpen(py::module_& module) {
+  module.def("open",
+             &Open,
+             py::arg("path"),
+             py::arg("sensor") = py::none(),
+             py::arg("camera") = py::none(),
+             py::arg("format") = py::none(),
+             py::arg("topics") = py::tuple(),
+             py::arg("ground_truth") = py::none(),
+             R"(open(path, sensor=None, camera=None, format=None, topics=(), ground_truth=None)
+-> Dataset
+
+Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a ROS 1 bag, an
+MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
+camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
+"video", "bag" or "mcap" (None: found out). topics: of a bag or MCAP file, those of the images, the
+left camera first (empty: found out). ground_truth: a file of poses in place of those with the data,
+"none" for none. Raises InputError with the program's message.)");
+}
+
 }  // namespace
 
 void BindDatasets(py::module_& module) {
@@ -186,24 +208,16 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
           "What is missing or left out, a sentence each.")
       .def_property_readonly(
           "ground_truth", TruthOf, "Trajectory of the left camera; None where there is none.")
+      .def_property_readonly(
+          "ground_truth_fault",
+          [](const Dataset& d) { return d.info().ground_truth_fault; },
+          "Why the ground truth that came with the data cannot be used, with file and line, or "
+          "None.")
       .def("__repr__", [](const Dataset& d) {
         return fmt::format(
             "<Dataset {}, {}, {} frames>", d.info().name, NameOf(d.sensor()), d.size());
       });
-  module.def("open",
-             &Open,
-             py::arg("path"),
-             py::arg("sensor") = py::none(),
-             py::arg("camera") = py::none(),
-             py::arg("format") = py::none(),
-             py::arg("topics") = py::tuple(),
-             R"(open(path, sensor=None, camera=None, format=None, topics=()) -> Dataset
-
-Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a ROS 1 bag, an
-MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
-camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
-"video", "bag" or "mcap" (None: found out). topics: of a bag or MCAP file, those of the images, the
-left camera first (empty: found out). Raises InputError with the program's message.)");
+  BindOpen(module);
 }
 
 }  // namespace plumbline::python

@@ -67,7 +67,9 @@ struct DatasetInfo {
   Calibration calibration;
   std::string calibration_source;           // where it was read from, for people
   bool has_calibration = true;              // false only with DatasetOptions::allow_missing_camera
-  std::optional<GroundTruth> ground_truth;  // nullopt: none is delivered
+  std::optional<GroundTruth> ground_truth;  // nullopt: there is none that can be used
+  // "FILE:LINE: expected ..., found ...": why what was delivered as ground truth cannot be used.
+  std::optional<std::string> ground_truth_fault;
   // One sentence for each thing that is missing or left out.
   std::vector<std::string> notes;
   // Set where the frames are played backwards (reversed_dataset.h): what was recorded at t has the
@@ -110,6 +112,9 @@ struct DatasetOptions {
   // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1". It takes the
   // place of a camera file in the folder (CameraFileIn) and of the calibration of the data.
   std::optional<std::string> camera = std::nullopt;
+  // A file of poses (trajectory_io.h) in place of the ground truth of the data, of the same frame,
+  // or "none" for none. nullopt: that of the data, where there is some that can be used.
+  std::optional<std::string> ground_truth = std::nullopt;
   // Bags and MCAP files: the topics of the images, the left camera before the right one. Empty: the
   // topics are chosen from those in the file.
   std::vector<std::string> topics = {};

@@ -153,6 +153,17 @@ bool PathExists(const fs::path& path) {
   return exists;
 }
 
+std::vector<ListedImage> InOrderOfTime(const fs::path& list,
+                                       const std::vector<ListedImage>& images,
+                                       std::vector<std::string>& notes) {
+  std::vector<StampedRow> rows;
+  rows.reserve(images.size());
+  for (const ListedImage& image : images) rows.push_back(image.row);
+  std::vector<ListedImage> ordered;
+  for (const std::size_t i : OrderOfTime(list, rows, notes)) ordered.push_back(images[i]);
+  return ordered;
+}
+
 void CheckSecondList(const fs::path& list, const char* images) {
   if (PathExists(list)) return;
   throw InputError(

@@ -4,6 +4,7 @@
 
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/dataset.h"
+#include "plumbline/io/stamp_order.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,9 +17,14 @@ namespace plumbline {
 
 // An entry of a list of images.
 struct ListedImage {
-  std::int64_t stamp_ns = 0;
+  StampedRow row;
   std::filesystem::path path;
 };
+
+// Returns the images of a list in order of time, each time once (OrderOfTime).
+std::vector<ListedImage> InOrderOfTime(const std::filesystem::path& list,
+                                       const std::vector<ListedImage>& images,
+                                       std::vector<std::string>& notes);
 
 // Whether there is such a file or folder. Throws InputError where that cannot be found out.
 bool PathExists(const std::filesystem::path& path);

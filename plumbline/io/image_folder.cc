@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/text_rows.h"
 
@@ -31,6 +32,7 @@ std::unique_ptr<Dataset> OpenImageFolder(const fs::path& path, const DatasetOpti
   std::optional<CameraFile> camera = ReadCalibration(path, options);
   info.has_calibration = false;
   if (camera) UseCamera(*std::move(camera), info);
+  AddGroundTruth({}, options, info);
   if (!info.calibration.rate_hz) {
     if (info.has_calibration) {
       throw InputError(

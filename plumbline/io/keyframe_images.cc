@@ -9,6 +9,7 @@
 #include "plumbline/features/orb.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/image/gradient.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -97,12 +98,13 @@ KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
                                const DatasetOptions& options,
                                const SavedMap& saved)
     : path_(path), octave_scale_(saved.octave_scale) {
-  dataset_ = OpenDataset(path, options);
+  DatasetOptions as_sensor = options;
+  as_sensor.ground_truth = kNoGroundTruth;
+  dataset_ = OpenDataset(path, as_sensor);
   std::vector<SensorKind> sensors = dataset_->info().available;
   if (options.sensor) sensors = {*options.sensor};
   std::optional<std::string> difference;  // difference for the first sensor
   for (const SensorKind sensor : sensors) {
-    DatasetOptions as_sensor = options;
     as_sensor.sensor = sensor;
     if (sensor != dataset_->sensor()) dataset_ = OpenDataset(path, as_sensor);
     rectifier_ = std::make_unique<Rectifier>(dataset_->calibration());

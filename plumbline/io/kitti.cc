@@ -5,7 +5,9 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
+#include "plumbline/io/stamp_order.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -180,22 +182,11 @@ fs::path ImageAt(const std::map<std::size_t, fs::path>& images,
   return folder / fmt::format("{:06}{}", i, extension);
 }
 
-std::optional<GroundTruth> ReadGroundTruth(const fs::path& path,
-                                           const std::vector<std::int64_t>& stamps_ns) {
-  const std::optional<fs::path> file = KittiPosesFile(path);
-  if (!file) return std::nullopt;
-  return GroundTruth{ReadKittiPoses(*file, stamps_ns), GroundTruth::Frame::kCamera, *file};
-}
-
 }  // namespace
 
-std::optional<fs::path> KittiPosesFile(const fs::path& sequence) {
+std::vector<fs::path> KittiPosesFiles(const fs::path& sequence) {
   const std::string name = fs::absolute(sequence / ".").lexically_normal().parent_path().filename();
-  for (const fs::path& file :
-       {sequence / "poses.txt", sequence / ".." / ".." / "poses" / (name + ".txt")}) {
-    if (PathExists(file)) return file;
-  }
-  return std::nullopt;
+  return {sequence / "poses.txt", sequence / ".." / ".." / "poses" / (name + ".txt")};
 }
 
 std::unique_ptr<Dataset> OpenKitti(const fs::path& path, const DatasetOptions& options) {
@@ -204,27 +195,28 @@ std::unique_ptr<Dataset> OpenKitti(const fs::path& path, const DatasetOptions& o
   DatasetInfo info = DescribeDataset(path, DatasetFormat::kKitti, std::move(available), options);
   const bool stereo = info.sensor == SensorKind::kStereo;
 
-  info.stamps_ns = ReadKittiTimes(path / "times.txt");
+  const std::vector<StampedRow> times = ReadKittiTimes(path / "times.txt");
   const std::map<std::size_t, fs::path> left = NumberedImages(path / "image_0");
   if (left.empty()) {
     throw InputError((path / "image_0").string() + ": expected images, found none");
   }
-  if (left.rbegin()->first >= info.stamps_ns.size()) {
+  if (left.rbegin()->first >= times.size()) {
     throw InputError(fmt::format("{}: expected a time for each image up to {}, found {} times",
                                  (path / "times.txt").string(),
                                  left.rbegin()->second.filename().string(),
-                                 info.stamps_ns.size()));
+                                 times.size()));
   }
   std::map<std::size_t, fs::path> right;
   if (stereo) right = NumberedImages(path / "image_1");
   std::vector<FrameFiles> files;
-  for (std::size_t i = 0; i < info.stamps_ns.size(); ++i) {
+  for (const std::size_t i : OrderOfTime(path / "times.txt", times, info.notes)) {
+    info.stamps_ns.push_back(times[i].stamp_ns);
     FrameFiles frame{ImageAt(left, path / "image_0", i), std::nullopt, std::nullopt};
     if (stereo) frame.right = ImageAt(right, path / "image_1", i);
     files.push_back(std::move(frame));
   }
   UseCamera(ReadCalibration(path, options, files, info.sensor), info);
-  info.ground_truth = ReadGroundTruth(path, info.stamps_ns);
+  AddGroundTruth({KittiPosesFiles(path), GroundTruth::Frame::kCamera, &times}, options, info);
   return MakeImageDataset(std::move(info), std::move(files));
 }
 

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/printable.h"
 #include "plumbline/io/camera_file.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/raw_pixels.h"
 #include "plumbline/io/recorded_calibration.h"
@@ -302,6 +303,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
   const auto camera = ReadCalibration(topics, chosen, info.sensor, options);
   info.has_calibration = false;
   if (camera) UseCamera(*camera, info);
+  AddGroundTruth({}, options, info);
   if (info.sensor == SensorKind::kRgbd) SetDepthFactor(*chosen.depth, info);
   std::vector<FrameMessages> frames;
   std::vector<const RecordedTopic*> used = {chosen.left};

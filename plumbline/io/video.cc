@@ -8,6 +8,7 @@
 #include "plumbline/image/opencv_modules.h"
 #include "plumbline/io/camera_file.h"
 #include "plumbline/io/decoder_messages.h"
+#include "plumbline/io/ground_truth.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/text_rows.h"
 
@@ -156,6 +157,7 @@ std::unique_ptr<Dataset> OpenVideo(const fs::path& path, const DatasetOptions& o
   if (!camera && !options.allow_missing_camera) throw InputError(NoCalibration(path));
   info.has_calibration = false;
   if (camera) UseCamera(*std::move(camera), info);
+  AddGroundTruth({}, options, info);
   VideoContent content = Scan(path);
   if (info.has_calibration) CheckSize(info, content);
   const auto frames = static_cast<double>(content.stamps_ns.size());

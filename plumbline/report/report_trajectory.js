@@ -166,6 +166,11 @@ class TrajectoryView {
   }
 }
 
+// Why nothing is compared where there is no ground truth.
+const withoutGroundTruth = () => scene.ground_truth_fault ?
+    `No errors: ${scene.ground_truth_fault}.` :
+    "The sequence has no ground truth to compare with.";
+
 function buildTrajectory() {
   const body = sectionBody("trajectory");
   if (scene.maps.length === 0)
@@ -195,7 +200,7 @@ function buildTrajectory() {
   new TrajectoryView(views, 1);
   const texts = [];
   if (!scene.has_ground_truth)
-    texts.push("The sequence has no ground truth. The world is the first camera of the map.");
+    texts.push(`${withoutGroundTruth()} The world is the first camera of the map.`);
   else if (!mainMap)
     texts.push("Ground truth only.");
   else if (!mainMap.error)
@@ -285,7 +290,7 @@ function buildError() {
   if (errorByFrame.size === 0) {
     body.append(note(
         !scene.has_ground_truth ?
-            "The sequence has no ground truth to compare with." :
+            withoutGroundTruth() :
             "There is no pose at a time with ground truth, so nothing can be compared."));
     return;
   }

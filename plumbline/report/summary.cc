@@ -156,6 +156,11 @@ LineMemory MeasureLineMemory(const System& system) {
   return memory;
 }
 
+std::string WhyNoErrors(const DatasetInfo& info) {
+  if (info.ground_truth_fault) return *info.ground_truth_fault;
+  return info.ground_truth ? "the ground truth covers no pose" : "no ground truth with the data";
+}
+
 std::optional<TrajectoryError> CompareWithGroundTruth(const System& system,
                                                       const Dataset& dataset,
                                                       MapId map) {
@@ -237,10 +242,12 @@ std::string FormatSummary(const RunDescription& description,
   AddEvents(system.events(), json);
   const auto error = CompareWithGroundTruth(system, dataset);
   json["accuracy"] = error ? Accuracy(*error, dataset.sensor(), counts.frames) : Json(nullptr);
+  json["no_errors"] = error ? Json(nullptr) : Json(WhyNoErrors(dataset.info()));
   const auto main = system.MainMap();
   const auto causal = main ? Compare(system.CausalTrajectory(*main), dataset) : std::nullopt;
   json["accuracy_causal"] =
       causal ? Accuracy(*causal, dataset.sensor(), counts.frames) : Json(nullptr);
+  json["notes"] = dataset.info().notes;
   json["timing"] = Timing(system.frames());
   json["first_pose_seconds"] = OrNull(resources.first_pose_seconds);
   json["wall_seconds"] = resources.wall_seconds;

@@ -51,6 +51,10 @@ struct LineMemory {
 };
 LineMemory MeasureLineMemory(const System& system);
 
+// Returns why a run on this data has no errors, where CompareWithGroundTruth has none: "no ground
+// truth with the data", or the file and line at fault.
+std::string WhyNoErrors(const DatasetInfo& info);
+
 // Compares the final trajectory of a map, or of the main map, with the data set's ground truth:
 // SE(3) alignment, Sim(3) for mono, windows of 3 s. Returns nullopt without ground truth,
 // trajectory, or common time.

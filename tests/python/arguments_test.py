@@ -468,7 +468,9 @@ RUNS = {
     "events told to a text": (lambda d, f, t: plumbline.run(d, on_event="print"),
                               "on_event: expected a function, found str"),
     "sensor of a Dataset": (lambda d, f, t: plumbline.run(d, sensor="mono"),
-                            "sensor, camera, format, topics: expected none beside a Dataset"),
+                            "sensor, camera, format, topics, ground_truth: expected none beside a Dataset"),
+    "ground truth that is not there": (
+        lambda d, f, t: plumbline.open(d.path, ground_truth=t / "none.txt"), "none.txt: no such file"),
     "topics of a folder": (lambda d, f, t: plumbline.open(d.path, topics=["/cam0"]),
                            "expected a bag or an MCAP file to choose topics of"),
     "map that is not there": (lambda d, f, t: plumbline.run(d, map=t / "none.plb"), "none.plb"),

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Plumbline authors
 # SPDX-License-Identifier: Apache-2.0
 """Calibrations from files, texts and numbers; options."""
+import shutil
 import subprocess
 
 import numpy as np
@@ -45,6 +46,24 @@ def test_data_sets_tell_what_they_are(dataset, sequence):
     assert dataset[-1].stamp_ns == dataset.stamps_ns[-1]
     assert len(dataset.ground_truth) > 12
     assert dataset[0].left.dtype == np.uint8 and dataset[0].depth is None
+
+
+def test_ground_truth_is_optional_and_can_be_replaced(sequence, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(sequence, copy)
+    truth = copy / "mav0" / "state_groundtruth_estimate0" / "data.csv"
+    rows = truth.read_text()
+    truth.write_text("1,2,3\n")
+    dataset = plumbline.open(copy)
+    assert dataset.ground_truth is None
+    assert dataset.ground_truth_fault.startswith(f"{truth}:1: expected at least 8 columns")
+    own = tmp_path / "own.csv"
+    own.write_text(rows + rows.splitlines()[1] + "\n")
+    given = plumbline.open(copy, ground_truth=own)
+    assert given.ground_truth_fault is None and len(given.ground_truth) > 12
+    assert given.notes == [f"{own}:{len(rows.splitlines()) + 1}: 1 row goes back in time and is "
+                           "left out"]
+    assert plumbline.open(copy, ground_truth="none").ground_truth_fault is None
 
 
 def test_options_in_groups_and_with_dots():
