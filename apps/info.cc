@@ -166,7 +166,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   const std::unique_ptr<Dataset> dataset = OpenDataset(line.Positional(0), options);
   const DatasetInfo& info = dataset->info();
   Row("name", info.name);
-  Row("format", NameOf(info.format));
+  Row("format", NameOf(info.format) + (info.layout.empty() ? "" : ", " + info.layout));
   std::vector<std::string> sensors;
   for (const SensorKind kind : info.available) sensors.push_back(NameOf(kind));
   Row("sensors", fmt::format("{} (shown: {})", fmt::join(sensors, ", "), NameOf(info.sensor)));

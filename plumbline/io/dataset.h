@@ -60,6 +60,7 @@ struct DatasetInfo {
   std::string name;  // last part of the path
   std::filesystem::path path;
   DatasetFormat format = DatasetFormat::kImages;
+  std::string layout;                     // which data of this format, for people; may be empty
   SensorKind sensor = SensorKind::kMono;  // what it was opened as
   std::vector<SensorKind> available;      // what the data offers, richest first
   std::vector<std::int64_t> stamps_ns;    // one per frame, strictly increasing

@@ -90,7 +90,9 @@ std::optional<DatasetFormat> FindFormat(const fs::path& path) {
   const auto has = [&](const char* name) { return fs::exists(path / name, error); };
   if (has("mav0") || has("cam0")) return DatasetFormat::kEuroc;
   if (has("rgb.txt")) return DatasetFormat::kTum;
-  if (has("image_0") || has("calib.txt")) return DatasetFormat::kKitti;
+  if (has("image_0") || has("image_2") || has("calib.txt")) return DatasetFormat::kKitti;
+  if (has("image_00/timestamps.txt") || has("image_02/timestamps.txt"))
+    return DatasetFormat::kKitti;
   if (!ListImages(path).empty()) return DatasetFormat::kImages;
   return std::nullopt;
 }
