@@ -8,6 +8,7 @@
 #include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 
+#include "apps/command_inputs.h"
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include <algorithm>
@@ -34,6 +35,8 @@ CommandSyntax InfoSyntax() {
        {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "how the data is stored (auto)"},
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
        {"--camera", "FILE", "camera file or name of a built-in camera"},
+       {"--rotate", "auto|none|90|180|270", kRotateHelp},
+       {"--max-width", "PIXELS", kMaxWidthHelp},
        {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
@@ -154,6 +157,8 @@ int InfoCommand(std::span<const std::string> arguments) {
   options.allow_missing_camera = true;
   options.camera = line.Value("--camera");
   options.topics = line.Values("--topic");
+  options.rotate = ReadRotation(line);
+  options.max_width = ReadMaxWidth(line);
   if (const auto text = line.Value("--sensor")) {
     options.sensor = ParseChoice<SensorKind>("--sensor", *text);
   }

@@ -17,6 +17,7 @@
 #include "plumbline/slam/saved_options.h"
 
 #include "apps/chosen_map.h"
+#include "apps/command_inputs.h"
 #include "apps/command_line.h"
 #include "apps/map_commands.h"
 #include "apps/stop_signal.h"
@@ -65,6 +66,7 @@ CommandSyntax MapExportSyntax() {
             "of --images (found out from PATH)"},
            {"--topic", "NAME", "of --images, a bag or an MCAP file; may be repeated"},
            {"--camera", "FILE", "of --images: camera file, or the name of a built-in camera"},
+           {"--rotate", "auto|none|90|180|270", "of --images, as for the run (auto)"},
            {"--model", "text|binary|both", "files of a COLMAP model (both)"}}};
 }
 
@@ -128,6 +130,7 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   RefuseWithout(line, "--format", line.Has("--images"), "--images");
   RefuseWithout(line, "--topic", line.Has("--images"), "--images");
   RefuseWithout(line, "--camera", line.Has("--images"), "--images");
+  RefuseWithout(line, "--rotate", line.Has("--images"), "--images");
   RefuseWithout(line, "--model", colmap, "--to colmap");
   if (const auto images = line.Value("--images")) request.images = *images;
   if (const auto text = line.Value("--format"); text && *text != "auto") {
@@ -135,6 +138,7 @@ ExportRequest ReadExportRequest(const CommandLine& line) {
   }
   request.images_options.topics = line.Values("--topic");
   request.images_options.camera = line.Value("--camera");
+  request.images_options.rotate = ReadRotation(line);
   if (const auto text = line.Value("--model")) {
     request.colmap_files = ParseChoice<ColmapFiles>("--model", *text);
   }

@@ -63,6 +63,8 @@ CommandSyntax RunSyntax() {
        {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated (left, right, depth)"},
        {"--side-by-side", "", "live: each image is a left and a right half"},
        {"--camera", "FILE", "camera file, or the name of a built-in camera"},
+       {"--rotate", "auto|none|90|180|270", kRotateHelp},
+       {"--max-width", "PIXELS", kMaxWidthHelp},
        {"--config", "FILE", "options from a YAML file; may be repeated"},
        {"--set", "KEY=VALUE", "one option; may be repeated"},
        {"--from", "N", "first frame (default 0)"},
@@ -134,6 +136,10 @@ std::string DescribeInput(const CommandLine& line) {
   if (range.from > 0) words.push_back(fmt::format("--from {}", range.from));
   if (range.stride > 1) words.push_back(fmt::format("--stride {}", range.stride));
   if (blur > 1) words.push_back(fmt::format("--blur {}", blur));
+  if (const Rotation rotate = ReadRotation(line); rotate != Rotation::kAuto) {
+    words.push_back(fmt::format("--rotate {}", NameOf(rotate)));
+  }
+  if (const auto width = ReadMaxWidth(line)) words.push_back(fmt::format("--max-width {}", *width));
   if (line.Has("--reverse")) words.emplace_back("--reverse");
   return fmt::format("{}", fmt::join(words, " "));
 }
@@ -219,6 +225,8 @@ DatasetOptions ReadDatasetOptions(const CommandLine& line) {
   if (format && *format != "auto") options.format = ParseChoice<DatasetFormat>("--format", *format);
   options.camera = line.Value("--camera");
   options.topics = line.Values("--topic");
+  options.rotate = ReadRotation(line);
+  options.max_width = ReadMaxWidth(line);
   return options;
 }
 
@@ -239,6 +247,8 @@ RunFrames OpenLive(const CommandLine& line, const RunSetup& setup) {
   options.sensor = ReadDatasetOptions(line).sensor;
   options.camera = line.Value("--camera");
   options.side_by_side = line.Has("--side-by-side");
+  options.rotate = ReadRotation(line);
+  options.max_width = ReadMaxWidth(line);
   input.live = OpenLiveSource(line.Positional(0), options);
   input.dataset = std::make_shared<PassedFrames>(input.live->info());
   return input;

@@ -28,16 +28,25 @@
 namespace plumbline::python {
 namespace {
 
+// How images are prepared, by the names of Python.
+struct Preparation {
+  std::string rotate;
+  std::optional<int> max_width;
+};
+
 std::shared_ptr<Dataset> Open(const std::filesystem::path& path,
                               const std::optional<std::string>& sensor,
                               const std::optional<std::string>& camera,
                               const std::optional<std::string>& format,
-                              const std::vector<std::string>& topics) {
+                              const std::vector<std::string>& topics,
+                              const Preparation& preparation) {
   DatasetOptions options;
   options.topics = topics;
   if (sensor) options.sensor = ParseChoice<SensorKind>("sensor", *sensor);
   if (format) options.format = ParseChoice<DatasetFormat>("format", *format);
   options.camera = camera;
+  options.rotate = ParseChoice<Rotation>("rotate", preparation.rotate);
+  options.max_width = preparation.max_width;
   const py::gil_scoped_release release;
   return OpenDataset(path, options);
 }
@@ -148,6 +157,38 @@ void BindPlaybackSchedule(py::module_& module) {
           "When the frame of this stamp is due, which was read between these times.");
 }
 
+void BindOpen(py::module_& module) {
+  module.def(
+      "open",
+      [](const std::filesystem::path& path,
+         const std::optional<std::string>& sensor,
+         const std::optional<std::string>& camera,
+         const std::optional<std::string>& format,
+         const std::vector<std::string>& topics,
+         const std::string& rotate,
+         std::optional<int> max_width) {
+        return Open(path, sensor, camera, format, topics, {rotate, max_width});
+      },
+      py::arg("path"),
+      py::arg("sensor") = py::none(),
+      py::arg("camera") = py::none(),
+      py::arg("format") = py::none(),
+      py::arg("topics") = py::tuple(),
+      py::arg("rotate") = "auto",
+      py::arg("max_width") = py::none(),
+      R"(open(path, sensor=None, camera=None, format=None, topics=(), rotate="auto",
+     max_width=None) -> Dataset
+
+Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a ROS 1 bag, an
+MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
+camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
+"video", "bag" or "mcap" (None: found out). topics: of a bag or MCAP file, those of the images, the
+left camera first (empty: found out). rotate: "auto", "none", "90", "180" or "270", clockwise
+("auto": as a video or the EXIF data of stills ask). max_width: wider images are reduced to this
+width (None: to 2 megapixels). Frames and calibration are those of the images as used. Raises
+InputError with the program's message.)");
+}
+
 }  // namespace
 
 void BindDatasets(py::module_& module) {
@@ -190,20 +231,7 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
         return fmt::format(
             "<Dataset {}, {}, {} frames>", d.info().name, NameOf(d.sensor()), d.size());
       });
-  module.def("open",
-             &Open,
-             py::arg("path"),
-             py::arg("sensor") = py::none(),
-             py::arg("camera") = py::none(),
-             py::arg("format") = py::none(),
-             py::arg("topics") = py::tuple(),
-             R"(open(path, sensor=None, camera=None, format=None, topics=()) -> Dataset
-
-Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a ROS 1 bag, an
-MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
-camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
-"video", "bag" or "mcap" (None: found out). topics: of a bag or MCAP file, those of the images, the
-left camera first (empty: found out). Raises InputError with the program's message.)");
+  BindOpen(module);
 }
 
 }  // namespace plumbline::python

@@ -69,6 +69,10 @@ THIRD_PARTY = {
     "opencv2/": r"image/(opencv_bridge|opencv_modules|image_codecs)\.h|"
                 r"(image|features|initialization|io|live|report|view)/\w+\.cc",
     "yaml-cpp/": r"((base|io)/\w+|lab/experiments/(printed_figures|gate))\.cc",
+    "libavcodec/": r"image/video_decoder_library\.cc",
+    "libavformat/": r"image/video_decoder_library\.cc",
+    "libavutil/": r"image/video_decoder_library\.cc",
+    "libswscale/": r"image/video_decoder_library\.cc",
     "spng.h": r"image/image_codecs\.cc",
     "turbojpeg.h": r"image/image_codecs\.cc",
     "webp/": r"image/image_codecs\.cc",

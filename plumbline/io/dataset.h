@@ -103,6 +103,18 @@ class Dataset {
   DatasetInfo info_;
 };
 
+// By which angle images are turned clockwise before they are used. kAuto: as the file asks, a video
+// by its display matrix and still images of a folder by their EXIF orientation (which may mirror
+// them); all other images stay as they are stored.
+enum class Rotation { kAuto, kNone, k90, k180, k270 };
+constexpr auto EnumNames(std::type_identity<Rotation>) {
+  return std::array{std::pair{Rotation::kAuto, "auto"},
+                    std::pair{Rotation::kNone, "none"},
+                    std::pair{Rotation::k90, "90"},
+                    std::pair{Rotation::k180, "180"},
+                    std::pair{Rotation::k270, "270"}};
+}
+
 // How to open a data set, where it does not say so itself.
 struct DatasetOptions {
   std::optional<SensorKind> sensor = std::nullopt;     // nullopt: the richest the data offers
@@ -116,6 +128,12 @@ struct DatasetOptions {
   // Whether to open the data even where there is no calibration, in order to look at it.
   // `calibration` is a placeholder then. If false, a missing calibration is an InputError.
   bool allow_missing_camera = false;
+  // How images are turned, and the calibration with them (frame_preparation.h). The camera frame is
+  // that of the images as used.
+  Rotation rotate = Rotation::kAuto;
+  // Images of more columns are reduced to this width, and the calibration with them. nullopt: to 2
+  // megapixels, where they have more.
+  std::optional<int> max_width = std::nullopt;
 };
 
 }  // namespace plumbline

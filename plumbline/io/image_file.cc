@@ -122,6 +122,17 @@ Expected<std::vector<std::uint8_t>, ImageFailure> ReadBytes(const std::filesyste
   return bytes;
 }
 
+// Returns so many bytes from the start of a file, or as many as it has.
+std::vector<std::uint8_t> FirstBytes(const std::filesystem::path& path, std::size_t most) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};  // a pipe never ends
+  std::vector<std::uint8_t> start(most);
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(start.data()), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return start;
+}
+
 // Returns the size of an image whose file is complete, judged by its structure.
 Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path, Bytes bytes) {
   if (bytes.empty()) return ImageFailure{path, "the file is empty"};
@@ -181,6 +192,14 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
   return CheckedSize(path, *bytes);
 }
 
+int ReadExifOrientation(const std::filesystem::path& path) {
+  constexpr std::size_t kHeader = 1U << 17U;  // EXIF data of a JPEG file have 64 kB at most
+  const std::vector<std::uint8_t> start = FirstBytes(path, kHeader);
+  if (!IsWebp(start)) return ExifOrientation(start);
+  const auto bytes = ReadBytes(path);  // there they stand at the end
+  return bytes ? ExifOrientation(*bytes) : 1;
+}
+
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
                                                   std::optional<ImageSize> wanted) {
@@ -205,15 +224,8 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
 }
 
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe never ends
   constexpr std::size_t kHeader = 4096;  // with comments of a PGM file, as a rule
-  std::array<std::uint8_t, kHeader> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(start.data()), start.size());
-  if (!IsGreyOf16Bits(Bytes(start).first(static_cast<std::size_t>(file.gcount())))) {
-    return std::nullopt;
-  }
+  if (!IsGreyOf16Bits(FirstBytes(path, kHeader))) return std::nullopt;
   const auto bytes = ReadBytes(path);
   return bytes ? BrightestOf16Bits(Bytes(*bytes)) : std::nullopt;
 }

@@ -25,10 +25,14 @@ struct ImageFailure {
 // Returns the size that the header of an image file tells. Fails as ReadGrayImage does.
 Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& path);
 
+// Returns the EXIF orientation that a file asks for (image_header.h); 1, as stored, where it cannot
+// be read.
+int ReadExifOrientation(const std::filesystem::path& path);
+
 // Decodes an 8-bit grey image. Colour is converted by 0.299 R + 0.587 G + 0.114 B, in the same way
-// for all file types (those of image_header.h). Images of 16 bits keep the upper 8. An EXIF
-// orientation is ignored, since the calibration is of the raw pixels. An image whose header tells
-// another size than `wanted`, or more than kMostPixels, is not decoded.
+// for all file types (those of image_header.h). Images of 16 bits keep the upper 8. The image is as
+// stored, whatever orientation its EXIF data ask for (ReadExifOrientation). An image whose header
+// tells another size than `wanted`, or more than kMostPixels, is not decoded.
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
                                                 std::optional<ImageSize> wanted = std::nullopt);
 

@@ -9,6 +9,7 @@
 #include "plumbline/features/orb.h"
 #include "plumbline/geometry/camera_difference.h"
 #include "plumbline/image/gradient.h"
+#include "plumbline/io/frame_preparation.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -38,6 +39,14 @@ std::optional<std::string> LeftCameraDifference(const Rectifier& rectifier, cons
   camera.baseline = saved.camera.baseline;
   return CameraDifference({saved.camera, saved.rectified_from_left},
                           {camera, rectifier.rectified_left_from_left()});
+}
+
+// The images are as large as the map's camera, whatever the data have: it was run on reduced ones
+// where they have more. Images that are turned are those of one camera.
+DatasetOptions AsUsedFor(const SavedMap& saved, DatasetOptions options) {
+  if (!options.max_width) options.max_width = saved.camera.width;
+  if (!options.sensor && !TurnOf(options.rotate).IsIdentity()) options.sensor = SensorKind::kMono;
+  return options;
 }
 
 bool IsInside(const GrayImage& image, const Segment2& segment) {
@@ -94,9 +103,10 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map) {
 }
 
 KeyFrameImages::KeyFrameImages(const std::filesystem::path& path,
-                               const DatasetOptions& options,
+                               const DatasetOptions& given,
                                const SavedMap& saved)
     : path_(path), octave_scale_(saved.octave_scale) {
+  const DatasetOptions options = AsUsedFor(saved, given);
   dataset_ = OpenDataset(path, options);
   std::vector<SensorKind> sensors = dataset_->info().available;
   if (options.sensor) sensors = {*options.sensor};

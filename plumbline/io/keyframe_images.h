@@ -28,7 +28,8 @@ std::map<KeyFrameId, std::string> KeyFrameImageNames(const Map& map);
 // descriptors. An image that was blurred for the run (--blur) is close enough.
 class KeyFrameImages {
  public:
-  // Opens the data. `options` without a sensor: the sensor is the one whose images fit the map.
+  // Opens the data. `options` without a sensor: the sensor is the one whose images fit the map;
+  // without a greatest width: that of the map's camera, so that images are reduced as for the run.
   // Throws InputError where the data's camera is not that of the map, or the data has no frame at
   // the time of a keyframe.
   KeyFrameImages(const std::filesystem::path& path,

@@ -6,6 +6,7 @@
 #include "plumbline/base/input_file.h"
 #include "plumbline/base/printable.h"
 #include "plumbline/io/euroc.h"
+#include "plumbline/io/frame_preparation.h"
 #include "plumbline/io/image_dataset.h"
 #include "plumbline/io/image_folder.h"
 #include "plumbline/io/kitti.h"
@@ -22,6 +23,7 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -95,7 +97,11 @@ std::optional<DatasetFormat> FindFormat(const fs::path& path) {
   return std::nullopt;
 }
 
-std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {
+namespace {
+
+// OpenDataset before PrepareFrames, but for videos and folders of images: these know how their
+// images ask to be turned, and are prepared already.
+std::unique_ptr<Dataset> OpenByFormat(const fs::path& path, const DatasetOptions& options) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(path.string() + ": no such file or folder");
   const bool folder = fs::is_directory(path, error);
@@ -130,6 +136,15 @@ std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions&
       break;
   }
   throw BugError("a format without a reader");
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> OpenDataset(const fs::path& path, const DatasetOptions& options) {
+  auto dataset = OpenByFormat(path, options);
+  const DatasetFormat format = dataset->info().format;
+  if (format == DatasetFormat::kVideo || format == DatasetFormat::kImages) return dataset;
+  return PrepareFrames(std::move(dataset), {TurnOf(options.rotate)}, options.max_width);
 }
 
 }  // namespace plumbline

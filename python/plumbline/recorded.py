@@ -145,7 +145,8 @@ def _check_callable(name: str, value: object) -> None:
 
 
 def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None = None,
-        format: str | None = None, topics: Sequence[str] = (), start: int = 0,
+        format: str | None = None, topics: Sequence[str] = (), rotate: str = "auto",
+        max_width: int | None = None, start: int = 0,
         stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
         localize: bool = False, out: Path | None = None,
         on_frame: Callable[[FrameResult], object] | None = None,
@@ -153,8 +154,8 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     """Tracks the camera through a recorded sequence and maps what it sees, as `plumbline run`; the
     trajectory has the same bytes.
 
-    path, sensor, camera, format, topics: as for open(), or path is a Dataset. start, stop, stride:
-    which frames. map: a file or an Atlas to go on in; localize: only find the camera in it. out: a
+    path, sensor, camera, format, topics, rotate, max_width: as for open(), or path is a Dataset.
+    start, stop, stride: which frames. map: a file or an Atlas to go on in; localize: only find the camera in it. out: a
     folder for the files of the run. on_frame: called with the FrameResult of each frame, in order;
     on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
     known (System.new_events); both in this thread. options: groups as dictionaries,
@@ -165,12 +166,14 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     on_frame or on_event is raised again. Raises InputError.
     """
     if isinstance(path, Dataset):
-        if (sensor, camera, format, tuple(topics)) != (None, None, None, ()):
-            raise InputError(
-                "sensor, camera, format, topics: expected none beside a Dataset, found some")
+        if (sensor, camera, format, tuple(topics), rotate, max_width) != (
+                None, None, None, (), "auto", None):
+            raise InputError("sensor, camera, format, topics, rotate, max_width: expected none "
+                             "beside a Dataset, found some")
         dataset = path
     else:
-        dataset = _plumbline.open(path, sensor=sensor, camera=camera, format=format, topics=topics)
+        dataset = _plumbline.open(path, sensor=sensor, camera=camera, format=format, topics=topics,
+                                  rotate=rotate, max_width=max_width)
     _check_callable("on_frame", on_frame)
     _check_callable("on_event", on_event)
     if localize and map is None:

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Plumbline authors
 // SPDX-License-Identifier: Apache-2.0
+#include "plumbline/io/image_header.h"
 #include "plumbline/io/map_io.h"
 
 #include "tests/e2e/poster_run.h"
@@ -8,9 +9,11 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -262,6 +265,47 @@ TEST(MapExport, RefusesImagesThatAreNotThoseOfTheKeyframes) {
   ExpectRefusal(export_with(continued, b), message);
   EXPECT_FALSE(fs::exists(first / "data"));
   EXPECT_EQ(export_with(forwards, a).code, 0);
+}
+
+// The camera of a run on smaller or turned images is that of the images that are exported.
+TEST(MapExport, GivesImagesAsTheRunUsedThem) {
+  const ScratchFolder folder;
+  const std::string sequence = Quoted(WritePosterSequence(folder, 24));
+  const auto run = [&](const std::string& arguments) {
+    fs::remove_all(folder / "run");
+    return RunProgram(folder, "run " + sequence + arguments + " --out " + Quoted(folder / "run"));
+  };
+  const auto export_with = [&](const std::string& arguments) {
+    fs::remove_all(folder / "data");
+    return RunProgram(folder,
+                      "map export " + Quoted(folder / "run/map.plb") +
+                          " --to nerfstudio --images " + sequence + arguments + " --out " +
+                          Quoted(folder / "data"));
+  };
+  const auto expect_size = [&](int width, int height) {
+    const auto transforms = nlohmann::json::parse(Contents(folder / "data/transforms.json"));
+    EXPECT_EQ(transforms["w"], width);
+    EXPECT_EQ(transforms["h"], height);
+    const std::string name = transforms["frames"][0]["file_path"];
+    const std::string png = Contents(folder / "data" / name);
+    EXPECT_EQ(
+        SizeInHeader(std::span(reinterpret_cast<const std::uint8_t*>(png.data()), png.size())),
+        (ImageSize{width, height}));
+  };
+  const Outcome smaller = run(" --max-width 200");
+  ASSERT_EQ(smaller.code, 0) << smaller.err;
+  EXPECT_THAT(smaller.err, HasSubstr("images of 400x300 pixels are reduced to 200x150"));
+  ASSERT_EQ(export_with("").code, 0);
+  expect_size(200, 150);
+  const Outcome turned = run(" --sensor mono --rotate 90");
+  ASSERT_EQ(turned.code, 0) << turned.err;
+  EXPECT_THAT(turned.err, HasSubstr("images are turned by 90 degrees clockwise"));
+  ASSERT_EQ(export_with(" --rotate 90").code, 0);
+  expect_size(300, 400);
+  ExpectRefusal(export_with(""), "expected the camera that the map was made with");
+  ExpectRefusal(run(" --rotate 90"), "sequence: expected one camera whose images can be turned");
+  ExpectRefusal(run(" --rotate 45"), "--rotate: expected auto, none, 90, 180 or 270, found 45");
+  ExpectRefusal(run(" --max-width 3"), "--max-width: expected a whole number from 16 to 100000");
 }
 
 // An image that cannot be read ends an export without a trace.

@@ -47,6 +47,17 @@ def test_data_sets_tell_what_they_are(dataset, sequence):
     assert dataset[0].left.dtype == np.uint8 and dataset[0].depth is None
 
 
+def test_images_are_turned_and_reduced_with_their_camera(dataset, sequence):
+    width, height = dataset.calibration.width, dataset.calibration.height
+    half = plumbline.open(sequence, max_width=width // 2)
+    assert half[0].left.shape == half[0].right.shape == (round(height / 2), width // 2)
+    assert half.calibration.width == width // 2
+    mono = plumbline.open(sequence, sensor="mono", rotate="180")
+    stored = plumbline.open(sequence, sensor="mono")
+    assert np.array_equal(mono[1].left, np.rot90(stored[1].left, 2))
+    assert any("turned by 180 degrees" in note for note in mono.notes)
+
+
 def test_options_in_groups_and_with_dots():
     defaults = plumbline.options()
     assert defaults["slam"]["mode"] == "lockstep"
