@@ -149,7 +149,7 @@ const CameraFormat& FormatOf(const YamlSection& root) {
       {"Kalibr camchain",
        {"cam0", "cam1"},
        ReadKalibr,
-       {.pair = {"cam1/T_cn_cnm1"},
+       {.pair = {"cam1/T_cn_cnm1", "cam1/T_cam_imu", "cam1/T_imu_cam"},
         .rate = {"rate_hz", "cam0/rate_hz"},
         .depth_factor = {"depth_factor", "cam0/depth_factor"},
         .lever = {}}},
