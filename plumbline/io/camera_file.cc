@@ -8,6 +8,7 @@
 #include "plumbline/geometry/plausible_calibration.h"
 #include "plumbline/io/builtin_cameras.h"
 #include "plumbline/io/camera_section.h"
+#include "plumbline/io/camodocal.h"
 #include "plumbline/io/euroc_sensor.h"
 #include "plumbline/io/kalibr.h"
 #include "plumbline/io/opencv_calibration.h"
@@ -164,6 +165,10 @@ const CameraFormat& FormatOf(const YamlSection& root) {
        {"camera_model", "T_BS"},
        ReadEuroc,
        {.pair = {}, .rate = {"rate_hz"}, .depth_factor = {}, .lever = {"T_BS"}}},
+      {"CamOdoCal file",
+       {"model_type", "projection_parameters"},
+       ReadCamodocal,
+       {.pair = {}, .rate = {"rate_hz"}, .depth_factor = {"depth_factor"}, .lever = {}}},
       {"OpenCV or ROS calibration",
        {"camera_matrix"},
        ReadOpenCvCalibration,
