@@ -372,8 +372,10 @@ TEST(Recordings, ReadCamerasAsTheyAreCalibrated) {
     return MessageOf([&] { opened(a, b, "image_raw"); });
   };
   TestCamera odd = left;
-  odd.model = "rational_polynomial";
-  EXPECT_THAT(message(odd, right), HasSubstr("/left/camera_info: expected distortion plumb_bob"));
+  odd.model = "thin_prism";
+  EXPECT_THAT(message(odd, right),
+              HasSubstr("/left/camera_info: expected distortion plumb_bob or equidistant, found "
+                        "'thin_prism': give --camera FILE"));
   odd = left;
   odd.binning = 2;
   EXPECT_THAT(message(odd, right), HasSubstr("expected whole images, found binned"));
@@ -388,6 +390,42 @@ TEST(Recordings, ReadCamerasAsTheyAreCalibrated) {
   odd = left;
   odd.k[0] = -1;
   EXPECT_THAT(message(odd, right), HasSubstr("/left/camera_info: expected fx"));
+}
+
+// Orbbec's driver sends a rational model that is none, RealSense's a name without distortion.
+TEST(Recordings, TakeModelsOfMoreNumbersThatAreZero) {
+  for (const Dialect dialect : {Dialect::kCdr, Dialect::kProtobuf}) {
+    const bool cdr = dialect == Dialect::kCdr;
+    const std::string package = cdr ? "sensor_msgs/msg/" : "foxglove.";
+    const auto opened = [&](const std::string& model, const std::vector<double>& d) {
+      const ScratchFolder folder;
+      McapWriter file;
+      TestCamera camera;
+      camera.model = model;
+      camera.d = d;
+      file.Add("/c/camera_info",
+               package + (cdr ? "CameraInfo" : "CameraCalibration"),
+               cdr ? "cdr" : "protobuf",
+               1,
+               CalibrationMessageOf(dialect, camera));
+      file.Add("/c/image",
+               package + (cdr ? "Image" : "RawImage"),
+               cdr ? "cdr" : "protobuf",
+               2,
+               RawImageMessage(dialect, Gray(kSecond, 'a')));
+      return OpenDataset(folder.Write("x.mcap", file.Finish()))->calibration().left.intrinsics();
+    };
+    EXPECT_EQ(opened("rational_polynomial", {0.1, -0.02, 0, 0, 0.003, 0, 0, 0}).distortion[4],
+              0.003);
+    EXPECT_EQ(opened("kannala_brandt", {0.1, -0.02, 0, 0}).model, DistortionModel::kEquidistant);
+    EXPECT_EQ(opened("Inverse Brown Conrady", {0, 0, 0, 0, 0}).model, DistortionModel::kNone);
+    EXPECT_EQ(opened("", {}).model, DistortionModel::kNone);
+    EXPECT_THAT(MessageOf([&] {
+                  opened("Inverse Brown Conrady", {0.1, 0, 0, 0, 0});
+                }),
+                HasSubstr("/c/camera_info: expected plumb_bob or equidistant, found 'Inverse Brown "
+                          "Conrady', whose numbers undo a distortion"));
+  }
 }
 
 TEST(Recordings, FailFrameByFrame) {
