@@ -139,12 +139,14 @@ Expected<ImageSize, ImageFailure> CheckedSize(const std::filesystem::path& path,
   return *size;
 }
 
-// Returns the upper 8 bits of grey levels of 16 bits.
-GrayImage UpperBytes(const cv::Mat& mat) {
+// Returns the upper 8 of so many bits of grey levels.
+GrayImage UpperBits(const cv::Mat& mat, int bits) {
   GrayImage gray(mat.cols, mat.rows);
   for (int y = 0; y < mat.rows; ++y) {
     const auto* in = mat.ptr<std::uint16_t>(y);
-    for (int x = 0; x < mat.cols; ++x) gray.at(x, y) = static_cast<std::uint8_t>(in[x] >> 8U);
+    for (int x = 0; x < mat.cols; ++x) {
+      gray.at(x, y) = static_cast<std::uint8_t>(std::min(in[x] >> (bits - 8), 255));
+    }
   }
   return gray;
 }
@@ -183,13 +185,15 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
 
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
-                                                  std::optional<ImageSize> wanted) {
+                                                  std::optional<ImageSize> wanted,
+                                                  int bits) {
+  PLUMBLINE_CHECK(bits >= 8 && bits <= 16, "bits of a level");
   // Decoders that turn colour into grey themselves round differently, so that colours are decoded.
   const Expected<cv::Mat, ImageFailure> mat =
       DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
   if (!mat) return mat.error();
   if (mat->type() == CV_8UC1) return ToImage<std::uint8_t>(*mat);
-  if (mat->type() == CV_16UC1) return UpperBytes(*mat);
+  if (mat->type() == CV_16UC1) return UpperBits(*mat, bits);
   if (mat->type() != CV_8UC3) return ImageFailure{name, "neither a grey nor a colour image"};
   GrayImage gray(mat->cols, mat->rows);
   cv::Mat out = AsMat(gray);

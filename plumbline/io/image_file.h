@@ -44,10 +44,13 @@ Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& p
                                                   double factor,
                                                   std::optional<ImageSize> wanted = std::nullopt);
 
-// Decodes the bytes of a file as ReadGrayImage decodes the file; `name` is for failures.
+// Decodes the bytes of a file as ReadGrayImage decodes the file; `name` is for failures. `bits`:
+// how many of the 16 bits of a level are used (8 to 16); of these the upper 8 are kept, and
+// brighter levels become 255.
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
-                                                  std::optional<ImageSize> wanted = std::nullopt);
+                                                  std::optional<ImageSize> wanted = std::nullopt,
+                                                  int bits = 16);
 // Decodes the bytes of a file as ReadDepthImage decodes the file; `name` is for failures.
 Expected<DepthImage, ImageFailure> DecodeDepthImage(const std::filesystem::path& name,
                                                     std::span<const std::uint8_t> bytes,

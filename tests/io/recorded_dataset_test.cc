@@ -439,7 +439,7 @@ TEST(Recordings, FailFrameByFrame) {
   const std::string png = Png(8, 6, 'c');
   AddPacked(bag, "/c/image", {3 * kSecond, "png", 0, 0, 0, png.substr(0, png.size() - 4)});
   TestImage bayer = Gray(4 * kSecond, 'd');
-  bayer.encoding = "bayer_rggb8";
+  bayer.encoding = "bayer_rggb16";
   AddImage(bag, "/c/image", bayer);
   const auto dataset = OpenDataset(Write(folder, bag));
   ASSERT_EQ(dataset->size(), 4U);
@@ -447,7 +447,7 @@ TEST(Recordings, FailFrameByFrame) {
   EXPECT_EQ(dataset->Read(1).error().why, "/c/image: expected 48 bytes of pixels, found 40");
   EXPECT_EQ(dataset->Read(2).error().why, "/c/image: the file ends early");
   EXPECT_EQ(dataset->Read(3).error().why,
-            "/c/image: expected an image, found encoding 'bayer_rggb8'");
+            "/c/image: expected an image, found encoding 'bayer_rggb16'");
 }
 
 TEST(Recordings, OrderImagesByTheSensorsStamps) {
