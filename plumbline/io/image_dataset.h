@@ -53,6 +53,11 @@ void CheckFirstFrame(const Dataset& dataset);
 // bits that are not shifted up are almost black.
 void NoteBits(std::optional<int> brightest, DatasetInfo& info);
 
+// Adds a note where the stamps are so close to each other as no camera takes images (most of them
+// less than a millisecond apart, of more than ten): as a rule they are in another unit than the
+// format has.
+void NoteRate(DatasetInfo& info);
+
 // Fills in name, path, format, available and sensor: the sensor asked for, or the richest one.
 // Throws InputError when the data does not offer it.
 DatasetInfo DescribeDataset(const std::filesystem::path& path,

@@ -316,6 +316,7 @@ std::unique_ptr<Dataset> OpenRecording(const fs::path& path,
     if (info.sensor == SensorKind::kRgbd) NoteFrames(*chosen.left, *chosen.depth, info);
   }
   NoteTopics(used, info);
+  NoteRate(info);
   if (!frames.empty()) NoteBitsOf(*topics.file, frames.front().left, info);
   auto dataset =
       std::make_unique<RecordedDataset>(std::move(info), std::move(topics.file), std::move(frames));

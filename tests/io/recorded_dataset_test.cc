@@ -494,6 +494,20 @@ TEST(Recordings, MayBeginAtZero) {
   EXPECT_THAT(FramesOfStamps({0}), ElementsAre(100 * kSecond));
 }
 
+TEST(Recordings, SayThatNoCameraIsSoFast) {
+  const auto notes = [](std::int64_t interval_ns) {
+    const ScratchFolder folder;
+    BagWriter bag;
+    AddCamera(bag, "/c/camera_info", {});
+    for (int i = 0; i < 12; ++i) AddImage(bag, "/c/image", Gray(kSecond + i * interval_ns, 'a'));
+    return OpenDataset(Write(folder, bag))->info().notes;
+  };
+  EXPECT_THAT(notes(50'000),
+              Contains("the time stamps are those of 20000 frames a second, which no "
+                       "camera takes: are they in another unit than nanoseconds?"));
+  EXPECT_THAT(notes(1'000'000), Not(Contains(HasSubstr("frames a second"))));
+}
+
 TEST(Recordings, RefuseWhatHasNoImages) {
   const ScratchFolder folder;
   BagWriter bag;
