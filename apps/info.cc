@@ -26,15 +26,16 @@ namespace plumbline {
 namespace {
 
 CommandSyntax InfoSyntax() {
-  return {
-      "info",
-      "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
-      {"PATH"},
-      {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
-       {"--format", "auto|euroc|tum|kitti|images|video|bag|mcap", "how the data is stored (auto)"},
-       {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
-       {"--camera", "FILE", "camera file or name of a built-in camera"},
-       {"--check", "", "decode every image and name those that cannot be used"}}};
+  return {"info",
+          "Tells what is at a path: format, sensors, frames, rate, calibration, what is missing.",
+          {"PATH"},
+          {{"--sensor", "mono|stereo|rgbd", "look at the data as for this sensor (richest)"},
+           {"--format",
+            "auto|euroc|tum|kitti|images|video|bag|mcap|rosbag2",
+            "how the data is stored (auto)"},
+           {"--topic", "NAME", "images of a bag or an MCAP file; may be repeated"},
+           {"--camera", "FILE", "camera file or name of a built-in camera"},
+           {"--check", "", "decode every image and name those that cannot be used"}}};
 }
 
 void Row(const std::string& name, const std::string& text) {

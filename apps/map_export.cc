@@ -61,7 +61,7 @@ CommandSyntax MapExportSyntax() {
            kMapOption,
            {"--images", "PATH", "the data that the map was made from: its images are written, too"},
            {"--format",
-            "auto|euroc|tum|kitti|images|video|bag|mcap",
+            "auto|euroc|tum|kitti|images|video|bag|mcap|rosbag2",
             "of --images (found out from PATH)"},
            {"--topic", "NAME", "of --images, a bag or an MCAP file; may be repeated"},
            {"--camera", "FILE", "of --images: camera file, or the name of a built-in camera"},

@@ -199,11 +199,11 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
              py::arg("topics") = py::tuple(),
              R"(open(path, sensor=None, camera=None, format=None, topics=()) -> Dataset
 
-Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a ROS 1 bag, an
-MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
+Opens a EuRoC folder, a TUM or ICL folder, a KITTI sequence, a folder of images, a bag of ROS 1 or
+ROS 2 (folder, .db3), an MCAP file or a video. sensor: "mono", "stereo" or "rgbd" (None: the richest the data offers).
 camera: a camera file or the name of a built-in camera. format: "euroc", "tum", "kitti", "images",
-"video", "bag" or "mcap" (None: found out). topics: of a bag or MCAP file, those of the images, the
-left camera first (empty: found out). Raises InputError with the program's message.)");
+"video", "bag", "mcap" or "rosbag2" (None: found out). topics: of a bag or MCAP file, those of the
+images, in the order left, right, depth (empty: found out). Raises InputError with the program's message.)");
 }
 
 }  // namespace plumbline::python

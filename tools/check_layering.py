@@ -74,6 +74,7 @@ THIRD_PARTY = {
     "webp/": r"image/image_codecs\.cc",
     "bzlib.h": r"recording/compression\.cc",
     "lz4": r"recording/compression\.cc",
+    "sqlite3.h": r"recording/sqlite_bag\.cc",
     "zstd.h": r"(io/section_file|recording/(compression|mcap_file_writer))\.cc",
 }
 # Headers of the library that bring a heavy third-party header along: for .cc files only.

@@ -30,7 +30,7 @@ constexpr auto EnumNames(std::type_identity<SensorKind>) {
 }
 
 // How a sequence is stored. kStream is the format of a live source; nobody can ask for it.
-enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo, kBag, kMcap, kStream };
+enum class DatasetFormat { kEuroc, kTum, kKitti, kImages, kVideo, kBag, kMcap, kRosbag2, kStream };
 constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
   return std::array{std::pair{DatasetFormat::kEuroc, "euroc"},
                     std::pair{DatasetFormat::kTum, "tum"},
@@ -38,7 +38,8 @@ constexpr auto EnumNames(std::type_identity<DatasetFormat>) {
                     std::pair{DatasetFormat::kImages, "images"},
                     std::pair{DatasetFormat::kVideo, "video"},
                     std::pair{DatasetFormat::kBag, "bag"},
-                    std::pair{DatasetFormat::kMcap, "mcap"}};
+                    std::pair{DatasetFormat::kMcap, "mcap"},
+                    std::pair{DatasetFormat::kRosbag2, "rosbag2"}};
 }
 
 // Reference poses as delivered with a data set, not transformed.
@@ -110,8 +111,8 @@ struct DatasetOptions {
   // A camera file (camera_file.h) or the name of a built-in camera such as "tum_fr1". It takes the
   // place of a camera file in the folder (CameraFileIn) and of the calibration of the data.
   std::optional<std::string> camera = std::nullopt;
-  // Bags and MCAP files: the topics of the images, the left camera before the right one. Empty: the
-  // topics are chosen from those in the file.
+  // Bags and MCAP files: the topics of the images, in the order left, right, depth. Empty: they are
+  // chosen from those in the file.
   std::vector<std::string> topics = {};
   // Whether to open the data even where there is no calibration, in order to look at it.
   // `calibration` is a placeholder then. If false, a missing calibration is an InputError.

@@ -100,7 +100,7 @@ TEST(BadInput, FilesThatAreMissing) {
         " --sensor stereo"},
        {"an unknown format",
         Remove("none"),
-        "--format: expected euroc, tum, kitti, images, video, bag or mcap, found stream",
+        "--format: expected euroc, tum, kitti, images, video, bag, mcap or rosbag2, found stream",
         " --format stream"}});
 }
 

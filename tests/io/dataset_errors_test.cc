@@ -240,29 +240,6 @@ TEST(OpenDataset, APipeIsNotWaitedFor) {
   }
 }
 
-// Neither a bag of SQLite nor a folder of ros2 bag is damaged: the message says what to do with it.
-TEST(OpenDataset, SaysWhatToDoWithBagsOfRos2) {
-  const ScratchFolder folder;
-  const auto message = [&](const std::string& path) {
-    return MessageOf([&] { OpenDataset(folder / path); });
-  };
-  const std::string sqlite = std::string("SQLite format 3") + '\0' + "pages";
-  const std::string expected =
-      ": expected MCAP, found a ROS 2 bag of SQLite; ros2 bag convert makes one";
-  for (const char* name : {"x.db3", "x.bag", "x"}) {
-    EXPECT_EQ(message(folder.Write(name, sqlite).filename()), (folder / name).string() + expected);
-  }
-  folder.Write("walk/walk_0.db3", sqlite);
-  EXPECT_THAT(message("walk"), HasSubstr("walk: expected a EuRoC folder"));
-  folder.Write("walk/metadata.yaml", "rosbag2_bagfile_information:\n");
-  EXPECT_EQ(message("walk"), (folder / "walk/walk_0.db3").string() + expected);
-  folder.Write("drive/metadata.yaml", "rosbag2_bagfile_information:\n");
-  for (const char* part : {"drive/drive_1.mcap", "drive/drive_0.mcap"}) folder.Write(part, "x");
-  EXPECT_EQ(message("drive"),
-            (folder / "drive").string() +
-                ": expected a file, found a folder of ros2 bag; give drive_0.mcap in it");
-}
-
 TEST(OpenDataset, NamesWrongPathsAndWishes) {
   const ScratchFolder folder;
   WriteEuroc(folder);
