@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/calibration.h"
 #include "plumbline/geometry/trajectory.h"
+#include "plumbline/image/color_image.h"
 #include "plumbline/image/image.h"
 #include "plumbline/io/image_file.h"
 
@@ -98,6 +99,11 @@ class Dataset {
   // Decodes frame i < size(). Fails, for this frame only, when an image is missing, cannot be
   // decoded or is cut short. Thread-safe. Cost: the decoding, some milliseconds an image.
   virtual Expected<SensorFrame, ImageFailure> Read(std::size_t i) const = 0;
+
+  // Decodes the left image alone of frame i < size(), in colour where it is stored so; a grey one
+  // has the same in all channels. ToGray of it is the left image of Read. Fails as Read does. Here:
+  // the grey image of Read; a data set that may hold colours, or wraps another one, overrides it.
+  virtual Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const;
 
  private:
   DatasetInfo info_;

@@ -53,6 +53,14 @@ class ImageDataset : public Dataset {
     return frame;
   }
 
+  Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
+    const ImageSize size = SizeOf(calibration().left);
+    auto image = ReadColorImage(files_.at(i).left,
+                                info().has_calibration ? std::optional(size) : std::nullopt);
+    if (!image) return FailureOf(image.error(), size);
+    return image;
+  }
+
  private:
   std::vector<FrameFiles> files_;
 };

@@ -166,6 +166,24 @@ Expected<cv::Mat, ImageFailure> DecodeMat(const std::filesystem::path& path,
   return mat;
 }
 
+// Decodes an image to 8 bits, or to 16 bits of grey, of one channel or in colour.
+// Decoders that turn colour into grey themselves round differently, so that colours are decoded.
+Expected<cv::Mat, ImageFailure> DecodeLight(const std::filesystem::path& name,
+                                            Bytes bytes,
+                                            std::optional<ImageSize> wanted) {
+  return DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
+}
+
+Expected<GrayImage, ImageFailure> GrayOf(const std::filesystem::path& name, const cv::Mat& mat) {
+  if (mat.type() == CV_8UC1) return ToImage<std::uint8_t>(mat);
+  if (mat.type() == CV_16UC1) return UpperBytes(mat);
+  if (mat.type() != CV_8UC3) return ImageFailure{name, "neither a grey nor a colour image"};
+  GrayImage gray(mat.cols, mat.rows);
+  cv::Mat out = AsMat(gray);
+  cv::cvtColor(mat, out, cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
 }  // namespace
 
 std::optional<std::string> FindDamage(std::span<const std::uint8_t> bytes) {
@@ -184,17 +202,23 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
                                                   std::optional<ImageSize> wanted) {
-  // Decoders that turn colour into grey themselves round differently, so that colours are decoded.
-  const Expected<cv::Mat, ImageFailure> mat =
-      DecodeMat(name, bytes, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION, wanted);
+  const Expected<cv::Mat, ImageFailure> mat = DecodeLight(name, bytes, wanted);
   if (!mat) return mat.error();
-  if (mat->type() == CV_8UC1) return ToImage<std::uint8_t>(*mat);
-  if (mat->type() == CV_16UC1) return UpperBytes(*mat);
-  if (mat->type() != CV_8UC3) return ImageFailure{name, "neither a grey nor a colour image"};
-  GrayImage gray(mat->cols, mat->rows);
-  cv::Mat out = AsMat(gray);
-  cv::cvtColor(*mat, out, cv::COLOR_BGR2GRAY);
-  return gray;
+  return GrayOf(name, *mat);
+}
+
+Expected<ColorImage, ImageFailure> DecodeColorImage(const std::filesystem::path& name,
+                                                    std::span<const std::uint8_t> bytes,
+                                                    std::optional<ImageSize> wanted) {
+  const Expected<cv::Mat, ImageFailure> mat = DecodeLight(name, bytes, wanted);
+  if (!mat) return mat.error();
+  if (mat->type() == CV_8UC3) {
+    const std::size_t size = mat->step * static_cast<std::size_t>(mat->rows);
+    return FromInterleaved(mat->cols, mat->rows, {{mat->data, size}, mat->step});
+  }
+  const Expected<GrayImage, ImageFailure> gray = GrayOf(name, *mat);
+  if (!gray) return gray.error();
+  return ToColor(*gray);
 }
 
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
@@ -202,6 +226,13 @@ Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& pat
   const auto bytes = ReadBytes(path);
   if (!bytes) return bytes.error();
   return DecodeGrayImage(path, *bytes, wanted);
+}
+
+Expected<ColorImage, ImageFailure> ReadColorImage(const std::filesystem::path& path,
+                                                  std::optional<ImageSize> wanted) {
+  const auto bytes = ReadBytes(path);
+  if (!bytes) return bytes.error();
+  return DecodeColorImage(path, *bytes, wanted);
 }
 
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path) {

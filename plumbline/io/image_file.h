@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/error.h"
+#include "plumbline/image/color_image.h"
 #include "plumbline/image/image.h"
 #include "plumbline/io/image_header.h"
 
@@ -32,6 +33,11 @@ Expected<ImageSize, ImageFailure> ReadImageSize(const std::filesystem::path& pat
 Expected<GrayImage, ImageFailure> ReadGrayImage(const std::filesystem::path& path,
                                                 std::optional<ImageSize> wanted = std::nullopt);
 
+// Decodes an image in colour, of 8 bits a channel. One that is stored grey has the grey levels of
+// ReadGrayImage in all channels; all else is as there.
+Expected<ColorImage, ImageFailure> ReadColorImage(const std::filesystem::path& path,
+                                                  std::optional<ImageSize> wanted = std::nullopt);
+
 // Returns the brightest level of a PNG or PGM file with one channel of 16 bits; nullopt for any
 // other file, and where it cannot be decoded.
 std::optional<int> BrightestOf16Bits(const std::filesystem::path& path);
@@ -48,6 +54,10 @@ Expected<DepthImage, ImageFailure> ReadDepthImage(const std::filesystem::path& p
 Expected<GrayImage, ImageFailure> DecodeGrayImage(const std::filesystem::path& name,
                                                   std::span<const std::uint8_t> bytes,
                                                   std::optional<ImageSize> wanted = std::nullopt);
+// Decodes the bytes of a file as ReadColorImage decodes the file; `name` is for failures.
+Expected<ColorImage, ImageFailure> DecodeColorImage(const std::filesystem::path& name,
+                                                    std::span<const std::uint8_t> bytes,
+                                                    std::optional<ImageSize> wanted = std::nullopt);
 // Decodes the bytes of a file as ReadDepthImage decodes the file; `name` is for failures.
 Expected<DepthImage, ImageFailure> DecodeDepthImage(const std::filesystem::path& name,
                                                     std::span<const std::uint8_t> bytes,

@@ -131,6 +131,23 @@ Expected<GrayImage, ImageFailure> GrayOfPixels(const std::filesystem::path& name
   return gray;
 }
 
+Expected<ColorImage, ImageFailure> ColorOfPixels(const std::filesystem::path& name,
+                                                 const RawPixels& pixels,
+                                                 std::optional<ImageSize> wanted) {
+  const Encoding* encoding = Find(pixels.encoding);
+  if (encoding == nullptr || encoding->to_gray == kAsItIs) {
+    const Expected<GrayImage, ImageFailure> gray = GrayOfPixels(name, pixels, wanted);
+    if (!gray) return gray.error();
+    return ToColor(*gray);
+  }
+  if (auto fault = Fault(name, pixels, ImageContents::kGray, wanted)) return *std::move(fault);
+  const bool red_first =
+      encoding->to_gray == cv::COLOR_RGB2GRAY || encoding->to_gray == cv::COLOR_RGBA2GRAY;
+  return FromInterleaved(static_cast<int>(pixels.width),
+                         static_cast<int>(pixels.height),
+                         {pixels.data, pixels.step, encoding->bytes, red_first ? 0 : 2});
+}
+
 Expected<DepthImage, ImageFailure> DepthOfPixels(const std::filesystem::path& name,
                                                  const RawPixels& pixels,
                                                  double factor,

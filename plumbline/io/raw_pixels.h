@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "plumbline/image/color_image.h"
 #include "plumbline/image/image.h"
 #include "plumbline/io/image_file.h"
 
@@ -39,6 +40,11 @@ struct RawPixels {
 Expected<GrayImage, ImageFailure> GrayOfPixels(const std::filesystem::path& name,
                                                const RawPixels& pixels,
                                                std::optional<ImageSize> wanted);
+// Converts pixels of an encoding to colours; grey ones have the same in all channels. Failures are
+// those of GrayOfPixels.
+Expected<ColorImage, ImageFailure> ColorOfPixels(const std::filesystem::path& name,
+                                                 const RawPixels& pixels,
+                                                 std::optional<ImageSize> wanted);
 // Converts pixels to depth. 16 bits: value / factor; 32FC1: metres, where values that are not
 // finite or not positive mean no measurement (0).
 Expected<DepthImage, ImageFailure> DepthOfPixels(const std::filesystem::path& name,

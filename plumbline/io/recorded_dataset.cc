@@ -99,6 +99,16 @@ class RecordedDataset : public Dataset {
     return frame;
   }
 
+  Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
+    const ImageSize size = SizeOf(calibration().left);
+    auto image = ReadImage<ColorImage>(frames_.at(i).left, [&](const ImageMessage& message) {
+      if (message.compressed) return DecodeColorImage(info().path, message.data, Wanted(size));
+      return ColorOfPixels(info().path, PixelsOf(message), Wanted(size));
+    });
+    if (!image) return FailureOf(image.error(), size);
+    return image;
+  }
+
  private:
   static ImageSize SizeOf(const Camera& camera) { return {camera.width(), camera.height()}; }
 
@@ -107,9 +117,8 @@ class RecordedDataset : public Dataset {
   }
 
   // Calls `decode` with the message's image.
-  template <class Pixel, class Decode>
-  Expected<Image<Pixel>, ImageFailure> ReadImage(const StoredMessage& place,
-                                                 const Decode& decode) const {
+  template <class Image, class Decode>
+  Expected<Image, ImageFailure> ReadImage(const StoredMessage& place, const Decode& decode) const {
     const Channel& channel = file_->channels()[place.channel];
     const auto bytes = file_->Message(place);
     if (!bytes) return ImageFailure{info().path, Printable(channel.topic) + ": " + bytes.error()};
@@ -117,7 +126,7 @@ class RecordedDataset : public Dataset {
     if (!message) {
       return ImageFailure{info().path, Printable(channel.topic) + ": the file has changed"};
     }
-    Expected<Image<Pixel>, ImageFailure> image = decode(*message);
+    Expected<Image, ImageFailure> image = decode(*message);
     if (image) return image;
     ImageFailure failure = image.error();
     failure.why = Printable(channel.topic) + ": " + failure.why;
@@ -125,7 +134,7 @@ class RecordedDataset : public Dataset {
   }
 
   Expected<GrayImage, ImageFailure> Gray(const StoredMessage& place, ImageSize size) const {
-    return ReadImage<std::uint8_t>(place, [&](const ImageMessage& image) {
+    return ReadImage<GrayImage>(place, [&](const ImageMessage& image) {
       if (image.compressed) return DecodeGrayImage(info().path, image.data, Wanted(size));
       return GrayOfPixels(info().path, PixelsOf(image), Wanted(size));
     });
@@ -133,7 +142,7 @@ class RecordedDataset : public Dataset {
 
   Expected<DepthImage, ImageFailure> Depth(const StoredMessage& place, ImageSize size) const {
     const double factor = calibration().depth_factor.value_or(1);
-    return ReadImage<float>(
+    return ReadImage<DepthImage>(
         place, [&](const ImageMessage& image) -> Expected<DepthImage, ImageFailure> {
           if (!image.compressed) {
             return DepthOfPixels(info().path, PixelsOf(image), factor, Wanted(size));

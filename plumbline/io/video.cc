@@ -105,10 +105,30 @@ class VideoDataset : public Dataset {
       : Dataset(std::move(info)), capture_(OpenCapture(this->info().path)) {}
 
   Expected<SensorFrame, ImageFailure> Read(std::size_t i) const override {
-    const std::lock_guard lock(mutex_);
-    const DecoderCall call;
     SensorFrame frame;
     frame.stamp_ns = stamp_ns(i);
+    Expected<cv::Mat, ImageFailure> decoded = Decode(i);
+    if (!decoded) return decoded.error();
+    cv::Mat image = *decoded;
+    if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
+    frame.left = ToImage<std::uint8_t>(image);
+    return frame;
+  }
+
+  Expected<ColorImage, ImageFailure> ReadColor(std::size_t i) const override {
+    const Expected<cv::Mat, ImageFailure> decoded = Decode(i);
+    if (!decoded) return decoded.error();
+    const cv::Mat& image = *decoded;
+    if (image.channels() == 1) return ToColor(ToImage<std::uint8_t>(image));
+    const std::size_t size = image.step * static_cast<std::size_t>(image.rows);
+    return FromInterleaved(image.cols, image.rows, {{image.data, size}, image.step});
+  }
+
+ private:
+  // Returns the frame, grey or in blue, green and red, of 8 bits.
+  Expected<cv::Mat, ImageFailure> Decode(std::size_t i) const {
+    const std::lock_guard lock(mutex_);
+    const DecoderCall call;
     if (i < next_) {
       capture_ = OpenCapture(info().path);
       next_ = 0;
@@ -119,13 +139,12 @@ class VideoDataset : public Dataset {
     }
     cv::Mat image;
     if (!capture_->Retrieve(image) || image.empty()) return Failure(i, "it cannot be decoded");
-    if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
-    if (image.type() != CV_8UC1) return Failure(i, "expected 8 bits a colour");
-    frame.left = ToImage<std::uint8_t>(image);
-    return frame;
+    if (image.type() != CV_8UC1 && image.type() != CV_8UC3) {
+      return Failure(i, "expected 8 bits a colour");
+    }
+    return image;
   }
 
- private:
   ImageFailure Failure(std::size_t i, const char* why) const {
     return {info().path, fmt::format("frame {}: {}", i, why)};
   }

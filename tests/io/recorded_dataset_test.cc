@@ -171,7 +171,23 @@ TEST(Recordings, TurnsColourIntoGreyAsImageFilesDo) {
   }
   const auto dataset = OpenDataset(Write(folder, bag));
   // 0.299 R + 0.587 G + 0.114 B
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(dataset->Read(i)->left.at(7, 5), 97) << i;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(dataset->Read(i)->left.at(7, 5), 97) << i;
+    EXPECT_TRUE((dataset->ReadColor(i)->at(7, 5) == Color{0xA0, 0x50, 0x10})) << i;
+  }
+}
+
+TEST(Recordings, GivesColoursOfCompressedImages) {
+  const ScratchFolder folder;
+  BagWriter bag;
+  AddCamera(bag, "/c/camera_info", {});
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", cv::Mat(6, 8, CV_8UC3, cv::Scalar(16, 80, 160)), png);
+  AddPacked(bag, "/c/image/compressed", {kSecond, "png", 8, 6, 8, {png.begin(), png.end()}});
+  AddPacked(bag, "/c/image/compressed", {2 * kSecond, "png", 8, 6, 8, Png(8, 6, 7)});
+  const auto dataset = OpenDataset(Write(folder, bag));
+  EXPECT_TRUE((dataset->ReadColor(0)->at(7, 5) == Color{160, 80, 16}));
+  EXPECT_TRUE((dataset->ReadColor(1)->at(7, 5) == Color{7, 7, 7}));
 }
 
 TEST(Recordings, FindDepthByItsEncoding) {

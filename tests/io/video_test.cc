@@ -76,6 +76,29 @@ TEST(Video, GivesItsFramesInAnyOrder) {
   }
 }
 
+TEST(Video, GivesColours) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "clip.avi";
+  cv::VideoWriter writer(
+      path.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), kRate, {kWidth, kHeight});
+  for (int i = 0; i < 3; ++i) {
+    writer.write(cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(20, 60 + 20 * i, 200)));
+  }
+  writer.release();
+  const std::string camera = folder.Write("mine.yaml", kCamera).string();
+  const auto video = OpenDataset(path, {.camera = camera});
+  for (const int i : {0, 2, 1}) {
+    const auto index = static_cast<std::size_t>(i);
+    const auto image = video->ReadColor(index);
+    ASSERT_TRUE(image) << image.error().why;
+    const Color color = image->at(80, 60);
+    EXPECT_NEAR(color.r, 200, 8);
+    EXPECT_NEAR(color.g, 60 + 20 * i, 8);
+    EXPECT_NEAR(color.b, 20, 8);
+    EXPECT_EQ(ToGray(*image).at(80, 60), video->Read(index)->left.at(80, 60));
+  }
+}
+
 // Writes an MP4 file that asks players to turn its images by a quarter, as phones do.
 fs::path WriteTurnedVideo(const ScratchFolder& folder) {
   const fs::path path = folder.path() / "upright.mp4";
