@@ -234,7 +234,7 @@ void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::pa
                        ": expected a file to write, found one that is compared");
     }
     if (run) CheckNoResult(option, *path, *run);
-    CheckReplacesItsKind(option, *path, KindOfOutput(option, *path));
+    CheckOutput(option, *path, {}, KindOfOutput(option, *path));
   }
   CheckApartFromEachOther(line, kOptions);
 }

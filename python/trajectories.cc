@@ -9,8 +9,10 @@
 #include "plumbline/io/trajectory_io.h"
 
 #include "apps/command_line.h"
+#include "apps/command_outputs.h"
 #include "arrays.h"
 #include "bindings.h"
+#include "texts.h"
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +22,6 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
@@ -240,15 +241,27 @@ world_from_camera. Stamps until the year 2096 and places within 10^9 m, as load 
       .def(
           "save",
           [](const PoseList& list, const std::filesystem::path& path) {
+            CheckOutput("path", path, {}, TrajectoryFileKind());
             WriteTum(path, list.poses);
           },
           py::arg("path"),
-          "save(path)\n\nWrites the form of TUM, the bytes of `plumbline run`.")
+          R"(save(path)
+
+Writes the form of TUM, the bytes of `plumbline run`. Raises InputError where a result of a run, or
+anything else than such a file, would be replaced.)")
       .def(
           "to_tum",
           [](const PoseList& list) { return FormatTum(list.poses); },
           "to_tum() -> str\n\nThe text that save writes.")
       .def("__len__", [](const PoseList& list) { return list.poses.size(); })
+      .def("__repr__",
+           [](const PoseList& list) {
+             if (list.poses.empty()) return std::string("<Trajectory of 0 poses>");
+             return fmt::format("<Trajectory of {} poses, {} to {} s>",
+                                list.poses.size(),
+                                FormatStamp(list.poses.front().stamp_ns),
+                                FormatStamp(list.poses.back().stamp_ns));
+           })
       .def_property_readonly("stamps_ns", StampsOf, "(N,) int64, nanoseconds; a new array.")
       .def_property_readonly("poses", PosesOf, "(N, 4, 4) world_from_camera; a new array.")
       .def_property_readonly("positions", PositionsOf, "(N, 3) camera centres; a new array.")
