@@ -4,6 +4,7 @@
 #include "plumbline/base/options.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
+#include "plumbline/io/trajectory_io.h"
 #include "plumbline/report/error_options.h"
 #include "plumbline/report/playback_schedule.h"
 
@@ -12,6 +13,7 @@
 #include "bindings.h"
 #include "frames.h"
 #include "iteration.h"
+#include "texts.h"
 #include "trajectories.h"
 #include <chrono>
 #include <cstdint>
@@ -23,7 +25,6 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
@@ -117,7 +118,16 @@ void BindFrame(py::module_& module) {
             return View(*depth, self);
           },
           "(rows, columns) float32 in metres along z, 0: not measured, or None; read-only, keeps "
-          "the frame alive.");
+          "the frame alive.")
+      .def("__repr__", [](const PyFrame& frame) {
+        const SensorFrame& images = frame.images;
+        return fmt::format("<Frame at {} s: {}{} of {} x {}>",
+                           FormatStamp(images.stamp_ns),
+                           images.right ? "pair" : "image",
+                           images.depth ? " with depth" : "",
+                           images.left.width(),
+                           images.left.height());
+      });
 }
 
 void BindPlaybackSchedule(py::module_& module) {
@@ -173,7 +183,7 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
           [](const Dataset& dataset) { return ToArray(dataset.info().stamps_ns); },
           "(N,) int64, nanoseconds; a new array.")
       .def_property_readonly("calibration", &Dataset::calibration)
-      .def_property_readonly("name", [](const Dataset& d) { return d.info().name; })
+      .def_property_readonly("name", [](const Dataset& d) { return ToText(d.info().name); })
       .def_property_readonly("path", [](const Dataset& d) { return d.info().path; })
       .def_property_readonly(
           "sensor",
@@ -182,13 +192,17 @@ the order of time, read when they are asked for. len(), indices and iteration.)"
       .def_property_readonly("format", [](const Dataset& d) { return NameOf(d.info().format); })
       .def_property_readonly(
           "notes",
-          [](const Dataset& d) { return d.info().notes; },
+          [](const Dataset& d) {
+            py::list notes;
+            for (const std::string& note : d.info().notes) notes.append(ToText(note));
+            return notes;
+          },
           "What is missing or left out, a sentence each.")
       .def_property_readonly(
           "ground_truth", TruthOf, "Trajectory of the left camera; None where there is none.")
       .def("__repr__", [](const Dataset& d) {
-        return fmt::format(
-            "<Dataset {}, {}, {} frames>", d.info().name, NameOf(d.sensor()), d.size());
+        return ToText(fmt::format(
+            "<Dataset {}, {}, {} frames>", d.info().name, NameOf(d.sensor()), d.size()));
       });
   module.def("open",
              &Open,

@@ -8,9 +8,12 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "texts.h"
 #include <string>
+#include <utility>
 #include <variant>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 namespace plumbline::python {
@@ -27,7 +30,7 @@ std::string TextOf(const std::string& key, py::handle value) {
     return TextOf(key, value.attr("item")());
   }
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::isinstance<py::str>(value)) return ReadText(value, key);
   if (py::isinstance<py::int_>(value)) return py::str(value).cast<std::string>();
   if (py::isinstance<py::float_>(value)) return py::repr(value).cast<std::string>();
   throw InputError(key + ": expected a number, True, False, a text or a dictionary, found " +
@@ -40,7 +43,7 @@ void SetAll(const py::dict& options, const std::string& prefix, int depth, Optio
       throw InputError((prefix.empty() ? "options" : prefix) +
                        ": expected names of options, found " + Describe(name));
     }
-    const std::string key = prefix + name.cast<std::string>();
+    const std::string key = prefix + ReadText(name, prefix.empty() ? "options" : prefix);
     if (py::isinstance<py::dict>(value)) {
       if (depth == kDeepest) {
         throw InputError(key + ": expected at most " + std::to_string(kDeepest) +
@@ -72,11 +75,16 @@ py::dict GroupOf(py::dict values, const std::string& key) {
   return values;
 }
 
-py::dict OptionsOfRun(const py::kwargs& given) {
-  SlamOptions options;
-  SetOptions(given, options);
-  CheckOptions(options);
+py::dict OptionsOfRun(const py::object& seed, const py::object& mode, const py::kwargs& given) {
+  SlamOptions options = ReadRunOptions(seed, mode, given);
   return ValuesOf(OptionTable(options));
+}
+
+// Whether an option of the group slam is given by its dotted key or in a dictionary.
+bool IsGiven(const py::dict& given, const char* name) {
+  if (given.contains("slam." + std::string(name))) return true;
+  return given.contains("slam") && py::isinstance<py::dict>(given["slam"]) &&
+         given["slam"].contains(name);
 }
 
 std::string HelpOfOptions() {
@@ -97,14 +105,32 @@ py::dict ValuesOf(const OptionTable& table) {
   return values;
 }
 
+SlamOptions ReadRunOptions(const py::object& seed, const py::object& mode, const py::dict& given) {
+  py::dict all = given.attr("copy")();
+  for (const auto& [name, value] : {std::pair{"seed", seed}, {"mode", mode}}) {
+    if (value.is_none()) continue;
+    if (IsGiven(given, name)) {
+      throw InputError(fmt::format("{0}: expected it once, found slam.{0} as well", name));
+    }
+    all[py::str("slam." + std::string(name))] = value;
+  }
+  SlamOptions options;
+  SetOptions(all, options);
+  CheckOptions(options);
+  return options;
+}
+
 void BindOptions(py::module_& module) {
   module.def("options",
              OptionsOfRun,
-             R"(options(**options) -> dict
+             py::arg("seed") = py::none(),
+             py::arg("mode") = py::none(),
+             R"(options(seed=None, mode=None, **options) -> dict
 
 All options of a run in groups, as `System` and `run` take them:
-options()["features"]["line_count"]. Options that are given are checked and take the place
-of the defaults. Raises InputError with the program's message.)");
+options()["features"]["line_count"]. seed and mode are slam.seed and slam.mode. Options
+that are given are checked and take the place of the defaults. Raises InputError with the program's
+message.)");
   module.def("describe_options",
              HelpOfOptions,
              R"(describe_options() -> str

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumbline/base/options_io.h"
+#include "plumbline/slam/options.h"
 
 #include <pybind11/pybind11.h>
 
@@ -16,6 +17,12 @@ void SetOptions(const pybind11::dict& given, T& options) {
   OptionTable table(options);
   SetInTable(given, table);
 }
+
+// The options of a run, checked: seed and mode, where not None, are slam.seed and slam.mode, which
+// must not be given twice. Throws InputError.
+SlamOptions ReadRunOptions(const pybind11::object& seed,
+                           const pybind11::object& mode,
+                           const pybind11::dict& given);
 
 // The values of all options, in groups.
 pybind11::dict ValuesOf(const OptionTable& table);

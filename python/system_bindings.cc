@@ -14,6 +14,7 @@
 #include "options.h"
 #include "running_system.h"
 #include "sensor_kind.h"
+#include "texts.h"
 #include "trajectories.h"
 #include <algorithm>
 #include <filesystem>
@@ -24,15 +25,15 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plumbline::python {
 namespace {
 
-std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration, const py::kwargs& given) {
-  SlamOptions options;
-  SetOptions(given, options);
-  CheckOptions(options);
+std::unique_ptr<RunningSystem> MakeSystem(const Calibration& calibration,
+                                          const py::object& seed,
+                                          const py::object& mode,
+                                          const py::kwargs& given) {
+  const SlamOptions options = ReadRunOptions(seed, mode, given);
   const py::gil_scoped_release release;
   return std::make_unique<RunningSystem>(calibration, options);
 }
@@ -191,11 +192,11 @@ py::list NewEventsOf(RunningSystem& system) {
 }
 
 // The files of `plumbline run --out`, but for what a program alone can tell (exit by a signal).
-std::string WriteRun(RunningSystem& system,
-                     RunFolder& folder,
-                     const std::shared_ptr<Dataset>& dataset,
-                     std::size_t frames_chosen,
-                     const std::vector<std::string>& arguments) {
+std::filesystem::path WriteRun(RunningSystem& system,
+                               RunFolder& folder,
+                               const std::shared_ptr<Dataset>& dataset,
+                               std::size_t frames_chosen,
+                               const std::vector<std::string>& arguments) {
   const py::gil_scoped_release release;
   SlamOptions options = system.options();
   folder.Keep();
@@ -215,7 +216,7 @@ std::string WriteRun(RunningSystem& system,
                         folder);
   });
   if (written.failure) throw InputError(*written.failure);
-  return folder.path().string();
+  return folder.path();
 }
 
 std::unique_ptr<RunFolder> OpenFolder(const std::filesystem::path& folder,
@@ -280,9 +281,14 @@ void BindRecord(py::module_& module) {
 
 void BindFeeding(py::class_<RunningSystem>& system) {
   system
-      .def(py::init(&MakeSystem), py::arg("calibration"), R"(System(calibration, **options)
+      .def(py::init(&MakeSystem),
+           py::arg("calibration"),
+           py::arg("seed") = py::none(),
+           py::arg("mode") = py::none(),
+           R"(System(calibration, seed=None, mode=None, **options)
 
-options: groups as dictionaries, features={"line_count": 100}, slam={"seed": 3}, or dotted keys,
+seed: of the random numbers; mode: "inline", "lockstep" or "live" (slam.seed and slam.mode).
+options: groups as dictionaries, features={"line_count": 100}, or dotted keys,
 **{"features.line_count": 100}. Raises InputError with the program's message.)")
       .def("process",
            &Process,
@@ -398,9 +404,16 @@ void BindSystem(py::module_& module) {
       module, "System", R"(The whole of SLAM for one camera: feed frames
 in order, then finish(). Poses are world_from_camera of the left camera as delivered; the world is
 that camera at the first keyframe of each map. One thread at a time; several systems may run in
-several threads.)");
+several threads. With the modes lockstep (the default) and live it has threads, which fork() does
+not copy: in a forked child it never answers. Make systems in the child, or use processes that
+start anew (multiprocessing's "spawn").)");
   BindFeeding(system);
   BindResults(system);
+  system.def("__repr__", [](const RunningSystem& running) {
+    return fmt::format("<System, {}, {}>",
+                       NameOf(KindOf(running.calibration())),
+                       running.finished() ? "finished" : "runs");
+  });
   system.def("_keep_views", &RunningSystem::KeepViews);
   py::class_<RunFolder>(module, "_RunFolder").def(py::init(&OpenFolder));
   module.def("_write_run", &WriteRun);

@@ -147,7 +147,8 @@ def _check_callable(name: str, value: object) -> None:
 def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None = None,
         format: str | None = None, topics: Sequence[str] = (), start: int = 0,
         stop: int | None = None, stride: int = 1, map: Path | Atlas | None = None,
-        localize: bool = False, out: Path | None = None,
+        localize: bool = False, out: Path | None = None, seed: int | None = None,
+        mode: str | None = None,
         on_frame: Callable[[FrameResult], object] | None = None,
         on_event: Callable[[dict[str, Any]], object] | None = None, **options: Any) -> Run:
     """Tracks the camera through a recorded sequence and maps what it sees, as `plumbline run`; the
@@ -155,7 +156,8 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
 
     path, sensor, camera, format, topics: as for open(), or path is a Dataset. start, stop, stride:
     which frames. map: a file or an Atlas to go on in; localize: only find the camera in it. out: a
-    folder for the files of the run. on_frame: called with the FrameResult of each frame, in order;
+    folder for the files of the run. seed: of the random numbers; mode: "inline", "lockstep" or
+    "live" (slam.seed and slam.mode). on_frame: called with the FrameResult of each frame, in order;
     on_event: with a dictionary for each loop, join of maps and relocalization, as soon as it is
     known (System.new_events); both in this thread. options: groups as dictionaries,
     features={"line_count": 100}, or dotted keys.
@@ -176,7 +178,7 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     if localize and map is None:
         raise InputError("localize: expected map as well")
     frames = _choose_frames(dataset, start, stop, stride)
-    system = System(dataset.calibration, **options)
+    system = System(dataset.calibration, seed=seed, mode=mode, **options)
     atlas = map if map is None or isinstance(map, Atlas) else _plumbline.load_map(map)
     folder = None
     if out is not None:
@@ -188,7 +190,7 @@ def run(path: Path | Dataset, *, sensor: str | None = None, camera: str | None =
     def write() -> str | None:
         if folder is None:
             return None
-        return _plumbline._write_run(system, folder, dataset, len(frames), [])
+        return os.fspath(_plumbline._write_run(system, folder, dataset, len(frames), []))
 
     def finish() -> str | None:
         try:

@@ -72,8 +72,30 @@ def test_a_map_has_the_same_bytes_whatever_the_data_are_called(sequence, finishe
     assert (tmp_path / "map.plb").read_bytes() == (tmp_path / "other.plb").read_bytes()
 
 
+def test_seed_and_mode_are_plain_arguments(dataset):
+    run = plumbline.run(dataset, stop=2, seed=7, mode="inline")
+    for options in (run.system.options, plumbline.options(seed=7, mode="inline"),
+                    plumbline.System(dataset.calibration, 7, "inline").options):
+        assert options["slam"]["seed"] == 7 and options["slam"]["mode"] == "inline"
+    assert plumbline.options(seed=np.int64(3))["slam"]["seed"] == 3
+
+
+def test_what_comes_out_tells_what_it_is(dataset, finished):
+    assert repr(finished).endswith("12 of 12 frames tracked>")
+    assert repr(finished.trajectory).startswith("<Trajectory of 12 poses, ")
+    assert repr(plumbline.Trajectory([], np.zeros((0, 3)), np.zeros((0, 4)))) == \
+        "<Trajectory of 0 poses>"
+    assert repr(finished.system) == "<System, stereo, finished>"
+    assert repr(plumbline.System(dataset.calibration)) == "<System, stereo, runs>"
+    frame = dataset[0]
+    rows, columns = frame.left.shape
+    assert repr(frame).endswith(f" s: pair of {columns} x {rows}>")
+    world = plumbline.Synth("room", frames=2, scale=0.1)
+    assert repr(world) == "<Synth room: 2 frames>"
+
+
 def test_a_live_run_follows_the_clock(dataset):
-    run = plumbline.run(dataset, stop=4, slam={"mode": "live"})
+    run = plumbline.run(dataset, stop=4, mode="live")
     assert len(run.results) == 4
 
 
