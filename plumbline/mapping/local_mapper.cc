@@ -6,6 +6,7 @@
 #include "plumbline/map/covisibility.h"
 #include "plumbline/mapping/ba_window.h"
 #include "plumbline/mapping/landmark_creation.h"
+#include "plumbline/mapping/outlier_removal.h"
 #include "plumbline/mapping/unit_of_length.h"
 #include "plumbline/mapping/whole_map_adjustment.h"
 #include "plumbline/optimization/pose_sigma.h"
@@ -189,6 +190,7 @@ std::vector<MappingStep> LocalMapper::Finish(Map& map, const StopCheck& stop) co
     });
     options.lens_calibration = false;  // the first round has learned the lens
   }
+  Timed("finish", times, [&] { map.Apply(RemoveOutliers(map, imaging_, lines_.weights())); });
   return times;
 }
 

@@ -74,8 +74,9 @@ class LocalMapper {
   std::vector<MappingStep> Tie(Map& map, KeyFrameId newest, KeyFrameId older);
 
   // Adjusts the whole of a map to which nothing will be added, twice (AdjustWholeMap), with the
-  // stereo correction that it was about to get. When stopped, the map is that of the last
-  // adjustment that was completed. Returns the time of each step, in order.
+  // stereo correction that it was about to get, and removes what does not fit then
+  // (RemoveOutliers). When stopped, the poses are those of the last adjustment that was completed.
+  // Returns the time of each step, in order.
   std::vector<MappingStep> Finish(Map& map, const StopCheck& stop = {}) const;
 
   // Gives a new, empty map what was learned about a pair of cameras.
