@@ -5,6 +5,7 @@
 #include "plumbline/base/error.h"
 #include "plumbline/eval/trajectory_error.h"
 #include "plumbline/geometry/alignment.h"
+#include "plumbline/geometry/unit_rotation.h"
 #include "plumbline/io/text_rows.h"
 #include "plumbline/io/trajectory_io.h"
 
@@ -61,7 +62,7 @@ Trajectory MakeTrajectory(py::handle stamps_ns, py::handle positions, py::handle
     const auto row = static_cast<py::ssize_t>(i);
     Eigen::Quaterniond q;
     q.coeffs() = Eigen::Map<const Eigen::Vector4d>(turns.data(row));
-    if (std::abs(q.norm() - 1) > 0.01) {
+    if (!IsRotation(q)) {
       throw InputError(
           fmt::format("quaternions: expected a norm of 1, found {:.3g} at [{}]", q.norm(), i));
     }

@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/geometry/rotation_fit.h"
+#include "plumbline/geometry/unit_rotation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -207,10 +208,12 @@ std::optional<ErrorStatistics> StatisticsOf(std::vector<double> errors) {
   return statistics;
 }
 
-std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
-                                                   const Trajectory& estimate,
+std::optional<TrajectoryError> CompareTrajectories(const Trajectory& given_reference,
+                                                   const Trajectory& given_estimate,
                                                    const TrajectoryErrorOptions& options) {
   PLUMBLINE_CHECK(options.window.frames > 0 || options.window.duration_ns > 0, "empty window");
+  const Trajectory reference = WithUnitRotations(given_reference, "reference");
+  const Trajectory estimate = WithUnitRotations(given_estimate, "estimate");
   TrajectoryError result;
   result.estimated = estimate.size();
   result.poses = Associate(reference, estimate, options);
@@ -262,15 +265,17 @@ Similarity3 AlignPoses(std::span<const EvaluatedPose> poses) {
 }
 
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera) {
-  Trajectory camera = body;
+  Trajectory camera = WithUnitRotations(body, "body");
+  const Rigid3 mounting{UnitRotation(body_from_camera.rotation, "body_from_camera"),
+                        body_from_camera.translation};
   for (StampedPose& pose : camera) {
-    pose.world_from_camera = pose.world_from_camera * body_from_camera;
+    pose.world_from_camera = pose.world_from_camera * mounting;
   }
   return camera;
 }
 
 Trajectory MirroredY(const Trajectory& trajectory) {
-  Trajectory mirrored = trajectory;
+  Trajectory mirrored = WithUnitRotations(trajectory, "trajectory");
   for (StampedPose& pose : mirrored) {
     // M R M negates the entries of R with exactly one index y: the rotation axis keeps its y and
     // negates x and z.

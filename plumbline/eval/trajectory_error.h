@@ -114,7 +114,8 @@ struct TrajectoryError {
 //              1.5 times what the median spacing of rows gives (a longer one spans lost frames)
 //
 //   reference, estimate  of the same camera, stamps ascending, metres
-//   fails    nullopt when no pose of the estimate has a reference
+//   fails    nullopt when no pose of the estimate has a reference; throws InputError for a rotation
+//            that is none (unit_rotation.h)
 //   cost     O(n log n)
 std::optional<TrajectoryError> CompareTrajectories(const Trajectory& reference,
                                                    const Trajectory& estimate,
@@ -146,12 +147,12 @@ Similarity3 AlignPoses(std::span<const EvaluatedPose> poses);
 std::optional<double> ScaleDrift(std::span<const EvaluatedPose> poses);
 
 // Returns the trajectory of the camera for one of the body that carries it: world_from_body *
-// body_from_camera.
+// body_from_camera. Throws InputError for a rotation that is none (unit_rotation.h).
 Trajectory OfCamera(const Trajectory& body, const Rigid3& body_from_camera);
 
 // Returns the trajectory in the world mirrored in y, seen by a camera mirrored in y, for ground
 // truth that belongs to a negative focal length fy (ICL-NUIM). It is M R M and M t with M = diag(1,
-// -1, 1).
+// -1, 1). Throws InputError for a rotation that is none (unit_rotation.h).
 Trajectory MirroredY(const Trajectory& trajectory);
 
 }  // namespace plumbline

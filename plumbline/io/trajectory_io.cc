@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/printable.h"
+#include "plumbline/geometry/unit_rotation.h"
 #include "plumbline/io/atomic_file.h"
 #include "plumbline/io/text_rows.h"
 
@@ -29,7 +30,7 @@ Eigen::Quaterniond QuaternionAt(const path& file,
                                 std::size_t x) {
   const Eigen::Vector3d v = PlaceFields(file, row, x);
   const Eigen::Quaterniond q(NumberField(file, row, w), v.x(), v.y(), v.z());
-  if (std::abs(q.norm() - 1) > 0.01) {
+  if (!IsRotation(q)) {
     FailAt(file, row.line, "a unit quaternion", fmt::format("one of norm {:.6g}", q.norm()));
   }
   return q.normalized();
@@ -128,6 +129,9 @@ std::optional<std::string> FaultOf(const Trajectory& trajectory, std::size_t i) 
                        stamp_ns,
                        trajectory[i - 1].stamp_ns);
   }
+  if (const Eigen::Quaterniond& q = trajectory[i].world_from_camera.rotation; !IsRotation(q)) {
+    return fmt::format("expected a quaternion of norm 1, found one of norm {:g}", q.norm());
+  }
   for (const double x : trajectory[i].world_from_camera.translation) {
     if (std::abs(x) <= kFarthest) continue;  // false for NaN
     return fmt::format("expected coordinates within {:g} of 0, found {:g}", kFarthest, x);
@@ -194,7 +198,7 @@ std::string FormatStamp(std::int64_t stamp_ns) {
 std::string FormatTum(const Trajectory& trajectory) {
   std::string text;
   for (const StampedPose& pose : trajectory) {
-    Eigen::Vector4d q = pose.world_from_camera.rotation.coeffs();
+    Eigen::Vector4d q = UnitRotation(pose.world_from_camera.rotation, "a pose").coeffs();
     if (q.w() < 0) q = -q;
     const Eigen::Vector3d& t = pose.world_from_camera.translation;
     text += FormatStamp(pose.stamp_ns);

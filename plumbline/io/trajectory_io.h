@@ -42,12 +42,12 @@ Trajectory ReadKittiPoses(const std::filesystem::path& path,
 std::vector<std::int64_t> ReadKittiTimes(const std::filesystem::path& path);
 
 // Returns a trajectory in TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. It has no
-// header.
+// header. Throws InputError for a rotation that is none (geometry/unit_rotation.h).
 std::string FormatTum(const Trajectory& trajectory);
 // Writes FormatTum(trajectory) to a file, whole or not at all. Throws InputError "cannot write
 // <path>: ...", and also where ReadTrajectory would refuse the file: for stamps that do not
-// increase or are beyond the year 2096, and for places that are not finite or more than 10^9 m
-// away.
+// increase or are beyond the year 2096, rotations that are none, and places that are not finite or
+// more than 10^9 m away.
 void WriteTum(const std::filesystem::path& path, const Trajectory& trajectory);
 
 // Returns a time stamp as seconds with 9 decimals, exact: 1305031102175304000 ->

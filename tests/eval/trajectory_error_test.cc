@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plumbline/eval/trajectory_error.h"
 
+#include "plumbline/base/error.h"
 #include "plumbline/base/random.h"
 #include "plumbline/eval/figure.h"
 #include "plumbline/eval/trajectory_figure.h"
@@ -403,6 +404,31 @@ TEST(TrajectoryFigure, ShowsTheTwoAxesOfMotionInRange) {
   EXPECT_THAT(svg, HasSubstr(">z [m]<"));
   EXPECT_THAT(svg, HasSubstr("RMSE"));
   EXPECT_EQ(svg, ToSvg(TrajectoryFigure(*error)));
+}
+
+// One rule: what is off by 1 % at most is normalized, anything else is refused.
+TEST(TrajectoryError, RotationsAreOfNormOne) {
+  Rng rng(9);
+  const Trajectory reference = RandomTrajectory(rng, 20, 0.1);
+  const auto scaled = [&](double norm) {
+    Trajectory poses = reference;
+    for (StampedPose& pose : poses) pose.world_from_camera.rotation.coeffs() *= norm;
+    return poses;
+  };
+  for (const auto& error : {CompareTrajectories(reference, scaled(0.992), {}),
+                            CompareTrajectories(scaled(1.009), reference, {})}) {
+    ASSERT_TRUE(error);
+    EXPECT_LT(error->ate.rmse, 1e-9);
+    EXPECT_LT(error->poses[3].rotation_error, 1e-7);
+  }
+  EXPECT_THROW(CompareTrajectories(reference, scaled(2), {}), InputError);
+  EXPECT_THROW(CompareTrajectories(scaled(0.9), reference, {}), InputError);
+  EXPECT_THROW(OfCamera(scaled(2), {}), InputError);
+  Rigid3 mounting;
+  mounting.rotation.coeffs() *= 2;
+  EXPECT_THROW(OfCamera(reference, mounting), InputError);
+  EXPECT_THROW(MirroredY(scaled(2)), InputError);
+  EXPECT_NEAR(MirroredY(scaled(1.005))[0].world_from_camera.rotation.norm(), 1, 1e-12);
 }
 
 TEST(TrajectoryFigure, StandsASinglePose) {

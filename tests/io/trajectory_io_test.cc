@@ -162,6 +162,15 @@ TEST(WriteTum, StampsThatAreReadableAreRead) {
   EXPECT_EQ(read.back().stamp_ns, kLatestStampNs);
 }
 
+TEST(FormatTum, WritesRotationsOfNormOne) {
+  const Eigen::Quaterniond turn = ExpSo3({0.3, -0.5, 0.2});
+  Rigid3 off{turn, {1, 2, 3}};
+  off.rotation.coeffs() *= 1.008;
+  EXPECT_EQ(FormatTum({{1, off}}), FormatTum({{1, {turn, {1, 2, 3}}}}));
+  off.rotation.coeffs() *= 2;
+  EXPECT_THROW(FormatTum({{1, off}}), InputError);
+}
+
 TEST(WriteTum, RefusesWhatWouldNotBeRead) {
   const ScratchFolder folder;
   const auto message = [&](const Trajectory& trajectory) {
@@ -179,6 +188,10 @@ TEST(WriteTum, RefusesWhatWouldNotBeRead) {
             start + "1 (from 0): expected coordinates within 1e+09 of 0, found -2e+09");
   EXPECT_EQ(message({{1, at(std::numeric_limits<double>::quiet_NaN())}}),
             start + "0 (from 0): expected coordinates within 1e+09 of 0, found nan");
+  Rigid3 scaled;
+  scaled.rotation.coeffs() *= 2;
+  EXPECT_EQ(message({{1, Rigid3()}, {2, scaled}}),
+            start + "1 (from 0): expected a quaternion of norm 1, found one of norm 2");
   EXPECT_FALSE(std::filesystem::exists(folder / "t.txt"));
 }
 
