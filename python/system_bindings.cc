@@ -108,16 +108,36 @@ std::vector<std::string> ContinueIn(RunningSystem& system, const PyAtlas& atlas,
   return system.Continue(*atlas.saved, read_only);
 }
 
+void CheckMapId(const System& finished, const std::optional<std::int64_t>& map) {
+  if (!map || finished.maps().contains(MapId{*map})) return;
+  throw InputError(fmt::format("map: expected the id of a map, found {}", *map));
+}
+
 using TrajectoryOf = Trajectory (System::*)(MapId) const;
 
 template <TrajectoryOf of>
 PoseList TrajectoryIn(RunningSystem& system, const std::optional<std::int64_t>& map) {
   return system.WithFinished("trajectory", [&](const System& finished) {
-    if (map && !finished.maps().contains(MapId{*map})) {
-      throw InputError(fmt::format("map: expected the id of a map, found {}", *map));
-    }
+    CheckMapId(finished, map);
     const auto id = map ? MapId{*map} : finished.MainMap();
     return PoseList{id ? (finished.*of)(*id) : Trajectory()};
+  });
+}
+
+py::tuple CovariancesIn(RunningSystem& system, const std::optional<std::int64_t>& map) {
+  return system.WithFinished("causal_covariances", [&](const System& finished) {
+    CheckMapId(finished, map);
+    const auto id = map ? MapId{*map} : finished.MainMap();
+    std::vector<StampedCovariance> known;
+    if (id) known = finished.CausalCovariances(*id);
+    std::vector<std::int64_t> stamps;
+    Doubles covariances({static_cast<py::ssize_t>(known.size()), py::ssize_t{6}, py::ssize_t{6}});
+    double* out = covariances.mutable_data();
+    for (const StampedCovariance& pose : known) {
+      stamps.push_back(pose.stamp_ns);
+      out = std::copy_n(pose.covariance.data(), pose.covariance.size(), out);  // symmetric
+    }
+    return py::make_tuple(ToArray(stamps), covariances);
   });
 }
 
@@ -253,6 +273,16 @@ void BindRecord(py::module_& module) {
             return ToArray(*r.causal_world_from_camera);
           },
           "(4, 4) of the left camera as delivered, as first reported, or None; a new array.")
+      .def_property_readonly(
+          "covariance",
+          [](const FrameRecord& r) -> py::object {
+            if (!r.causal_covariance) return py::none();
+            return ToArray(*r.causal_covariance);
+          },
+          "(6, 6) of world_from_camera relative to the map, of x, y, z and the rotation about x, "
+          "y, z "
+          "along the axes of the world, metres (with one camera: the map's unit) and radians; None "
+          "where there is no pose, or it starts a map; a new array.")
       .def_property_readonly("matched_points",
                              [](const FrameRecord& r) { return r.counts.matched_points; })
       .def_property_readonly("matched_lines",
@@ -401,6 +431,13 @@ that camera at the first keyframe of each map. One thread at a time; several sys
 several threads.)");
   BindFeeding(system);
   BindResults(system);
+  system.def("causal_covariances",
+             &CovariancesIn,
+             py::arg("map") = py::none(),
+             R"(causal_covariances(map=None) -> (numpy.ndarray, numpy.ndarray)
+
+After finish(): stamps (N,) in nanoseconds and covariances (N, 6, 6) of the poses of
+causal_trajectory(), as FrameResult.covariance; those that start a map have none. New arrays.)");
   system.def("_keep_views", &RunningSystem::KeepViews);
   py::class_<RunFolder>(module, "_RunFolder").def(py::init(&OpenFolder));
   module.def("_write_run", &WriteRun);

@@ -6,6 +6,7 @@
 #include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
+#include "plumbline/geometry/covariance.h"
 #include "plumbline/slam/atlas_context.h"
 
 #include <map>
@@ -348,6 +349,9 @@ void System::RecordTracking(const TrackingResult& result, FrameRecord& record) c
   record.reference = result.reference;
   record.from_reference = result.from_reference;
   record.causal_world_from_camera = AsDelivered(*result.cam_from_world);
+  if (result.covariance) {
+    record.causal_covariance = PoseCovarianceInWorld(*result.cam_from_world, *result.covariance);
+  }
 }
 
 std::vector<StageTime> System::TakeMappingTimes() {
@@ -498,6 +502,16 @@ Trajectory System::CausalTrajectory(MapId map) const {
     }
   }
   return trajectory;
+}
+
+std::vector<StampedCovariance> System::CausalCovariances(MapId map) const {
+  std::vector<StampedCovariance> covariances;
+  for (const FrameRecord& record : frames_) {
+    if (record.causal_covariance && record.map == map) {
+      covariances.push_back({record.stamp_ns, *record.causal_covariance});
+    }
+  }
+  return covariances;
 }
 
 Session System::session() const {

@@ -204,6 +204,9 @@ class System {
   // Returns each pose as it was first reported. `map` may have been joined with another one since;
   // a map without poses gives none.
   Trajectory CausalTrajectory(MapId map) const;
+  // Returns the covariances of the poses of CausalTrajectory, as far as they are known
+  // (FrameRecord::causal_covariance).
+  std::vector<StampedCovariance> CausalCovariances(MapId map) const;
   // Returns the lines of a map that are fit to be given out, in its world (MakeLineMap). They are
   // made when first asked for, until `stop`, and kept. To be called after Finish.
   const std::vector<MappedLine>& LineMap(MapId map, const StopCheck& stop = {}) const;

@@ -28,6 +28,14 @@ bool ShowsMore(const FrameAssociation& a, const FrameAssociation& b) {
   return map_a > map_b;
 }
 
+// Changes the unit in which a pose is known: all lengths are multiplied by `scale`.
+void ChangeUnit(double scale, PoseEstimate& pose) {
+  if (scale == 1) return;
+  pose.information.bottomRows<3>() /= scale;
+  pose.information.rightCols<3>() /= scale;
+  pose.scene_depth *= scale;
+}
+
 }  // namespace
 
 TrackerState NextState(TrackerState state, bool has_pose, int lost_frames, int new_map_after) {
@@ -106,11 +114,15 @@ TrackingResult Tracker::Follow(Frame frame,
   const auto today = snapshot.places.find(seen->centre);
   const Placement centre = today == snapshot.places.end() ? before : today->second;
   Rigid3& pose = attempt.pose.cam_from_world;
-  if (seen != &snapshot)
+  if (seen != &snapshot) {
     pose = PoseBeside(centre, {pose * Inverse(before.cam_from_world), before.unit});
-  motion_.Observe(last_pose, attempt.pose, seconds);
+    ChangeUnit(centre.unit / before.unit, attempt.pose);
+  }
+  const Matrix6d covariance = motion_.Observe(last_pose, attempt.pose, seconds);
   frame.cam_from_world = pose;
-  return Succeed(std::move(frame), std::move(found), seen->centre, centre, wanted);
+  TrackingResult result = Succeed(std::move(frame), std::move(found), seen->centre, centre, wanted);
+  result.covariance = covariance;
+  return result;
 }
 
 // Searches near the predicted pose. It searches by appearance as well where that finds no pose,

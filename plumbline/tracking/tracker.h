@@ -87,7 +87,13 @@ struct TrackingResult {
   TrackingFailure failure = TrackingFailure::kNone;
   FrameCounts counts;
   std::optional<Rigid3> cam_from_world;  // none where the frame has no pose
-  KeyFrameId reference;                  // the keyframe that the pose refers to from now on
+  // Covariance of the left perturbation [rotation, translation] of cam_from_world, by the inliers
+  // and the motion so far, relative to a map that counts as exact (the depths of points from a
+  // single frame do not, where tracking.point_covariance is on). None where the pose was not
+  // estimated from matches: that of a first frame is chosen, that of a monocular start is adjusted
+  // with its map.
+  std::optional<Matrix6d> covariance;
+  KeyFrameId reference;  // the keyframe that the pose refers to from now on
   RelativePose from_reference;
   std::optional<NewKeyFrame> keyframe;
   bool starts_map = false;  // the keyframe is the first of a new map

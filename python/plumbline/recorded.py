@@ -14,6 +14,9 @@ from . import _plumbline
 from ._plumbline import Atlas, Dataset, Frame, FrameResult, InputError, Map, System, Trajectory
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ._plumbline import _TrajectoryErrors  # known to the types alone
 
 Path = str | os.PathLike[str]
@@ -37,6 +40,12 @@ class Run:
     def trajectory(self) -> Trajectory:
         """All frames with a pose, of the left camera as delivered, in the main map."""
         return self.system.trajectory()
+
+    @functools.cached_property
+    def covariances(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Stamps (N,) and covariances (N, 6, 6) of the poses as first reported, in the main map:
+        System.causal_covariances()."""
+        return self.system.causal_covariances()
 
     @functools.cached_property
     def maps(self) -> Atlas:

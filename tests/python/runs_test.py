@@ -14,7 +14,7 @@ import plumbline
 from plumbline import recorded
 
 # Files of a run that have nothing to do with the clock.
-SAME = ["trajectory.txt", "trajectory_causal.txt", "keyframes.txt", "frames.csv", "map.plb",
+SAME = ["trajectory.txt", "trajectory_causal.txt", "trajectory_covariance.txt", "keyframes.txt", "frames.csv", "map.plb",
         "options.yaml", "lines.obj", "lines.dxf", "map.ply"]
 
 
@@ -47,6 +47,25 @@ def test_frames_from_anywhere_give_the_same_poses(dataset, finished):
     system.finish()
     assert system.trajectory().to_tum() == finished.trajectory.to_tum()
     assert system.results() == []
+
+
+def test_covariances_are_those_of_the_frames_and_of_the_file(dataset, tmp_path):
+    run = plumbline.run(dataset, out=tmp_path / "out")
+    stamps, covariances = run.covariances
+    assert stamps.dtype == np.int64 and covariances.shape == (len(stamps), 6, 6)
+    # The first frame starts the map: its pose is chosen.
+    assert run.results[0].covariance is None
+    known = [result for result in run.results if result.covariance is not None]
+    assert len(known) == len(run.results) - 1
+    np.testing.assert_array_equal(stamps, [result.stamp_ns for result in known])
+    np.testing.assert_array_equal(covariances, [result.covariance for result in known])
+    for covariance in covariances:
+        np.testing.assert_array_equal(covariance, covariance.T)
+        assert np.linalg.eigvalsh(covariance)[0] > 0
+    rows = np.loadtxt(tmp_path / "out" / "trajectory_covariance.txt")
+    np.testing.assert_allclose(rows[:, 1:].reshape(-1, 6, 6), covariances, rtol=1e-11)
+    with pytest.raises(plumbline.InputError, match="map: expected the id of a map, found 7"):
+        run.system.causal_covariances(7)
 
 
 def test_each_result_is_told_once(dataset):

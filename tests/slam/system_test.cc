@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace plumbline {
@@ -47,6 +48,32 @@ TEST(System, FollowsTheCamera) {
   const Trajectory keyframes = system->KeyFrameTrajectory(*map);
   EXPECT_EQ(keyframes.front().stamp_ns, MovingPoster::StampNs(0));
   system->maps().rbegin()->second.CheckInvariants();
+}
+
+TEST(System, KnowsTheCovarianceOfEachPoseButThatWhichStartsTheMap) {
+  constexpr int kFrames = 10;
+  const auto system = RunPoster(kFrames);
+  const std::vector<StampedCovariance> covariances = system->CausalCovariances(MapId{0});
+  ASSERT_EQ(covariances.size(), kFrames - 1U);
+  EXPECT_FALSE(system->frames()[0].causal_covariance);
+  const Trajectory poses = system->CausalTrajectory(MapId{0});
+  double chi2 = 0;
+  for (std::size_t i = 0; i < covariances.size(); ++i) {
+    EXPECT_EQ(covariances[i].stamp_ns, MovingPoster::StampNs(static_cast<int>(i) + 1));
+    const Matrix6d& covariance = covariances[i].covariance;
+    EXPECT_EQ(covariance, Matrix6d(covariance.transpose()));
+    const Eigen::LLT<Matrix6d> factor(covariance);
+    ASSERT_EQ(factor.info(), Eigen::Success);
+    // The poster is seen from 0.01 to 100 mm and as many mrad off, whatever the noise.
+    EXPECT_GT(covariance.diagonal().minCoeff(), 1e-10);
+    EXPECT_LT(covariance.diagonal().maxCoeff(), 1e-2);
+    Vector6d error;
+    error << poses[i + 1].world_from_camera.translation -
+                 Eigen::Vector3d(MovingPoster::kStep * static_cast<double>(i + 1), 0, 0),
+        LogSo3(poses[i + 1].world_from_camera.rotation);
+    chi2 += error.dot(factor.solve(error)) / (kFrames - 1);
+  }
+  EXPECT_LT(chi2, 60);  // ten times that of six degrees of freedom
 }
 
 // Every keyframe has to be able to make landmarks of its lines.
