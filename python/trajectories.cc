@@ -120,6 +120,9 @@ py::dict StatisticsDict(const ErrorStatistics& errors) {
   dict["mean"] = errors.mean;
   dict["median"] = errors.median;
   dict["max"] = errors.max;
+  dict["std"] = errors.deviation;
+  dict["p75"] = errors.p75;
+  dict["p95"] = errors.p95;
   return dict;
 }
 
@@ -203,8 +206,8 @@ reference is interpolated at the time of each pose, over gaps of at most max_gap
 or its pose nearest in time, at most 20 ms away, is taken ("nearest"). window_s: seconds between the
 two poses of a pair of rpe and roe. Raises InputError where no pose has a reference.
 
-"ate" [m], "rpe" [m/s], "roe" [rad/s]: dictionaries of count, rmse, mean, median, max (None where
-nothing spans the window); "scale", "scale_drift"; "reference_from_estimate" (4, 4);
+"ate" [m], "rpe" [m/s], "roe" [rad/s]: dictionaries of count, rmse, mean, median, max, std
+(standard deviation), p75 and p95 (percentiles), None where nothing spans the window; "scale", "scale_drift"; "reference_from_estimate" (4, 4);
 "degenerate": positions do not determine the alignment; "stamps_ns" (N,),
 "position_errors" (N,) [m], "rotation_errors" (N,) [rad] of the poses that were compared.
 All arrays are new.)");

@@ -49,6 +49,9 @@ struct RelativeWindow {
 // How CompareTrajectories aligns, associates and windows.
 struct TrajectoryErrorOptions {
   TrajectoryAlignment alignment = TrajectoryAlignment::kSe3;
+  // The alignment, where it is known from elsewhere: it is applied as it is, and `alignment` says
+  // what kind it is.
+  std::optional<Similarity3> known_alignment = {};
   TrajectoryAssociation association = TrajectoryAssociation::kInterpolate;
   // Largest gap between reference poses that are interpolated (KITTI: 0.25 s).
   std::int64_t max_gap_ns = 100'000'000;
@@ -58,10 +61,13 @@ struct TrajectoryErrorOptions {
 };
 
 // Statistics of a set of non-negative errors. The median of an even number of them is the mean of
-// the middle two.
+// the middle two; other percentiles are interpolated in the same way, linearly between the two
+// nearest of the sorted errors.
 struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = 0, mean = 0, median = 0, max = 0;
+  double deviation = 0;     // standard deviation: root mean square distance from the mean
+  double p75 = 0, p95 = 0;  // percentiles
 };
 
 // Returns the statistics of some errors; nullopt where there are none. O(n).

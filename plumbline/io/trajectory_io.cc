@@ -211,12 +211,16 @@ std::string FormatTum(const Trajectory& trajectory) {
   return text;
 }
 
-void WriteTum(const path& file, const Trajectory& trajectory) {
+void CheckTum(const path& file, const Trajectory& trajectory) {
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     if (const auto fault = FaultOf(trajectory, i)) {
       throw WriteError(file, fmt::format("pose {} (from 0): {}", i, *fault));
     }
   }
+}
+
+void WriteTum(const path& file, const Trajectory& trajectory) {
+  CheckTum(file, trajectory);
   WriteFileAtomically(file, FormatTum(trajectory));
 }
 

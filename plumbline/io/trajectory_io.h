@@ -44,6 +44,8 @@ std::vector<std::int64_t> ReadKittiTimes(const std::filesystem::path& path);
 // Returns a trajectory in TUM form: 9 decimals for the stamp, 9 for the rest; qw >= 0. It has no
 // header. Throws InputError for a rotation that is none (geometry/unit_rotation.h).
 std::string FormatTum(const Trajectory& trajectory);
+// Throws WriteError, which names `file`, where WriteTum would not write this trajectory.
+void CheckTum(const std::filesystem::path& file, const Trajectory& trajectory);
 // Writes FormatTum(trajectory) to a file, whole or not at all. Throws InputError "cannot write
 // <path>: ...", and also where ReadTrajectory would refuse the file: for stamps that do not
 // increase or are beyond the year 2096, rotations that are none, and places that are not finite or

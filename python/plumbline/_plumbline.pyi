@@ -289,6 +289,9 @@ class _ErrorStatistics(TypedDict):
     mean: float
     median: float
     max: float
+    std: float
+    p75: float
+    p95: float
 
 
 class _TrajectoryErrors(TypedDict):
