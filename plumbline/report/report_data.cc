@@ -215,6 +215,13 @@ Json Error(const MapScene& map, SensorKind sensor, const ShownFrames& shown) {
           {"relative_rotation", std::move(roe)}};
 }
 
+// Whether lengths are metres: one camera measures none, unless ground truth scales its map.
+bool IsMetric(const MapScene& map, SensorKind sensor) {
+  if (sensor != SensorKind::kMono) return true;
+  return map.error && map.error->degenerate.value_or(AlignmentFailure::kCollinear) ==
+                          AlignmentFailure::kCollinear;
+}
+
 Json MapData(const MapScene& map,
              const Vector3d& origin,
              SensorKind sensor,
@@ -237,6 +244,7 @@ Json MapData(const MapScene& map,
     keyframes.Add(pose.rotation.coeffs());  // in the order x y z w
   }
   return {{"id", map.id.value},
+          {"metric", IsMetric(map, sensor)},
           {"keyframe_count", map.keyframe_count},
           {"point_count", map.point_count},
           {"line_count", map.line_count},

@@ -46,8 +46,8 @@ class TrajectoryView {
       label: "Trajectory. Arrow keys read out frame by frame.",
       height: (width) => Math.max(300, Math.min(520, 0.85 * width)),
       equal: true,
-      xLabel: () => `${AXES[this.plane.a]} [m]`,
-      yLabel: () => `${this.plane.flip ? "−" : ""}${AXES[this.plane.b]} [m]`,
+      xLabel: () => `${AXES[this.plane.a]} [${shownUnit()}]`,
+      yLabel: () => `${this.plane.flip ? "−" : ""}${AXES[this.plane.b]} [${shownUnit()}]`,
       range: () => this.range(),
       draw: (plot) => this.draw(plot),
       cursor: frameCursor,
@@ -159,7 +159,9 @@ class TrajectoryView {
   read(i) {
     const [positions, k] = this.positionOf(i);
     const place = [0, 1, 2].map((axis) => digits(positions[3 * k + axis] + scene.origin[axis], 4));
-    const rows = [frameHead(i), timeRow(i), {what: "x, y, z", much: place.join(", ") + " m"}];
+    const rows = [
+      frameHead(i), timeRow(i), {what: "x, y, z", much: `${place.join(", ")} ${shownUnit()}`}
+    ];
     const error = errorByFrame.get(i);
     if (error) rows.push({what: "position error", much: metres(error.position)});
     return rows;

@@ -162,6 +162,7 @@ ProtobufWriter ViewState::RunMessage() const {
   ProtobufWriter camera;
   camera.Varint(1, NumberOrZero(c.width)).Varint(2, NumberOrZero(c.height));
   camera.Double(3, c.fx).Double(4, c.fy).Double(5, c.cx).Double(6, c.cy);
+  camera.Double(7, c.baseline);
   ProtobufWriter message;
   message.Bytes(1, run_.name)
       .Varint(2, counts_.frames)

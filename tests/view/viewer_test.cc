@@ -4,12 +4,14 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/recording/mcap.h"
+#include "plumbline/view/view_state.h"
 
 #include "tests/io/scratch_folder.h"
 #include "tests/support/true_map.h"
 #include "tests/support/web_socket_client.h"
 #include <atomic>
 #include <cstddef>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -52,6 +54,23 @@ double MegabytesInUse() {
 }
 
 // A run of made-up frames that shows itself.
+// One camera has none; its lengths are no metres, which the page has to know.
+TEST(ViewState, TellsTheBaselineOfTheCamera) {
+  constexpr double kBaseline = 0.11;
+  std::string field(9, '\x39');  // 7, of 8 bytes
+  std::memcpy(field.data() + 1, &kBaseline, sizeof kBaseline);
+  for (const double baseline : {kBaseline, 0.0}) {
+    ViewedRun run;
+    run.camera = TestCamera();
+    run.camera.baseline = baseline;
+    ViewState state(run);
+    ViewCursor cursor;
+    const SharedBytes update = state.Next(Stream::kUpdates, cursor, 0);
+    ASSERT_NE(update, nullptr);
+    EXPECT_EQ(update->find(field) != std::string::npos, baseline > 0);
+  }
+}
+
 class Shown : public testing::Test {
  protected:
   Shown() {
