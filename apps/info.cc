@@ -3,6 +3,8 @@
 #include "plumbline/base/error.h"
 #include "plumbline/base/options.h"
 #include "plumbline/base/printable.h"
+#include "plumbline/features/stereo_pair_check.h"
+#include "plumbline/image/rectify.h"
 #include "plumbline/io/dataset.h"
 #include "plumbline/io/open_dataset.h"
 #include "plumbline/io/trajectory_io.h"
@@ -142,6 +144,25 @@ void CheckImages(const Dataset& dataset) {
   Row("checked", fmt::format("{} of {} frames can be used", dataset.size() - bad, dataset.size()));
 }
 
+// What is wrong with the images of the first frames, where they are stereo pairs that do not fit
+// the calibration. Frames that cannot be read are left out.
+std::optional<std::string> PairFaultOf(const Dataset& dataset) {
+  if (!dataset.info().has_calibration || !dataset.calibration().right) return std::nullopt;
+  const Rectifier rectifier(dataset.calibration());
+  StereoPairCheck check(rectifier);
+  for (std::size_t i = 0; i < dataset.size(); ++i) {
+    if (!StereoPairCheck::LooksAt(i)) continue;
+    try {
+      const Expected<SensorFrame, ImageFailure> frame = dataset.Read(i);
+      if (!frame) continue;
+      if (const auto fault = check.Add(i, *frame)) return Describe(*fault);
+    } catch (const InputError&) {
+      continue;  // an image of another size, which --check names
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 int InfoCommand(std::span<const std::string> arguments) {
@@ -171,6 +192,7 @@ int InfoCommand(std::span<const std::string> arguments) {
   PrintCalibration(info);
   PrintGroundTruth(info);
   for (const std::string& note : info.notes) Row("note", note);
+  if (const auto fault = PairFaultOf(*dataset)) Row("note", *fault);
   if (line.Has("--check")) CheckImages(*dataset);
   return 0;
 }

@@ -3,6 +3,7 @@
 #include "apps/run_frames.h"
 
 #include "plumbline/base/error.h"
+#include "plumbline/features/stereo_pair_check.h"
 #include "plumbline/image/box_filter.h"
 #include "plumbline/io/checkpoint_io.h"
 #include "plumbline/report/summary.h"
@@ -63,6 +64,7 @@ class FrameFeed {
         frames_(OpenFrames(input,
                            system.options().slam.mode,
                            [this](const std::string& message) { progress_.Say(message); })),
+        pair_check_(system.rectifier()),
         pipeline_(system, [this](const FrameRecord& record, const FrameView& view) {
           Observe(record, view);
         }) {}
@@ -163,16 +165,25 @@ class FrameFeed {
 
   void Feed() {
     const auto go_on = [this] { return GoOn(); };
-    while (true) {
+    for (std::size_t position = 0;; ++position) {
       WaitWhilePaused();
       auto next = frames_->Next(go_on);
       if (!next) return;
       if (next->frame) {
+        CheckPair(position, *next->frame);
         pipeline_.Feed(Blurred(*std::move(next->frame), input_.blur));
       } else {
         pipeline_.Skip(next->stamp_ns, next->reason);
       }
     }
+  }
+
+  // In the thread that feeds. Tells of a stereo pair that does not fit the calibration, once.
+  void CheckPair(std::size_t position, const SensorFrame& frame) {
+    const auto fault = pair_check_.Add(position, frame);
+    if (!fault) return;
+    result_.notes.push_back(Describe(*fault, input_.dataset->info().time_mirror_ns.has_value()));
+    if (!quiet_) progress_.Say(result_.notes.back());
   }
 
   // "12 of 30 frames", or "12 frames" of a live source.
@@ -223,6 +234,7 @@ class FrameFeed {
   std::shared_ptr<MapSaver> saver_;  // null where nothing is to be saved before the end
   Clock::time_point saved_ = Clock::now();
   std::unique_ptr<FrameInput> frames_;
+  StereoPairCheck pair_check_;
   Pipeline pipeline_;  // last: its thread calls Observe
 };
 

@@ -98,7 +98,7 @@ Json Run(const Dataset& dataset, const ReportContext& context) {
           {"date", context.date},
           {"seed", description.seed},
           {"command", description.arguments.empty() ? Json(nullptr) : Json(command)},
-          {"notes", dataset.info().notes},
+          {"notes", NotesOf(description, dataset)},
           {"wall_seconds", Rounded(context.resources.wall_seconds, 3)},
           {"cpu_seconds", Rounded(context.resources.cpu_seconds, 3)},
           {"peak_memory_mb", Rounded(context.resources.peak_memory_mb, 1)},

@@ -204,6 +204,12 @@ void AddEvents(const MapEvents& events, Json& json) {
 
 }  // namespace
 
+std::vector<std::string> NotesOf(const RunDescription& description, const Dataset& dataset) {
+  std::vector<std::string> notes = dataset.info().notes;
+  notes.insert(notes.end(), description.notes.begin(), description.notes.end());
+  return notes;
+}
+
 std::string FormatSummary(const RunDescription& description,
                           const System& system,
                           const Dataset& dataset,
@@ -216,6 +222,7 @@ std::string FormatSummary(const RunDescription& description,
   json["mode"] = NameOf(system.options().slam.mode);
   json["seed"] = description.seed;
   json["interrupted"] = description.interrupted ? Json(*description.interrupted) : Json(nullptr);
+  json["notes"] = NotesOf(description, dataset);
   json["frames"] = {{"of", description.frames_chosen},
                     {"in", counts.frames},
                     {"tracked", counts.tracked},

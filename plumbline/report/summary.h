@@ -68,7 +68,12 @@ struct RunDescription {
   std::size_t frames_chosen = 0;            // frames that the run was to process
   // Name of the signal that ended the run early, "SIGINT"; nullopt if none did.
   std::optional<std::string> interrupted = std::nullopt;
+  // One sentence for each thing that the images showed to be wrong with the data.
+  std::vector<std::string> notes = {};
 };
+
+// Returns the notes of the data set and those of the run.
+std::vector<std::string> NotesOf(const RunDescription& description, const Dataset& dataset);
 
 // Returns the text of summary.json.
 std::string FormatSummary(const RunDescription& description,
