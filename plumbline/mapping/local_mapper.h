@@ -8,6 +8,7 @@
 #include "plumbline/map/atlas.h"
 #include "plumbline/map/map.h"
 #include "plumbline/map/young_landmarks.h"
+#include "plumbline/mapping/adjusted_lines.h"
 #include "plumbline/mapping/correction.h"
 #include "plumbline/mapping/landmark_cleanup.h"
 #include "plumbline/mapping/options.h"
@@ -28,12 +29,6 @@ namespace plumbline {
 struct MappingStep {
   std::string name;
   double milliseconds = 0;
-};
-
-// What local bundle adjustment held in memory for its lines, summed over all windows.
-struct AdjustedLines {
-  std::size_t count = 0;
-  std::size_t bytes = 0;
 };
 
 // A landmark that a feature shows, and the number of keyframes that show it.

@@ -4,9 +4,9 @@
 
 #include "plumbline/base/ids.h"
 #include "plumbline/map/placement.h"
-#include "plumbline/slam/load_shedding.h"
+#include "plumbline/slam/shed.h"
 #include "plumbline/slam/stage_clock.h"
-#include "plumbline/tracking/pose_search.h"
+#include "plumbline/tracking/frame_counts.h"
 
 #include <array>
 #include <cstdint>

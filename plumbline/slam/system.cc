@@ -6,7 +6,9 @@
 #include "plumbline/features/front_end_fingerprint.h"
 #include "plumbline/geometry/calibration_fingerprint.h"
 #include "plumbline/geometry/camera_difference.h"
+#include "plumbline/mapping/line_map.h"
 #include "plumbline/slam/atlas_context.h"
+#include "plumbline/slam/system_stages.h"
 
 #include <map>
 #include <string>
@@ -17,16 +19,6 @@
 
 namespace plumbline {
 namespace {
-
-// Returns the pose of the tracker's camera, which is the rectified one, at a map's first frame. The
-// map's world is the left camera as delivered.
-Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
-  return {rectifier.rectified_left_from_left().conjugate(), Eigen::Vector3d::Zero()};
-}
-
-// A live run that lost the camera looks for it in its map for at least this long before it starts
-// another map, since the next frames may show known surroundings again.
-constexpr double kLivePatienceSeconds = 1;
 
 // The camera's motion between the last two views of a map, as a left tangent per second.
 Vector6d LastVelocity(const InitialMap& initial) {
@@ -43,14 +35,12 @@ System::System(const Calibration& calibration,
                const Execution& execution)
     : options_(options),
       execution_(execution),
-      front_end_(calibration, options.features),
-      imaging_{front_end_.rectifier().camera(), options.features.orb.scale_factor},
-      mapping_(imaging_, options_, execution_),
-      tracker_(imaging_,
-               options_.tracking,
-               PoseEstimator(imaging_.camera, options_.lines, options_.cutting),
-               WorldFromFirstCamera(front_end_.rectifier()),
-               options_.slam.mode == RunMode::kLive ? kLivePatienceSeconds : 0) {
+      stages_(std::make_unique<SystemStages>(calibration, options_, execution_)),
+      front_end_(stages_->front_end),
+      imaging_(stages_->imaging),
+      mapping_(stages_->mapping),
+      tracker_(stages_->tracker),
+      monocular_start_(stages_->monocular_start) {
   CheckOptions(options_);
   if (imaging_.camera.baseline == 0) {
     if (options_.tracking.reference == TrackingReference::kLastFrame) {
@@ -63,6 +53,16 @@ System::System(const Calibration& calibration,
 }
 
 System::~System() = default;
+
+void System::Observe(std::function<void(const Atlas&, const LoopAttempt&)> observer) {
+  mapping_.Observe(std::move(observer));
+}
+
+std::size_t System::TasksWaiting() const { return mapping_.Waiting(); }
+bool System::MapOnce() { return mapping_.WorkOnce(); }
+const Atlas& System::atlas() const { return mapping_.atlas(); }
+const AdjustedLines& System::adjusted_lines() const { return mapping_.adjusted_lines(); }
+const Rectifier& System::rectifier() const { return front_end_.rectifier(); }
 
 void System::CheckStamp(std::int64_t stamp_ns) const {
   if (frames_.empty() || stamp_ns > newest_.stamp_ns) return;
@@ -126,7 +126,10 @@ const FrameRecord& System::Track(MeasuredFrame measured) {
   clock.Done(start ? "initialize" : "track");
   record.times = clock.Finish();
   view_ = {std::move(measured.images), result.frame};
-  if (!start) unfinished_ = {std::move(result), measured.shed, std::move(measured.left_pyramid)};
+  if (!start) {
+    unfinished_ = std::make_unique<UnfinishedFrame>(
+        UnfinishedFrame{std::move(result), measured.shed, std::move(measured.left_pyramid)});
+  }
   return Keep(std::move(record));
 }
 
@@ -157,7 +160,7 @@ TrackingResult System::FollowMap(MeasuredFrame& measured, FrameRecord& record, S
 void System::Complete() {
   if (!unfinished_) return;
   StageClock clock;
-  Unfinished unfinished = std::move(*unfinished_);
+  UnfinishedFrame unfinished = std::move(*unfinished_);
   unfinished_.reset();
   TrackingResult& result = unfinished.result;
   const std::int64_t frame = result.frame.id.value;
@@ -182,7 +185,7 @@ void System::Complete() {
   frames_.AddTimes(times);
 }
 
-void System::CompleteRightLines(Unfinished& unfinished, StageClock& clock) {
+void System::CompleteRightLines(UnfinishedFrame& unfinished, StageClock& clock) {
   TrackingResult& result = unfinished.result;
   if (!tracker_.WantsRightLines(result)) return;
   tracker_.Complete(front_end_.WithRightLines(view_.images, unfinished.shed, result.frame.indexed),
