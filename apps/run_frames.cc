@@ -77,7 +77,7 @@ class FrameFeed {
     NameShortage();
     if (result_.failure && system_.frames().empty()) std::rethrow_exception(result_.failure);
     if (!system_.frames().empty()) folder_.Keep();
-    Report(journal_.Write(folder_));
+    Keeping([&] { Report(journal_.Write(folder_)); });
     SayStopped();
     Keeping([&] { pipeline_.Finish(StepStop()); });
     NameShortage();

@@ -97,6 +97,7 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
   const KeyFrameId id = keyframe.id;
   std::vector<MappingStep> times;
   ShownLandmarks refreshed;
+  Map::Undo undo(map);
   Timed("take_in", times, [&] { refreshed = TakeIn(map, keyframe, scores); });
   Timed("create", times, [&] { CreateLandmarks(map, id); });
   Timed("fuse", times, [&] { Fuse(map, id, refreshed); });
@@ -107,6 +108,7 @@ std::vector<MappingStep> LocalMapper::Add(Map& map,
     map.Apply(RemoveRedundantKeyFrames(map, id, options_.cleanup));
     map.Apply(RemoveRevisitedKeyFrames(map, id, options_.cleanup));
   });
+  undo.Keep();
   return times;
 }
 

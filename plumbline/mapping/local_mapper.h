@@ -52,7 +52,8 @@ class LocalMapper {
 
   // Takes in a keyframe, with the scores that tracking counted since the last one. Where the
   // pyramid of its rectified left image is given (BuildOrbPyramid), points are aligned
-  // (PointAligner). Returns the time of each step, in order.
+  // (PointAligner). Returns the time of each step, in order. Where anything is thrown, the map is
+  // as it was.
   std::vector<MappingStep> Add(Map& map,
                                const KeyFrame& keyframe,
                                const TrackingScores& scores,

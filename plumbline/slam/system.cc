@@ -10,6 +10,7 @@
 #include "plumbline/slam/atlas_context.h"
 #include "plumbline/slam/system_stages.h"
 
+#include <exception>
 #include <map>
 #include <string>
 #include <utility>
@@ -361,18 +362,21 @@ std::vector<StageTime> System::TakeMappingTimes() {
   return times;
 }
 
-// Marks frames as lost whose keyframe is in no map, because mapping failed before it got to that
-// keyframe.
+// Lets frames whose keyframe is in no map, because mapping failed before it got to that keyframe,
+// refer to its parent. Marks them as lost where there is none, or where tracking failed before it
+// handed the keyframe over.
 void System::LoseFramesNotMapped() {
+  for (const DemotedKeyFrame& gone : mapping_.NotMapped()) Demote(gone);
   const auto has_place = [&](const FrameRecord& record) {
     const Map* map = atlas().Find(atlas().Current(record.map));
     return map != nullptr && map->Knows(record.reference);
   };
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    frames_.Change(i, [&](FrameRecord& record) {
-      if (record.status != FrameStatus::kTracked || has_place(record)) return;
-      record.status = FrameStatus::kLost;
-      record.reason = kNotMapped;
+    const FrameRecord record = frames_[i];
+    if (record.status != FrameStatus::kTracked || has_place(record)) continue;
+    frames_.Change(i, [](FrameRecord& lost) {
+      lost.status = FrameStatus::kLost;
+      lost.reason = kNotMapped;
     });
   }
 }
@@ -413,13 +417,18 @@ void System::LookAtMaps(std::function<void(const Atlas&, const MapEvents&)> look
 
 void System::Finish(const StopCheck& stop) {
   line_maps_.clear();
-  try {
-    Complete();
-    mapping_.Finish(stop);
-  } catch (...) {
-    LoseFramesNotMapped();
-    throw;
-  }
+  std::exception_ptr failure;
+  const auto keeping = [&failure](const auto& step) {
+    try {
+      step();
+    } catch (...) {
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  keeping([&] { Complete(); });
+  keeping([&] { mapping_.Finish(stop); });
+  LoseFramesNotMapped();
+  if (failure) std::rethrow_exception(failure);
   const std::vector<StageTime> times = TakeMappingTimes();
   if (!frames_.empty()) frames_.AddTimes(times);
   if (!monocular_start_) return;
