@@ -201,6 +201,7 @@ std::shared_ptr<const MapSnapshot> System::TakeRelocalized(FrameId frame) {
   const auto outcome = mapping_.TakeRelocalization();
   if (!outcome) return nullptr;
   relocalizing_ = false;
+  if (!outcome->found) tracker_.NotFound();
   if (!outcome->found || tracker_.state() != TrackerState::kLost) return nullptr;
   if (TrackedSince(outcome->found->frame.id)) return nullptr;
   tracker_.FollowFrom(*outcome->found, *outcome->snapshot);
@@ -225,10 +226,12 @@ bool System::TrackedSince(FrameId frame) const {
   return false;
 }
 
-// Asks for the place of a lost frame, unless such a request is still unanswered.
+// Asks for the place of a lost frame, unless such a request is still unanswered, or the frame shows
+// too little to be found anywhere.
 void System::Relocalize(const TrackingResult& result) {
   if (result.state != TrackerState::kLost || relocalizing_ || !options_.relocalization.enabled)
     return;
+  if (result.failure == TrackingFailure::kTooFewFeatures) return;
   mapping_.Submit(result.frame.id.value, RelocalizationRequest{result.frame});
   relocalizing_ = true;
 }
@@ -461,6 +464,7 @@ Trajectory System::FinalTrajectory(MapId map) const {
   const Map& owner = MapOf(map);
   for (const FrameRecord& record : frames_) {
     if (record.status != FrameStatus::kTracked || atlas().Current(record.map) != map) continue;
+    if (!owner.Knows(record.reference)) continue;  // Finish failed before it lost the frame
     trajectory.push_back(
         {record.stamp_ns,
          AsDelivered(PoseBeside(owner.PlaceOf(record.reference), record.from_reference))});

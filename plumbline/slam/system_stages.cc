@@ -9,6 +9,11 @@ namespace {
 // another map, since the next frames may show known surroundings again.
 constexpr double kLivePatienceSeconds = 1;
 
+LossPatience PatienceOf(const SlamOptions& options) {
+  return {options.slam.mode == RunMode::kLive ? kLivePatienceSeconds : 0,
+          options.relocalization.enabled ? options.relocalization.patience : 0};
+}
+
 }  // namespace
 
 Rigid3 WorldFromFirstCamera(const Rectifier& rectifier) {
@@ -25,6 +30,6 @@ SystemStages::SystemStages(const Calibration& calibration,
               options.tracking,
               PoseEstimator(imaging.camera, options.lines, options.cutting),
               WorldFromFirstCamera(front_end.rectifier()),
-              options.slam.mode == RunMode::kLive ? kLivePatienceSeconds : 0) {}
+              PatienceOf(options)) {}
 
 }  // namespace plumbline

@@ -113,7 +113,8 @@ constexpr auto FixedOptions(std::type_identity<TrackingOptions>) {
 // Whether, and for how long, a lost camera is looked for in its map.
 struct RelocalizationOptions {
   bool enabled = true;
-  // Lost frames in a map of an earlier run after which a new map starts.
+  // Lost frames in a map of an earlier run after which a new map starts; and in every map, frames
+  // that show too little for a pose and do not count as lost.
   int patience = 200;
 };
 

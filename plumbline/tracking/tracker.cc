@@ -40,12 +40,12 @@ Tracker::Tracker(const ImagingModel& imaging,
                  const TrackingOptions& options,
                  const PoseEstimator& estimator,
                  const Rigid3& world_from_first_cam,
-                 double min_lost_seconds)
+                 const LossPatience& loss)
     : options_(options),
       search_(imaging, options, estimator),
       monocular_(imaging.camera.baseline == 0),
       first_cam_from_world_(Inverse(world_from_first_cam)),
-      min_lost_seconds_(min_lost_seconds) {}
+      loss_(loss) {}
 
 TrackingResult Tracker::Track(FrameId id,
                               std::int64_t stamp_ns,
@@ -214,7 +214,7 @@ bool Tracker::WantsKeyFrame(const Frame& frame,
 
 TrackingResult Tracker::Succeed(
     Frame frame, Finding found, KeyFrameId reference, const Placement& place, bool wants_keyframe) {
-  lost_frames_ = 0;
+  ForgetLoss();
   state_ = NextState(state_, true, 0, options_.new_map_after);
   TrackingResult result;
   result.counts = found.counts;
@@ -240,15 +240,15 @@ TrackingResult Tracker::Succeed(
 }
 
 TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts counts) {
-  ++lost_frames_;
-  // A map that loses the camera right after its start was usually a bad one.
-  const bool trial = trial_keyframes_ > 0;
-  const double lost_seconds =
-      last_ ? 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) : 0;
-  const bool wait = use_ ? use_->read_only : !trial && lost_seconds < min_lost_seconds_;
-  const int usual = use_ ? use_->patience : options_.new_map_after;
-  const int patience = wait ? lost_frames_ + 1 : trial ? 1 : usual;
-  state_ = NextState(state_, false, lost_frames_, patience);
+  const bool blind = state_ != TrackerState::kInitializing &&
+                     failure != TrackingFailure::kMapWithdrawn && IsBlind(frame.features());
+  if (blind) {
+    failure = TrackingFailure::kTooFewFeatures;
+    asked_ = false;
+  }
+  // What shows nothing says nothing against the map.
+  ++(blind && blind_frames_ < loss_.blind_frames ? blind_frames_ : lost_frames_);
+  state_ = NextState(state_, false, lost_frames_, Patience(frame, blind));
   motion_.Forget();
   TrackingResult result;
   result.state = state_;
@@ -256,6 +256,38 @@ TrackingResult Tracker::Fail(Frame frame, TrackingFailure failure, FrameCounts c
   result.counts = counts;
   result.frame = std::move(frame);
   return result;
+}
+
+void Tracker::ForgetLoss() {
+  lost_frames_ = 0;
+  blind_frames_ = 0;
+  asked_ = false;
+}
+
+// Whether a frame shows less than a lost camera needs for its pose. Where depth is measured, points
+// without depth do not count, since no map can start with them and noise has many.
+bool Tracker::IsBlind(const Features& features) const {
+  const std::size_t seen = features.points.size() + features.lines.size();
+  const auto depths = std::count_if(features.point_disparity.begin(),
+                                    features.point_disparity.end(),
+                                    [](const auto& disparity) { return disparity.has_value(); }) +
+                      std::ssize(features.lines);
+  const std::int64_t counted = monocular_ ? static_cast<std::int64_t>(seen) : depths;
+  return counted < kFewestUnpredictedInliers;
+}
+
+// Returns the number of lost frames after which another map starts.
+int Tracker::Patience(const Frame& frame, bool blind) const {
+  // A map that loses the camera right after its start was usually a bad one.
+  const bool trial = trial_keyframes_ > 0;
+  const double lost_seconds =
+      last_ ? 1e-9 * static_cast<double>(frame.stamp_ns - last_->frame.stamp_ns) : 0;
+  const bool unasked = blind_frames_ > 0 && (blind || !asked_);
+  const bool wait =
+      unasked || (use_ ? use_->read_only : !trial && lost_seconds < loss_.min_seconds);
+  if (wait) return lost_frames_ + 1;
+  const int usual = use_ ? use_->patience : options_.new_map_after;
+  return trial ? 1 : usual;
 }
 
 NewKeyFrame Tracker::MakeKeyFrame(const Frame& frame,
@@ -307,7 +339,7 @@ TrackingResult Tracker::StartMap(Frame frame) {
   result.reference = newest_keyframe_;
   state_ = NextState(state_, true, 0, options_.new_map_after);
   result.state = state_;
-  lost_frames_ = 0;
+  ForgetLoss();
   motion_.Forget();
   const std::size_t points = frame.points.size();
   const std::size_t lines = frame.lines.size();
@@ -342,7 +374,7 @@ TrackingResult Tracker::StartFrom(const MapSnapshot& snapshot, const Vector6d& v
   frames_since_keyframe_ = 0;
   use_.reset();
   scores_ = {};
-  lost_frames_ = 0;
+  ForgetLoss();
   trial_keyframes_ = options_.trial_keyframes;
   motion_.Begin(velocity);
   state_ = NextState(state_, true, 0, options_.new_map_after);

@@ -253,10 +253,10 @@ class AwayAndBack {
     options.loop.enabled = false;  // or the two ends, which share some corners, would be joined
     return options;
   }
-  // The poster from this frame of it on, or nothing to be seen.
+  // The poster from this frame of it on, or another place.
   void Show(std::optional<int> first, int frames) {
     for (int i = 0; i < frames; ++i) {
-      SensorFrame frame = first ? poster_.Frame(*first + i) : MovingPoster::BlindFrame(0);
+      SensorFrame frame = first ? poster_.Frame(*first + i) : MovingPoster::StrangeFrame(0);
       frame.stamp_ns = MovingPoster::StampNs(shown_++);
       system_.Process(std::move(frame));
     }
