@@ -467,7 +467,10 @@ int RunCommand(std::span<const std::string> arguments) {
       folder);
   if (!setup.quiet) Print(system, dataset, setup);
   RethrowFailures(processed, written.failure);
-  return written.interrupted ? written.interrupted->exit_code : 0;
+  if (written.interrupted) return written.interrupted->exit_code;
+  const auto no_pose = WhyNoPose(system.frames(), processed.no_depth);
+  if (no_pose) Say(*no_pose);
+  return no_pose ? 1 : 0;
 }
 
 }  // namespace plumbline

@@ -30,6 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kOverlays = 6;
 constexpr auto kPauseStep = std::chrono::milliseconds(10);
+// A depth camera may need some images until it measures.
+constexpr int kManyWithoutDepth = 10;
 
 // Every image of the frame through the box filter of --blur (0: as it is). Depth stays.
 SensorFrame Blurred(SensorFrame frame, int size) {
@@ -37,6 +39,14 @@ SensorFrame Blurred(SensorFrame frame, int size) {
   frame.left = BoxFiltered(frame.left, size);
   if (frame.right) frame.right = BoxFiltered(*frame.right, size);
   return frame;
+}
+
+bool HasAnyDepth(const DepthImage& depth) {
+  for (int y = 0; y < depth.height(); ++y) {
+    const auto* row = depth.row(y);
+    if (std::any_of(row, row + depth.width(), [](auto value) { return value != 0; })) return true;
+  }
+  return false;
 }
 
 std::unique_ptr<FrameInput> OpenFrames(const RunFrames& input, RunMode mode, FrameInput::Say say) {
@@ -168,10 +178,24 @@ class FrameFeed {
       auto next = frames_->Next(go_on);
       if (!next) return;
       if (next->frame) {
+        WatchDepth(*next->frame);
         pipeline_.Feed(Blurred(*std::move(next->frame), input_.blur));
       } else {
         pipeline_.Skip(next->stamp_ns, next->reason);
       }
+    }
+  }
+
+  // Tells of a depth camera that measures nothing, as long as no image has any depth.
+  void WatchDepth(const SensorFrame& frame) {
+    if (!frame.depth || (without_depth_ > 0 && !result_.no_depth)) return;
+    result_.no_depth = !HasAnyDepth(*frame.depth);
+    ++without_depth_;
+    if (result_.no_depth && without_depth_ == kManyWithoutDepth) {
+      progress_.Say(
+          fmt::format("depth is zero everywhere in the first {} depth images: without "
+                      "depth no map begins",
+                      without_depth_));
     }
   }
 
@@ -216,6 +240,7 @@ class FrameFeed {
   RunFolder& folder_;
   KeptViews& views_;
   Processed result_;
+  int without_depth_ = 0;           // depth images that were looked at
   const char* shortage_ = nullptr;  // that result_.failure is about, while it has no name
   MemoryReserve reserve_;
   Progress progress_;

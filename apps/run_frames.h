@@ -64,6 +64,7 @@ struct Processed {
   // was short of too, or something unforeseen.
   std::exception_ptr failure;
   std::optional<std::string> not_recorded;  // why --record has no whole file
+  bool no_depth = false;                    // there were depth images, and all were zero everywhere
 };
 
 // Reads the frames and feeds them to the system until there are no more, somebody asks to stop

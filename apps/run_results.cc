@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -141,6 +143,23 @@ class ResultWriter {
 
 WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder) {
   return ResultWriter(run, folder).WriteAll();
+}
+
+std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth) {
+  std::map<std::string, int> counts;
+  for (const FrameRecord& frame : frames) {
+    if (frame.status == FrameStatus::kTracked) return std::nullopt;
+    ++counts[frame.reason];
+  }
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      });
+  std::string why = "no frame has a pose";
+  if (most != counts.end()) {
+    why += fmt::format(": {} for {} of {} frames", most->first, most->second, frames.size());
+  }
+  return no_depth ? why + "; depth is zero everywhere" : why;
 }
 
 void PrintResult(const System& system, const Dataset& dataset, const std::string& folder) {

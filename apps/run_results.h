@@ -39,6 +39,9 @@ struct WrittenResults {
 // results of an earlier run, those stay, and these are in the part.
 WrittenResults WriteResults(const FinishedRun& run, RunFolder& folder);
 
+// Returns why a run found no pose at all, in one line; nullopt where a frame has one.
+std::optional<std::string> WhyNoPose(const FrameLog& frames, bool no_depth);
+
 // A few lines on standard output.
 void PrintResult(const System& system, const Dataset& dataset, const std::string& folder);
 

@@ -454,5 +454,60 @@ TEST(BadInput, UnreadableImagesAndMissingPartnersAreNamedAndLeftOut) {
   EXPECT_FALSE(fs::exists(folder / "played/overlay_000005.png"));
 }
 
+// Results that exist are written, but nobody may take them for a map.
+TEST(BadInput, ARunWithoutAnyPoseFails) {
+  const ScratchFolder folder;
+  const fs::path sequence = WritePosterSequence(folder, 6);
+  const auto run = [&](const std::string& out) {
+    return RunProgram(folder, "run " + Quoted(sequence) + " --out " + Quoted(folder / out));
+  };
+  for (const char* camera : {"cam0", "cam1"}) {
+    for (int i = 0; i < 6; ++i) {
+      WriteGrayPng(folder / fmt::format("sequence/mav0/{}/data/{}.png", camera, i),
+                   GrayImage(MovingPoster::kWidth, MovingPoster::kHeight, 0));
+    }
+  }
+  const Outcome dark = run("dark");
+  EXPECT_EQ(dark.code, 1);
+  EXPECT_THAT(dark.err, HasSubstr("plumbline: no frame has a pose: too_few_features for 6 of 6"));
+  EXPECT_THAT(dark.out, HasSubstr("frames 6: 0 tracked"));
+  EXPECT_TRUE(fs::exists(folder / "dark/frames.csv"));
+  EXPECT_TRUE(fs::exists(folder / "dark/summary.json"));
+  for (int i = 0; i < 6; ++i) {
+    folder.Write(fmt::format("sequence/mav0/cam1/data/{}.png", i), "gone");
+  }
+  const Outcome gone = run("gone");
+  EXPECT_EQ(gone.code, 1);
+  EXPECT_THAT(gone.err, HasSubstr("no frame has a pose: image_unreadable for 6 of 6 frames\n"));
+}
+
+TEST(BadInput, DepthThatIsZeroEverywhereIsTold) {
+  const ScratchFolder folder;
+  const MovingPoster poster;
+  std::string images, depths;
+  for (const char* kind : {"rgb", "depth"}) fs::create_directories(folder / "tum" / kind);
+  for (int i = 0; i < 12; ++i) {
+    WriteGrayPng(folder / fmt::format("tum/rgb/{}.png", i), poster.Frame(i).left);
+    WriteDepthPng(folder / fmt::format("tum/depth/{}.png", i),
+                  DepthImage(MovingPoster::kWidth, MovingPoster::kHeight, 0),
+                  5000);
+    images += fmt::format("{:.2f} rgb/{}.png\n", 1 + 0.05 * i, i);
+    depths += fmt::format("{:.2f} depth/{}.png\n", 1 + 0.05 * i, i);
+  }
+  folder.Write("tum/rgb.txt", images);
+  folder.Write("tum/depth.txt", depths);
+  const fs::path camera = folder.Write("camera.yaml",
+                                       "size: [400, 300]\nintrinsics: [300, 300, 200, 150]\n"
+                                       "depth_factor: 5000\n");
+  const Outcome outcome = RunProgram(folder,
+                                     "run " + Quoted(folder / "tum") + " --camera " +
+                                         Quoted(camera) + " --out " + Quoted(folder / "out"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("depth is zero everywhere in the first 10 depth images"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("no frame has a pose: too_few_features for 12 of 12 frames; depth is zero "
+                        "everywhere\n"));
+}
+
 }  // namespace
 }  // namespace plumbline
