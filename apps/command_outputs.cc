@@ -4,6 +4,7 @@
 
 #include "plumbline/base/error.h"
 #include "plumbline/base/input_file.h"
+#include "plumbline/io/path_overlap.h"
 #include "plumbline/report/run_folder.h"
 
 #include <system_error>
@@ -23,6 +24,19 @@ void CheckReplacesItsKind(std::string_view option,
                                option,
                                file.string(),
                                kind.name));
+}
+
+void CheckApartFromEachOther(
+    std::span<const std::pair<std::string_view, std::filesystem::path>> outputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    for (auto before = outputs.begin(); before != output; ++before) {
+      if (!IsSamePath(output->second, before->second)) continue;
+      throw InputError(fmt::format("{} {}: expected another file than that of {}",
+                                   output->first,
+                                   output->second.string(),
+                                   before->first));
+    }
+  }
 }
 
 void CheckKeepsResults(std::string_view option, const std::filesystem::path& file) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
+#include <utility>
 
 namespace plumbline {
 
@@ -20,6 +22,11 @@ struct FileKind {
 void CheckReplacesItsKind(std::string_view option,
                           const std::filesystem::path& file,
                           const FileKind& kind);
+
+// Throws InputError, which names both options, when two outputs of a command are one file. Outputs
+// are options with their files.
+void CheckApartFromEachOther(
+    std::span<const std::pair<std::string_view, std::filesystem::path>> outputs);
 
 // Throws InputError, which names the option, when a file would take the place of a result of the
 // run whose folder it is to lie in (CheckNoResult). Touches nothing.

@@ -192,19 +192,6 @@ std::optional<std::filesystem::path> FolderOfRun(const std::filesystem::path& es
   return folder;
 }
 
-// Each output has a place of its own.
-void CheckApartFromEachOther(const CommandLine& line, std::span<const char* const> options) {
-  for (auto option = options.begin(); option != options.end(); ++option) {
-    const auto path = line.Value(*option);
-    for (auto before = options.begin(); path && before != option; ++before) {
-      const auto other = line.Value(*before);
-      if (!other || !IsSamePath(*path, *other)) continue;
-      throw InputError(std::string(*option) + " " + *path +
-                       ": expected another file than that of " + *before);
-    }
-  }
-}
-
 // What an output may take the place of.
 FileKind KindOfOutput(std::string_view option, const std::filesystem::path& file) {
   if (option == "--json") return {"JSON of evaluate", "{\n  \"alignment\": "};
@@ -220,6 +207,7 @@ void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::pa
   const auto run = FolderOfRun(line.Positional(1));
   const std::filesystem::path reference = line.Positional(0);
   const bool of_data_set = std::filesystem::is_directory(reference, error);
+  std::vector<std::pair<std::string_view, std::filesystem::path>> outputs;
   for (const char* option : kOptions) {
     const auto path = line.Value(option);
     if (!path) continue;
@@ -235,8 +223,9 @@ void CheckOutputs(const CommandLine& line, const std::vector<std::filesystem::pa
     }
     if (run) CheckNoResult(option, *path, *run);
     CheckReplacesItsKind(option, *path, KindOfOutput(option, *path));
+    outputs.emplace_back(option, *path);
   }
-  CheckApartFromEachOther(line, kOptions);
+  CheckApartFromEachOther(outputs);
 }
 
 // What the command reads, as far as it is there.

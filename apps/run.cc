@@ -39,6 +39,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -320,9 +321,21 @@ void ResumeFrom(RunSetup& setup, System& system, RunFrames& input) {
   }
 }
 
+// A recording has a file beside it until it is complete.
+void CheckOutputsApart(const RunSetup& setup) {
+  std::vector<std::pair<std::string_view, std::filesystem::path>> outputs;
+  if (setup.view.record) {
+    outputs.emplace_back("--record", *setup.view.record);
+    outputs.emplace_back("--record", McapFileWriter::PartOf(*setup.view.record));
+  }
+  if (setup.checkpoint) outputs.emplace_back("--checkpoint", *setup.checkpoint);
+  CheckApartFromEachOther(outputs);
+}
+
 // The recording and the checkpoint take the places of files when they are complete. Only the
 // checkpoint that the run goes on from may be replaced: it was read whole.
 void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
+  CheckOutputsApart(setup);
   if (setup.view.record) {
     CheckFileApart("--record", *setup.view.record, inputs);
     CheckFileApart("--record", McapFileWriter::PartOf(*setup.view.record), inputs);
@@ -331,8 +344,6 @@ void CheckFilesApart(const RunSetup& setup, std::vector<RunInput> inputs) {
     CheckReplaceable(*setup.view.record);
     const std::string beginning = McapFileWriter::Beginning();
     CheckReplacesItsKind("--record", *setup.view.record, {"a recording by plumbline", beginning});
-    inputs.push_back({*setup.view.record});
-    inputs.push_back({McapFileWriter::PartOf(*setup.view.record)});
   }
   if (!setup.checkpoint) return;
   CheckNoResult("--checkpoint", *setup.checkpoint, setup.folder);
