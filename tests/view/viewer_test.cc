@@ -208,6 +208,22 @@ TEST_F(Shown, OthersAreRefused) {
   EXPECT_THAT(post.TakeUntil("\r\n"), HasSubstr("405 Method Not Allowed"));
 }
 
+// Of two headers, one would be checked and the other believed.
+TEST_F(Shown, RequestsWithTwoHostsAreRefused) {
+  Open();
+  for (const std::string twice : {"Host: localhost\r\nHost: localhost\r\n",
+                                  "Host: localhost\r\nhost: evil.example\r\n",
+                                  "Host: evil.example\r\nHost: localhost\r\n",
+                                  "Host: localhost\r\nOrigin: a\r\nOrigin: b\r\n"}) {
+    TestSocket get(port_);
+    get.Send("GET / HTTP/1.1\r\n" + twice + "\r\n");
+    EXPECT_THAT(get.TakeUntil("\r\n"), HasSubstr("400 Bad Request")) << twice;
+  }
+  TestSocket get(port_);
+  get.Send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_THAT(get.TakeUntil("\r\n"), HasSubstr("200 OK"));
+}
+
 TEST_F(Shown, APortThatIsTakenIsBadInput) {
   Open();
   ViewerOptions options;
