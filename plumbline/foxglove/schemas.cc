@@ -301,6 +301,8 @@ std::span<const FoxgloveChannel> FoxgloveChannels() {
       {"/map/points", "foxglove.PointCloud"},
       {"/map/lines", "foxglove.SceneUpdate"},
       {"/plumbline/updates", "plumbline.Update"},
+      {"/camera_right/image", "foxglove.CompressedImage"},
+      {"/camera_right/calibration", "foxglove.CameraCalibration"},
   }};
   return kChannels;
 }

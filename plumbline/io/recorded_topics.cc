@@ -19,8 +19,9 @@
 namespace plumbline {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kPairNames = {
-    {{"cam0", "cam1"}, {"left", "right"}, {"infra1", "infra2"}}};
+// The last are those of `run --record`.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPairNames = {
+    {{"cam0", "cam1"}, {"left", "right"}, {"infra1", "infra2"}, {"camera/", "camera_right/"}}};
 
 // Returns what the image was before it was compressed: "16UC1" for "16UC1; compressedDepth png".
 std::string_view UnpackedEncoding(std::string_view format) {

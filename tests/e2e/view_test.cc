@@ -125,9 +125,11 @@ TEST(View, ARecordingIsInputForTheNextRun) {
                                        " --out " + Quoted(folder / "first"));
   ASSERT_EQ(first.code, 0) << first.err;
   ExpectSameResults(Posters().out, folder / "first");
+  // Both images of the pair are in it, and how far the cameras are from each other.
   const Outcome second =
-      RunProgram(folder, "run " + recording + " --sensor mono --out " + Quoted(folder / "second"));
+      RunProgram(folder, "run " + recording + " --out " + Quoted(folder / "second"));
   ASSERT_EQ(second.code, 0) << second.err;
+  EXPECT_THAT(second.out, HasSubstr("frames 24: 24 tracked"));
   EXPECT_THAT(Contents(folder / "second" / "frames.csv"), HasSubstr("\n23,"));
   // The file that is read is not to be replaced.
   const Outcome third = RunProgram(folder,

@@ -491,6 +491,30 @@ TEST(ViewState, ShowsFramesWhoseImageIsTooLongWithoutIt) {
   EXPECT_NE(state.Next(Stream::kUpdates, cursor, 0), nullptr);
 }
 
+TEST(ViewState, ShowsBothImagesOfAPair) {
+  for (const bool pair : {true, false}) {
+    ViewedRun run;
+    run.camera = TestCamera();
+    ViewState state{run};
+    ViewedFrame frame;
+    frame.record.id = FrameId{0};
+    frame.image = GrayImage(64, 48, 90);
+    if (pair) frame.right = GrayImage(64, 48, 200);
+    state.Take(std::move(frame));
+    ViewCursor cursor;
+    const SharedBytes left = state.Next(Stream::kImage, cursor, 0);
+    const SharedBytes right = state.Next(Stream::kRightImage, cursor, 0);
+    const SharedBytes camera = state.Next(Stream::kRightCalibration, cursor, 0);
+    ASSERT_NE(left, nullptr);
+    ASSERT_EQ(right != nullptr, pair);
+    ASSERT_EQ(camera != nullptr, pair);
+    if (!pair) continue;
+    EXPECT_THAT(*right, HasSubstr("\xff\xd8\xff"));
+    EXPECT_NE(*right, *left);
+    EXPECT_EQ(state.Next(Stream::kRightImage, cursor, 0), nullptr);
+  }
+}
+
 TEST_F(Shown, ARecordingThatCannotBeWrittenIsBadInput) {
   ViewerOptions options;
   options.record = "/no/such/folder/run.mcap";
